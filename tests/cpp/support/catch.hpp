@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MPL-2.0
+// One include for Catch2 2 and 3. Use what both have: TEST_CASE, TEMPLATE_TEST_CASE, GENERATE, REQUIRE_THROWS_AS, and
+// from Catch::Matchers WithinAbs, WithinRel, WithinULP, StartsWith, ContainsSubstring.
+#pragma once
+
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+#else
+#include <catch2/catch.hpp>
+namespace Catch::Matchers {
+inline auto ContainsSubstring(const std::string& text) { return Contains(text); }  // the name in version 3
+}  // namespace Catch::Matchers
+#endif

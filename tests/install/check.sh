@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MPL-2.0
+# Installs the headers into an empty folder, moves it, and builds and runs what users would write against it.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$here/../.." && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+export CMAKE_GENERATOR=Ninja
+checked=0
+
+say() { printf -- '-- %s\n' "$*"; checked=$((checked + 1)); }
+fail() { printf 'FAILED: %s\n' "$*"; exit 1; }
+quietly() { "$@" >log 2>&1 || { cat log; fail "$*"; }; }
+
+# build NAME SOURCE ARGS...: configures the consumer in SOURCE with the installed package, builds it, runs it.
+build() {
+  local name=$1 source=$2
+  shift 2
+  quietly cmake -S "$here/$source" -B "$name" -DCMAKE_PREFIX_PATH="$work/moved" "$@"
+  quietly cmake --build "$name"
+  "$name/consumer"
+}
+
+# refuses TEXT ARGS...: find_package with ARGS as its arguments must fail and say TEXT.
+refuses() {
+  local text=$1
+  shift
+  mkdir -p refused
+  printf 'cmake_minimum_required(VERSION 3.23)\nproject(refused CXX)\nfind_package(%s)\n' "$1" >refused/CMakeLists.txt
+  shift
+  rm -rf refused/build
+  if cmake -S refused -B refused/build -DCMAKE_PREFIX_PATH="$work/moved" "$@" >log 2>&1; then fail "was found: $text"; fi
+  tr -s '\n ' ' ' <log | grep -qF "$text" || { cat log; fail "does not say: $text"; }
+}
+
+quietly cmake -S "$root" -B library -DREVCHAIN_BUILD_TESTS=OFF -DREVCHAIN_BUILD_EXAMPLES=OFF -DREVCHAIN_ANALYTIC=ON
+quietly cmake --install library --prefix "$work/installed"
+mv installed moved
+
+say 'find_package(revchain): two translation units, every warning an error, no GSL on the machine'
+build core core -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
+if grep -qi gsl core/build.ninja; then fail 'GSL is on the command lines of a consumer of the core'; fi
+if ninja -C core -t deps | grep -q '/gsl/'; then fail 'a header of GSL was read for the core'; fi
+
+say 'find_package(revchain COMPONENTS analytic)'
+build analytic analytic
+
+say 'find_package that cannot succeed says why'
+refuses "the component 'analytic' needs GSL" 'revchain REQUIRED COMPONENTS analytic' -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
+refuses "there is no component 'dynamics'" 'revchain REQUIRED COMPONENTS dynamics'
+refuses 'compatible with requested version "99.1"' 'revchain 99.1 REQUIRED'
+
+say 'add_subdirectory: none of our tests among theirs'
+build subdirectory subdirectory -DREVCHAIN_SOURCE="$root"
+ctest --test-dir subdirectory -N >log
+grep -q '^Total Tests: 1$' log || { cat log; fail 'the consumer has one test of its own and no other'; }
+
+say 'pkg-config'
+export PKG_CONFIG_PATH=$work/moved/share/pkgconfig:${PKG_CONFIG_PATH-}
+# shellcheck disable=SC2046  # flags are words
+quietly "${CXX:-c++}" -std=c++20 "$here"/core/*.cpp $(pkg-config --cflags --libs revchain) -o with_pkg_config
+./with_pkg_config
+# shellcheck disable=SC2046
+quietly "${CXX:-c++}" -std=c++20 "$here"/analytic/*.cpp $(pkg-config --cflags --libs revchain-analytic) -o with_pkg_config
+./with_pkg_config
+
+say '-ffast-math is refused'
+# shellcheck disable=SC2046
+if "${CXX:-c++}" -std=c++20 -ffast-math -fsyntax-only "$here/core/main.cpp" $(pkg-config --cflags revchain) 2>log; then
+  fail 'compiled with -ffast-math'
+fi
+grep -qiE '#error.*fast.?math' log || { cat log; fail '-ffast-math is refused, but not by our #error'; }
+
+echo "install: $checked kinds of consumers checked"

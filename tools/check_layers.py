@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MPL-2.0
+"""House rules that a compiler does not check: which folder may include which, licences, size, what a library never does.
+
+Run from anywhere; prints file:line: what is wrong, and ends with 1 when something is.
+"""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+INCLUDE = ROOT / "include" / "revchain"
+
+# Folder of include/revchain -> folders it may include, itself apart. The arrows run one way (see the check below).
+ALLOWED = {
+    "core": set(),
+    "chain": {"core"},
+    "linalg": {"core"},
+    "linear": {"core", "chain", "linalg"},
+    "finite": {"core", "chain", "linalg", "linear"},
+    "analytic": {"core"},
+    # Chooses a theory through models alone.
+    "scene": {"core", "chain", "linear"},
+    "scene/models": {"core", "chain", "linalg", "linear", "finite", "analytic", "scene"},
+}
+# The only headers that lie in no folder: what a user includes.
+ENTRY_POINTS = {"revchain.hpp", "analytic.hpp"}
+MAX_LINES = 400
+
+# What a library leaves to its caller: printing, ending the process. (static_assert is another word.)
+FORBIDDEN = {
+    r"#\s*include\s*<(iostream|cstdio|stdio\.h|print|cassert|assert\.h)>": "a library neither prints nor asserts",
+    r"\b(cout|cerr|clog)\b|\b(f?printf|puts|putchar)\s*\(": "a library never prints",
+    r"\b(abort|exit|_Exit|quick_exit|terminate)\s*\(": "a library never ends the process",
+    r"\b(assert|eigen_assert)\s*\(": "a wrong call throws InvalidArgument",
+    r"#\s*define\s+(?!REVCHAIN_)\w": "no macros, or else REVCHAIN_",
+}
+SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh"}
+SKIPPED = {".git", ".venv", "build", "dist", "out"}
+
+problems: list[str] = []
+
+
+def complain(path: Path, line: int, what: str) -> None:
+    problems.append(f"{path.relative_to(ROOT)}:{line}: {what}")
+
+
+def without_comments(text: str) -> str:
+    """The code alone: comments and the insides of strings go, line ends stay."""
+
+    def blank(match: re.Match[str]) -> str:
+        found = match.group()
+        return '""' if found[0] == '"' else re.sub(r"[^\n]", "", found)
+
+    text = re.sub(r'^(\s*#\s*include\s*)"(.*)"', r"\1<\2>", text, flags=re.M)  # an include is no string
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', blank, text, flags=re.S)
+
+
+def folder(header: str) -> str:
+    """The folder a header counts for; '' for an entry point."""
+    if header.startswith("scene/models/"):
+        return "scene/models"
+    return header.split("/")[0] if "/" in header else ""
+
+
+def check_header(path: Path) -> list[str]:
+    """Complains about one header; the headers of ours that it includes."""
+    name = path.relative_to(INCLUDE).as_posix()
+    here = folder(name)
+    text = path.read_text(encoding="utf-8")
+    code = without_comments(text)
+    count = len(text.splitlines())
+
+    if count > MAX_LINES:
+        complain(path, count, f"{count} lines; over {MAX_LINES} a header wants splitting")
+    if not re.search(r"^#pragma once$", text, re.M):
+        complain(path, 1, "no #pragma once")
+    if here == "" and name not in ENTRY_POINTS:
+        complain(path, 1, f"a header belongs into a folder; only {sorted(ENTRY_POINTS)} do not (no folder umbrellas)")
+    if here != "" and here not in ALLOWED:
+        complain(path, 1, f"unknown folder {here}; its place in the order goes into ALLOWED in tools/check_layers.py")
+    if path.name.endswith("_impl.hpp") or path.name in {"fwd.hpp", "all.hpp"}:
+        complain(path, 1, "no *_impl.hpp, fwd.hpp or all.hpp: these make the cycles in other libraries")
+    if name not in ENTRY_POINTS and not re.sub(r"^\s*#.*$", "", code, flags=re.M).strip():
+        complain(path, 1, "includes and declares nothing of its own: no folder umbrellas")
+
+    ours = []
+    for number, line in enumerate(code.splitlines(), 1):
+        for pattern, why in FORBIDDEN.items():
+            if re.search(pattern, line):
+                complain(path, number, f"{line.strip()}: {why}")
+        match = re.match(r"\s*#\s*include\s*<([^>]*)>", line)
+        if not match:
+            continue
+        target = match.group(1)
+        if target.startswith("gsl/") and here != "analytic":
+            complain(path, number, "GSL belongs under analytic/")
+        if target in {"Eigen/Eigenvalues", "Eigen/Eigen", "Eigen/Dense"} and here != "linalg":
+            complain(path, number, f"<{target}> costs seconds of compile time; eigensolvers belong under linalg/")
+        if target.startswith("revchain/"):
+            included = target.removeprefix("revchain/")
+            ours.append(included)
+            there = folder(included)
+            if included in ENTRY_POINTS and here != "":
+                complain(path, number, f"a part includes the whole <{target}>")
+            elif there not in {"", here} and here in ALLOWED and there not in ALLOWED[here]:
+                complain(path, number, f"{here} must not include {there}")
+        elif (path.parent / target).exists():
+            complain(path, number, f"write the path from include/: revchain/..., not {target}")
+    return ours
+
+
+def check_cycles(graph: dict[str, list[str]], what: str) -> None:
+    done: set[str] = set()
+
+    def visit(node: str, trail: list[str]) -> None:
+        if node in trail:
+            problems.append(f"{what} in a circle: {' -> '.join([*trail[trail.index(node):], node])}")
+        elif node not in done:
+            for following in graph.get(node, []):
+                visit(following, [*trail, node])
+            done.add(node)
+
+    for node in graph:
+        visit(node, [])
+
+
+def check_licence(path: Path) -> None:
+    name = path.relative_to(ROOT).as_posix()
+    head = path.read_text(encoding="utf-8").splitlines()[:5]
+    match = next((m for line in head if (m := re.search(r"SPDX-License-Identifier: (\S+)", line))), None)
+    gsl = ("include/revchain/analytic", "bindings/", "src/revchain/")  # what includes GSL or is one binary with it
+    if match is None:
+        complain(path, 1, "no SPDX-License-Identifier in the first five lines")
+    elif match.group(1) not in {"MPL-2.0", "GPL-3.0-or-later"}:
+        complain(path, 1, f"{match.group(1)} is not one of the licences in LICENSES/")
+    elif name.startswith(gsl) and match.group(1) != "GPL-3.0-or-later":
+        complain(path, 1, "is bound to GSL: GPL-3.0-or-later")
+    elif name.startswith("include/") and not name.startswith(gsl) and match.group(1) != "MPL-2.0":
+        complain(path, 1, "a header of the core: MPL-2.0")
+
+
+def main() -> int:
+    headers = sorted(INCLUDE.rglob("*.hpp"))
+    graph = {path.relative_to(INCLUDE).as_posix(): check_header(path) for path in headers}
+    check_cycles(graph, "headers include each other")
+    check_cycles({name: sorted(allowed) for name, allowed in ALLOWED.items()}, "ALLOWED runs")
+
+    # Whoever includes revchain.hpp must not need GSL, by no detour.
+    reached, todo = {"revchain.hpp"}, ["revchain.hpp"]
+    while todo:
+        following = set(graph.get(todo.pop(), [])) - reached
+        reached |= following
+        todo += following
+    for name in sorted(reached):
+        if name == "analytic.hpp" or folder(name) == "analytic":
+            problems.append(f"include/revchain/revchain.hpp: leads to {name}, which needs GSL")
+
+    files = [p for p in sorted(ROOT.rglob("*")) if p.is_file() and not SKIPPED & set(p.relative_to(ROOT).parts)]
+    for path in files:
+        if path.suffix in SOURCES or path.name == "CMakeLists.txt":
+            check_licence(path)
+
+    print(*problems, sep="\n", end="\n" if problems else "")
+    print(f"check_layers: {len(headers)} headers, {len(files)} files checked, {len(problems)} problems")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,112 @@
+# shellcheck shell=sh
+# SPDX-License-Identifier: MPL-2.0
+# Sourced by ./run and ./test, with $root set: everything that has to be there before the work can start.
+#   set_up EXTRAS NEED...   EXTRAS of the Python package (pyproject.toml), NEEDs from the table below
+
+venv=${root:?}/.venv
+
+# What a need is called by each package manager (brew has one python for all; a comma where it takes two packages).
+#  need      apt                       brew      dnf                 conda
+needs_table='
+   compiler  g++                       gcc       gcc-c++             cxx-compiler
+   cmake     cmake                     cmake     cmake               cmake
+   ninja     ninja-build               ninja     ninja-build         ninja
+   python    python3-venv,python3-dev  python    python3-devel       python
+   eigen     libeigen3-dev             eigen     eigen3-devel        eigen
+   gsl       libgsl-dev                gsl       gsl-devel           gsl
+   catch2    catch2                    catch2    catch2-devel        catch2
+   boost     libboost-dev              boost     boost-devel         libboost-headers
+   pkgconf   pkg-config                pkgconf   pkgconf-pkg-config  pkg-config
+'
+
+# package_names COLUMN NEED...
+package_names() {
+  column=$1; shift
+  for need; do
+    printf '%s\n' "$needs_table" | awk -v need="$need" -v column="$column" '$1 == need { gsub(",", " ", $column); printf " %s", $column }'
+  done
+}
+
+# Whether the compiler takes this C++20 text. It is asked, and no package manager: then a private prefix counts too.
+compiles() {
+  # shellcheck disable=SC2086  # flags are words
+  printf '%b\n' "$1" | ${CXX:-c++} ${CPPFLAGS-} ${CXXFLAGS-} -x c++ -std=c++20 -fsyntax-only - 2>/dev/null
+}
+
+is_there() {
+  case $1 in
+    compiler) compiles '#include <concepts>' ;;
+    cmake) command -v cmake ;;
+    ninja) command -v ninja || command -v ninja-build ;;
+    python) "${PYTHON:-python3}" -c 'import ensurepip, os, sys, sysconfig, venv
+sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("include") + "/Python.h"))' 2>/dev/null ;;
+    eigen) compiles '#include <Eigen/Core>' || compiles '#include <eigen3/Eigen/Core>' ;;
+    gsl) compiles '#include <gsl/gsl_sf_bessel.h>' ;;
+    catch2) compiles '#if !__has_include(<catch2/catch.hpp>) && !__has_include(<catch2/catch_all.hpp>)\n#error\n#endif' ;;
+    boost) compiles '#if !__has_include(<boost/multiprecision/cpp_bin_float.hpp>)\n#error\n#endif' ;;
+    pkgconf) command -v pkg-config ;;
+  esac >/dev/null
+}
+
+missing() {
+  for need; do is_there "$need" || printf ' %s' "$need"; done
+}
+
+# install_needs NEED...: what is not there, by apt; elsewhere says what to install and ends with 3.
+install_needs() {
+  if command -v brew >/dev/null; then CPPFLAGS="${CPPFLAGS-} -I$(brew --prefix)/include"; fi
+  lacking=$(missing "$@")
+  [ -n "$lacking" ] || return 0
+  sudo=
+  [ "$(id -u)" = 0 ] || sudo=sudo
+  # shellcheck disable=SC2086  # needs and packages are words
+  if command -v apt-get >/dev/null && { [ -z "$sudo" ] || command -v sudo >/dev/null; }; then
+    packages=$(package_names 2 $lacking)
+    echo "installing by apt:$packages"
+    $sudo apt-get update -qq
+    $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages >/dev/null
+    lacking=$(missing "$@")
+    [ -n "$lacking" ] || return 0
+  fi
+  # shellcheck disable=SC2086
+  {
+    echo "missing:$lacking. Install it by the one of these lines that is for your machine, and start again:"
+    echo "  apt-get install$(package_names 2 $lacking)        (as root)"
+    echo "  brew install$(package_names 3 $lacking)"
+    echo "  dnf install$(package_names 4 $lacking)        (as root)"
+    echo "  conda install -c conda-forge$(package_names 5 $lacking)"
+  } >&2
+  exit 3
+}
+
+# fresh STAMP PATH...: nothing under the paths is newer than the stamp. A file removed makes its folder newer.
+fresh() {
+  stamp=$1; shift
+  [ -e "$stamp" ] && [ -z "$(find "$@" -newer "$stamp" -print -quit)" ]
+}
+
+pip() {
+  "$venv/bin/python" -m pip --disable-pip-version-check --quiet "$@"
+}
+
+set_up() {
+  extras=$1; shift
+  stamp=$venv/revchain-$extras.stamp
+  fresh "$stamp" "$root/CMakeLists.txt" "$root/pyproject.toml" "$root/tools/setup.sh" "$root/LICENSES" "$root/cmake" \
+    "$root/include" "$root/bindings" "$root/src" && return 0
+
+  install_needs "$@"
+  [ -x "$venv/bin/python" ] || "${PYTHON:-python3}" -m venv "$venv"
+  touch "$stamp.new" # before the build: what is edited while it runs counts as newer
+  echo "building the Python package in .venv"
+  # Without isolation, and in a folder that stays, so that the second build does only what has changed.
+  # shellcheck disable=SC2046  # one requirement a line
+  pip install $("$venv/bin/python" -c 'import sys, tomllib
+print(*tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"], sep="\n")' "$root/pyproject.toml")
+  pip install --no-build-isolation --config-settings=build-dir="$root/build/python" "${root}[$extras]"
+  mv "$stamp.new" "$stamp"
+}
+
+jobs=$(getconf _NPROCESSORS_ONLN)
+export CMAKE_BUILD_PARALLEL_LEVEL="$jobs" CTEST_PARALLEL_LEVEL="$jobs"
+if command -v ccache >/dev/null; then export CMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
