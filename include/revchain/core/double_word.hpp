@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <type_traits>
+
+#include "revchain/core/scalar.hpp"
+
+namespace revchain {
+
+/// An unevaluated sum high + low with |low| <= ulp(high)/2: twice the digits of T.
+///
+/// Relative error of one operation (u = epsilon/2): + and - 3u^2, * 5u^2, / 15u^2, up to terms in u^3; none of it is
+/// larger than `operation_error<DoubleWord<T>>()`, which leaves a factor of two for compilers that contract a product
+/// and a sum into one fused operation. Valid while no low part underflows.
+/// Algorithms: Joldes, Muller, Popescu (2017), doi:10.1145/3121432, numbers 4, 6, 9, 12, 15, 17.
+/// Own type because no header-only library that is kept up offers one without Boost: the core needs Eigen alone.
+template <std::floating_point T>
+struct DoubleWord {
+    T high{};
+    T low{};
+
+    constexpr DoubleWord() = default;
+    constexpr DoubleWord(T x) : high(x) {}  // NOLINT(google-explicit-constructor): a T is a DoubleWord
+    template <class Number>
+        requires(std::is_arithmetic_v<Number> && sizeof(Number) <= sizeof(T))
+    constexpr DoubleWord(Number x) : high(static_cast<T>(x)) {}  // NOLINT(google-explicit-constructor)
+    constexpr DoubleWord(T h, T l) : high(h), low(l) {}
+    constexpr explicit operator T() const { return high; }
+
+    friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
+    friend constexpr auto operator<=>(const DoubleWord& x, const DoubleWord& y) = default;  // high first, then low
+    friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
+};
+
+/// x + y = high + low exactly (Knuth).
+template <std::floating_point T>
+constexpr DoubleWord<T> two_sum(T x, T y) {
+    const T s = x + y;
+    const T v = s - x;
+    return {s, (x - (s - v)) + (y - v)};
+}
+
+/// The same where |x| >= |y| or x = 0 (Dekker).
+template <std::floating_point T>
+constexpr DoubleWord<T> fast_two_sum(T x, T y) {
+    const T s = x + y;
+    return {s, y - (s - x)};
+}
+
+namespace detail {
+template <class T>
+inline constexpr bool has_fast_fma =
+#if defined(__FP_FAST_FMA) && defined(__FP_FAST_FMAF)
+    std::is_same_v<T, double> || std::is_same_v<T, float>;
+#else
+    false;
+#endif
+}  // namespace detail
+
+/// x y = high + low exactly: one fused multiply-add where the machine has it, else Veltkamp's split and Dekker's
+/// product (a library call of fma costs more, and on old machines is emulated).
+template <std::floating_point T>
+inline DoubleWord<T> two_product(T x, T y) {
+    const T p = x * y;
+    if constexpr (detail::has_fast_fma<T>) {
+        return {p, std::fma(x, y, -p)};
+    } else {
+        constexpr T splitter = static_cast<T>((1ULL << ((std::numeric_limits<T>::digits + 1) / 2)) + 1);
+        const T cx = splitter * x;
+        const T cy = splitter * y;
+        const T xh = cx - (cx - x);
+        const T yh = cy - (cy - y);
+        const T xl = x - xh;
+        const T yl = y - yh;
+        return {p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl};
+    }
+}
+
+template <std::floating_point T>
+constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+    const DoubleWord<T> s = two_sum(x.high, y.high);
+    const DoubleWord<T> t = two_sum(x.low, y.low);
+    const DoubleWord<T> v = fast_two_sum(s.high, s.low + t.high);
+    return fast_two_sum(v.high, t.low + v.low);
+}
+
+template <std::floating_point T>
+constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, std::type_identity_t<T> y) {
+    const DoubleWord<T> s = two_sum(x.high, y);
+    return fast_two_sum(s.high, x.low + s.low);
+}
+
+template <std::floating_point T>
+constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+    return x + (-y);
+}
+
+template <std::floating_point T>
+constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, std::type_identity_t<T> y) {
+    return x + (-y);
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> operator*(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+    const DoubleWord<T> p = two_product(x.high, y.high);
+    return fast_two_sum(p.high, p.low + (x.low * y.low + x.high * y.low + x.low * y.high));
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> operator*(const DoubleWord<T>& x, std::type_identity_t<T> y) {
+    const DoubleWord<T> p = two_product(x.high, y);
+    return fast_two_sum(p.high, p.low + x.low * y);
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> operator/(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+    const T q = x.high / y.high;
+    const DoubleWord<T> r = y * q;
+    return fast_two_sum(q, ((x.high - r.high) + (x.low - r.low)) / y.high);
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> abs(const DoubleWord<T>& x) {
+    return x.high < T(0) || (x.high == T(0) && x.low < T(0)) ? -x : x;
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> ldexp(const DoubleWord<T>& x, int exponent) {
+    return {std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)};
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> frexp(const DoubleWord<T>& x, int* exponent) {
+    const T high = std::frexp(x.high, exponent);
+    return {high, std::ldexp(x.low, -*exponent)};
+}
+
+template <std::floating_point T>
+inline bool isfinite(const DoubleWord<T>& x) {
+    return std::isfinite(x.high);
+}
+
+/// One Newton step on the root of the high part.
+template <std::floating_point T>
+inline DoubleWord<T> sqrt(const DoubleWord<T>& x) {
+    const T s = std::sqrt(x.high);
+    if (!(s > T(0))) return DoubleWord<T>(s);
+    const DoubleWord<T> rest = x - two_product(s, s);
+    return fast_two_sum(s, rest.high / (s + s));
+}
+
+namespace detail {
+template <class T>
+struct Wider {
+    using type = T;
+};
+template <>
+struct Wider<float> {
+    using type = double;
+};
+template <>
+struct Wider<double> {
+    using type = DoubleWord<double>;
+};
+template <>
+struct Wider<long double> {
+    using type = DoubleWord<long double>;
+};
+}  // namespace detail
+
+/// The arithmetic in which results in T are certified: double for float, a double word for double and long double,
+/// T itself for other types (whose bounds then grow with the number of links).
+template <class T>
+using Wide = typename detail::Wider<T>::type;
+
+namespace detail {
+template <class S>
+struct Narrower {
+    using type = S;
+};
+template <class T>
+struct Narrower<DoubleWord<T>> {
+    using type = T;
+};
+}  // namespace detail
+
+/// The type in which sizes and errors of numbers of type S are kept: T for a double word of T, S itself otherwise.
+template <class S>
+using Narrow = typename detail::Narrower<S>::type;
+
+/// Bound on the relative error of one operation + - * / in S.
+template <class S>
+constexpr Narrow<S> operation_error() {
+    return static_cast<Narrow<S>>(std::numeric_limits<S>::epsilon()) / Narrow<S>(2);
+}
+
+}  // namespace revchain
+
+template <std::floating_point T>
+struct std::numeric_limits<revchain::DoubleWord<T>> : std::numeric_limits<T> {
+    static constexpr int digits = 2 * std::numeric_limits<T>::digits;
+    static constexpr int digits10 = (digits - 1) * 30103 / 100000;
+    static constexpr int max_digits10 = 2 + digits * 30103 / 100000;
+    static constexpr bool is_iec559 = false;
+    static constexpr revchain::DoubleWord<T> min() { return std::numeric_limits<T>::min(); }
+    static constexpr revchain::DoubleWord<T> max() { return std::numeric_limits<T>::max(); }
+    static constexpr revchain::DoubleWord<T> lowest() { return std::numeric_limits<T>::lowest(); }
+    static constexpr revchain::DoubleWord<T> infinity() { return std::numeric_limits<T>::infinity(); }
+    static constexpr revchain::DoubleWord<T> quiet_NaN() { return std::numeric_limits<T>::quiet_NaN(); }
+    /// 64 u^2: four times the bound of the least accurate operation, division.
+    static constexpr revchain::DoubleWord<T> epsilon() {
+        return std::numeric_limits<T>::epsilon() * std::numeric_limits<T>::epsilon() * T(16);
+    }
+};

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#if defined(__FAST_MATH__)
+#error "revchain: -ffast-math breaks compensated sums, error bounds and counts; compile without it (-O3 is fine)"
+#endif
+
+#include <Eigen/Core>
+#include <cmath>
+#include <concepts>
+#include <limits>
+
+namespace revchain {
+
+using Index = Eigen::Index;
+
+namespace detail {
+// The functions a scalar brings besides its operators, found in std or next to the type.
+using std::abs;
+using std::frexp;
+using std::isfinite;
+using std::ldexp;
+using std::sqrt;
+template <class T>
+concept HasRealFunctions = requires(T x, int* exponent) {
+    { abs(x) } -> std::convertible_to<T>;
+    { sqrt(x) } -> std::convertible_to<T>;
+    { ldexp(x, 1) } -> std::convertible_to<T>;
+    { frexp(x, exponent) } -> std::convertible_to<T>;
+    { isfinite(x) } -> std::convertible_to<bool>;
+};
+}  // namespace detail
+
+/// A binary floating-point scalar: float, double, long double, or any type with the same operators,
+/// `std::numeric_limits`, and `abs`, `sqrt`, `ldexp`, `frexp`, `isfinite` found by argument-dependent lookup.
+template <class T>
+concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer &&
+               std::numeric_limits<T>::radix == 2 && detail::HasRealFunctions<T> && requires(T x, T y) {
+                   { x + y } -> std::convertible_to<T>;
+                   { x - y } -> std::convertible_to<T>;
+                   { x * y } -> std::convertible_to<T>;
+                   { x / y } -> std::convertible_to<T>;
+                   { -x } -> std::convertible_to<T>;
+                   { x < y } -> std::convertible_to<bool>;
+                   { x == y } -> std::convertible_to<bool>;
+                   T(1);
+                   T(0.5);
+               };
+
+/// A column of numbers.
+template <class T>
+using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+/// A table of numbers, one row per item (row-major, as numpy has it).
+template <class T>
+using Table = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A square matrix.
+template <class T>
+using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// Distance from 1 to the next larger number: 2^-52 for double. One "ulp" in this library is a relative `epsilon`.
+template <Real T>
+inline T epsilon() {
+    return std::numeric_limits<T>::epsilon();
+}
+
+}  // namespace revchain
