@@ -1,58 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
-#include <string>
-
-#include "revchain/core/conical_pendulum.hpp"
-#include "revchain/core/progress.hpp"
 #include "revchain/linalg/certificate.hpp"
-#include "revchain/linalg/twisted.hpp"
-#include "revchain/linear/assembly.hpp"
+#include "revchain/linear/mode_table.hpp"
 
 namespace revchain {
-
-/// Whirl modes of a chain, slowest first. Mode k stands at index k - 1.
-template <Real T>
-struct Modes {
-    Vector<T> conical_height;  ///< (k,) lambda, descending, in the chain's unit of length
-    Vector<T> error_bound;     ///< (k,) relative to the exact conical height of the stored numbers; proved by counts
-    Table<T> shape;            ///< (k, N+1) offsets of the pins, free end first, support last (0); largest |offset| = 1,
-                               ///< free end positive; empty without shapes
-    Vector<T> residual;        ///< (k,) force left unbalanced at a pin, relative to the forces that meet there
-    std::vector<Vector<T>> nodes;  ///< k lists: distances from the free end where the mode crosses the axis
-    std::string method;
-    Status status = Status::success;
-
-    Index size() const { return conical_height.size(); }
-    /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2 ulp.
-    Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        return each(gravity, &conical_pendulum::angular_speed<T>);
-    }
-    /// Seconds for one revolution.
-    Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        return each(gravity, &conical_pendulum::period<T>);
-    }
-    Vector<T> revolutions_per_second(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        return each(gravity, &conical_pendulum::revolutions_per_second<T>);
-    }
-
-   private:
-    Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
-        Vector<T> result(size());
-        for (Index j = 0; j < size(); ++j) result[j] = function(conical_height[j], gravity);
-        return result;
-    }
-};
-
-/// What to compute.
-template <Real T>
-struct ModesOptions {
-    std::optional<Index> count{};   ///< the slowest so many; absent: all
-    std::optional<T> rtol{};        ///< relative tolerance of the conical heights; absent: as accurate as T allows
-    bool shapes = true;             ///< also shapes, residuals and nodes
-    Progress* progress = nullptr;   ///< watched and stopped from another thread
-};
 
 /// The `count` slowest whirl speeds of small amplitude, Greenhill (1908) §8 (21) with sec delta = 1.
 ///
@@ -77,46 +29,6 @@ template <Real T>
 Index count_modes(const Chain<T>& chain, const T& angular_speed, const T& gravity);
 
 namespace detail {
-
-/// Distances from the free end at which the polygon of offsets crosses the axis, the support left out.
-template <Real T>
-Vector<T> nodes(const Chain<T>& chain, const Vector<T>& offset) {
-    std::vector<T> found;
-    Wide<T> below(T(0));  // distance of the link's lower pin from the free end
-    T side(0);            // offset last seen off the axis
-    for (Index m = 0; m < chain.size(); ++m) {
-        const T lower = offset[m], upper = offset[m + 1];
-        if (lower != T(0)) side = lower;
-        if (m + 1 < chain.size() && (upper < T(0) ? side > T(0) : upper > T(0) && side < T(0))) {
-            const T share = lower == T(0) ? T(0) : lower / (lower - upper);
-            found.push_back(static_cast<T>(below + Wide<T>(share * chain.length()[m])));
-        }
-        below = below + Wide<T>(chain.length()[m]);
-    }
-    return Eigen::Map<const Vector<T>>(found.data(), static_cast<Index>(found.size()));
-}
-
-/// Largest |offset| = 1, free end positive.
-template <Real T>
-void normalise(Vector<T>& offset) {
-    using std::abs;
-    T largest(0), sign(0);
-    for (Index m = 0; m < offset.size(); ++m) {
-        if (abs(offset[m]) > largest) largest = abs(offset[m]);
-        if (sign == T(0)) sign = offset[m];
-    }
-    if (sign < T(0)) largest = -largest;
-    for (Index m = 0; m < offset.size(); ++m) offset[m] = offset[m] / largest;
-}
-
-template <Real T>
-void check(const Chain<T>& chain, const ModesOptions<T>& options) {
-    if (options.count && *options.count < 1) refuse("modes", "count must be at least 1", *options.count);
-    if (options.count && *options.count > chain.mode_count())
-        refuse("modes", "count must not exceed the " + std::to_string(chain.mode_count()) + " modes of this chain",
-               *options.count);
-    if (options.rtol && !(*options.rtol >= T(0))) refuse("modes", "rtol must not be negative or NaN", *options.rtol);
-}
 
 /// Height number `j` to `goal`, from its bracket, and its eigenvector: the cheapest certificate first.
 template <Real T>
@@ -169,15 +81,8 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
             detail::advance(options.progress, 0.3 * static_cast<double>(done) / static_cast<double>(count));
         });
 
-    Modes<T> result;
+    Modes<T> result(chain, options);
     result.method = "bisection";
-    result.conical_height.resize(count);
-    result.error_bound.resize(count);
-    if (options.shapes) {
-        result.shape.resize(count, chain.size() + 1);
-        result.residual.resize(count);
-        result.nodes.resize(static_cast<std::size_t>(count));
-    }
     Vector<T> offset;
     for (Index j = 0; j < count; ++j) {
         const auto sure = detail::polish(assembled.pencil, pencil, j, brackets[static_cast<std::size_t>(j)], goal,
@@ -185,12 +90,7 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
         result.conical_height[j] = ldexp(sure.eigenvalue, assembled.units.length_exponent);
         result.error_bound[j] = sure.error_bound;
         if (!(sure.error_bound <= goal)) result.status = Status::tolerance_not_met;
-        if (options.shapes) {
-            detail::normalise(offset);
-            result.residual[j] = linalg::relative_residual(pencil, sure.eigenvalue, offset);
-            result.nodes[static_cast<std::size_t>(j)] = detail::nodes(chain, offset);
-            result.shape.row(j) = offset.transpose();
-        }
+        if (options.shapes) result.set_shape(j, chain, pencil, sure.eigenvalue, std::move(offset));
         detail::advance(options.progress, 0.3 + 0.7 * static_cast<double>(j + 1) / static_cast<double>(count));
     }
     return result;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linalg/dense.hpp"
+#include "revchain/linear/modes.hpp"
+#include "revchain/linear/recurrence.hpp"
+
+/// The same modes by two formulations that share no step with `modes`: slow, less accurate, and for that very reason
+/// its references. Their error bounds are proved by the same counts and say what a dense solver costs in digits.
+namespace revchain {
+
+namespace detail {
+
+/// The proved relative error of `height` as the eigenvalue number j: the least power of two times an ulp that two
+/// counts confirm, infinite if none up to 1/2 does.
+template <Real T>
+T proved_error(const AssembledChain<T>& assembled, Index j, const T& height) {
+    if (!(height > T(0))) return std::numeric_limits<T>::infinity();
+    for (T margin = T(2) * epsilon<T>(); margin <= T(0.5); margin = margin * T(2))
+        if (linalg::lies_within<Wide<T>>(assembled.pencil, j, height, static_cast<Narrow<Wide<T>>>(margin)))
+            return linalg::bound_of_margin<Wide<T>>(margin);
+    return std::numeric_limits<T>::infinity();
+}
+
+template <Real T>
+Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const linalg::Eigensystem<T>& system,
+                  std::string method) {
+    using std::ldexp;
+    const AssembledChain<T> assembled = assemble(chain);
+    const linalg::ElementPencil<T> pencil = linalg::rounded<T>(assembled.pencil);
+    Modes<T> result(chain, options);
+    result.method = std::move(method);
+    for (Index j = 0; j < result.size(); ++j) {
+        const T height = system.values[j];
+        result.conical_height[j] = ldexp(height, assembled.units.length_exponent);
+        result.error_bound[j] = proved_error(assembled, j, height);
+        if (!(result.error_bound[j] <= options.rtol.value_or(std::numeric_limits<T>::max())))
+            result.status = Status::tolerance_not_met;
+        if (options.shapes) {
+            Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
+            offset.head(chain.size()) = system.vectors.col(j);
+            result.set_shape(j, chain, pencil, height, std::move(offset));
+        }
+        advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(result.size()));
+    }
+    return result;
+}
+
+}  // namespace detail
+
+/// By the assembled symmetric-definite pencil, a dense O(N^3) solver. Arguments and errors as for `modes`.
+template <Real T>
+Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
+    detail::check(chain, options);
+    const auto matrices = linalg::assembled(linalg::rounded<T>(assemble(chain).pencil));
+    return detail::modes_of(chain, options, linalg::solve_symmetric_definite(matrices.K, matrices.M), "dense");
+}
+
+/// By relation (21) as a dense pencil and the QZ algorithm, O(N^3). Arguments and errors as for `modes`.
+template <Real T>
+Modes<T> modes_recurrence(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
+    using std::ldexp;
+    detail::check(chain, options);
+    const RecurrencePencil<T> pencil = recurrence_matrices(chain);
+    auto system = linalg::solve_general(pencil.A, pencil.B);
+    for (T& value : system.values) value = ldexp(value, -chain.units().length_exponent);
+    return detail::modes_of(chain, options, system, "recurrence");
+}
+
+}  // namespace revchain
