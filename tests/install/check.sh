@@ -20,7 +20,7 @@ build() {
   shift 2
   quietly cmake -S "$here/$source" -B "$name" -DCMAKE_PREFIX_PATH="$work/moved" "$@"
   quietly cmake --build "$name"
-  "$name/consumer"
+  "$name/consumer" || fail "the consumer $name gives wrong numbers"
 }
 
 # refuses TEXT ARGS...: find_package with ARGS as its arguments must fail and say TEXT.
@@ -46,6 +46,13 @@ if ninja -C core -t deps | grep -q '/gsl/'; then fail 'a header of GSL was read 
 
 say 'find_package(revchain COMPONENTS analytic)'
 build analytic analytic
+
+package=$(echo "$root"/.venv/lib/python3*/site-packages/revchain)
+if [[ -d $package/share/cmake ]]; then
+  say 'find_package in the installed Python package'
+  build in_python core -DCMAKE_PREFIX_PATH="$package"
+  grep -q "$package/include" in_python/build.ninja || fail 'the headers are not those of the Python package'
+fi
 
 say 'find_package that cannot succeed says why'
 refuses "the component 'analytic' needs GSL" 'revchain REQUIRED COMPONENTS analytic' -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
