@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whirl speeds and shapes of chains of links turning about a vertical axis.
+
+A chain hangs from a turning point. At certain speeds it leaves the vertical and whirls as a rigid
+figure: ``modes`` finds these speeds, their shapes and how sure they are. The theory is that of
+G. Greenhill, "The Revolving Chain" (1908), section 8.
+
+Links are listed lowest first. A result is a *conical height* ``g / n**2``, the height of the conical
+pendulum that turns as fast: it does not depend on gravity and is in the unit of the lengths given.
+
+Examples
+--------
+>>> import revchain as rc
+>>> chain = rc.Chain.uniform_rods(120, length=0.36)
+>>> result = rc.modes(chain, count=3)
+>>> result.angular_speed().round(4)
+array([ 6.2757, 14.4058, 22.5839])
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from . import conical_pendulum, heavy_chain
+from ._chain import Chain
+from ._modes import Modes
+from ._scene_error import SceneError
+from ._solve import count_modes, modes, recurrence_matrices
+from ._storage import load
+
+if TYPE_CHECKING:
+    from .scene import Scene, load_scene
+
+    __version__: str
+
+__all__ = [
+    "Chain",
+    "Modes",
+    "Scene",
+    "SceneError",
+    "__version__",
+    "conical_pendulum",
+    "count_modes",
+    "heavy_chain",
+    "load",
+    "load_scene",
+    "modes",
+    "recurrence_matrices",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import what needs more than numpy at the moment it is asked for."""
+    if name in ("Scene", "load_scene"):
+        from . import scene
+
+        value = getattr(scene, name)
+    elif name == "__version__":
+        from importlib.metadata import version
+
+        value = version("revchain")
+    else:
+        raise AttributeError(f"module 'revchain' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

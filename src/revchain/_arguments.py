@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What users pass in, as the float64 arrays that the compiled module takes."""
+
+from __future__ import annotations
+
+import math
+import operator
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+STANDARD_GRAVITY = 9.80665
+"""Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
+
+
+def floats(place: str, name: str, value: ArrayLike) -> Floats:
+    """`value` as a float64 array; anything but real numbers is refused with a ValueError."""
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError, OverflowError):  # ragged lists among others
+        array = np.asarray(None)
+    if array.dtype.kind not in "iuf" or (array.size == 0 and array.ndim == 0):
+        raise ValueError(f"{place}: {name} must be a real number or an array of them, got {shown(value)}")
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise ValueError(f"{place}: {name} has masked entries")
+    return array.astype(np.float64, order="C", copy=False)
+
+
+def integer(place: str, name: str, value: object) -> int:
+    """`value` as an int; a float, a bool or a string is refused with a ValueError."""
+    if not isinstance(value, (bool, np.bool_)):
+        try:
+            return operator.index(value)  # type: ignore[arg-type]
+        except TypeError:
+            pass
+    raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
+
+
+def count(place: str, name: str, value: object) -> int:
+    """`value` as an int from 1 to what the compiled module can hold."""
+    number = integer(place, name, value)
+    if number < 1:
+        raise ValueError(f"{place}: {name} must be at least 1, got {number}")
+    if number > np.iinfo(np.int64).max:
+        raise ValueError(f"{place}: {name} is too large, got {number}")
+    return number
+
+
+def real(place: str, name: str, value: object) -> float:
+    """`value` as a float; anything but one real number is refused with a ValueError."""
+    array = floats(place, name, value)  # type: ignore[arg-type]
+    if array.ndim != 0:
+        raise ValueError(f"{place}: {name} must be a single number, got an array of shape {array.shape}")
+    return float(array)
+
+
+def positive(place: str, name: str, value: ArrayLike) -> Floats:
+    """`value` as a float64 array of positive finite numbers."""
+    array = floats(place, name, value)
+    wrong = ~((array > 0) & (array < math.inf))
+    if wrong.any():
+        raise ValueError(f"{place}: {name} must be positive and finite, got {array[wrong].flat[0]:g}")
+    return array
+
+
+def shown(value: object, width: int = 60) -> str:
+    """`value` as an error message shows it: its repr, cut where it is long."""
+    text = repr(value)
+    return text if len(text) <= width else text[: width - 3] + "..."
+
+
+def read_only(array: NDArray[np.generic]) -> NDArray[np.generic]:
+    """A view of `array` that cannot be written to."""
+    view = array.view()
+    view.flags.writeable = False
+    return view

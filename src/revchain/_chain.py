@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The chain as users hold it: an immutable value around the compiled one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arguments import Floats, count as checked_count, floats, real
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class Chain:
+    """A chain of links hanging from a support, listed lowest first.
+
+    Give each quantity as one number for every link, or as an array with one number for each link;
+    at least one array unless the chain has a single link. Use any consistent units: weights enter
+    only by their ratios, and every result is in the unit of the lengths.
+
+    Parameters
+    ----------
+    weight : array_like, shape (N,) or scalar
+        Weight of each link, not negative; the lowest must be positive, 0 is a massless thread.
+    length : array_like, shape (N,) or scalar
+        Distance between the pins of each link, positive.
+    centroid : array_like, shape (N,) or scalar, optional
+        Distance of the centre of gravity from the *upper* pin, positive downwards, of any sign.
+        Left out: plummets, with all the weight at the lower pin.
+    pendulum_length : array_like, shape (N,) or scalar, optional
+        Length of the equivalent simple pendulum about the upper pin.
+    radius_of_gyration : array_like, shape (N,) or scalar, optional
+        Radius of gyration about the centre of gravity, not negative. With `centroid` give either
+        this or `pendulum_length`.
+
+    Raises
+    ------
+    ValueError
+        For anything but real finite numbers, arrays of more than one dimension or of different
+        lengths, no links, a length that is not positive, a negative weight, a massless lowest link,
+        weights whose sum overflows, an imaginary radius of gyration, a link that would stand rather
+        than hang, or a `centroid` without exactly one of the two arguments that go with it.
+
+    Notes
+    -----
+    One number given for all links stays one number inside. Cost O(N), once.
+
+    References
+    ----------
+    Greenhill (1908), section 8 (1)-(5).
+
+    Examples
+    --------
+    A bell (upper link) and its clapper (lower link):
+
+    >>> import revchain as rc
+    >>> rc.Chain(weight=[180, 5000], length=[0.7, 0.15], centroid=[0.55, 0.05],
+    ...          radius_of_gyration=[0.2, 0.36])
+    Chain of 2 links, length 0.85, weight 5180
+    """
+
+    __slots__ = ("_compiled",)
+    _compiled: _core.Chain
+
+    def __init__(
+        self,
+        *,
+        weight: ArrayLike,
+        length: ArrayLike,
+        centroid: ArrayLike | None = None,
+        pendulum_length: ArrayLike | None = None,
+        radius_of_gyration: ArrayLike | None = None,
+    ) -> None:
+        if centroid is None:
+            if pendulum_length is not None or radius_of_gyration is not None:
+                extra = "pendulum_length" if radius_of_gyration is None else "radius_of_gyration"
+                raise ValueError(f"revchain.Chain: {extra} needs centroid beside it")
+        elif (pendulum_length is None) == (radius_of_gyration is None):
+            raise ValueError(
+                "revchain.Chain: centroid needs exactly one of pendulum_length and radius_of_gyration beside it"
+            )
+        columns = {
+            name: floats("revchain.Chain", name, value)
+            for name, value in (
+                ("weight", weight),
+                ("length", length),
+                ("centroid", centroid),
+                ("pendulum_length", pendulum_length),
+                ("radius_of_gyration", radius_of_gyration),
+            )
+            if value is not None
+        }
+        _check_shapes(columns)
+        object.__setattr__(self, "_compiled", _core.Chain(**columns))
+
+    @classmethod
+    def _wrap(cls, compiled: _core.Chain) -> Chain:
+        chain = cls.__new__(cls)
+        object.__setattr__(chain, "_compiled", compiled)
+        return chain
+
+    @classmethod
+    def uniform_plummets(cls, count: int, length: float = 1.0, weight: float = 1.0) -> Chain:
+        """Make a chain of `count` equal plummets on equal threads.
+
+        Parameters
+        ----------
+        count : int
+            Number of links, at least 1.
+        length, weight : float
+            Length and weight of the WHOLE chain, positive.
+
+        Returns
+        -------
+        Chain
+
+        Raises
+        ------
+        ValueError
+            If `count` is below 1, or `length` or `weight` is not positive and finite.
+
+        Notes
+        -----
+        ``length / (count * conical_height)`` are the zeros of the Laguerre polynomial of degree
+        `count`. Greenhill (1908) sections 2 and 3. Memory O(1).
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain.uniform_plummets(2, length=2.0)).conical_height.round(6)
+        array([1.707107, 0.292893])
+        """
+        place = "revchain.Chain.uniform_plummets"
+        return cls._wrap(
+            _core.Chain.uniform_plummets(
+                checked_count(place, "count", count), real(place, "length", length), real(place, "weight", weight)
+            )
+        )
+
+    @classmethod
+    def uniform_rods(cls, count: int, length: float = 1.0, weight: float = 1.0) -> Chain:
+        """Make a chain of `count` equal uniform rods.
+
+        Parameters
+        ----------
+        count : int
+            Number of links, at least 1.
+        length, weight : float
+            Length and weight of the WHOLE chain, positive.
+
+        Returns
+        -------
+        Chain
+
+        Raises
+        ------
+        ValueError
+            If `count` is below 1, or `length` or `weight` is not positive and finite.
+
+        Notes
+        -----
+        Greenhill (1908) section 8 (17). The conical heights tend to those of the continuous chain
+        (`revchain.heavy_chain`) as 1 / count**2. Memory O(1).
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain.uniform_rods(1, length=1.5)).conical_height
+        array([1.])
+        """
+        place = "revchain.Chain.uniform_rods"
+        return cls._wrap(
+            _core.Chain.uniform_rods(
+                checked_count(place, "count", count), real(place, "length", length), real(place, "weight", weight)
+            )
+        )
+
+    @property
+    def size(self) -> int:
+        """Number of links."""
+        return self._compiled.size
+
+    @property
+    def mode_count(self) -> int:
+        """Number of modes: `size`, less one for every massless link that takes a motion away."""
+        return self._compiled.mode_count
+
+    @property
+    def weight(self) -> Floats:
+        """Weight of each link, shape (N,), lowest first; read-only."""
+        return self._column(self._compiled.weight)
+
+    @property
+    def length(self) -> Floats:
+        """Distance between the pins of each link, shape (N,), lowest first; read-only."""
+        return self._column(self._compiled.length)
+
+    @property
+    def centroid(self) -> Floats:
+        """Distance of each centre of gravity below the upper pin, shape (N,); read-only."""
+        return self._column(self._compiled.centroid)
+
+    @property
+    def pendulum_length(self) -> Floats:
+        """Length of the equivalent simple pendulum of each link, shape (N,); infinite where the
+        centre of gravity lies in the upper pin; read-only."""
+        return self._column(self._compiled.pendulum_length)
+
+    @property
+    def radius_of_gyration(self) -> Floats:
+        """Radius of gyration of each link about its centre of gravity, shape (N,); read-only."""
+        return self._column(self._compiled.radius_of_gyration)
+
+    def plot(self, ax: Axes | None = None, *, length_unit: str = "m", weight_unit: str = "N") -> Axes:
+        """Draw the chain at rest: pins, centres of gravity and weights.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        length_unit, weight_unit : str
+            What to write on the axes.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> ax = rc.Chain(weight=[1.0, 2.0], length=[0.5, 0.3]).plot()
+        >>> ax.get_ylabel()
+        'depth below the support (m)'
+        """
+        from ._plots import plot_chain
+
+        return plot_chain(self, ax, length_unit=length_unit, weight_unit=weight_unit)
+
+    def _column(self, stored: Floats) -> Floats:
+        return stored if stored.ndim else np.broadcast_to(stored, (self.size,))
+
+    def __len__(self) -> int:
+        return self.size
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Chain):
+            return NotImplemented
+        return bool(self._compiled == other._compiled)
+
+    def __hash__(self) -> int:
+        return hash((self.size, float(self.weight[0]), float(self.weight[-1]), float(self.length[-1])))
+
+    def __repr__(self) -> str:
+        links = "1 link" if self.size == 1 else f"{self.size:,} links"
+        return f"Chain of {links}, length {self.length.sum():.6g}, weight {self.weight.sum():.6g}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Chain._wrap, (self._compiled,)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a Chain cannot be changed: {name} was not set")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a Chain cannot be changed: {name} was not deleted")
+
+
+def _check_shapes(columns: dict[str, Floats]) -> None:
+    sizes = {}
+    for name, column in columns.items():
+        if column.ndim > 1:
+            raise ValueError(
+                f"revchain.Chain: {name} must be a number or an array of one dimension, got shape {column.shape}"
+            )
+        if column.ndim == 1:
+            sizes[name] = column.size
+    if len(set(sizes.values())) > 1:
+        found = ", ".join(f"{name} has {size}" for name, size in sizes.items())
+        raise ValueError(f"revchain.Chain: arrays must have one number for each link, but {found}")

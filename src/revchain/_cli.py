@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The commands, by typer. What they print is in `_report`, what they ask in `scene`."""
+
+from __future__ import annotations
+
+import functools
+import json as json_module
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated, Any, NoReturn, ParamSpec
+
+import typer
+from rich.console import Console
+
+from . import _core
+from ._exit_codes import MEANING, ExitCode
+from ._extras import require
+from ._files import written_aside
+from ._modes import Modes
+from ._progress import watched
+from ._report import NARROWEST, csv_text, json_text, table
+from ._scene_error import SceneError
+from ._solve import solve as solve_chain
+from .scene import json_schema, load_scene
+
+Arguments = ParamSpec("Arguments")
+
+PICTURES = (".png", ".svg", ".pdf")
+STDOUT = "-"
+
+EXIT_CODES = "Exit codes: " + "; ".join(f"{code.value} {meaning}" for code, meaning in MEANING.items()) + "."
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+    help="At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are.",
+    epilog=EXIT_CODES,
+)
+
+
+class Stop(Exception):
+    """Ends a command with a sentence and an exit code."""
+
+    def __init__(self, message: str, code: ExitCode) -> None:
+        super().__init__(message)
+        self.code = code
+
+
+def run(arguments: list[str] | None = None) -> int:
+    """Run the command line; the exit code is returned."""
+    try:
+        app(arguments, prog_name="revchain")
+    except SystemExit as end:
+        return end.code if isinstance(end.code, int) else int(end.code is not None)
+    except KeyboardInterrupt:
+        return ExitCode.INTERRUPTED
+    return ExitCode.OK
+
+
+def guarded(command: Callable[Arguments, None]) -> Callable[Arguments, None]:
+    """Turn what a command may raise into one line on stderr and an exit code."""
+
+    @functools.wraps(command)
+    def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> None:
+        try:
+            command(*args, **kwargs)
+            sys.stdout.flush()
+        except Stop as stop:
+            fail(str(stop), stop.code)
+        except SceneError as error:
+            fail(str(error), ExitCode.SCENE_INVALID)
+        except ImportError as error:
+            fail(str(error), ExitCode.WRONG_USAGE)
+        except MemoryError:
+            fail("not enough memory; ask for fewer modes", ExitCode.WRONG_USAGE)
+        except KeyboardInterrupt:
+            fail("interrupted", ExitCode.INTERRUPTED)
+        except BrokenPipeError:  # the reader, such as head, has seen enough
+            with suppress(OSError):
+                sys.stdout = open("/dev/null", "w")  # so that nothing is flushed into it at the end
+            raise typer.Exit(ExitCode.OK) from None
+        except OSError as error:
+            name = f"{error.filename}: " if error.filename is not None else ""
+            fail(f"{name}cannot be written: {error.strerror or error}", ExitCode.OUTPUT_FAILED)
+
+    return wrapper
+
+
+def fail(message: str, code: ExitCode) -> NoReturn:
+    """Say why on stderr, in plain text, and end."""
+    print(f"revchain: {message}", file=sys.stderr)
+    raise typer.Exit(code)
+
+
+def show_version(wanted: bool) -> None:
+    """Print the version and end."""
+    if wanted:
+        from . import __version__
+
+        print(f"revchain {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and end.")
+    ] = False,
+) -> None:
+    """At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are."""
+
+
+@app.command(epilog=EXIT_CODES)
+@guarded
+def solve(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json); [b]revchain new[/b] writes one.")],
+    plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = None,
+    json: Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as JSON; - is stdout.")] = None,
+    csv: Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as CSV; - is stdout.")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder for everything: .json, .csv, .npz (with shapes), .png.")
+    ] = None,
+    modes: Annotated[int | None, typer.Option(metavar="K", help="How many modes, instead of the scene's.")] = None,
+    rtol: Annotated[float | None, typer.Option(metavar="X", help="Relative tolerance of the heights.")] = None,
+    method: Annotated[str | None, typer.Option(metavar="M", help=f"One of {', '.join(_core.METHODS)}.")] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progress bar.")] = False,
+) -> None:
+    """Find the whirl speeds of a scene and print them as a table."""
+    given = load_scene(scene)
+    outputs = _outputs(scene, plot, json, csv, out)
+    chain = given.chain()
+    gravity = given.gravity_value()
+    asked = (
+        given.count(chain) if modes is None else modes,
+        (given.ask.rtol if isinstance(given.ask.rtol, float) else None) if rtol is None else rtol,
+        given.ask.method if method is None else method,
+    )
+    title = given.title or scene.stem
+    with written_aside(*(path for path, _ in outputs)) as asides:
+        try:
+            found = watched(lambda progress: solve_chain(chain, *asked, True, progress), Console(stderr=True), quiet)
+        except ValueError as error:  # the scene itself has been checked: it is what the options say
+            raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+        for aside, (_, kind) in zip(asides, outputs, strict=True):
+            _write(found, aside, kind, title, gravity)
+    if json == STDOUT:
+        sys.stdout.write(json_text(found, title, gravity))
+    elif csv == STDOUT:
+        sys.stdout.write(csv_text(found, gravity))
+    elif not quiet:
+        console = Console()
+        console.width = max(console.width, NARROWEST)
+        console.print(table(found, title, gravity))
+        for path, _ in outputs:
+            print(f"wrote {path}")
+    if found.status != "success":
+        asked_for = "" if asked[1] is None else f": asked {asked[1]:g}, reached {found.error_bound.max():.1e}"
+        raise Stop(f"the tolerance is not met{asked_for}", ExitCode.TOLERANCE_NOT_MET)
+
+
+@app.command()
+@guarded
+def validate(scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")]) -> None:
+    """Check scene files without solving them."""
+    bad = 0
+    for path in scenes:
+        try:
+            scene = load_scene(path)
+            print(f"{path}: valid: {scene.chain()!r}")
+        except SceneError as error:
+            bad += 1
+            print(f"revchain: {error}", file=sys.stderr)
+    if bad:
+        raise typer.Exit(ExitCode.SCENE_INVALID)
+
+
+@app.command()
+@guarded
+def new(
+    file: Annotated[Path, typer.Argument(metavar="[FILE]", help="Where to write it; - is stdout.")] = Path("scene.toml"),
+    force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it is there.")] = False,
+) -> None:
+    """Write a commented scene to start from."""
+    text = Path(__file__).with_name("new_scene.toml").read_text(encoding="utf-8")
+    if str(file) == STDOUT:
+        sys.stdout.write(text)
+        return
+    if file.exists() and not force:
+        raise Stop(f"{file}: is there already; --force overwrites it", ExitCode.OUTPUT_FAILED)
+    with written_aside(file) as [aside]:
+        aside.write_text(text, encoding="utf-8")
+    print(f"wrote {file}; now: revchain solve {file}")
+
+
+@app.command()
+@guarded
+def schema() -> None:
+    """Print the JSON Schema of scene files, for editors."""
+    sys.stdout.write(json_module.dumps(json_schema(), indent=2) + "\n")
+
+
+def _outputs(
+    scene: Path, plot: Path | None, json: str | None, csv: str | None, out: Path | None
+) -> list[tuple[Path, str]]:
+    """Files to write and what goes into them; the folder is made if it is not there."""
+    if json == STDOUT and csv == STDOUT:
+        raise Stop("--json - and --csv - cannot share stdout", ExitCode.WRONG_USAGE)
+    outputs = [(Path(name), kind) for name, kind in ((json, ".json"), (csv, ".csv")) if name not in (None, STDOUT)]
+    if plot is not None:
+        if plot.suffix.lower() not in PICTURES:
+            raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
+        require("matplotlib", "plot", "--plot")
+        outputs.append((plot, plot.suffix.lower()))
+    if out is not None:
+        kinds = [".json", ".csv", ".npz"]
+        try:
+            require("matplotlib", "plot", "the picture")
+            kinds.append(".png")
+        except ModuleNotFoundError as error:
+            print(f"revchain: no picture: {error}", file=sys.stderr)
+        out.mkdir(parents=True, exist_ok=True)
+        outputs.extend((out / f"{scene.stem}{kind}", kind) for kind in kinds)
+    places = [path.resolve() for path, _ in outputs]
+    if len(set(places)) < len(places):
+        raise Stop("two outputs have the same name", ExitCode.WRONG_USAGE)
+    return outputs
+
+
+def _write(modes: Modes, path: Path, kind: str, title: str, gravity: float) -> None:
+    if kind == ".json":
+        path.write_text(json_text(modes, title, gravity), encoding="utf-8")
+    elif kind == ".csv":
+        path.write_text(csv_text(modes, gravity), encoding="utf-8")
+    elif kind == ".npz":
+        modes.save(path)
+    else:
+        axes = modes.plot(gravity=gravity)
+        axes.set_title(title, wrap=True)
+        figure: Any = axes.figure
+        figure.savefig(path, dpi=150)
+
+

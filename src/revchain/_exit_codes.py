@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How the command line ends."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """Exit codes of the command ``revchain``."""
+
+    OK = 0
+    TOLERANCE_NOT_MET = 1
+    WRONG_USAGE = 2
+    SCENE_INVALID = 3
+    OUTPUT_FAILED = 4
+    INTERRUPTED = 130
+
+
+MEANING = {
+    ExitCode.OK: "all is well",
+    ExitCode.TOLERANCE_NOT_MET: "the answer does not meet the tolerance asked for",
+    ExitCode.WRONG_USAGE: "wrong usage, or a package is missing",
+    ExitCode.SCENE_INVALID: "a scene is invalid",
+    ExitCode.OUTPUT_FAILED: "an output cannot be written",
+    ExitCode.INTERRUPTED: "interrupted",
+}

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Output files that are either whole or not there."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+
+@contextmanager
+def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
+    """Yield an empty file beside each path, with the same ending; rename all of them at the end.
+
+    If anything fails, all are removed and what was there before stays. That a place can be written
+    is found out at once. Devices and pipes are written directly.
+    """
+    finals = [Path(os.path.realpath(path)) for path in paths]
+    asides: list[Path] = []
+    try:
+        for final, path in zip(finals, paths, strict=True):
+            if final.is_dir():
+                raise IsADirectoryError(21, "Is a directory", os.fspath(path))
+            direct = final.exists() and not final.is_file()
+            aside = final if direct else final.with_name(f".{final.stem[:100]}-{secrets.token_hex(6)}{final.suffix}")
+            if not direct:
+                try:
+                    aside.open("xb").close()
+                except OSError as error:
+                    raise type(error)(error.errno, error.strerror, os.fspath(path)) from None
+            elif not os.access(final, os.W_OK):
+                raise PermissionError(13, "Permission denied", os.fspath(path))
+            asides.append(aside)
+        yield asides
+        for aside, final in zip(asides, finals, strict=True):
+            if aside != final:
+                os.replace(aside, final)
+    except BaseException:
+        for aside, final in zip(asides, finals, strict=False):
+            if aside != final:
+                with suppress(OSError):
+                    aside.unlink()
+        raise

@@ -1,0 +1,317 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `revchain.modes` returns."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arguments import STANDARD_GRAVITY, Floats, positive, read_only
+from ._chain import Chain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from xarray import Dataset
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Modes:
+    """The slowest modes of a chain, slowest first; mode 1 is index 0.
+
+    Attributes
+    ----------
+    chain : Chain
+        The chain of N links they belong to.
+    conical_height : ndarray, shape (k,)
+        Height ``gravity / angular_speed**2`` of the equivalent conical pendulum, descending, in the
+        unit of the chain's lengths.
+    error_bound : ndarray, shape (k,)
+        Bound of the relative error of each conical height against the exact one of the numbers
+        stored in `chain` (2 ulp by default, certified by counting).
+    shape : ndarray, shape (k, N + 1), or None
+        Offsets of the pins from the axis, free end first, support last (0); the largest magnitude
+        is 1 and the free end positive.
+    residual : ndarray, shape (k,), or None
+        Residual of each shape, relative.
+    nodes : list of k ndarrays, or None
+        Distances from the free end, along the chain, where the mode crosses the axis; the support
+        left out.
+    method : str
+        The method that was used.
+    status : str
+        ``"success"`` or ``"tolerance_not_met"``.
+
+    Notes
+    -----
+    Everything in it is read-only. `shape`, `residual` and `nodes` are None if ``shapes=False`` was
+    asked.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> result = rc.modes(rc.Chain.uniform_plummets(2, length=2.0))
+    >>> result.shape.round(4)
+    array([[ 1.    ,  0.4142,  0.    ],
+           [ 0.4142, -1.    ,  0.    ]])
+    >>> [nodes.round(4).tolist() for nodes in result.nodes]
+    [[], [0.2929]]
+    """
+
+    chain: Chain
+    conical_height: Floats
+    error_bound: Floats
+    shape: Floats | None
+    residual: Floats | None
+    nodes: list[Floats] | None
+    method: str
+    status: str
+
+    def __post_init__(self) -> None:
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, np.ndarray):
+                object.__setattr__(self, field.name, read_only(value))
+        if self.nodes is not None:
+            object.__setattr__(self, "nodes", [read_only(nodes) for nodes in self.nodes])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Modes, tuple(getattr(self, field.name) for field in fields(self))
+
+    def __len__(self) -> int:
+        return int(self.conical_height.size)
+
+    def angular_speed(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:
+        """Return the whirl speed of each mode, ``sqrt(gravity / conical_height)``.
+
+        Parameters
+        ----------
+        gravity : array_like, optional
+            Acceleration of gravity in the unit of length per s^2; standard gravity, in metres, if
+            left out. Broadcasts against shape (k,).
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            In rad/s, ascending. Relative error at most half of `error_bound` and 1 ulp.
+
+        Raises
+        ------
+        ValueError
+            If gravity is not positive and finite.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain(weight=1.0, length=2.4525)).angular_speed(gravity=9.81)
+        array([2.])
+        """
+        return _core.conical_pendulum_angular_speed(self.conical_height, positive("angular_speed", "gravity", gravity))
+
+    def period(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:
+        """Return the time of one turn of each mode, ``2 pi sqrt(conical_height / gravity)``.
+
+        Parameters
+        ----------
+        gravity : array_like, optional
+            As for `angular_speed`.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            In seconds, descending. Relative error at most half of `error_bound` and 2 ulp.
+
+        Raises
+        ------
+        ValueError
+            If gravity is not positive and finite.
+
+        Notes
+        -----
+        Greenhill (1908) section 1 (2).
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain(weight=1.0, length=39.1396)).period(gravity=386.2924).round(5)
+        array([2.])
+        """
+        return _core.conical_pendulum_period(self.conical_height, positive("period", "gravity", gravity))
+
+    def revolutions_per_second(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:
+        """Return the turns in a second of each mode.
+
+        Parameters
+        ----------
+        gravity : array_like, optional
+            As for `angular_speed`.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            In 1/s, ascending. Relative error at most half of `error_bound` and 2 ulp.
+
+        Raises
+        ------
+        ValueError
+            If gravity is not positive and finite.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=2).revolutions_per_second().round(4)
+        array([0.9988, 2.2928])
+        """
+        return _core.conical_pendulum_revolutions_per_second(
+            self.conical_height, positive("revolutions_per_second", "gravity", gravity)
+        )
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        modes: Iterable[int] | None = None,
+        *,
+        gravity: float = STANDARD_GRAVITY,
+        length_unit: str = "m",
+    ) -> Axes:
+        """Draw the shapes side by side, each hanging from its own axis.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        modes : iterable of int, optional
+            Which modes, counted from 1; the six slowest if left out.
+        gravity : float, optional
+            For the speeds written below the axes.
+        length_unit : str
+            What to write on the axis of depth.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If there are no shapes, or `modes` names one that is not there.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=4).plot()
+        >>> ax.get_ylabel()
+        'depth below the support (m)'
+        """
+        from ._plots import plot_modes
+
+        return plot_modes(self, ax, modes, gravity=gravity, length_unit=length_unit)
+
+    def to_dict(self, gravity: float = STANDARD_GRAVITY, shapes: bool = True) -> dict[str, Any]:
+        """Return everything as plain Python numbers, lists and strings, ready for JSON.
+
+        Parameters
+        ----------
+        gravity : float, optional
+            For speeds and periods.
+        shapes : bool
+            Whether to include the shapes, which are long.
+
+        Returns
+        -------
+        dict
+            ``{"modes": [{"mode": 1, "conical_height": ..., "angular_speed": ..., "period": ...,
+            "revolutions_per_minute": ..., "error_bound": ..., "nodes": [...], "residual": ...,
+            "shape": [...]}, ...], "method": ..., "status": ..., "gravity": ..., "chain": {...}}``;
+            the last three of a mode are left out where they were not computed.
+
+        Raises
+        ------
+        ValueError
+            If gravity is not positive and finite.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_dict()["modes"][0]["conical_height"]
+        1.5
+        """
+        from ._record import to_dict
+
+        return to_dict(self, gravity, shapes)
+
+    def to_xarray(self) -> Dataset:
+        """Return everything as a labelled data set.
+
+        Returns
+        -------
+        xarray.Dataset
+            Variables over the dimensions ``mode`` (from 1), ``pin`` (from the free end), ``link``
+            (lowest first) and ``node`` (padded with NaN).
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> data = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_xarray()
+        >>> float(data.conical_height.sel(mode=2))
+        0.5
+        """
+        from ._record import to_xarray
+
+        return to_xarray(self)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to a file, to be read again by `revchain.load`.
+
+        Parameters
+        ----------
+        path : path-like
+            Ends in ``.npz`` (numpy alone) or ``.nc`` (netCDF 4, needs xarray and h5netcdf).
+
+        Raises
+        ------
+        ValueError
+            If the path has another ending.
+        ImportError
+            If what ``.nc`` needs is not installed; the message says how to install it.
+        OSError
+            If the file cannot be written. It is written aside and renamed: what was there before
+            stays until the new file is whole.
+
+        Notes
+        -----
+        Nothing is rounded: what is loaded equals what was saved, bit for bit. No pickles inside.
+
+        Examples
+        --------
+        >>> import revchain as rc, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "result.npz"
+        >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).save(path)
+        >>> rc.load(path).conical_height
+        array([1.5, 0.5])
+        """
+        from ._storage import save
+
+        save(self, path)
+
+    def __repr__(self) -> str:
+        from ._tables import text_table
+
+        return text_table(self)
+
+    def _repr_html_(self) -> str:
+        from ._tables import html_table
+
+        return html_table(self)

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures by matplotlib. No backend is chosen, no style changed."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._arguments import Floats, integer, positive, real
+from ._extras import require
+from ._tables import digits
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._chain import Chain
+    from ._modes import Modes
+
+MOST_SHAPES = 6  # drawn unless asked: more do not stay legible side by side
+MOST_PINS_AS_DOTS = 40
+MOST_POINTS = 2000  # per curve: about the pixels of a large picture
+SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches from -1 to 1
+WIDEST_RATIO = 1e3  # of weights on a linear scale
+
+
+def new_axes(width: float, height: float) -> Axes:
+    """Axes on a new figure: pyplot's where the caller uses pyplot, so that it shows; else a free one."""
+    free = require("matplotlib.figure", "plot", "plotting").Figure
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    figure = (pyplot.figure if pyplot is not None else free)(figsize=(width, height), layout="constrained")
+    axes: Axes = figure.add_subplot()
+    return axes
+
+
+def plot_modes(
+    modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gravity: float, length_unit: str
+) -> Axes:
+    """See `Modes.plot`."""
+    if modes.shape is None or modes.nodes is None:
+        raise ValueError("Modes.plot: there are no shapes; compute them with shapes=True")
+    gravity = float(positive("Modes.plot", "gravity", real("Modes.plot", "gravity", gravity)))
+    chosen = _chosen(len(modes), which)
+    if ax is None:
+        ax = new_axes(max(4.0, 1.6 + 1.25 * len(chosen)), 6.0)
+    lengths = modes.chain.length
+    depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])  # of the pins, free end first
+    speeds = modes.angular_speed(gravity)
+    turns = 60 * modes.revolutions_per_second(gravity)
+    marker = "o" if depth.size <= MOST_PINS_AS_DOTS else ""
+    for place, mode in enumerate(chosen):
+        axis = SPACING * place
+        colour = f"C{place % 10}"
+        shape = modes.shape[mode - 1]
+        kept = thinned(shape)
+        ax.plot([axis, axis], [depth[0], 0.0], color="0.6", linestyle="--", linewidth=0.9, zorder=1)
+        ax.plot(
+            axis + shape[kept],
+            depth[kept],
+            color=colour,
+            linewidth=1.6,
+            marker=marker,
+            markersize=4.0,
+            zorder=2,
+            label=f"mode {mode}",
+        )
+        nodes = depth[0] - modes.nodes[mode - 1]
+        if nodes.size <= MOST_PINS_AS_DOTS:
+            ax.plot(
+                np.full(nodes.size, axis),
+                nodes,
+                linestyle="none",
+                marker="o",
+                markersize=7.0,
+                markerfacecolor="white",
+                markeredgecolor="black",
+                zorder=3,
+            )
+        ax.plot(axis, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
+    ax.set_xlim(-SPACING / 2, SPACING * (len(chosen) - 0.5))
+    ax.set_xticks(
+        [SPACING * place for place in range(len(chosen))],
+        [
+            f"mode {mode}\n{digits(speeds[mode - 1], 4)} rad/s\n{digits(turns[mode - 1], 4)} rev/min"
+            for mode in chosen
+        ],
+        fontsize="small",
+    )
+    ax.set_ylim(1.03 * depth[0], -0.03 * depth[0])
+    ax.set_ylabel(f"depth below the support ({length_unit})")
+    ax.set_xlabel("offset from the axis, own scale each;\nrings mark the nodes", fontsize="small")
+    for side in ("top", "right"):
+        ax.spines[side].set_visible(False)
+    return ax
+
+
+def plot_chain(chain: Chain, ax: Axes | None, *, length_unit: str, weight_unit: str) -> Axes:
+    """See `Chain.plot`."""
+    if ax is None:
+        ax = new_axes(5.0, 6.0)
+    length = chain.length
+    weight = chain.weight
+    upper_pin = np.cumsum(length[::-1])[::-1] - length
+    centroid = upper_pin + chain.centroid
+    total = float(length.sum())
+    heavy = weight > 0
+    few = chain.size <= MOST_PINS_AS_DOTS
+    pins = np.concatenate([upper_pin + length, [0.0]])
+    least = float(weight[heavy].min())
+    most = float(weight.max())
+    logarithmic = most > WIDEST_RATIO * least
+    start = least / 10 if logarithmic else 0.0
+    kept = np.flatnonzero(heavy)
+    kept = kept[:: 1 + (kept.size - 1) // MOST_POINTS]
+    ax.hlines(centroid[kept], start, weight[kept], color="C0", linewidth=1.2 if few else 0.6, zorder=1)
+    ax.plot(
+        weight[kept],
+        centroid[kept],
+        linestyle="none",
+        marker="o",
+        markersize=5.0 if few else 2.0,
+        color="C0",
+        zorder=3,
+        label="centre of gravity of a link",
+    )
+    ax.plot([start, start], [0.0, total], color="0.3", linewidth=2.0, zorder=2, clip_on=False)
+    if few:
+        ax.plot(
+            np.full(pins.size, start),
+            pins,
+            linestyle="none",
+            marker="o",
+            markersize=6.0,
+            markerfacecolor="white",
+            markeredgecolor="0.3",
+            zorder=4,
+            clip_on=False,
+            label="pin",
+        )
+    ax.plot(start, 0.0, marker="v", color="black", markersize=9.0, zorder=5, clip_on=False, linestyle="none")
+    if logarithmic:
+        ax.set_xscale("log")
+        ax.set_xlim(start, 3 * most)
+    else:
+        ax.set_xlim(0.0, 1.1 * most)
+    lowest = max(total, float(centroid[heavy].max()))
+    highest = min(0.0, float(centroid[heavy].min()))
+    margin = 0.03 * (lowest - highest)
+    ax.set_ylim(lowest + margin, highest - margin)
+    ax.set_xlabel(f"weight of each link, drawn at its centre of gravity ({weight_unit})")
+    ax.set_ylabel(f"depth below the support ({length_unit})")
+    for side in ("top", "right"):
+        ax.spines[side].set_visible(False)
+    return ax
+
+
+def thinned(curve: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+    """Indices of the points worth drawing: the ends, and the extremes of every stretch."""
+    if curve.size <= MOST_POINTS:
+        return np.arange(curve.size)
+    edges = np.linspace(0, curve.size, MOST_POINTS // 2 + 1).astype(np.intp)
+    kept = {0, curve.size - 1}
+    for begin, end in zip(edges[:-1], edges[1:], strict=True):
+        stretch = curve[begin:end]
+        kept.update((int(begin + stretch.argmin()), int(begin + stretch.argmax())))
+    return np.array(sorted(kept), dtype=np.intp)
+
+
+def _chosen(available: int, which: Iterable[int] | None) -> list[int]:
+    if which is None:
+        return list(range(1, min(available, MOST_SHAPES) + 1))
+    chosen = [integer("Modes.plot", "modes", mode) for mode in which]
+    for mode in chosen:
+        if not 1 <= mode <= available:
+            raise ValueError(f"Modes.plot: mode must be from 1 to {available}, got {mode}")
+    if not chosen:
+        raise ValueError("Modes.plot: modes names no mode")
+    return chosen

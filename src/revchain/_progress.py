@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A computation in a thread of its own, watched from here: a bar after a while, Ctrl-C at any time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from threading import Thread
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from . import _core
+from ._modes import Modes
+
+PATIENCE = 2.0  # seconds before a bar is shown
+TICK = 0.1  # seconds between looks
+
+
+def watched(work: Callable[[_core.Progress], Modes], console: Console, quiet: bool = False) -> Modes:
+    """Run `work` and return what it returns; KeyboardInterrupt cancels it and goes on to the caller."""
+    progress = _core.Progress()
+    results: list[Modes] = []
+    errors: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            results.append(work(progress))
+        except BaseException as error:
+            errors.append(error)
+
+    worker = Thread(target=run, daemon=True)
+    worker.start()
+    try:
+        worker.join(PATIENCE)
+        if worker.is_alive():
+            columns = (TextColumn("solving"), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn())
+            silent = quiet or not console.is_terminal
+            with Progress(*columns, console=console, transient=True, disable=silent) as bar:
+                task = bar.add_task("solving", total=1.0)
+                while worker.is_alive():
+                    worker.join(TICK)
+                    bar.update(task, completed=progress.fraction)
+    except KeyboardInterrupt:
+        progress.cancel()
+        worker.join()
+        raise
+    if errors:
+        raise errors[0]
+    return results[0]

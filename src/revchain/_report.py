@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A solved scene as a table for the terminal, as JSON and as CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+
+from rich import box
+from rich.console import Group
+from rich.table import Table
+from rich.text import Text
+
+from ._modes import Modes
+from ._tables import digits
+
+MOST_ROWS = 20
+NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
+
+
+def table(modes: Modes, title: str, gravity: float) -> Group:
+    """The table with its heading."""
+    chain = modes.chain
+    links = f"{chain.size:,} link" + ("s" if chain.size > 1 else "")
+    heading = Text(title, style="bold")
+    facts = Text(
+        f"{links}, length {chain.length.sum():.6g} m, weight {chain.weight.sum():.6g} N, gravity {gravity:.6g} m/s²\n"
+        f"{len(modes):,} of {chain.mode_count:,} modes by {modes.method}: "
+    )
+    met = modes.status == "success"
+    facts.append("success" if met else modes.status.replace("_", " "), style="green" if met else "bold yellow")
+
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for name, unit in (("mode", ""), ("speed", "rad/s"), ("speed", "rev/min"), ("period", "s"), ("height", "m")):
+        grid.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
+    grid.add_column("error\nbound", justify="right", no_wrap=True)
+    grid.add_column("nodes\nm from the free end", no_wrap=True)
+    speed = modes.angular_speed(gravity)
+    turns = 60 * modes.revolutions_per_second(gravity)
+    period = modes.period(gravity)
+    for k in range(min(len(modes), MOST_ROWS)):
+        grid.add_row(
+            f"{k + 1}",
+            digits(speed[k], 6),
+            digits(turns[k], 6),
+            digits(period[k], 6),
+            digits(modes.conical_height[k], 10),
+            f"{modes.error_bound[k]:.1e}",
+            _nodes(modes, k),
+        )
+    parts: list[Text | Table] = [heading, facts, grid]
+    hidden = len(modes) - MOST_ROWS
+    if hidden > 0:
+        parts.append(Text(f"and {hidden:,} more; --json and --csv write all of them", style="dim"))
+    parts.append(Text("height: of the equivalent conical pendulum; error bound: relative, of the height", style="dim"))
+    return Group(*parts)
+
+
+def _nodes(modes: Modes, k: int) -> str:
+    if modes.nodes is None:
+        return "-"
+    nodes = modes.nodes[k]
+    if nodes.size == 0:
+        return "0"
+    if nodes.size <= 2:
+        return f"{nodes.size}: " + "  ".join(f"{node:.3g}" for node in nodes)
+    return f"{nodes.size}: {nodes[0]:.3g} … {nodes[-1]:.3g}"
+
+
+def json_text(modes: Modes, title: str, gravity: float) -> str:
+    """Everything but the shapes; numbers with all their digits."""
+    return json.dumps({"title": title, **modes.to_dict(gravity, shapes=False)}, indent=2, ensure_ascii=False) + "\n"
+
+
+def csv_text(modes: Modes, gravity: float) -> str:
+    """One line for each mode; the positions of the nodes separated by blanks."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = ["mode", "conical_height", "angular_speed", "period", "revolutions_per_minute", "error_bound"]
+    writer.writerow([*names, "node_count", "nodes"])
+    for mode in modes.to_dict(gravity, shapes=False)["modes"]:
+        nodes = mode["nodes"]
+        writer.writerow([*(mode[name] for name in names), len(nodes), " ".join(map(repr, nodes))])
+    return text.getvalue()

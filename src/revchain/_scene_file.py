@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From the text of a scene file to checked data, and errors that say where."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import tomllib
+from collections.abc import Iterator
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, Literal, TypeVar, get_args, get_origin
+
+import msgspec
+
+from ._arguments import shown
+from ._scene_error import SceneError
+
+Kind = TypeVar("Kind")
+
+
+def read(path: str | os.PathLike[str]) -> Any:
+    """The raw content of a .toml or .json file."""
+    source = os.fspath(path)
+    try:
+        text = Path(path).read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise SceneError(source, "", f"cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise SceneError(source, "", f"is not UTF-8 text (byte {error.start + 1})") from None
+    try:
+        return json.loads(text) if source.lower().endswith(".json") else tomllib.loads(text)
+    except json.JSONDecodeError as error:
+        raise SceneError(source, f"line {error.lineno}, column {error.colno}", error.msg) from None
+    except tomllib.TOMLDecodeError as error:
+        reason, where = _place_of_toml_error(str(error), text)
+        raise SceneError(source, where, reason) from None
+    except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
+        raise SceneError(source, "", f"cannot be read: {error}") from None
+
+
+def convert(raw: Any, kind: type[Kind], source: str) -> Kind:
+    """`raw` as `kind`, a msgspec Struct; a SceneError where it does not fit."""
+    try:
+        return msgspec.convert(raw, kind)
+    except msgspec.ValidationError as error:
+        key, reason = _explained(str(error), raw, kind)
+        raise SceneError(source, key, reason) from None
+    except (RecursionError, OverflowError, ValueError) as error:
+        raise SceneError(source, "", f"cannot be read: {error}") from None
+
+
+def _place_of_toml_error(message: str, text: str) -> tuple[str, str]:
+    found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", message, re.DOTALL)
+    if found is None:
+        return message, ""
+    if found[2]:
+        return found[1], f"line {found[2]}, column {found[3]}"
+    lines = text.splitlines() or [""]
+    return f"{found[1]} (the file ends)", f"line {len(lines)}, column {len(lines[-1]) + 1}"
+
+
+def _explained(message: str, raw: Any, kind: type) -> tuple[str, str]:
+    """The key path and the sentence for a message such as ``Expected `int`, got `str` - at `$.ask.modes```."""
+    sentence, _, path = message.partition(" - at `")
+    key = path.rstrip("`").removeprefix("$").lstrip(".")
+    unknown = re.fullmatch(r"Object contains unknown field `(.*)`", sentence, re.DOTALL)
+    if unknown:
+        known = _known_keys(kind, key)
+        near = get_close_matches(unknown[1], known, n=1)
+        hint = f"did you mean {near[0]}?" if near else f"known keys: {', '.join(known)}"
+        return f"{key}.{unknown[1]}".lstrip("."), f"unknown key; {hint}"
+    missing = re.fullmatch(r"Object missing required field `(.*)`", sentence)
+    if missing:
+        return f"{key}.{missing[1]}".lstrip("."), "is missing"
+    value = _value_at(raw, key)
+    if sentence.startswith("Invalid enum value"):
+        return key, _choice(kind, key, value)
+    return key, _sentence(sentence, value)
+
+
+def _choice(kind: type, key: str, value: Any) -> str:
+    """The sentence for a word that is not among those allowed."""
+    table, _, name = key.rpartition(".")
+    annotation = next(field.type for field in _fields_at(kind, table) if field.encode_name == name)
+    words = [str(word) for word in _literals_in(annotation)]
+    allowed = "a whole number or " if any(part is int for part in _parts_of(annotation)) else ""
+    allowed += words[0] if len(words) == 1 else "one of " + ", ".join(words)
+    near = get_close_matches(str(value), words, n=1)
+    return f"must be {allowed}, got {shown(value)}" + (f"; did you mean {near[0]}?" if near else "")
+
+
+def _sentence(sentence: str, value: Any) -> str:
+    got = f", got {shown(value)}"
+    if "matching regex" in sentence:
+        return f'must be a number, or a number and its unit such as "39.1396 inch"{got}'
+    limit = re.fullmatch(r"Expected `\w+` (>|>=|<=) (\S+)", sentence)
+    if limit:
+        words = {">": "must be above", ">=": "must be at least", "<=": "must be at most"}[limit[1]]
+        number = limit[2].removesuffix(".0")
+        phrase = {"must be above 0": "must be positive", "must be at least 0": "must not be negative"}
+        return phrase.get(f"{words} {number}", f"{words} {number}") + got
+    expected = re.fullmatch(r"Expected `(.*)`, got `(.*)`", sentence)
+    if expected:
+        words = expected[1].replace("object", "table").replace("array", "list of tables")
+        words = words.replace("float", "number").replace("int", "whole number").replace("str", "text")
+        words = words.replace(" | null", "").replace(" | ", " or ")
+        words = words.replace("number or text", 'number, or a number and its unit such as "39.1396 inch"')
+        return f"must be a {words}{got}"
+    return f"{sentence[0].lower()}{sentence[1:]}{got}"
+
+
+def _value_at(raw: Any, key: str) -> Any:
+    for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", key):
+        try:
+            raw = raw[int(index)] if index else raw[name]
+        except (KeyError, IndexError, TypeError):
+            return raw
+    return raw
+
+
+def _known_keys(kind: type, key: str) -> list[str]:
+    """The keys that the table at `key` may have."""
+    return [field.encode_name for field in _fields_at(kind, key)]
+
+
+def _fields_at(kind: type, key: str) -> tuple[Any, ...]:
+    """The fields of the table at `key`, found by walking the structs along the path."""
+    for name in re.findall(r"[^.\[\]]+", re.sub(r"\[\d+\]", "", key)):
+        for field in msgspec.structs.fields(kind):
+            if field.encode_name == name:
+                structs = (part for part in _parts_of(field.type) if isinstance(part, type))
+                kind = next((part for part in structs if issubclass(part, msgspec.Struct)), kind)
+    return msgspec.structs.fields(kind)
+
+
+def _literals_in(annotation: Any) -> list[Any]:
+    return [word for part in _parts_of(annotation) if get_origin(part) is Literal for word in get_args(part)]
+
+
+def _parts_of(annotation: Any) -> Iterator[Any]:
+    """The annotation and everything inside it."""
+    yield annotation
+    if get_origin(annotation) is not Literal:
+        for argument in get_args(annotation):
+            yield from _parts_of(argument)

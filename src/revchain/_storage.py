@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Results in files: .npz with numpy alone, .nc (netCDF 4) through xarray. Nothing is pickled."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._chain import Chain
+from ._extras import require
+from ._files import written_aside
+from ._modes import Modes
+from ._record import to_xarray
+
+KIND = "revchain modes 1"
+STATE = "chain_state_"
+
+
+def save(modes: Modes, path: str | os.PathLike[str]) -> None:
+    """See `Modes.save`."""
+    ending = _ending(path)
+    dataset = _dataset(modes) if ending == ".nc" else None
+    with written_aside(path) as [aside]:
+        if dataset is not None:
+            dataset.to_netcdf(aside, engine="h5netcdf")
+        else:
+            np.savez(aside, allow_pickle=False, **_arrays(modes))
+
+
+def load(path: str | os.PathLike[str]) -> Modes:
+    """Read a result that `Modes.save` wrote.
+
+    Parameters
+    ----------
+    path : path-like
+        Ends in ``.npz`` or ``.nc``.
+
+    Returns
+    -------
+    Modes
+        Equal to what was saved, bit for bit.
+
+    Raises
+    ------
+    ValueError
+        If the path has another ending or the file holds something else.
+    ImportError
+        If what ``.nc`` needs is not installed; the message says how to install it.
+    OSError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> import revchain as rc, tempfile, pathlib
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "result.npz"
+    >>> chain = rc.Chain.uniform_rods(120, length=0.36)
+    >>> rc.modes(chain, count=3).save(path)
+    >>> rc.load(path).chain == chain
+    True
+    """
+    ending = _ending(path)
+    with open(path, "rb"):  # the ordinary OSError where it cannot be read
+        pass
+    if ending == ".nc":
+        require("h5netcdf", "netcdf", "reading .nc files")
+        xarray = require("xarray", "netcdf", "reading .nc files")
+    try:
+        if ending == ".npz":
+            with np.load(path, allow_pickle=False) as file:
+                return _from_arrays(dict(file))
+        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
+            return _from_dataset(dataset.load())
+    except (KeyError, ValueError, TypeError, AttributeError, EOFError, OSError, zipfile.BadZipFile) as error:
+        raise ValueError(f"{os.fspath(path)}: not a result that revchain saved ({error})") from None
+
+
+def _ending(path: str | os.PathLike[str]) -> str:
+    ending = Path(path).suffix.lower()
+    if ending not in (".npz", ".nc"):
+        raise ValueError(f"results are kept in .npz or .nc files, got {os.fspath(path)}")
+    return ending
+
+
+def _state(chain: Chain) -> dict[str, Any]:
+    return {f"{STATE}{index}": np.asarray(item) for index, item in enumerate(chain._compiled.__getstate__())}
+
+
+def _chain(state: Mapping[str, Any]) -> Chain:
+    items = [np.asarray(state[f"{STATE}{index}"]) for index in range(sum(name.startswith(STATE) for name in state))]
+    core = _core.Chain.__new__(_core.Chain)
+    core.__setstate__(tuple(item.item() if item.dtype.kind in "iub" else item for item in items))
+    return Chain._wrap(core)
+
+
+def _arrays(modes: Modes) -> dict[str, Any]:
+    arrays = {
+        "kind": np.asarray(KIND),
+        "method": np.asarray(modes.method),
+        "status": np.asarray(modes.status),
+        "conical_height": modes.conical_height,
+        "error_bound": modes.error_bound,
+        **_state(modes.chain),
+    }
+    if modes.shape is not None and modes.residual is not None and modes.nodes is not None:
+        arrays["shape"] = modes.shape
+        arrays["residual"] = modes.residual
+        arrays["node_count"] = np.array([nodes.size for nodes in modes.nodes])
+        arrays["node_position"] = np.concatenate(modes.nodes)
+    return arrays
+
+
+def _from_arrays(arrays: Mapping[str, Any]) -> Modes:
+    if str(arrays["kind"]) != KIND:
+        raise ValueError(f"its kind is {arrays['kind']}")
+    nodes = None
+    if "shape" in arrays:
+        nodes = np.split(arrays["node_position"], np.cumsum(arrays["node_count"])[:-1])
+    return Modes(
+        chain=_chain(arrays),
+        conical_height=arrays["conical_height"],
+        error_bound=arrays["error_bound"],
+        shape=arrays.get("shape"),
+        residual=arrays.get("residual"),
+        nodes=nodes,
+        method=str(arrays["method"]),
+        status=str(arrays["status"]),
+    )
+
+
+def _dataset(modes: Modes) -> Any:
+    require("h5netcdf", "netcdf", "saving .nc files")
+    dataset = to_xarray(modes).assign_attrs(kind=KIND)
+    for name, item in _state(modes.chain).items():
+        dataset[name] = ([f"{name}_{axis}" for axis in range(item.ndim)], item)
+    return dataset
+
+
+def _from_dataset(dataset: Any) -> Modes:
+    if dataset.attrs["kind"] != KIND:
+        raise ValueError(f"its kind is {dataset.attrs['kind']}")
+    names = set(dataset.variables)
+    nodes = None
+    if "shape" in names:
+        nodes = [row[~np.isnan(row)] for row in dataset["node_position"].values]
+    return Modes(
+        chain=_chain({name: dataset[name].values for name in names if name.startswith(STATE)}),
+        conical_height=dataset["conical_height"].values,
+        error_bound=dataset["error_bound"].values,
+        shape=dataset["shape"].values if nodes is not None else None,
+        residual=dataset["residual"].values if nodes is not None else None,
+        nodes=nodes,
+        method=dataset.attrs["method"],
+        status=dataset.attrs["status"],
+    )

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The conical pendulum: height, speed, period and gravity, each from the others.
+
+Every height here is ``gravity / angular_speed**2``, the vertical distance of the circling weight
+below the point of support, whatever the length of the thread. Source: Greenhill (1908), section 1.
+All functions broadcast; numbers in give a number out.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arguments import STANDARD_GRAVITY, positive
+
+__all__ = [
+    "angular_speed",
+    "gravity_from_seconds_pendulum",
+    "height",
+    "height_from_period",
+    "period",
+    "revolutions_per_second",
+]
+
+
+def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
+    """Return the speed that goes with a height, ``sqrt(gravity / height)``.
+
+    Parameters
+    ----------
+    height : array_like
+        Conical height, positive.
+    gravity : array_like, optional
+        In the same unit of length per s^2, positive; standard gravity in m/s^2 if left out.
+
+    Returns
+    -------
+    float or ndarray
+        In rad/s, broadcast shape, within 1 ulp. Cost O(1) a number.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 1 (1).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> float(rc.conical_pendulum.angular_speed(2.4525, gravity=9.81))
+    2.0
+    """
+    place = "revchain.conical_pendulum.angular_speed"
+    return _core.conical_pendulum_angular_speed(
+        positive(place, "height", height), positive(place, "gravity", gravity)
+    )[()]
+
+
+def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
+    """Return the time of one turn, ``2 pi sqrt(height / gravity)``.
+
+    Parameters
+    ----------
+    height : array_like
+        Conical height, positive.
+    gravity : array_like, optional
+        In the same unit of length per s^2, positive; standard gravity in m/s^2 if left out.
+
+    Returns
+    -------
+    float or ndarray
+        In seconds, broadcast shape, within 2 ulp. Cost O(1) a number.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 1 (2).
+
+    Examples
+    --------
+    The pendulum that beats seconds, in inches:
+
+    >>> import revchain as rc
+    >>> round(float(rc.conical_pendulum.period(39.1396, gravity=386.29237)), 6)
+    2.0
+    """
+    place = "revchain.conical_pendulum.period"
+    return _core.conical_pendulum_period(positive(place, "height", height), positive(place, "gravity", gravity))[()]
+
+
+def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
+    """Return the turns in a second, ``sqrt(gravity / height) / (2 pi)``.
+
+    Parameters
+    ----------
+    height : array_like
+        Conical height, positive.
+    gravity : array_like, optional
+        In the same unit of length per s^2, positive; standard gravity in m/s^2 if left out.
+
+    Returns
+    -------
+    float or ndarray
+        In 1/s, broadcast shape, within 2 ulp. Cost O(1) a number.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 1 (2).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rc.conical_pendulum.revolutions_per_second([1.0, 0.25]).round(4)
+    array([0.4984, 0.9968])
+    """
+    place = "revchain.conical_pendulum.revolutions_per_second"
+    return _core.conical_pendulum_revolutions_per_second(
+        positive(place, "height", height), positive(place, "gravity", gravity)
+    )[()]
+
+
+def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
+    """Return the height that goes with a speed, ``gravity / angular_speed**2``.
+
+    Parameters
+    ----------
+    angular_speed : array_like
+        In rad/s, positive.
+    gravity : array_like, optional
+        Positive; standard gravity in m/s^2 if left out.
+
+    Returns
+    -------
+    float or ndarray
+        In the unit of length of `gravity`, broadcast shape, within 2 ulp. Cost O(1) a number.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 1 (1).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> float(rc.conical_pendulum.height(2.0, gravity=9.81))
+    2.4525
+    """
+    place = "revchain.conical_pendulum.height"
+    return _core.conical_pendulum_height(
+        positive(place, "angular_speed", angular_speed), positive(place, "gravity", gravity)
+    )[()]
+
+
+def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
+    """Return the height that goes with a period, ``gravity * period**2 / (4 pi**2)``.
+
+    Parameters
+    ----------
+    period : array_like
+        Time of one turn in seconds, positive.
+    gravity : array_like, optional
+        Positive; standard gravity in m/s^2 if left out.
+
+    Returns
+    -------
+    float or ndarray
+        In the unit of length of `gravity`, broadcast shape, within 3 ulp. Cost O(1) a number.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 1 (1), (7).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> round(float(rc.conical_pendulum.height_from_period(2.0, gravity=386.29237)), 4)
+    39.1396
+    """
+    place = "revchain.conical_pendulum.height_from_period"
+    return _core.conical_pendulum_height_from_period(
+        positive(place, "period", period), positive(place, "gravity", gravity)
+    )[()]
+
+
+def gravity_from_seconds_pendulum(length: ArrayLike) -> Any:
+    """Return the gravity under which a pendulum of this length beats seconds, ``pi**2 * length``.
+
+    Parameters
+    ----------
+    length : array_like
+        Length of the simple pendulum whose half period is one second, positive.
+
+    Returns
+    -------
+    float or ndarray
+        In the unit of `length` per s^2, within 2 ulp. Cost O(1) a number.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 1 (5), (6): 39.1396 inches at London.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> round(float(rc.conical_pendulum.gravity_from_seconds_pendulum(39.1396)), 4)
+    386.2924
+    """
+    place = "revchain.conical_pendulum.gravity_from_seconds_pendulum"
+    return _core.conical_pendulum_gravity_from_seconds_pendulum(positive(place, "length", length))[()]
