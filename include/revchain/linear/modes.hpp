@@ -18,16 +18,6 @@ namespace revchain {
 template <Real T>
 Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
-/// How many conical heights exceed `height`: by a proved count, in T and where that is in doubt in `Wide<T>`. A height
-/// that agrees with `height` to within the rounding of `Wide<T>` (1e-29 in double) is held equal: it does not exceed.
-/// Cost O(N). Throws InvalidArgument unless `height` is positive and finite.
-template <Real T>
-Index count_modes(const Chain<T>& chain, const T& height);
-
-/// How many whirl speeds lie below `angular_speed`; the comparison is made with g / n^2 in `Wide<T>`.
-template <Real T>
-Index count_modes(const Chain<T>& chain, const T& angular_speed, const T& gravity);
-
 namespace detail {
 
 /// Height number `j` to `goal`, from its bracket, and its eigenvector: the cheapest certificate first.
@@ -94,30 +84,6 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
         detail::advance(options.progress, 0.3 + 0.7 * static_cast<double>(j + 1) / static_cast<double>(count));
     }
     return result;
-}
-
-namespace detail {
-template <Real T>
-Index count_modes(const Chain<T>& chain, const Wide<T>& height) {
-    using std::ldexp;
-    const AssembledChain<T> assembled = assemble(chain);
-    const Wide<T> shift = ldexp(height, -assembled.units.length_exponent);
-    const auto wide = linalg::certified_count<Wide<T>, 1>(assembled.pencil, {shift});
-    return wide[0].above;
-}
-}  // namespace detail
-
-template <Real T>
-Index count_modes(const Chain<T>& chain, const T& height) {
-    detail::require_positive("count_modes", "conical height", height);
-    return detail::count_modes(chain, Wide<T>(height));
-}
-
-template <Real T>
-Index count_modes(const Chain<T>& chain, const T& angular_speed, const T& gravity) {
-    detail::require_positive("count_modes", "angular speed", angular_speed);
-    detail::require_positive("count_modes", "gravity", gravity);
-    return detail::count_modes<T>(chain, Wide<T>(gravity) / (Wide<T>(angular_speed) * Wide<T>(angular_speed)));
 }
 
 }  // namespace revchain

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <optional>
+
+#include "bindings.hpp"
+#include "revchain/chain/chain.hpp"
+
+namespace {
+
+using revchain::Index;
+using Chain = revchain::Chain<double>;
+using Wide = revchain::Wide<double>;
+using revchain::Column;
+using revchain::detail::refuse;
+
+Column<double> column(const Array& array, const std::string& name) {
+    if (array.ndim() == 0) return *array.data();
+    if (array.ndim() > 1) refuse("Chain", name + " must have at most one dimension", array.ndim());
+    return std::vector<double>(array.data(), array.data() + array.size());
+}
+
+/// The number of links: that of the columns that have one number per link, 1 if none has.
+class Size {
+   public:
+    template <class V>
+    void note(const Column<V>& column, const std::string& name) {
+        if (column.is_scalar()) return;
+        const Index stored = static_cast<Index>(column.stored());
+        if (size_ && *size_ != stored)
+            refuse("Chain", name + " must have as many numbers as " + name_ + " (" + std::to_string(*size_) +
+                                ") or be a single number", stored);
+        if (!size_) size_ = stored, name_ = name;
+    }
+    Index value() const { return size_.value_or(1); }
+
+   private:
+    std::optional<Index> size_;
+    std::string name_;
+};
+
+/// A column made from two others, link by link; one number where both are.
+template <class V, class Make>
+Column<V> combined(Index size, const Column<double>& x, const Column<double>& y, Make make) {
+    if (x.is_scalar() && y.is_scalar()) return Column<V>(make("Chain", x[0], y[0]));
+    std::vector<V> values;
+    values.reserve(static_cast<std::size_t>(size));
+    for (Index m = 0; m < size; ++m) values.push_back(make("Chain: link " + std::to_string(m + 1), x[m], y[m]));
+    return values;
+}
+
+Chain make_chain(const Array& weight, const Array& length, const std::optional<Array>& centroid,
+                 const std::optional<Array>& pendulum_length, const std::optional<Array>& radius_of_gyration) {
+    namespace d = revchain::detail;
+    const Column<double> W = column(weight, "weight"), a = column(length, "length");
+    Size size;
+    size.note(W, "weight");
+    size.note(a, "length");
+    if (!centroid) {
+        if (pendulum_length || radius_of_gyration)
+            refuse("Chain", "pendulum_length and radius_of_gyration need the centroid");
+        return Chain(size.value(), W, a, a, Wide(0));
+    }
+    if (pendulum_length.has_value() == radius_of_gyration.has_value())
+        refuse("Chain", "a centroid needs either pendulum_length or radius_of_gyration (not both)");
+    const Column<double> h = column(*centroid, "centroid");
+    size.note(h, "centroid");
+    if (pendulum_length) {
+        const Column<double> l = column(*pendulum_length, "pendulum_length");
+        size.note(l, "pendulum_length");
+        return Chain(size.value(), W, a, h, combined<Wide>(size.value(), h, l, d::gyration_from_pendulum_length<double>));
+    }
+    const Column<double> rho = column(*radius_of_gyration, "radius_of_gyration");
+    size.note(rho, "radius_of_gyration");
+    return Chain(size.value(), W, a, h,
+                 combined<Wide>(size.value(), rho, rho, [](std::string_view place, double radius, double) {
+                     return d::gyration_from_radius(place, radius);
+                 }));
+}
+
+py::array to_numpy(bool is_scalar, Index size, auto value) {
+    py::array_t<double> array(is_scalar ? std::vector<py::ssize_t>{} : std::vector<py::ssize_t>{size});
+    for (Index m = 0; m < (is_scalar ? 1 : size); ++m) array.mutable_data()[m] = value(m);
+    return frozen(std::move(array));
+}
+
+py::array to_numpy(const Column<double>& column) {
+    return to_numpy(column.is_scalar(), static_cast<Index>(column.stored()), [&](Index m) { return column[m]; });
+}
+
+/// A property of a link computed from its data, as a column.
+template <double (*property)(const revchain::Link<double>&)>
+py::array derived(const Chain& chain) {
+    const bool is_scalar = chain.centroid().is_scalar() && chain.gyration_squared().is_scalar();
+    return to_numpy(is_scalar, chain.size(), [&](Index m) { return property(chain.link(m)); });
+}
+
+/// Exact: both words of the squared radius of gyration.
+py::tuple get_state(const Chain& chain) {
+    const Column<Wide>& g = chain.gyration_squared();
+    const Index stored = static_cast<Index>(g.stored());
+    return py::make_tuple(chain.size(), to_numpy(chain.weight()), to_numpy(chain.length()), to_numpy(chain.centroid()),
+                          to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].high; }),
+                          to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].low; }));
+}
+
+Chain set_state(const py::tuple& state) {
+    if (state.size() != 6) refuse("Chain", "this is not the state of a chain; its number of parts must be 6", state.size());
+    const Column<double> high = column(state[4].cast<Array>(), "gyration_squared");
+    const Column<double> low = column(state[5].cast<Array>(), "gyration_squared");
+    return Chain(state[0].cast<Index>(), column(state[1].cast<Array>(), "weight"),
+                 column(state[2].cast<Array>(), "length"), column(state[3].cast<Array>(), "centroid"),
+                 combined<Wide>(static_cast<Index>(std::min(high.stored(), low.stored())), high, low,
+                                [](std::string_view, double h, double l) { return Wide(h, l); }));
+}
+
+}  // namespace
+
+void bind_chain(py::module_& module) {
+    py::class_<Chain>(module, "Chain", "A hanging chain of links, lowest first; immutable.")
+        .def(py::init(&make_chain), "weight"_a, "length"_a, "centroid"_a = py::none(), "pendulum_length"_a = py::none(),
+             "radius_of_gyration"_a = py::none())
+        .def_static("uniform_plummets", &Chain::uniform_plummets, "count"_a, "length"_a, "weight"_a)
+        .def_static("uniform_rods", &Chain::uniform_rods, "count"_a, "length"_a, "weight"_a)
+        .def_property_readonly("size", &Chain::size)
+        .def_property_readonly("mode_count", &Chain::mode_count)
+        .def_property_readonly("total_weight", &Chain::total_weight)
+        .def_property_readonly("total_length", &Chain::total_length)
+        .def_property_readonly("weight", [](const Chain& c) { return to_numpy(c.weight()); })
+        .def_property_readonly("length", [](const Chain& c) { return to_numpy(c.length()); })
+        .def_property_readonly("centroid", [](const Chain& c) { return to_numpy(c.centroid()); })
+        .def_property_readonly("pendulum_length", &derived<revchain::pendulum_length<double>>)
+        .def_property_readonly("radius_of_gyration", &derived<revchain::radius_of_gyration<double>>)
+        .def("__eq__", [](const Chain& x, const Chain& y) { return x == y; }, py::is_operator())
+        .def("__hash__", [](const Chain& c) { return py::hash(py::make_tuple(c.size(), c.total_weight(), c.total_length())); })
+        .def(py::pickle(&get_state, &set_state));
+}

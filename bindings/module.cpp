@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gsl/gsl_errno.h>
+
+#include "bindings.hpp"
+
+PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
+    module.doc() = "Compiled core of revchain; use the package, not this module.";
+    // Where GSL is linked statically, as in our wheels, this handler is the module's own copy; the headers never reach
+    // one in either case.
+    gsl_set_error_handler_off();
+    bind_core(module);
+    bind_chain(module);
+    bind_linear(module);
+    bind_analytic(module);
+}

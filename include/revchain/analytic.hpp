@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The theories that rest on special functions; needs GSL (link revchain::analytic), and makes a program GPL.
+
+#include "revchain/analytic/heavy_chain.hpp"  // IWYU pragma: export

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_sf_bessel.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace revchain::analytic::detail {
+
+/// Value of a GSL function of one argument, by its `_e` form.
+/// GSL's default handler ends the process at a domain error, and is the program's, not ours: it is never touched here,
+/// so callers check domains first. What remains (loss of accuracy, underflow) does not reach the handler's abort.
+inline double gsl_value(int (*function)(double, gsl_sf_result*), double x) {
+    gsl_sf_result result{};
+    const int status = function(x, &result);
+    if (status != GSL_SUCCESS && status != GSL_EUNDRFLW && status != GSL_ELOSS)
+        throw std::runtime_error(std::string("revchain: GSL: ") + gsl_strerror(status));
+    return result.val;
+}
+
+}  // namespace revchain::analytic::detail
