@@ -27,6 +27,17 @@ package_names() {
   done
 }
 
+# install_line MANAGER NEED...
+install_line() {
+  manager=$1; shift
+  case $manager in
+    apt-get) echo "  sudo apt-get install$(package_names 2 "$@")" ;;
+    brew) echo "  brew install$(package_names 3 "$@")" ;;
+    dnf) echo "  sudo dnf install$(package_names 4 "$@")" ;;
+    conda) echo "  conda install -c conda-forge$(package_names 5 "$@")" ;;
+  esac
+}
+
 # Whether the compiler takes this C++20 text. It is asked, and no package manager: then a private prefix counts too.
 compiles() {
   # shellcheck disable=SC2086  # flags are words
@@ -68,14 +79,11 @@ install_needs() {
     lacking=$(missing "$@")
     [ -n "$lacking" ] || return 0
   fi
+  echo "missing:$lacking. Install it and start again:" >&2
+  here=
+  for manager in apt-get brew dnf conda; do command -v $manager >/dev/null && here="$here $manager"; done
   # shellcheck disable=SC2086
-  {
-    echo "missing:$lacking. Install it by the one of these lines that is for your machine, and start again:"
-    echo "  apt-get install$(package_names 2 $lacking)        (as root)"
-    echo "  brew install$(package_names 3 $lacking)"
-    echo "  dnf install$(package_names 4 $lacking)        (as root)"
-    echo "  conda install -c conda-forge$(package_names 5 $lacking)"
-  } >&2
+  for manager in ${here:-apt-get brew dnf conda}; do install_line $manager $lacking >&2; done
   exit 3
 }
 
