@@ -14,7 +14,7 @@ Examples
 >>> chain = rc.Chain.uniform_rods(120, length=0.36)
 >>> result = rc.modes(chain, count=3)
 >>> result.angular_speed().round(4)
-array([ 6.2757, 14.4058, 22.5839])
+array([ 6.2757, 14.4064, 22.59  ])
 """
 
 from __future__ import annotations

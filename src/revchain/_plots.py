@@ -112,19 +112,14 @@ def plot_chain(chain: Chain, ax: Axes | None, *, length_unit: str, weight_unit: 
     most = float(weight.max())
     logarithmic = most > WIDEST_RATIO * least
     start = least / 10 if logarithmic else 0.0
-    kept = np.flatnonzero(heavy)
-    kept = kept[:: 1 + (kept.size - 1) // MOST_POINTS]
-    ax.hlines(centroid[kept], start, weight[kept], color="C0", linewidth=1.2 if few else 0.6, zorder=1)
-    ax.plot(
-        weight[kept],
-        centroid[kept],
-        linestyle="none",
-        marker="o",
-        markersize=5.0 if few else 2.0,
-        color="C0",
-        zorder=3,
-        label="centre of gravity of a link",
-    )
+    if few:
+        ax.hlines(centroid[heavy], start, weight[heavy], color="C0", linewidth=1.2, zorder=1)
+        ax.plot(weight[heavy], centroid[heavy], linestyle="none", marker="o", markersize=5.0, color="C0", zorder=3)
+    else:
+        kept = np.flatnonzero(heavy)
+        kept = kept[thinned(weight[kept])]
+        ax.fill_betweenx(centroid[kept], start, weight[kept], color="C0", alpha=0.2, linewidth=0.0)
+        ax.plot(weight[kept], centroid[kept], color="C0", linewidth=1.2, zorder=3)
     ax.plot([start, start], [0.0, total], color="0.3", linewidth=2.0, zorder=2, clip_on=False)
     if few:
         ax.plot(
@@ -137,7 +132,6 @@ def plot_chain(chain: Chain, ax: Axes | None, *, length_unit: str, weight_unit: 
             markeredgecolor="0.3",
             zorder=4,
             clip_on=False,
-            label="pin",
         )
     ax.plot(start, 0.0, marker="v", color="black", markersize=9.0, zorder=5, clip_on=False, linestyle="none")
     if logarithmic:
@@ -149,7 +143,8 @@ def plot_chain(chain: Chain, ax: Axes | None, *, length_unit: str, weight_unit: 
     highest = min(0.0, float(centroid[heavy].min()))
     margin = 0.03 * (lowest - highest)
     ax.set_ylim(lowest + margin, highest - margin)
-    ax.set_xlabel(f"weight of each link, drawn at its centre of gravity ({weight_unit})")
+    rings = "\nrings mark the pins" if few else ""
+    ax.set_xlabel(f"weight of each link, at its centre of gravity ({weight_unit}){rings}", fontsize="small")
     ax.set_ylabel(f"depth below the support ({length_unit})")
     for side in ("top", "right"):
         ax.spines[side].set_visible(False)

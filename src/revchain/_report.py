@@ -64,8 +64,12 @@ def _nodes(modes: Modes, k: int) -> str:
     if nodes.size == 0:
         return "0"
     if nodes.size <= 2:
-        return f"{nodes.size}: " + "  ".join(f"{node:.3g}" for node in nodes)
-    return f"{nodes.size}: {nodes[0]:.3g} … {nodes[-1]:.3g}"
+        return f"{nodes.size}: " + "  ".join(map(_position, nodes))
+    return f"{nodes.size}: {_position(nodes[0])} … {_position(nodes[-1])}"
+
+
+def _position(node: float) -> str:
+    return f"{node:.3g}" if node < 1000 else f"{node:.0f}"
 
 
 def json_text(modes: Modes, title: str, gravity: float) -> str:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, count as checked_count, floats, positive, real, shown
@@ -153,9 +153,7 @@ def count_modes(
     if conical_height is not None:
         return _core.count_modes(core, floats(place, "conical_height", conical_height))[()]
     assert angular_speed is not None
-    speed = floats(place, "angular_speed", angular_speed)
-    g = positive(place, "gravity", gravity)
-    np.broadcast_shapes(speed.shape, g.shape)
+    speed, g = np.broadcast_arrays(floats(place, "angular_speed", angular_speed), positive(place, "gravity", gravity))
     return _core.count_modes_at_speed(core, speed, g)[()]
 
 

@@ -58,7 +58,7 @@ def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     place = "revchain.conical_pendulum.angular_speed"
     return _core.conical_pendulum_angular_speed(
         positive(place, "height", height), positive(place, "gravity", gravity)
-    )[()]
+    )
 
 
 def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -94,7 +94,7 @@ def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
     2.0
     """
     place = "revchain.conical_pendulum.period"
-    return _core.conical_pendulum_period(positive(place, "height", height), positive(place, "gravity", gravity))[()]
+    return _core.conical_pendulum_period(positive(place, "height", height), positive(place, "gravity", gravity))
 
 
 def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -130,7 +130,7 @@ def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAV
     place = "revchain.conical_pendulum.revolutions_per_second"
     return _core.conical_pendulum_revolutions_per_second(
         positive(place, "height", height), positive(place, "gravity", gravity)
-    )[()]
+    )
 
 
 def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -166,7 +166,7 @@ def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     place = "revchain.conical_pendulum.height"
     return _core.conical_pendulum_height(
         positive(place, "angular_speed", angular_speed), positive(place, "gravity", gravity)
-    )[()]
+    )
 
 
 def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -202,7 +202,7 @@ def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY)
     place = "revchain.conical_pendulum.height_from_period"
     return _core.conical_pendulum_height_from_period(
         positive(place, "period", period), positive(place, "gravity", gravity)
-    )[()]
+    )
 
 
 def gravity_from_seconds_pendulum(length: ArrayLike) -> Any:
@@ -234,4 +234,4 @@ def gravity_from_seconds_pendulum(length: ArrayLike) -> Any:
     386.2924
     """
     place = "revchain.conical_pendulum.gravity_from_seconds_pendulum"
-    return _core.conical_pendulum_gravity_from_seconds_pendulum(positive(place, "length", length))[()]
+    return _core.conical_pendulum_gravity_from_seconds_pendulum(positive(place, "length", length))

@@ -84,7 +84,7 @@ def shape(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
     --------
     >>> import revchain as rc
     >>> rc.heavy_chain.shape([0.0, 0.5, 1.0], mode=1).round(4) + 0.0
-    array([1.    , 0.4014, 0.    ])
+    array([1.    , 0.3977, 0.    ])
     """
     place = "revchain.heavy_chain.shape"
     at = floats(place, "x", x)
@@ -99,7 +99,7 @@ def shape(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
         raise ValueError(
             f"{place}: x must lie between 0 and length, got {np.broadcast_to(at, wrong.shape)[wrong].flat[0]:g}"
         )
-    return _core.heavy_chain_shape(at, whole.astype(np.int64), long)[()]
+    return _core.heavy_chain_shape(at, whole.astype(np.int64), long)
 
 
 def nodes(mode: int, length: float = 1.0) -> Floats:
@@ -190,7 +190,8 @@ def revolutions_per_second(count: int, length: ArrayLike = 1.0, gravity: ArrayLi
     -------
     ndarray, shape (..., count)
         In 1/s, ascending: ``R = N z / 2`` with `N` the turns in a second of the conical pendulum
-        whose height is the length of the chain, within 6 ulp. Cost O(count).
+        whose height is the length of the chain, within 6 ulp; `gravity` and `length`
+        broadcast. Cost O(count).
 
     Raises
     ------
@@ -208,6 +209,6 @@ def revolutions_per_second(count: int, length: ArrayLike = 1.0, gravity: ArrayLi
     array([0.9988, 2.2927, 3.5942])
     """
     place = "revchain.heavy_chain.revolutions_per_second"
-    return _core.heavy_chain_revolutions_per_second(
-        checked_count(place, "count", count), positive(place, "length", length), positive(place, "gravity", gravity)
-    )
+    g = positive(place, "gravity", gravity)
+    heights = _core.heavy_chain_conical_heights(checked_count(place, "count", count), positive(place, "length", length))
+    return _core.conical_pendulum_revolutions_per_second(heights, g[..., np.newaxis])
