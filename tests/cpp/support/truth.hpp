@@ -54,7 +54,7 @@ class Truth {
         Quad pivot = 0;
         for (std::size_t m = 0; m < k0_.size(); ++m) {
             const Quad off = m == 0 ? Quad(0) : height * k1_[m - 1] - m1_[m - 1];
-            const Quad before = pivot == 0 ? Quad(1e-4000Q) : pivot;
+            const Quad before = pivot == 0 ? Quad(1e-300) : pivot;
             pivot = height * k0_[m] - m0_[m] - (m == 0 ? Quad(0) : off * off / before);
             if (pivot < 0) ++negative;
         }
@@ -62,7 +62,7 @@ class Truth {
     }
 
     /// Height number j (from 0, descending), bisected between two heights that enclose it.
-    Quad height(revchain::Index j, Quad lower, Quad upper, Quad relative_width = 1e-22Q) const {
+    Quad height(revchain::Index j, Quad lower, Quad upper, Quad relative_width = 1e-22) const {
         while (upper - lower > relative_width * lower) {
             const Quad middle = lower + (upper - lower) / 2;
             (above(middle) > j ? lower : upper) = middle;
