@@ -7,13 +7,15 @@
 double slowest_height_of_rods(int count);  // the second translation unit
 
 int main() {
-  std::vector<revchain::Link<double>> links = {  // lowest first
-      revchain::plummet<double>(1.0, 0.5), revchain::uniform_rod<double>(2.0, 0.3),
-      revchain::compound_pendulum<double>({.weight = 3.0, .length = 1.0, .centroid = -0.05, .radius_of_gyration = 0.4})};
-  revchain::Chain<double> chain(links);
-  auto m = revchain::modes(chain, {.count = 3});
-  std::printf("height %.15g, error below %.1g, speed %.15g, tip %.15g; rods %.15g\n", m.conical_height[0],
-              m.error_bound[0], m.angular_speed(9.80665)[0], m.shape(0, 0), slowest_height_of_rods(10));
-  // The exact value for many rods is 4 / j01^2 = 0.6917; ten rods are 1 % from it.
-  return m.conical_height[0] > m.conical_height[1] && slowest_height_of_rods(10) > 0.68 ? 0 : 1;
+    std::vector<revchain::Link<double>> links = {
+        // lowest first
+        revchain::plummet<double>(1.0, 0.5), revchain::uniform_rod<double>(2.0, 0.3),
+        revchain::compound_pendulum<double>(
+            {.weight = 3.0, .length = 1.0, .centroid = -0.05, .radius_of_gyration = 0.4})};
+    revchain::Chain<double> chain(links);
+    auto m = revchain::modes(chain, {.count = 3});
+    std::printf("height %.15g, error below %.1g, speed %.15g, tip %.15g; rods %.15g\n", m.conical_height[0],
+                m.error_bound[0], m.angular_speed(9.80665)[0], m.shape(0, 0), slowest_height_of_rods(10));
+    // The exact value for many rods is 4 / j01^2 = 0.6917; ten rods are 1 % from it.
+    return m.conical_height[0] > m.conical_height[1] && slowest_height_of_rods(10) > 0.68 ? 0 : 1;
 }
