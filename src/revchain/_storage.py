@@ -30,7 +30,8 @@ def save(modes: Modes, path: str | os.PathLike[str]) -> None:
         if dataset is not None:
             dataset.to_netcdf(aside, engine="h5netcdf")
         else:
-            np.savez(aside, allow_pickle=False, **_arrays(modes))
+            with open(aside, "wb") as file:  # given a name, numpy may add to it
+                np.savez(file, allow_pickle=False, **_arrays(modes))
 
 
 def load(path: str | os.PathLike[str]) -> Modes:
