@@ -73,6 +73,7 @@ Wide<T> gyration_from_radius(std::string_view place, T radius) {
 template <Real T>
 Wide<T> gyration_from_pendulum_length(std::string_view place, T centroid, T pendulum_length) {
     using std::isfinite;
+    if (!isfinite(centroid)) refuse(place, "centroid must be finite", centroid);
     if (!isfinite(pendulum_length)) refuse(place, "pendulum length must be finite", pendulum_length);
     if (centroid == T(0))
         refuse(place, "a centroid at the upper pin has no pendulum length; give the radius of gyration instead");

@@ -18,7 +18,7 @@ struct Element {
     S lower{};           ///< A >= 0
     S upper{};           ///< B >= 0
     S coupling{};        ///< C >= 0, determinant of the mass matrix
-    Narrow<S> weight{};  ///< W >= 0, exact
+    Narrow<S> weight{};  ///< W >= 0
 };
 
 /// A symmetric pencil lambda K - M kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once
@@ -26,7 +26,7 @@ struct Element {
 template <Real S>
 struct ElementPencil {
     std::vector<Element<S>> elements;
-    Narrow<S> entry_error{};  ///< bound on the relative error of every number in `elements` (weights are exact)
+    Narrow<S> entry_error{};  ///< bound on the relative error of every number in `elements`
 
     Index size() const { return static_cast<Index>(elements.size()); }
 };

@@ -11,3 +11,7 @@ namespace Catch::Matchers {
 inline auto ContainsSubstring(const std::string& text) { return Contains(text); }  // the name in version 3
 }  // namespace Catch::Matchers
 #endif
+
+namespace support {
+inline const int digits_shown = Catch::StringMaker<double>::precision = 20;  // 1e-13 must not read as 0.0
+}
