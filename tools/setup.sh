@@ -15,7 +15,6 @@ needs_table='
    eigen     libeigen3-dev             eigen     eigen3-devel        eigen
    gsl       libgsl-dev                gsl       gsl-devel           gsl
    catch2    catch2                    catch2    catch2-devel        catch2
-   boost     libboost-dev              boost     boost-devel         libboost-headers
    pkgconf   pkg-config                pkgconf   pkgconf-pkg-config  pkg-config
 '
 
@@ -54,7 +53,6 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     eigen) compiles '#include <Eigen/Core>' || compiles '#include <eigen3/Eigen/Core>' ;;
     gsl) compiles '#include <gsl/gsl_sf_bessel.h>' ;;
     catch2) compiles '#if !__has_include(<catch2/catch.hpp>) && !__has_include(<catch2/catch_all.hpp>)\n#error\n#endif' ;;
-    boost) compiles '#if !__has_include(<boost/multiprecision/cpp_bin_float.hpp>)\n#error\n#endif' ;;
     pkgconf) command -v pkg-config ;;
   esac >/dev/null
 }
