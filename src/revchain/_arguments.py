@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import operator
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -63,6 +64,15 @@ def positive(place: str, name: str, value: ArrayLike) -> Floats:
     if wrong.any():
         raise ValueError(f"{place}: {name} must be positive and finite, got {array[wrong].flat[0]:g}")
     return array
+
+
+def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
+    """The arrays broadcast to one shape; a ValueError names those whose shapes do not go together."""
+    try:
+        return list(np.broadcast_arrays(*arrays.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ValueError(f"{place}: these shapes do not go together: {shapes}") from None
 
 
 def shown(value: object, width: int = 60) -> str:

@@ -66,19 +66,23 @@ def load(path: str | os.PathLike[str]) -> Modes:
     True
     """
     ending = _ending(path)
-    with open(path, "rb"):  # the ordinary OSError where it cannot be read
-        pass
     if ending == ".nc":
-        require("h5netcdf", "netcdf", "reading .nc files")
-        xarray = require("xarray", "netcdf", "reading .nc files")
-    try:
-        if ending == ".npz":
-            with np.load(path, allow_pickle=False) as file:
-                return _from_arrays(dict(file))
-        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-            return _from_dataset(dataset.load())
-    except (KeyError, ValueError, TypeError, AttributeError, EOFError, OSError, zipfile.BadZipFile) as error:
-        raise ValueError(f"{os.fspath(path)}: not a result that revchain saved ({error})") from None
+        xarray = _netcdf("reading .nc files")
+    with open(path, "rb") as file:  # the ordinary OSError where it cannot be read
+        try:
+            if ending == ".npz":
+                return _from_arrays(dict(np.load(file, allow_pickle=False)))
+            with xarray.open_dataset(path, engine="h5netcdf") as dataset:
+                return _from_dataset(dataset.load())
+        except (KeyError, ValueError, TypeError, AttributeError, EOFError, OSError, zipfile.BadZipFile) as error:
+            raise ValueError(f"{os.fspath(path)}: not a result that revchain saved ({error})") from None
+
+
+def _netcdf(purpose: str) -> Any:
+    """xarray, once what it needs for .nc files is known to be there."""
+    for module in ("h5py", "h5netcdf"):
+        require(module, "netcdf", purpose)
+    return require("xarray", "netcdf", purpose)
 
 
 def _ending(path: str | os.PathLike[str]) -> str:
@@ -135,7 +139,7 @@ def _from_arrays(arrays: Mapping[str, Any]) -> Modes:
 
 
 def _dataset(modes: Modes) -> Any:
-    require("h5netcdf", "netcdf", "saving .nc files")
+    _netcdf("saving .nc files")
     dataset = to_xarray(modes).assign_attrs(kind=KIND)
     for name, item in _state(modes.chain).items():
         dataset[name] = ([f"{name}_{axis}" for axis in range(item.ndim)], item)

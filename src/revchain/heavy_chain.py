@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, count as checked_count, floats, positive, real, shown
+from ._arguments import STANDARD_GRAVITY, Floats, count as checked_count, floats, positive, real, shown, together
 
 __all__ = ["conical_heights", "nodes", "revolutions_per_second", "shape", "vertical_points"]
 
@@ -94,12 +94,11 @@ def shape(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
     if whole.size and whole.min() < 1:
         raise ValueError(f"{place}: mode must be at least 1, got {whole.min()}")
     long = positive(place, "length", length)
+    at, whole, long = together(place, x=at, mode=whole.astype(np.int64), length=long)
     wrong = ~((at >= 0) & (at <= long))
     if wrong.any():
-        raise ValueError(
-            f"{place}: x must lie between 0 and length, got {np.broadcast_to(at, wrong.shape)[wrong].flat[0]:g}"
-        )
-    return _core.heavy_chain_shape(at, whole.astype(np.int64), long)
+        raise ValueError(f"{place}: x must lie between 0 and length, got {at[wrong][0]:g}")
+    return _core.heavy_chain_shape(at, whole, long)
 
 
 def nodes(mode: int, length: float = 1.0) -> Floats:
@@ -115,7 +114,7 @@ def nodes(mode: int, length: float = 1.0) -> Floats:
     Returns
     -------
     ndarray, shape (mode - 1,)
-        Distances from the free end, ascending, the support left out, within 4 ulp. Cost O(mode).
+        Distances from the free end, ascending, the support left out, within 5 ulp. Cost O(mode).
 
     Raises
     ------
@@ -151,7 +150,7 @@ def vertical_points(mode: int, length: float = 1.0) -> Floats:
     Returns
     -------
     ndarray, shape (mode - 1,)
-        Distances from the free end, ascending, within 4 ulp. Cost O(mode).
+        Distances from the free end, ascending, within 5 ulp. Cost O(mode).
 
     Raises
     ------
@@ -210,5 +209,6 @@ def revolutions_per_second(count: int, length: ArrayLike = 1.0, gravity: ArrayLi
     """
     place = "revchain.heavy_chain.revolutions_per_second"
     g = positive(place, "gravity", gravity)
-    heights = _core.heavy_chain_conical_heights(checked_count(place, "count", count), positive(place, "length", length))
+    long, g = together(place, length=positive(place, "length", length), gravity=g)
+    heights = _core.heavy_chain_conical_heights(checked_count(place, "count", count), long)
     return _core.conical_pendulum_revolutions_per_second(heights, g[..., np.newaxis])

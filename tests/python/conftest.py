@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The reference every height is measured against, and places and ways to run things."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import mpmath as mp
+import pytest
+from hypothesis import HealthCheck, settings
+
+settings.register_profile(
+    "revchain", deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+settings.load_profile("revchain")
+
+ULP = 2.0**-52
+
+
+@pytest.fixture(scope="session")
+def repository() -> Path:
+    """The checkout these tests lie in."""
+    return Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def stored_links() -> Callable:
+    """(W, a, h, rho^2) of each link, exactly the numbers that a chain stores (rho^2 in two words)."""
+
+    def links(chain):
+        size, *columns = chain._compiled.__getstate__()
+        full = [column.tolist() if column.ndim else [float(column)] * size for column in columns]
+        return [(mp.mpf(w), mp.mpf(a), mp.mpf(h), mp.mpf(high) + mp.mpf(low)) for w, a, h, high, low in zip(*full)]
+
+    return links
+
+
+@pytest.fixture(scope="session")
+def exact_heights(stored_links) -> Callable:
+    """All conical heights of the stored numbers: inertia in the angles of the links, 50 digits.
+
+    See tests/data/make_expected.py: a dense matrix in other coordinates than the program's.
+    """
+
+    def heights(chain):
+        with mp.workdps(50):
+            links = stored_links(chain)
+            below = [mp.mpf(0)]
+            for link in links[:-1]:
+                below.append(below[-1] + link[0])
+            kappa = [w * h + a * s for (w, a, h, _), s in zip(links, below)]
+            n = len(links)
+            inertia = mp.matrix(n)
+            for m, (w, a, h, rho2) in enumerate(links):
+                inertia[m, m] = (w * (h**2 + rho2) + a**2 * below[m]) / kappa[m]
+                for j in range(m + 1, n):
+                    inertia[m, j] = inertia[j, m] = links[j][1] * kappa[m] / mp.sqrt(kappa[m] * kappa[j])
+            return sorted(mp.eigsy(inertia, eigvals_only=True), reverse=True)[: chain.mode_count]
+
+    return heights
+
+
+@pytest.fixture(scope="session")
+def worst_in_bounds() -> Callable:
+    """The largest (relative error) / (error bound) over the modes of a result."""
+
+    def worst(result, exact):
+        with mp.workdps(50):
+            return max(
+                abs(mp.mpf(float(height)) / truth - 1) / mp.mpf(float(bound))
+                for height, bound, truth in zip(result.conical_height, result.error_bound, exact, strict=False)
+            )
+
+    return worst
+
+
+@pytest.fixture
+def python(tmp_path) -> Callable:
+    """Run a program in a fresh interpreter, in an empty folder, warnings being errors."""
+
+    def run(*arguments, **options):
+        environment = {**os.environ, "COLUMNS": "100", "PYTHONWARNINGS": "error"}
+        return subprocess.run(
+            [sys.executable, *map(str, arguments)],
+            **{"cwd": tmp_path, "env": environment, "capture_output": True, "text": True, "timeout": 60, **options},
+        )
+
+    return run
+
+
+BLOCKER = """
+import sys
+class Blocker:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {blocked!r}:
+            raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
+sys.meta_path.insert(0, Blocker())
+"""
+
+
+@pytest.fixture(scope="session")
+def without() -> Callable:
+    """Python code that makes packages unimportable."""
+    return lambda *blocked: BLOCKER.format(blocked=set(blocked))

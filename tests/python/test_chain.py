@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""revchain.Chain: what it keeps, what it refuses."""
+
+import copy
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import revchain as rc
+
+NAN, INF = math.nan, math.inf
+
+
+def test_scalars_serve_all_links_and_stay_scalars():
+    chain = rc.Chain(weight=[1, 2, 3], length=0.5)
+    assert chain.size == len(chain) == 3
+    assert chain.length.shape == (3,) and chain.length.tolist() == [0.5] * 3
+    assert chain.length.strides == (0,)  # one number, shown three times
+    assert chain.centroid.tolist() == chain.pendulum_length.tolist() == [0.5] * 3
+    assert chain.radius_of_gyration.tolist() == [0.0] * 3
+
+
+def test_a_long_uniform_chain_keeps_no_copies():
+    chain = rc.Chain.uniform_rods(10**6)
+    assert chain.size == 10**6 and chain.weight.strides == chain.radius_of_gyration.strides == (0,)
+
+
+@pytest.mark.parametrize("name", ["weight", "length", "centroid", "pendulum_length", "radius_of_gyration"])
+@pytest.mark.parametrize("value", [0.5, [0.5, 0.5]])
+def test_columns_are_read_only(name, value):
+    chain = rc.Chain(weight=[1.0, 2.0], length=value, centroid=value, radius_of_gyration=value)
+    column = getattr(chain, name)
+    assert column.shape == (2,) and column.dtype == np.float64
+    with pytest.raises(ValueError, match="read-only"):
+        column[0] = 7.0
+
+
+def test_the_numbers_are_copied_from_the_caller():
+    weight = np.array([1.0, 2.0])
+    chain = rc.Chain(weight=weight, length=1.0)
+    weight[0] = 9.0
+    assert chain.weight.tolist() == [1.0, 2.0]
+
+
+def test_pendulum_length_and_radius_of_gyration_say_the_same():
+    by_length = rc.Chain(weight=1.0, length=2.0, centroid=1.0, pendulum_length=1.25)
+    by_radius = rc.Chain(weight=1.0, length=2.0, centroid=1.0, radius_of_gyration=0.5)
+    assert by_length == by_radius
+    assert by_length.radius_of_gyration.tolist() == [0.5] and by_radius.pendulum_length.tolist() == [1.25]
+
+
+def test_centroid_may_lie_in_or_above_the_upper_pin():
+    chain = rc.Chain(weight=[5.0, 1.0, 1.0], length=1.0, centroid=[1.0, 0.0, -0.2], radius_of_gyration=0.4)
+    assert chain.centroid.tolist() == [1.0, 0.0, -0.2]
+    assert chain.pendulum_length[1] == INF
+    assert chain.pendulum_length[2] == pytest.approx(-0.2 - 0.16 / 0.2, rel=4 * 2.0**-52)
+
+
+def test_input_types():
+    expected = rc.Chain(weight=[1.0, 2.0], length=[3.0, 4.0])
+    assert rc.Chain(weight=(1, 2), length=np.array([3, 4], dtype=np.uint8)) == expected
+    assert rc.Chain(weight=np.array([1, 2], dtype=np.float32), length=np.array([3, 0, 4, 0])[::2]) == expected
+    assert rc.Chain(weight=2, length=np.float64(3)).size == 1
+
+
+def test_uniform_chains():
+    plummets = rc.Chain.uniform_plummets(4, length=2.0, weight=8.0)
+    assert plummets == rc.Chain(weight=[2.0] * 4, length=[0.5] * 4) or plummets.weight.tolist() == [2.0] * 4
+    assert plummets.length.tolist() == plummets.centroid.tolist() == [0.5] * 4
+    rods = rc.Chain.uniform_rods(4, length=2.0, weight=8.0)
+    assert rods.centroid.tolist() == [0.25] * 4
+    assert rods.radius_of_gyration[0] == pytest.approx(0.5 / math.sqrt(12), rel=2.0**-52)
+
+
+def test_equality_hash_copy_pickle():
+    chain = rc.Chain(weight=[1, 2.5, 3], length=0.1, centroid=0.04, pendulum_length=[0.07, 0.08, 0.09])
+    other = rc.Chain(weight=[1, 2.5, 4], length=0.1, centroid=0.04, pendulum_length=[0.07, 0.08, 0.09])
+    assert chain != other and chain != "chain"
+    for twin in (pickle.loads(pickle.dumps(chain)), copy.copy(chain), copy.deepcopy(chain)):
+        assert twin == chain and hash(twin) == hash(chain)
+        assert np.array_equal(rc.modes(twin).conical_height, rc.modes(chain).conical_height)
+
+
+def test_it_cannot_be_changed():
+    chain = rc.Chain(weight=1.0, length=1.0)
+    for name in ("weight", "size", "_compiled", "colour"):
+        with pytest.raises(AttributeError):
+            setattr(chain, name, 2.0)
+    with pytest.raises(AttributeError):
+        del chain._compiled
+
+
+def test_repr():
+    assert repr(rc.Chain(weight=1.5, length=2.0)) == "Chain of 1 link, length 2, weight 1.5"
+    assert repr(rc.Chain.uniform_rods(10_000)) == "Chain of 10,000 links, length 1, weight 1"
+
+
+def test_massless_links_take_modes_away():
+    assert rc.Chain(weight=[1.0, 0.0, 2.0], length=1.0).mode_count == 2
+    assert rc.Chain(weight=[1.0, 0.0, 2.0], length=1.0).size == 3
+
+
+TWO = {"weight": [1.0, 2.0], "length": [1.0, 1.0]}
+BAD = {
+    "no links": ({"weight": [], "length": []}, "at least one"),
+    "nan weight": ({**TWO, "weight": [1.0, NAN]}, "link 2: weight"),
+    "infinite weight": ({**TWO, "weight": [INF, 1.0]}, "link 1: weight"),
+    "negative weight": ({**TWO, "weight": [1.0, -2.0]}, "link 2: weight .*-2"),
+    "massless lowest link": ({**TWO, "weight": [0.0, 1.0]}, "link 1: .*lowest"),
+    "weights that overflow": ({**TWO, "weight": [1.7e308, 1.7e308]}, "weights|add up"),
+    "nan length": ({**TWO, "length": [NAN, 1.0]}, "link 1: length"),
+    "infinite length": ({**TWO, "length": [1.0, INF]}, "link 2: length"),
+    "zero length": ({**TWO, "length": [1.0, 0.0]}, "link 2: length .*0"),
+    "negative length": ({**TWO, "length": -0.5}, "length must be positive.*-0.5"),
+    "different lengths of arrays": ({"weight": [1.0, 2.0], "length": [1.0, 2.0, 3.0]}, "weight has 2, length has 3"),
+    "one number in an array": ({"weight": [1.0, 2.0], "length": [1.0]}, "weight has 2, length has 1"),
+    "two dimensions": ({"weight": [[1.0, 2.0]], "length": 1.0}, r"weight must be .* one dimension, got shape \(1, 2\)"),
+    "ragged": ({"weight": [[1.0], [1.0, 2.0]], "length": 1.0}, "weight must be a real number"),
+    "strings": ({"weight": ["1", "2"], "length": 1.0}, "weight must be a real number"),
+    "complex": ({**TWO, "length": [1.0 + 0j, 1.0]}, "length must be a real number"),
+    "booleans": ({**TWO, "weight": [True, True]}, "weight must be a real number"),
+    "none inside": ({**TWO, "weight": [1.0, None]}, "weight must be a real number"),
+    "masked": ({**TWO, "weight": np.ma.masked_array([1.0, 2.0], [0, 1])}, "masked"),
+    "a generator": ({"weight": iter([1.0]), "length": 1.0}, "weight must be a real number"),
+    "huge integer": ({"weight": 10**400, "length": 1.0}, "weight must be a real number"),
+    "centroid alone": ({**TWO, "centroid": 0.5}, "exactly one of"),
+    "centroid with both": ({**TWO, "centroid": 0.5, "pendulum_length": 1.0, "radius_of_gyration": 1.0}, "exactly one of"),
+    "pendulum_length alone": ({**TWO, "pendulum_length": 1.0}, "needs centroid"),
+    "radius_of_gyration alone": ({**TWO, "radius_of_gyration": 1.0}, "needs centroid"),
+    "nan centroid": ({**TWO, "centroid": NAN, "radius_of_gyration": 1.0}, "centroid"),
+    "negative radius": ({**TWO, "centroid": 0.5, "radius_of_gyration": [1.0, -1.0]}, "link 2: radius of gyration.*-1"),
+    "nan radius": ({**TWO, "centroid": 0.5, "radius_of_gyration": NAN}, "radius of gyration"),
+    "imaginary radius": ({**TWO, "centroid": 0.5, "pendulum_length": [0.6, 0.4]}, "link 2: imaginary"),
+    "centroid at the pin with pendulum length": ({**TWO, "centroid": 0.0, "pendulum_length": 1.0}, "radius of gyration"),
+    "a link that stands": ({**TWO, "centroid": [1.0, -0.6], "radius_of_gyration": 0.1}, "link 2: .*stand"),
+    "lowest link that stands": ({"weight": 1.0, "length": 1.0, "centroid": -0.1, "radius_of_gyration": 0.1}, "link 1: .*stand"),
+}
+
+
+@pytest.mark.parametrize(("arguments", "message"), BAD.values(), ids=BAD.keys())
+def test_refused(arguments, message):
+    with pytest.raises(ValueError, match=f"revchain.*Chain.*({message})"):
+        rc.Chain(**arguments)
+
+
+def test_arguments_have_names():
+    with pytest.raises(TypeError):
+        rc.Chain([1.0], [1.0])
+
+
+@pytest.mark.parametrize("make", [rc.Chain.uniform_plummets, rc.Chain.uniform_rods])
+@pytest.mark.parametrize(
+    "arguments",
+    [(0,), (-1,), (2.0,), ("2",), (True,), (None,), (10**30,), (2, 0.0), (2, -1.0), (2, NAN), (2, INF), (2, [1.0, 2.0])]
+    + [(2, 1.0, 0.0), (2, 1.0, -1.0), (2, 1.0, NAN), (2, 1.0, INF), (2, "1")],
+)
+def test_uniform_refused(make, arguments):
+    with pytest.raises(ValueError, match="uniform_"):
+        make(*arguments)

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures: everything asked for is in them, inside the frame, and nothing else is touched."""
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+import revchain as rc
+
+RODS = rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=8)
+
+
+def texts(axes):
+    return [label.get_text() for label in axes.get_xticklabels()]
+
+
+def clipped(axes):
+    """The texts that leave the picture."""
+    figure = axes.figure
+    FigureCanvasAgg(figure).draw()
+    ticks = [
+        label
+        for axis, (low, high) in ((axes.xaxis, sorted(axes.get_xlim())), (axes.yaxis, sorted(axes.get_ylim())))
+        for tick, label in zip(axis.get_ticklocs(), axis.get_ticklabels(), strict=True)
+        if low <= tick <= high  # others are not drawn
+    ]
+    labels = [label for label in (axes.title, axes.xaxis.label, axes.yaxis.label, *ticks) if label.get_text()]
+    frame = figure.bbox
+    boxes = [(label.get_text(), label.get_window_extent()) for label in labels]
+    assert len(boxes) > 4
+    inside = lambda box: frame.x0 <= box.x0 and box.x1 <= frame.x1 and frame.y0 <= box.y0 and box.y1 <= frame.y1  # noqa: E731
+    return [text for text, box in boxes if not inside(box)]
+
+
+def overlapping(axes):
+    FigureCanvasAgg(axes.figure).draw()
+    boxes = [label.get_window_extent() for label in axes.get_xticklabels()]
+    return any(left.x1 > right.x0 for left, right in zip(boxes[:-1], boxes[1:], strict=True))
+
+
+@pytest.mark.parametrize("modes", [None, [1], [8, 3], range(1, 9)])
+@pytest.mark.parametrize("gravity", [9.80665, 1.62e-7])
+def test_modes(modes, gravity):
+    axes = RODS.plot(modes=modes, gravity=gravity)
+    assert isinstance(axes, Axes)
+    chosen = list(range(1, 7)) if modes is None else list(modes)
+    assert [text.splitlines()[0] for text in texts(axes)] == [f"mode {mode}" for mode in chosen]
+    speeds = RODS.angular_speed(gravity)
+    assert all(f"{speeds[mode - 1]:#.4g} rad/s" in text for mode, text in zip(chosen, texts(axes), strict=True))
+    assert axes.get_ylabel() == "depth below the support (m)"
+    assert axes.yaxis_inverted() or axes.get_ylim()[0] > axes.get_ylim()[1]
+    assert clipped(axes) == []
+    assert not overlapping(axes)
+
+
+def test_curves_and_nodes_are_where_they_belong():
+    axes = RODS.plot(modes=[3])
+    curve = next(line for line in axes.lines if line.get_label() == "mode 3")
+    np.testing.assert_allclose(curve.get_xdata(), RODS.shape[2])
+    np.testing.assert_allclose(curve.get_ydata(), np.linspace(0.36, 0.0, 121), atol=1e-15)
+    rings = next(line for line in axes.lines if len(line.get_xdata()) == 2 and line.get_marker() == "o")
+    np.testing.assert_allclose(rings.get_ydata(), 0.36 - RODS.nodes[2])
+
+
+def test_a_long_chain_is_thinned_and_keeps_its_extremes():
+    result = rc.modes(rc.Chain.uniform_rods(10_000), count=40)
+    for mode in (1, 40):
+        axes = result.plot(modes=[mode])
+        curve = next(line for line in axes.lines if line.get_label() == f"mode {mode}").get_xdata()
+        assert len(curve) <= 2100
+        assert curve.max() == result.shape[mode - 1].max() and curve.min() == result.shape[mode - 1].min()
+        signs = np.sign(curve[:-1])
+        assert (signs[1:] != signs[:-1]).sum() == mode - 1
+
+
+def test_pins_are_dots_where_they_are_few():
+    few = rc.modes(rc.Chain.uniform_plummets(5)).plot(modes=[1])
+    assert next(line for line in few.lines if line.get_label() == "mode 1").get_marker() == "o"
+    many = RODS.plot(modes=[1])
+    assert next(line for line in many.lines if line.get_label() == "mode 1").get_marker() in ("", "None")
+
+
+def test_the_axes_given_are_used():
+    axes = Figure().add_subplot()
+    assert RODS.plot(axes) is axes
+    assert RODS.chain.plot(ax=axes) is axes
+
+
+@pytest.mark.parametrize(
+    "chain",
+    [
+        rc.Chain(weight=1.0, length=1.0),
+        rc.Chain(weight=[176.0, 4900.0], length=[0.65, 0.15], centroid=[0.5, 0.05], radius_of_gyration=0.3),
+        rc.Chain(weight=10.0 ** np.arange(10), length=1.0),
+        rc.Chain(weight=[1.0, 0.0, 2.0], length=0.1),
+        rc.Chain.uniform_rods(10_000, length=1520.0, weight=4.7e5),
+    ],
+)
+def test_chain(chain):
+    axes = chain.plot(length_unit="ft", weight_unit="lbf")
+    assert axes.get_ylabel() == "depth below the support (ft)"
+    assert "(lbf)" in axes.get_xlabel()
+    assert clipped(axes) == []
+    low, high = axes.get_xlim()
+    assert low <= chain.weight.max() <= high
+
+
+@pytest.mark.parametrize("modes", [[0], [9], [1, -1], [1.5], ["1"], []])
+def test_modes_refused(modes):
+    with pytest.raises(ValueError, match="mode"):
+        RODS.plot(modes=modes)
+
+
+def test_no_shapes():
+    with pytest.raises(ValueError, match="shapes=True"):
+        rc.modes(rc.Chain.uniform_rods(3), shapes=False).plot()
+
+
+def test_nothing_global_is_touched(python):
+    program = """
+import matplotlib, sys, revchain as rc
+before = matplotlib.rcParams.copy()
+axes = rc.modes(rc.Chain.uniform_rods(3)).plot()
+axes.figure.savefig("modes.png")
+assert "matplotlib.pyplot" not in sys.modules
+assert matplotlib.rcParams.copy() == before
+import matplotlib.pyplot as plt
+plt.switch_backend("agg")
+axes = rc.modes(rc.Chain.uniform_rods(3)).plot()
+assert plt.get_fignums() == [axes.figure.number]  # so that plt.show() shows it
+"""
+    done = python("-c", program)
+    assert done.returncode == 0, done.stderr

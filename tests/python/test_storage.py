@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Results in files: nothing lost, nothing half-written, nothing pickled."""
+
+import os
+
+import numpy as np
+import pytest
+
+import revchain as rc
+from revchain import _files, _storage
+
+CHAIN = rc.Chain(weight=[5, 1, 0, 1], length=[1, 2, 1, 0.3], centroid=[1, 0.5, 0.1, -0.2], radius_of_gyration=0.3)
+CHAINS = {
+    "bodies": CHAIN,
+    "plummets": rc.Chain(weight=[1.0, 0.0, 3.0], length=0.1),
+    "rods": rc.Chain.uniform_rods(40, length=0.36, weight=0.3),
+    "one link": rc.Chain(weight=1.0, length=1.0),
+    "pendulum length": rc.Chain(weight=[1.0, 2.0], length=0.7, centroid=0.1, pendulum_length=[0.3, 0.7]),
+}
+
+
+def same(one, other):
+    assert one.chain == other.chain
+    assert (one.method, one.status) == (other.method, other.status)
+    for name in ("conical_height", "error_bound", "shape", "residual"):
+        left, right = getattr(one, name), getattr(other, name)
+        assert (left is None) == (right is None)
+        assert left is None or (np.array_equal(left, right) and left.dtype == right.dtype)
+    assert (one.nodes is None) == (other.nodes is None)
+    for left, right in zip(one.nodes or [], other.nodes or [], strict=True):
+        assert np.array_equal(left, right)
+
+
+@pytest.mark.parametrize("ending", [".npz", ".NPZ", ".nc"])
+@pytest.mark.parametrize("shapes", [True, False])
+@pytest.mark.parametrize("chain", CHAINS.values(), ids=CHAINS.keys())
+def test_round_trip(tmp_path, chain, shapes, ending):
+    result = rc.modes(chain, shapes=shapes)
+    path = tmp_path / f"result{ending}"
+    result.save(path)
+    assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
+    loaded = rc.load(str(path))
+    same(loaded, result)
+    assert not loaded.conical_height.flags.writeable
+    assert loaded.chain.weight.strides == chain.weight.strides  # one number stays one number
+    loaded.save(path)  # over itself
+    same(rc.load(path), result)
+
+
+def test_no_pickle_inside(tmp_path):
+    rc.modes(CHAIN).save(tmp_path / "result.npz")
+    with np.load(tmp_path / "result.npz", allow_pickle=False) as file:
+        assert all(array.dtype != object for array in file.values())
+
+
+def test_netcdf_is_labelled(tmp_path):
+    import xarray
+
+    rc.modes(CHAIN).save(tmp_path / "result.nc")
+    with xarray.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as data:
+        assert data.sizes["mode"] == CHAIN.mode_count and data.sizes["pin"] == 5 and data.sizes["link"] == 4
+
+
+def test_xarray():
+    result = rc.modes(CHAINS["rods"], count=5)
+    data = result.to_xarray()
+    assert data.mode.values.tolist() == [1, 2, 3, 4, 5]
+    assert float(data.conical_height.sel(mode=3)) == result.conical_height[2]
+    assert data["shape"].dims == ("mode", "pin") and data.weight.dims == ("link",)
+    assert data.pin_position.values[0] == 0 and data.pin_position.values[-1] == pytest.approx(0.36)
+    assert np.array_equal(data.node_position.sel(mode=3).dropna("node").values, result.nodes[2])
+    assert data.attrs["status"] == "success"
+    assert "shape" not in rc.modes(CHAIN, shapes=False).to_xarray()
+
+
+@pytest.mark.parametrize("name", ["result", "result.txt", "result.npz.gz"])
+def test_other_endings(tmp_path, name):
+    with pytest.raises(ValueError, match=r"\.npz or \.nc"):
+        rc.modes(CHAIN).save(tmp_path / name)
+    with pytest.raises(ValueError, match=r"\.npz or \.nc"):
+        rc.load(tmp_path / name)
+
+
+@pytest.mark.parametrize("ending", [".npz", ".nc"])
+def test_not_a_result(tmp_path, ending):
+    path = tmp_path / f"other{ending}"
+    for content in (b"", b"nonsense", b"PK\x03\x04 nonsense", b"\x89HDF\r\n\x1a\n nonsense"):
+        path.write_bytes(content)
+        with pytest.raises(ValueError, match="not a result that revchain saved"):
+            rc.load(path)
+    with pytest.raises(FileNotFoundError):
+        rc.load(tmp_path / f"missing{ending}")
+
+
+def test_other_arrays_and_objects(tmp_path):
+    path = tmp_path / "other.npz"
+    for arrays in ({"a": np.zeros(3)}, {"kind": np.array("revchain modes 99")}, {"kind": np.array([None])}):
+        np.savez(path, **arrays)
+        with pytest.raises(ValueError, match="not a result that revchain saved"):
+            rc.load(path)
+
+
+def test_truncated(tmp_path):
+    for ending in (".npz", ".nc"):
+        path = tmp_path / f"cut{ending}"
+        rc.modes(CHAINS["rods"]).save(path)
+        path.write_bytes(path.read_bytes()[:-1000])
+        with pytest.raises(ValueError, match="not a result"):
+            rc.load(path)
+
+
+@pytest.mark.parametrize("place", ["missing/result.npz", "file/result.npz", "/proc/result.npz"])
+def test_folder_that_cannot_be_written(tmp_path, place):
+    (tmp_path / "file").write_text("a file, no folder")
+    with pytest.raises(OSError) as caught:
+        rc.modes(CHAIN).save(tmp_path / place)
+    assert caught.value.filename == str(tmp_path / place)
+    assert [entry.name for entry in tmp_path.iterdir()] == ["file"]
+
+
+@pytest.mark.parametrize("ending", [".npz", ".nc"])
+def test_failure_in_the_middle_leaves_the_old_file(tmp_path, monkeypatch, ending):
+    path = tmp_path / f"result{ending}"
+    rc.modes(CHAIN).save(path)
+    before = path.read_bytes()
+
+    def broken(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(_storage.np, "savez", broken)
+    monkeypatch.setattr("xarray.Dataset.to_netcdf", broken)
+    with pytest.raises(OSError, match="No space"):
+        rc.modes(CHAINS["rods"]).save(path)
+    assert path.read_bytes() == before
+    assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_several_files_appear_together(tmp_path):
+    one, two = tmp_path / "one", tmp_path / "two"
+    one.write_text("old")
+    with pytest.raises(KeyboardInterrupt), _files.written_aside(one, two) as [first, second]:
+        first.write_text("new")
+        second.write_text("half")
+        assert one.read_text() == "old" and not two.exists()
+        raise KeyboardInterrupt
+    assert one.read_text() == "old"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["one"]
+    with _files.written_aside(one, two) as [first, second]:
+        first.write_text("new")
+        second.write_text("new too")
+    assert one.read_text() == "new" and two.read_text() == "new too"
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_links_devices_and_permissions(tmp_path):
+    target, link = tmp_path / "target.txt", tmp_path / "link.txt"
+    target.write_text("old")
+    link.symlink_to(target)
+    with _files.written_aside(link) as [aside]:
+        aside.write_text("new")
+    assert link.is_symlink() and target.read_text() == "new"
+    with _files.written_aside("/dev/null") as [aside]:
+        aside.write_text("nothing")
+    assert not os.path.isfile("/dev/null") and os.path.exists("/dev/null")
+    with pytest.raises(IsADirectoryError), _files.written_aside(tmp_path):
+        pass
+    plain = tmp_path / "plain.txt"
+    plain.write_text("")
+    with _files.written_aside(tmp_path / "new.txt") as [aside]:
+        aside.write_text("")
+    assert (tmp_path / "new.txt").stat().st_mode == plain.stat().st_mode  # the umask, as for any other file
