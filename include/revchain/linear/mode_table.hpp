@@ -50,6 +50,10 @@ struct Modes {
         return each(gravity, &conical_pendulum::revolutions_per_second<T>);
     }
 
+    /// A bound beyond the tolerance asked, or none at all, is `tolerance_not_met`.
+    void note_status(const T& bound, const ModesOptions<T>& options) {
+        if (!(bound <= options.rtol.value_or(std::numeric_limits<T>::max()))) status = Status::tolerance_not_met;
+    }
     /// Stores the offsets of mode `j` normalised, with residual and nodes; `height` in the unit of `pencil`.
     void set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<T>& pencil, const T& height,
                    Vector<T> offset);

@@ -21,34 +21,25 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
 namespace detail {
 
-/// Height number `j` to `goal`, from its bracket, and its eigenvector: the cheapest certificate first.
+/// Height number `j` to `goal`, from its bracket: the cheapest certificate first.
 template <Real T>
 linalg::Certified<T> polish(const linalg::ElementPencil<Wide<T>>& wide, const linalg::ElementPencil<T>& pencil, Index j,
-                            const linalg::Bracket<T>& bracket, const T& goal, bool loose, Vector<T>* offset) {
+                            const linalg::Bracket<T>& bracket, const T& goal, bool loose) {
     using S = Wide<T>;
-    T height = linalg::between(bracket.lower, bracket.upper);
+    const T start = linalg::between(bracket.lower, bracket.upper);
     if (loose) {
         const T margin = goal / T(2);
-        if (linalg::lies_within<T>(pencil, j, height, margin)) {
-            if (offset != nullptr) *offset = linalg::eigenvector(pencil, height);
-            return {height, linalg::bound_of_margin<T>(margin)};
-        }
+        if (linalg::lies_within<T>(pencil, j, start, margin)) return {start, linalg::bound_of_margin<T>(margin)};
     }
-    // Two rounds suffice: the quotient's error is the square of the vector's.
+    // One round nearly always, two at most: the quotient's error is the square of the vector's.
     const T margin = T(2) * epsilon<T>();
-    Vector<T> scratch;
-    Vector<T>& shape = offset != nullptr ? *offset : scratch;
+    T height = start;
     for (int round = 0; round < 2; ++round) {
-        shape = linalg::eigenvector(pencil, height);
-        normalise(shape);
-        height = static_cast<T>(linalg::rayleigh_quotient<S>(wide, shape));
+        height = static_cast<T>(linalg::rayleigh_quotient<S>(wide, linalg::eigenvector(pencil, height)));
         if (linalg::lies_within<S>(wide, j, height, static_cast<Narrow<S>>(margin)))
             return {height, linalg::bound_of_margin<S>(margin)};
     }
-    const linalg::Certified<T> sure =
-        linalg::bisect_certified<S>(wide, j, linalg::between(bracket.lower, bracket.upper));
-    shape = linalg::eigenvector(pencil, sure.eigenvalue);
-    return sure;
+    return linalg::bisect_certified<S>(wide, j, start);
 }
 
 }  // namespace detail
@@ -62,7 +53,7 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
     const linalg::ElementPencil<T> pencil = linalg::rounded<T>(assembled.pencil);
 
     const T finest = T(2) * epsilon<T>();
-    const T goal = options.rtol ? std::min(*options.rtol, T(0.5)) : T(8) * finest;
+    const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
     // Counts in T are proved down to about an ulp for each link; below that the certificate needs Wide<T>.
     const bool loose = goal > T(64) * epsilon<T>() * T(chain.size());
 
@@ -74,14 +65,14 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
 
     Modes<T> result(chain, options);
     result.method = "bisection";
-    Vector<T> offset;
     for (Index j = 0; j < count; ++j) {
-        const auto sure = detail::polish(assembled.pencil, pencil, j, brackets[static_cast<std::size_t>(j)], goal,
-                                         loose, options.shapes ? &offset : nullptr);
+        const auto sure =
+            detail::polish(assembled.pencil, pencil, j, brackets[static_cast<std::size_t>(j)], goal, loose);
         result.conical_height[j] = ldexp(sure.eigenvalue, assembled.units.length_exponent);
         result.error_bound[j] = sure.error_bound;
-        if (!(sure.error_bound <= goal)) result.status = Status::tolerance_not_met;
-        if (options.shapes) result.set_shape(j, chain, pencil, sure.eigenvalue, std::move(offset));
+        result.note_status(sure.error_bound, options);
+        if (options.shapes)  // at the final height: the shape then does not depend on what else was asked
+            result.set_shape(j, chain, pencil, sure.eigenvalue, linalg::eigenvector(pencil, sure.eigenvalue));
         detail::advance(options.progress, 0.3 + 0.7 * static_cast<double>(j + 1) / static_cast<double>(count));
     }
     return result;

@@ -34,8 +34,7 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const l
         const T height = system.values[j];
         result.conical_height[j] = ldexp(height, assembled.units.length_exponent);
         result.error_bound[j] = proved_error(assembled, j, height);
-        if (!(result.error_bound[j] <= options.rtol.value_or(std::numeric_limits<T>::max())))
-            result.status = Status::tolerance_not_met;
+        result.note_status(result.error_bound[j], options);
         if (options.shapes) {
             Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
             offset.head(chain.size()) = system.vectors.col(j);
