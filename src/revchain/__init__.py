@@ -52,6 +52,9 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     """Import what needs more than numpy at the moment it is asked for."""
     if name in ("Scene", "load_scene"):
+        from ._extras import require
+
+        require("msgspec", "cli", "a scene file")
         from . import scene
 
         value = getattr(scene, name)

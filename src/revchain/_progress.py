@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from threading import Thread
+from threading import Event, Thread
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
@@ -21,28 +21,28 @@ def watched(work: Callable[[_core.Progress], Modes], console: Console, quiet: bo
     progress = _core.Progress()
     results: list[Modes] = []
     errors: list[BaseException] = []
+    done = Event()  # Thread.join forgets a running thread when Ctrl-C interrupts it (Python 3.11)
 
     def run() -> None:
         try:
             results.append(work(progress))
         except BaseException as error:
             errors.append(error)
+        finally:
+            done.set()
 
-    worker = Thread(target=run, daemon=True)
-    worker.start()
+    Thread(target=run, daemon=True).start()
     try:
-        worker.join(PATIENCE)
-        if worker.is_alive():
+        if not done.wait(PATIENCE):
             columns = (TextColumn("solving"), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn())
             silent = quiet or not console.is_terminal
             with Progress(*columns, console=console, transient=True, disable=silent) as bar:
                 task = bar.add_task("solving", total=1.0)
-                while worker.is_alive():
-                    worker.join(TICK)
+                while not done.wait(TICK):
                     bar.update(task, completed=progress.fraction)
     except KeyboardInterrupt:
         progress.cancel()
-        worker.join()
+        done.wait()
         raise
     if errors:
         raise errors[0]

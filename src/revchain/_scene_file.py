@@ -16,6 +16,7 @@ import msgspec
 
 from ._arguments import shown
 from ._scene_error import SceneError
+from ._units import SI
 
 Kind = TypeVar("Kind")
 
@@ -63,7 +64,9 @@ def _place_of_toml_error(message: str, text: str) -> tuple[str, str]:
 
 def _explained(message: str, raw: Any, kind: type) -> tuple[str, str]:
     """The key path and the sentence for a message such as ``Expected `int`, got `str` - at `$.ask.modes```."""
-    sentence, _, path = message.partition(" - at `")
+    sentence, _, path = message.rpartition(" - at `") if " - at `" in message else (message, "", "")
+    if path.startswith("key` in"):
+        return "", "every key must be text"
     key = path.rstrip("`").removeprefix("$").lstrip(".")
     unknown = re.fullmatch(r"Object contains unknown field `(.*)`", sentence, re.DOTALL)
     if unknown:
@@ -75,39 +78,36 @@ def _explained(message: str, raw: Any, kind: type) -> tuple[str, str]:
     if missing:
         return f"{key}.{missing[1]}".lstrip("."), "is missing"
     value = _value_at(raw, key)
-    if sentence.startswith("Invalid enum value"):
-        return key, _choice(kind, key, value)
+    parts = list(_parts_of(_annotation_at(kind, key)))
+    words = [str(word) for part in parts if get_origin(part) is Literal for word in get_args(part)]
+    out_of_range = re.fullmatch(r"Expected `\w+` (>|>=|<=) (\S+)", sentence)
+    if words and not out_of_range:
+        return key, _choice(words, int in parts, value)
+    if any(isinstance(part, msgspec.Meta) and part.pattern for part in parts) and not out_of_range:
+        example = SI.get(key.rpartition(".")[2], SI["length"])[2]
+        return key, f'must be a number, or a number and its unit such as "{example}", got {shown(value)}'
     return key, _sentence(sentence, value)
 
 
-def _choice(kind: type, key: str, value: Any) -> str:
-    """The sentence for a word that is not among those allowed."""
-    table, _, name = key.rpartition(".")
-    annotation = next(field.type for field in _fields_at(kind, table) if field.encode_name == name)
-    words = [str(word) for word in _literals_in(annotation)]
-    allowed = "a whole number or " if any(part is int for part in _parts_of(annotation)) else ""
-    allowed += words[0] if len(words) == 1 else "one of " + ", ".join(words)
+def _choice(words: list[str], or_number: bool, value: Any) -> str:
+    """The sentence for a value that is not among the words allowed."""
+    allowed = words[0] if len(words) == 1 else "one of " + ", ".join(words)
     near = get_close_matches(str(value), words, n=1)
-    return f"must be {allowed}, got {shown(value)}" + (f"; did you mean {near[0]}?" if near else "")
+    hint = f"; did you mean {near[0]}?" if near else ""
+    return f"must be {'a whole number or ' if or_number else ''}{allowed}, got {shown(value)}{hint}"
 
 
 def _sentence(sentence: str, value: Any) -> str:
+    """A sentence of msgspec in the words of a scene's author."""
     got = f", got {shown(value)}"
-    if "matching regex" in sentence:
-        return f'must be a number, or a number and its unit such as "39.1396 inch"{got}'
     limit = re.fullmatch(r"Expected `\w+` (>|>=|<=) (\S+)", sentence)
     if limit:
-        words = {">": "must be above", ">=": "must be at least", "<=": "must be at most"}[limit[1]]
-        number = limit[2].removesuffix(".0")
-        phrase = {"must be above 0": "must be positive", "must be at least 0": "must not be negative"}
-        return phrase.get(f"{words} {number}", f"{words} {number}") + got
+        words = {">": "above", ">=": "at least", "<=": "at most"}[limit[1]] + " " + limit[2].removesuffix(".0")
+        return "must " + {"above 0": "be positive", "at least 0": "not be negative"}.get(words, f"be {words}") + got
     expected = re.fullmatch(r"Expected `(.*)`, got `(.*)`", sentence)
     if expected:
-        words = expected[1].replace("object", "table").replace("array", "list of tables")
-        words = words.replace("float", "number").replace("int", "whole number").replace("str", "text")
-        words = words.replace(" | null", "").replace(" | ", " or ")
-        words = words.replace("number or text", 'number, or a number and its unit such as "39.1396 inch"')
-        return f"must be a {words}{got}"
+        names = {"object": "a table", "array": "a list of tables", "float": "a number", "int": "a whole number"}
+        return f"must be {names.get(expected[1], 'text')}{got}"
     return f"{sentence[0].lower()}{sentence[1:]}{got}"
 
 
@@ -135,8 +135,10 @@ def _fields_at(kind: type, key: str) -> tuple[Any, ...]:
     return msgspec.structs.fields(kind)
 
 
-def _literals_in(annotation: Any) -> list[Any]:
-    return [word for part in _parts_of(annotation) if get_origin(part) is Literal for word in get_args(part)]
+def _annotation_at(kind: type, key: str) -> Any:
+    """What the value at `key` should be; None where that is a table itself."""
+    table, _, name = key.rpartition(".")
+    return next((field.type for field in _fields_at(kind, table) if field.encode_name == name), None)
 
 
 def _parts_of(annotation: Any) -> Iterator[Any]:

@@ -23,6 +23,7 @@ __all__ = ["Ask", "Link", "Scene", "UniformChain", "json_schema", "load_scene"]
 
 MOST_LINKS = 10_000_000
 DEFAULT_MODES = 10
+_WEIGHT = ("weight", "mass")  # one of the two
 
 _WithUnit = Annotated[str, Meta(pattern=PATTERN, description='A number and its unit, such as "39.1396 inch".')]
 Positive = Annotated[float, Meta(gt=0)] | _WithUnit
@@ -357,12 +358,13 @@ def json_schema() -> dict[str, Any]:
     >>> json_schema()["title"]
     'revchain scene'
     """
-    schema = json.schema(Scene)
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "revchain scene",
-        **schema,
-    }
+    schema: dict[str, Any] = json.schema(Scene)
+    for name, pair in (("Scene", ("links", "uniform_chain")), ("Link", _WEIGHT), ("UniformChain", _WEIGHT)):
+        table = schema["$defs"][name]
+        table["description"] = table["description"].partition("\n")[0]
+        table["oneOf"] = [{"required": [key]} for key in pair]
+    schema["$defs"]["Ask"]["description"] = "What is asked."
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "revchain scene", **schema}
 
 
 class _Numbers:

@@ -1,0 +1,364 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line: what it prints, what it writes, how it ends."""
+
+import csv
+import json
+import os
+import pty
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import revchain as rc
+from revchain import _cli, _core
+from revchain._exit_codes import MEANING, ExitCode
+
+WATCH = """
+title = "Watch chain"
+[uniform_chain]
+kind = "rods"
+count = 120
+length = 0.36
+mass = 0.03
+[ask]
+modes = 4
+"""
+SLOW = """
+[uniform_chain]
+kind = "rods"
+count = 400_000
+length = 1
+mass = 1
+[ask]
+modes = 100
+"""
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+    Path("watch.toml").write_text(WATCH)
+
+
+@pytest.fixture
+def run(capsys):
+    """Run a command in this process: exit code, stdout, stderr."""
+
+    def call(*arguments):
+        code = _cli.run([str(argument) for argument in arguments])
+        captured = capsys.readouterr()
+        assert "Traceback" not in captured.err
+        return code, captured.out, captured.err
+
+    return call
+
+
+def files():
+    return sorted(path.name for path in Path().iterdir())
+
+
+def test_the_table(run):
+    code, out, err = run("solve", "watch.toml")
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert lines[0] == "Watch chain"
+    assert lines[1] == "120 links, length 0.36 m, weight 0.294199 N, gravity 9.80665 m/s²"
+    assert lines[2] == "4 of 120 modes by bisection: success"
+    assert all(unit in out for unit in ("rad/s", "rev/min", "error", "bound", "nodes", "m from the free end"))
+    (second,) = (line.split() for line in lines if line.strip().startswith("2 "))
+    assert second == ["2", "14.4064", "137.571", "0.436139", "0.04725087293", "4.4e-16", "1:", "0.0683"]
+    assert max(map(len, lines)) <= 80 and "…\n" not in out
+    assert files() == ["watch.toml"]
+
+
+def test_a_narrow_terminal_cuts_no_number(run, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "30")
+    assert "0.04725087293" in run("solve", "watch.toml")[1]
+
+
+def test_many_modes(run):
+    code, out, _ = run("solve", "watch.toml", "--modes", 100)
+    assert code == 0
+    assert "and 80 more" in out and len(out.splitlines()) < 35
+
+
+def test_json(run):
+    code, out, err = run("solve", "watch.toml", "--json", "-")
+    assert (code, err) == (0, "")
+    data = json.loads(out)
+    assert data["title"] == "Watch chain" and data["status"] == "success"
+    result = rc.load_scene("watch.toml").modes()
+    for k, mode in enumerate(data["modes"]):
+        assert list(mode)[:4] == ["mode", "conical_height", "angular_speed", "period"]
+        assert mode["mode"] == k + 1
+        assert mode["conical_height"] == result.conical_height[k]
+        assert mode["angular_speed"] == result.angular_speed()[k]
+        assert mode["error_bound"] == result.error_bound[k]
+        assert mode["nodes"] == result.nodes[k].tolist()
+    assert run("solve", "watch.toml", "--json", "a.json", "--quiet")[1] == ""
+    assert json.loads(Path("a.json").read_text()) == data
+
+
+def test_csv(run):
+    code, out, _ = run("solve", "watch.toml", "--csv", "-")
+    assert code == 0
+    rows = list(csv.DictReader(out.splitlines()))
+    result = rc.load_scene("watch.toml").modes()
+    assert [float(row["conical_height"]) for row in rows] == result.conical_height.tolist()
+    assert [int(row["node_count"]) for row in rows] == [0, 1, 2, 3]
+    assert [float(node) for node in rows[3]["nodes"].split()] == result.nodes[3].tolist()
+
+
+@pytest.mark.parametrize("name", ["a.png", "a.svg", "a.pdf", "A.PNG"])
+def test_plot(run, name):
+    code, out, _ = run("solve", "watch.toml", "--plot", name)
+    assert code == 0 and f"wrote {name}" in out
+    start = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[name[-3:].lower()]
+    assert Path(name).read_bytes().startswith(start)
+    assert files() == sorted([name, "watch.toml"])
+
+
+def test_out(run):
+    code, out, _ = run("solve", "watch.toml", "--out", "results/here")
+    assert code == 0
+    folder = Path("results/here")
+    assert sorted(path.name for path in folder.iterdir()) == ["watch.csv", "watch.json", "watch.npz", "watch.png"]
+    assert np.array_equal(rc.load(folder / "watch.npz").shape, rc.load_scene("watch.toml").modes().shape)
+    assert run("solve", "watch.toml", "--out", "results/here", "--quiet") == (0, "", "")
+
+
+def test_options_go_before_the_scene(run):
+    code, out, _ = run("solve", "watch.toml", "--modes", 2, "--method", "dense", "--rtol", "1e-6", "--json", "-")
+    data = json.loads(out)
+    assert code == 0 and len(data["modes"]) == 2 and data["method"] == "dense"
+
+
+def test_a_tolerance_that_is_not_met(run):
+    code, out, err = run("solve", "watch.toml", "--rtol", "1e-30", "--json", "a.json")
+    assert code == ExitCode.TOLERANCE_NOT_MET == 1
+    assert "tolerance not met" in out
+    assert err == "revchain: the tolerance is not met: asked 1e-30, reached 4.4e-16\n"
+    assert json.loads(Path("a.json").read_text())["status"] == "tolerance_not_met"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--modes", "121"], "count"),
+        (["--modes", "0"], "count must be at least 1, got 0"),
+        (["--modes", "many"], "--modes"),
+        (["--rtol", "-1"], "-1"),
+        (["--rtol", "nan"], "nan"),
+        (["--method", "qr"], "auto, bisection, dense, recurrence"),
+        (["--plot", "a.jpg"], ".png, .svg, .pdf"),
+        (["--json", "-", "--csv", "-"], "cannot share stdout"),
+        (["--json", "a.txt", "--csv", "a.txt"], "same name"),
+        (["--colour"], "--colour"),
+    ],
+)
+def test_wrong_usage(run, arguments, message):
+    code, out, err = run("solve", "watch.toml", *arguments)
+    assert code == ExitCode.WRONG_USAGE == 2
+    assert out == "" and message in err
+    assert files() == ["watch.toml"]
+
+
+def test_no_scene_and_no_command(run):
+    assert run("solve")[0] == run()[0] == run("dissolve")[0] == ExitCode.WRONG_USAGE
+
+
+def test_scene_invalid(run):
+    Path("bad.toml").write_text("[[links]]\nmass = 1\nlength = -0.5\n")
+    code, out, err = run("solve", "bad.toml", "--json", "a.json")
+    assert (code, out) == (ExitCode.SCENE_INVALID, "") and code == 3
+    assert err == "revchain: bad.toml: links[0].length: must be positive, got -0.5\n"
+    Path("bad.toml").write_text("[[links\n")
+    assert run("solve", "bad.toml")[2].startswith("revchain: bad.toml: line 1, column 8: ")
+    assert run("solve", "missing.toml")[2] == "revchain: missing.toml: cannot be read: No such file or directory\n"
+    assert files() == ["bad.toml", "watch.toml"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--json", "missing/a.json"],
+        ["--csv", "watch.toml/a.csv"],
+        ["--plot", "missing/a.png"],
+        ["--json", "a.json", "--plot", "missing/a.png"],
+        ["--out", "watch.toml"],
+        ["--out", "/proc/results"],
+        ["--json", "."],
+        ["--json", "/dev/full"],
+    ],
+)
+def test_output_that_cannot_be_written(run, arguments):
+    code, out, err = run("solve", "watch.toml", *arguments)
+    assert (code, out) == (ExitCode.OUTPUT_FAILED, "") and code == 4
+    assert len(err.splitlines()) == 1 and "cannot be written" in err
+    assert files() == ["watch.toml"]
+
+
+def test_it_is_found_out_before_solving(run, monkeypatch):
+    monkeypatch.setattr(_cli, "watched", lambda *_: pytest.fail("solved"))
+    assert run("solve", "watch.toml", "--json", "missing/a.json")[0] == ExitCode.OUTPUT_FAILED
+
+
+def test_failure_in_the_middle_leaves_nothing_half_written(run, monkeypatch):
+    Path("a.json").write_text("old")
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(_cli, "csv_text", full)
+    code, _, err = run("solve", "watch.toml", "--json", "a.json", "--csv", "a.csv")
+    assert code == ExitCode.OUTPUT_FAILED and "No space left" in err
+    assert Path("a.json").read_text() == "old" and files() == ["a.json", "watch.toml"]
+
+
+def test_memory(run, monkeypatch):
+    def greedy(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(_cli, "solve_chain", greedy)
+    code, _, err = run("solve", "watch.toml", "--json", "a.json")
+    assert code == ExitCode.WRONG_USAGE and "memory" in err and files() == ["watch.toml"]
+
+
+def test_validate(run):
+    Path("bad.toml").write_text("[[links]]\nmass = 1\nlenght = 1\n")
+    code, out, err = run("validate", "watch.toml", "bad.toml", "missing.toml")
+    assert code == ExitCode.SCENE_INVALID
+    assert out == "watch.toml: valid: Chain of 120 links, length 0.36, weight 0.294199\n"
+    assert "bad.toml: links[0].lenght: unknown key; did you mean length?" in err and "missing.toml" in err
+    assert run("validate", "watch.toml")[0] == 0
+
+
+def test_new(run):
+    code, out, _ = run("new")
+    assert code == 0 and out == "wrote scene.toml; now: revchain solve scene.toml\n"
+    text = Path("scene.toml").read_text()
+    assert text.count("#") > 15
+    assert run("validate", "scene.toml")[0] == run("solve", "scene.toml")[0] == 0
+    Path("scene.toml").write_text("mine")
+    code, _, err = run("new")
+    assert code == ExitCode.OUTPUT_FAILED and "--force" in err and Path("scene.toml").read_text() == "mine"
+    assert run("new", "scene.toml", "--force")[0] == 0 and Path("scene.toml").read_text() == text
+    assert run("new", "-")[1] == text
+    assert run("new", "missing/scene.toml")[0] == ExitCode.OUTPUT_FAILED
+
+
+def test_what_the_new_scene_says_in_comments_is_right(run):
+    """The other half, commented out, is a scene too."""
+    run("new", "a.toml")
+    _, _, rest = Path("a.toml").read_text().partition("# ---- ...")
+    uncommented = [line.removeprefix("# ") for line in rest.splitlines()[2:] if not line.startswith("# ----")]
+    Path("b.toml").write_text("\n".join(line for line in uncommented if line != "#"))
+    assert rc.load_scene("b.toml").chain() == rc.Chain.uniform_rods(120, 0.36, 0.03 * 9.80665)
+    assert rc.load_scene("b.toml").ask.rtol == 1e-9
+
+
+def test_schema(run):
+    assert run("schema")[1] == Path(rc.__file__).with_name("scene.schema.json").read_text(encoding="utf-8")
+
+
+def test_help_tells_the_exit_codes(run):
+    for arguments in (["--help"], ["solve", "--help"]):
+        code, out, _ = run(*arguments)
+        assert code == 0
+        flat = " ".join(out.split())
+        for number, meaning in MEANING.items():
+            assert f"{number.value} {meaning}" in flat
+    assert set(MEANING) == set(ExitCode)
+
+
+def test_version(run):
+    assert run("--version") == (0, f"revchain {rc.__version__}\n", "")
+
+
+def test_as_a_program(python):
+    done = python("-m", "revchain", "solve", "watch.toml", "--quiet", "--json", "-")
+    assert done.returncode == 0 and done.stderr == "" and len(json.loads(done.stdout)["modes"]) == 4
+    done = python("-m", "revchain", "solve", "missing.toml")
+    assert done.returncode == 3 and len(done.stderr.splitlines()) == 1
+    script = Path(sys.executable).with_name("revchain")
+    assert subprocess.run([script, "--version"], capture_output=True, text=True).stdout == f"revchain {rc.__version__}\n"
+
+
+def test_a_reader_that_stops_early():
+    done = subprocess.run(
+        f"{sys.executable} -m revchain solve watch.toml --modes 120 --json - | head -n 1; echo ${{PIPESTATUS[0]}}",
+        shell=True, executable="/bin/bash", capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.stdout.splitlines() == ["{", "0"] and done.stderr == ""
+
+
+@pytest.mark.parametrize("missing", ["typer", "rich", "msgspec"])
+def test_without_the_extra(python, without, missing):
+    program = without(missing) + "from revchain.__main__ import main\nsys.exit(main())\n"
+    done = python("-c", program)
+    assert done.returncode == 2
+    assert done.stdout == "" and done.stderr == f'The command line needs {missing}: pip install "revchain[cli]"\n'
+
+
+def test_without_matplotlib(python, without):
+    program = without("matplotlib") + "from revchain.__main__ import main\nsys.exit(main())\n"
+    done = python("-c", program, "solve", "watch.toml", "--plot", "a.png")
+    assert done.returncode == 2 and done.stderr == 'revchain: --plot needs matplotlib: pip install "revchain[plot]"\n'
+    done = python("-c", program, "solve", "watch.toml", "--out", "here")
+    assert done.returncode == 0 and "no picture" in done.stderr
+    assert sorted(path.name for path in Path("here").iterdir()) == ["watch.csv", "watch.json", "watch.npz"]
+
+
+def test_interrupted(python):
+    Path("slow.toml").write_text(SLOW)
+    command = [sys.executable, "-m", "revchain", "solve", "slow.toml", "--json", "a.json"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    until = time.monotonic() + 20
+    while not any(name.startswith(".a-") for name in os.listdir()) and time.monotonic() < until:
+        time.sleep(0.01)  # the file set aside shows that it is at work
+    time.sleep(0.3)
+    started = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert (process.returncode, out, err) == (ExitCode.INTERRUPTED, "", "revchain: interrupted\n")
+    assert time.monotonic() - started < 5
+    assert files() == ["slow.toml", "watch.toml"]
+
+
+def test_progress_is_shown_on_a_terminal_after_a_while(monkeypatch):
+    Path("slow.toml").write_text(SLOW)
+    screen, terminal = pty.openpty()
+    command = [sys.executable, "-m", "revchain", "solve", "slow.toml"]
+    environment = {**os.environ, "TERM": "xterm"}
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=terminal, env=environment)
+    os.close(terminal)
+    shown, started = b"", time.monotonic()
+    try:
+        while b"solving" not in shown and time.monotonic() < started + 20:
+            shown += os.read(screen, 4096)
+        waited = time.monotonic() - started
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == ExitCode.INTERRUPTED
+    finally:
+        process.kill()
+        os.close(screen)
+    assert b"solving" in shown and waited >= 2
+
+
+def test_errors_of_the_worker_arrive(monkeypatch):
+    from rich.console import Console
+
+    from revchain._progress import watched
+
+    def work(progress):
+        assert isinstance(progress, _core.Progress)
+        raise ValueError("from the thread")
+
+    with pytest.raises(ValueError, match="from the thread"):
+        watched(work, Console())

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every public thing is described, in numpydoc form, with an example that runs."""
+
+import doctest
+import importlib
+import inspect
+import pkgutil
+
+import pytest
+
+import revchain as rc
+import revchain.scene
+
+MODULES = [
+    importlib.import_module(f"revchain.{module.name}")
+    for module in pkgutil.iter_modules(rc.__path__)
+    if module.name not in ("_core", "__main__")
+]
+
+
+def public():
+    """(name, object) of every public function, class and method."""
+    for module in (rc, rc.heavy_chain, rc.conical_pendulum, revchain.scene):
+        for name in module.__all__:
+            thing = getattr(module, name)
+            if inspect.isfunction(thing):
+                yield f"{module.__name__}.{name}", thing
+            elif inspect.isclass(thing):
+                yield f"{module.__name__}.{name}", thing
+                for method, member in vars(thing).items():
+                    member = getattr(member, "__func__", member)
+                    if not method.startswith("_") and inspect.isfunction(member):
+                        yield f"{module.__name__}.{name}.{method}", member
+
+
+PUBLIC = dict(public())
+
+
+def test_something_is_public():
+    assert len(PUBLIC) > 35
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_described(name):
+    thing = PUBLIC[name]
+    text = inspect.getdoc(thing)
+    assert text is not None
+    assert text.splitlines()[0].endswith(".")
+    sections = {line for line, under in zip(text.splitlines(), text.splitlines()[1:], strict=False) if under.startswith("---")}
+    if inspect.isfunction(thing):
+        assert ">>> " in text and "Examples" in sections
+        parameters = [each for each in inspect.signature(thing).parameters if each not in ("self", "cls")]
+        assert ("Parameters" in sections) == bool(parameters)
+        for parameter in parameters:
+            assert parameter in text.partition("Parameters")[2].partition("Returns")[0], parameter
+        assert "Returns" in sections or inspect.signature(thing).return_annotation in (None, "None")
+
+
+@pytest.mark.parametrize("module", [rc, *MODULES], ids=lambda module: module.__name__)
+def test_examples_run(module, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = doctest.testmod(module)
+    assert result.failed == 0
+
+
+def test_there_are_examples():
+    assert sum(doctest.testmod(module).attempted for module in MODULES) > 80

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every example scene against the values beside it, every example program run."""
+
+import json
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+import revchain as rc
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENES = sorted((ROOT / "examples" / "scenes").glob("*.toml"))
+PROGRAMS = sorted((ROOT / "examples" / "python").glob("*.py"))
+SMALL = [path for path in SCENES if rc.load_scene(path).chain().size <= 20]  # for the dense reference
+ULP = 2.0**-52
+# The expected values belong to the decimals of the file and the answers to their roundings. Those cost up
+# to some ulp in principle and 0.9 ulp measured (bell_and_clapper), inside the bound of 2 ulp.
+
+
+def test_there_are_all():
+    assert {path.stem for path in SCENES} >= (
+        {"watch_chain", "bell_and_clapper", "crane_hook_block", "bernoulli_chain", "anchor_chain", "weight_ratio"}
+    )
+    assert len(PROGRAMS) >= 3
+
+
+@pytest.fixture(params=SCENES, ids=lambda path: path.stem)
+def example(request):
+    expected = json.loads(request.param.with_name(f"{request.param.stem}.expected.json").read_text())
+    scene = rc.load_scene(request.param)
+    return scene, scene.modes(), expected
+
+
+def test_heights_and_speeds(example):
+    scene, result, expected = example
+    assert result.status == "success"
+    assert result.chain.size == expected["size"] and len(result) == len(expected["modes"])
+    assert result.error_bound.max() <= 4 * ULP
+    speeds = result.angular_speed(scene.gravity_value())
+    with mp.workdps(40):
+        for k, mode in enumerate(expected["modes"]):
+            height = abs(mp.mpf(float(result.conical_height[k])) / mp.mpf(mode["conical_height"]) - 1)
+            speed = abs(mp.mpf(float(speeds[k])) / mp.mpf(mode["angular_speed"]) - 1)
+            assert height <= result.error_bound[k]
+            assert speed <= result.error_bound[k] / 2 + 2.1 * ULP
+
+
+@pytest.mark.parametrize("path", SMALL, ids=lambda path: path.stem)
+def test_heights_of_the_stored_numbers(path, exact_heights, worst_in_bounds):
+    """Without any allowance for roundings: the bound holds for the numbers as they are stored."""
+    result = rc.load_scene(path).modes()
+    assert worst_in_bounds(result, exact_heights(result.chain)) <= 1
+
+
+def test_nodes(example):
+    _, result, expected = example
+    length = result.chain.length.sum()
+    for nodes, mode in zip(result.nodes, expected["modes"], strict=True):
+        # absolute, in parts of the length; measured 3.2 ulp (weight_ratio)
+        np.testing.assert_allclose(nodes, [float(node) for node in mode["nodes"]], rtol=0, atol=8 * ULP * length)
+
+
+@pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
+def test_programs(python, path):
+    done = python(path)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    assert len(done.stdout.splitlines()) > 3
+
+
+def test_what_the_programs_say(python):
+    picture = python(ROOT / "examples/python/watch_chain.py", "chain.png")
+    assert "59.929               59.929" in picture.stdout and "wrote chain.png" in picture.stdout
+    crane = python(ROOT / "examples/python/crane.py")
+    assert "meets the slower one with 9.855 m of rope" in crane.stdout
+    bell = python(ROOT / "examples/python/silent_bell.py")
+    assert "0.1785  +1.000000" in bell.stdout

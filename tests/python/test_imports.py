@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `import revchain` brings along, and what works without the extras."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import revchain as rc
+
+OPTIONAL = ["matplotlib", "msgspec", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
+
+
+def test_import_needs_numpy_only(python):
+    program = f"import sys, revchain; print([name for name in {OPTIONAL} if name in sys.modules])"
+    done = python("-c", program)
+    assert done.stdout == "[]\n", done.stderr
+
+
+def test_everything_but_the_extras_works_without_them(python, without):
+    program = without(*OPTIONAL) + (
+        "import revchain as rc, pickle\n"
+        "m = rc.modes(rc.Chain.uniform_rods(12), count=3)\n"
+        "m.save('a.npz'); assert rc.load('a.npz').chain == m.chain\n"
+        "repr(m); m._repr_html_(); m.to_dict(); pickle.loads(pickle.dumps(m)); rc.__version__\n"
+        "rc.heavy_chain.conical_heights(3); rc.conical_pendulum.period(1.0)\n"
+        "for attempt in (m.plot, m.chain.plot, m.to_xarray, lambda: m.save('a.nc'), lambda: rc.load('a.nc')):\n"
+        "    open('a.nc', 'w').close()\n"
+        "    try: attempt()\n"
+        "    except ImportError as error: print(error)\n"
+        "try: rc.Scene\n"
+        "except ImportError as error: print(error)\n"
+    )
+    done = python("-c", program)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    assert lines[:2] == ['plotting needs matplotlib: pip install "revchain[plot]"'] * 2
+    assert lines[2] == 'Modes.to_xarray needs xarray: pip install "revchain[netcdf]"'
+    assert lines[3].endswith('pip install "revchain[netcdf]"') and lines[4].endswith('pip install "revchain[netcdf]"')
+    assert lines[5] == 'a scene file needs msgspec: pip install "revchain[cli]"'
+
+
+@pytest.mark.parametrize("missing", OPTIONAL)
+def test_each_extra_may_be_missing_alone(python, without, missing):
+    done = python("-c", without(missing) + "import revchain as rc; print(rc.modes(rc.Chain.uniform_rods(3)).status)")
+    assert done.stdout == "success\n", done.stderr
+
+
+def test_names():
+    assert set(rc.__all__) <= set(dir(rc))
+    for name in rc.__all__:
+        assert getattr(rc, name) is not None
+    assert re.fullmatch(r"\d+\.\d+\.\d+\S*", rc.__version__)
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        rc.nothing  # noqa: B018
+
+
+def test_what_is_shipped():
+    folder = Path(rc.__file__).parent
+    for name in ("py.typed", "_core.pyi", "scene.schema.json", "new_scene.toml"):
+        assert (folder / name).is_file()
+    for path in folder.glob("*.py"):
+        assert path.read_text(encoding="utf-8").startswith("# SPDX-License-Identifier: GPL-3.0-or-later\n"), path
