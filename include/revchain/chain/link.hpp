@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <optional>
+
 #include "revchain/core/double_word.hpp"
 #include "revchain/core/status.hpp"
 
@@ -49,12 +51,11 @@ Link<T> uniform_rod(T weight, T length) {
 /// What is known of a rigid link; exactly one of `pendulum_length` and `radius_of_gyration` is given.
 template <Real T>
 struct CompoundPendulum {
-    static constexpr T not_given = std::numeric_limits<T>::quiet_NaN();
     T weight{};
     T length{};
-    T centroid{};                     ///< h
-    T pendulum_length = not_given;    ///< l, of the equivalent simple pendulum about the upper pin; sign of h
-    T radius_of_gyration = not_given; ///< rho >= 0, about the centre of gravity
+    T centroid{};                            ///< h
+    std::optional<T> pendulum_length{};      ///< l, of the equivalent simple pendulum about the upper pin; sign of h
+    std::optional<T> radius_of_gyration{};   ///< rho >= 0, about the centre of gravity
 };
 
 namespace detail {
@@ -95,13 +96,11 @@ Wide<T> gyration_from_pendulum_length(std::string_view place, T centroid, T pend
 template <Real T>
 Link<T> compound_pendulum(const CompoundPendulum<T>& body) {
     constexpr std::string_view place = "compound_pendulum";
-    const bool has_pendulum_length = body.pendulum_length == body.pendulum_length;
-    const bool has_radius = body.radius_of_gyration == body.radius_of_gyration;
-    if (has_pendulum_length == has_radius)
-        detail::refuse(place, "give either pendulum_length or radius_of_gyration (not both, and not a NaN)");
+    if (body.pendulum_length.has_value() == body.radius_of_gyration.has_value())
+        detail::refuse(place, "give either pendulum_length or radius_of_gyration (not both)");
     return {body.weight, body.length, body.centroid,
-            has_radius ? detail::gyration_from_radius<T>(place, body.radius_of_gyration)
-                       : detail::gyration_from_pendulum_length<T>(place, body.centroid, body.pendulum_length)};
+            body.radius_of_gyration ? detail::gyration_from_radius<T>(place, *body.radius_of_gyration)
+                                    : detail::gyration_from_pendulum_length<T>(place, body.centroid, *body.pendulum_length)};
 }
 
 /// rho, radius of gyration about the centre of gravity.

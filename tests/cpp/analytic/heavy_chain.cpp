@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "revchain/analytic/heavy_chain.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "revchain/linear/modes.hpp"
+#include "support/catch.hpp"
+#include "support/error_metric.hpp"
+#include "support/truth.hpp"
+
+namespace heavy_chain = revchain::analytic::heavy_chain;
+using revchain::Index;
+using support::Quad;
+
+TEST_CASE("heights within 2 ulp of 4 L / j^2", "[analytic]") {
+    std::ifstream file(REVCHAIN_TEST_DATA "/bessel_zeros.csv");
+    std::string line;
+    std::getline(file, line);
+    double worst = 0;
+    for (const double length : {1.0, 0.7, 3e-7}) {
+        const auto heights = heavy_chain::conical_heights(1'000'000, length);
+        file.clear();
+        file.seekg(0);
+        std::getline(file, line);
+        while (std::getline(file, line) && line.front() == '0') {
+            std::istringstream fields(line);
+            std::string order, k, zero;
+            std::getline(std::getline(std::getline(fields, order, ','), k, ','), zero);
+            const Quad j = strtoflt128(zero.c_str(), nullptr);
+            worst = std::max(worst, support::error_in_ulp(heights[std::stol(k) - 1], Quad(length) * 4 / (j * j)));
+        }
+    }
+    CAPTURE(worst);
+    CHECK(worst <= 1.7);  // asked: 4
+}
+
+TEST_CASE("shapes, nodes and vertical points belong together", "[analytic]") {
+    const double length = 2.5;
+    for (const Index mode : {1, 2, 3, 10, 30}) {
+        CAPTURE(mode);
+        CHECK(heavy_chain::shape(0.0, mode, length) == 1.0);
+        CHECK(std::abs(heavy_chain::shape(length, mode, length)) <= 1e-15 * static_cast<double>(mode));
+        const auto nodes = heavy_chain::nodes(mode, length), vertical = heavy_chain::vertical_points(mode, length);
+        REQUIRE(nodes.size() == mode - 1);
+        REQUIRE(vertical.size() == mode - 1);
+        for (Index i = 0; i < mode - 1; ++i) {
+            CHECK(std::abs(heavy_chain::shape(nodes[i], mode, length)) <= 1e-15 * static_cast<double>(mode));
+            // an extremum: lower on both sides, in size
+            const double size = std::abs(heavy_chain::shape(vertical[i], mode, length));
+            CHECK(std::abs(heavy_chain::shape(vertical[i] * (1 - 1e-3), mode, length)) < size);
+            CHECK(std::abs(heavy_chain::shape(vertical[i] * (1 + 1e-3), mode, length)) < size);
+            CHECK(nodes[i] < vertical[i]);
+            if (i > 0) CHECK(vertical[i - 1] < nodes[i]);
+        }
+    }
+}
+
+TEST_CASE("many links tend to the chain", "[analytic]") {
+    const Index n = 2000;
+    const auto rods = revchain::modes(revchain::Chain<double>::uniform_rods(n, 2.5), {.count = 4});
+    const auto heights = heavy_chain::conical_heights(4, 2.5);
+    for (Index k = 0; k < 4; ++k) {
+        CHECK(rods.conical_height[k] == Approx(heights[k]).epsilon(1e-5));
+        for (Index m = 0; m <= n; m += 100)
+            CHECK(rods.shape(k, m) == Approx(heavy_chain::shape(2.5 * static_cast<double>(m) / n, k + 1, 2.5)).margin(2e-4));
+        for (Index i = 0; i < k; ++i)
+            CHECK(rods.nodes[static_cast<std::size_t>(k)][i] == Approx(heavy_chain::nodes(k + 1, 2.5)[i]).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("bad input", "[analytic]") {
+    const double bad = GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
+    CHECK_THROWS_AS(heavy_chain::conical_heights(3, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::shape(0.0, 1, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::nodes(1, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::vertical_points(1, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::revolutions_per_second(1, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::revolutions_per_second(1, 1.0, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::conical_heights(0, 1.0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::shape(0.0, 0, 1.0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::shape(-1e-9, 1, 1.0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::shape(1.0000001, 1, 1.0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::shape(std::nan(""), 1, 1.0), revchain::InvalidArgument);
+}
