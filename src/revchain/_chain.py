@@ -190,6 +190,16 @@ class Chain:
         return self._compiled.mode_count
 
     @property
+    def total_length(self) -> float:
+        """Length of the straight chain, from the support to the free end."""
+        return self._compiled.total_length
+
+    @property
+    def total_weight(self) -> float:
+        """Weight of all links together."""
+        return self._compiled.total_weight
+
+    @property
     def weight(self) -> Floats:
         """Weight of each link, shape (N,), lowest first; read-only."""
         return self._column(self._compiled.weight)
@@ -257,11 +267,11 @@ class Chain:
         return bool(self._compiled == other._compiled)
 
     def __hash__(self) -> int:
-        return hash((self.size, float(self.weight[0]), float(self.weight[-1]), float(self.length[-1])))
+        return hash((self.size, self.total_length, self.total_weight))
 
     def __repr__(self) -> str:
         links = "1 link" if self.size == 1 else f"{self.size:,} links"
-        return f"Chain of {links}, length {self.length.sum():.6g}, weight {self.weight.sum():.6g}"
+        return f"Chain of {links}, length {self.total_length:.6g}, weight {self.total_weight:.6g}"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Chain._wrap, (self._compiled,)

@@ -104,7 +104,7 @@ def plot_chain(chain: Chain, ax: Axes | None, *, length_unit: str, weight_unit: 
     weight = chain.weight
     upper_pin = np.cumsum(length[::-1])[::-1] - length
     centroid = upper_pin + chain.centroid
-    total = float(length.sum())
+    total = chain.total_length
     heavy = weight > 0
     few = chain.size <= MOST_PINS_AS_DOTS
     pins = np.concatenate([upper_pin + length, [0.0]])

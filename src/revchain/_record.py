@@ -43,8 +43,8 @@ def to_dict(modes: Modes, gravity: float, shapes: bool) -> dict[str, Any]:
         "chain": {
             "size": chain.size,
             "mode_count": chain.mode_count,
-            "length": float(chain.length.sum()),
-            "weight": float(chain.weight.sum()),
+            "length": chain.total_length,
+            "weight": chain.total_weight,
         },
     }
 

@@ -25,7 +25,7 @@ def table(modes: Modes, title: str, gravity: float) -> Group:
     links = f"{chain.size:,} link" + ("s" if chain.size > 1 else "")
     heading = Text(title, style="bold")
     facts = Text(
-        f"{links}, length {chain.length.sum():.6g} m, weight {chain.weight.sum():.6g} N, gravity {gravity:.6g} m/s²\n"
+        f"{links}, length {chain.total_length:.6g} m, weight {chain.total_weight:.6g} N, gravity {gravity:.6g} m/s²\n"
         f"{len(modes):,} of {chain.mode_count:,} modes by {modes.method}: "
     )
     met = modes.status == "success"

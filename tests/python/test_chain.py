@@ -97,6 +97,12 @@ def test_repr():
     assert repr(rc.Chain.uniform_rods(10_000)) == "Chain of 10,000 links, length 1, weight 1"
 
 
+def test_totals():
+    chain = rc.Chain(weight=[1e16, 1.0, 1.0], length=0.1)  # plain addition would lose both ones
+    assert chain.total_weight == 1e16 + 2.0
+    assert chain.total_length == pytest.approx(0.3, rel=2.0**-52)
+
+
 def test_massless_links_take_modes_away():
     assert rc.Chain(weight=[1.0, 0.0, 2.0], length=1.0).mode_count == 2
     assert rc.Chain(weight=[1.0, 0.0, 2.0], length=1.0).size == 3

@@ -123,6 +123,8 @@ def test_conical_pendulum_within_2_1_ulp(x, g):
             mg / mx**2,
             mg * mx**2 / (4 * mp.pi**2),
             mp.pi**2 * mx,
+            4 * mp.pi**2 * mx / mg**2,
+            mx * mg**2 / 4,
         ]
     found = [
         conical_pendulum.angular_speed(x, g),
@@ -131,6 +133,8 @@ def test_conical_pendulum_within_2_1_ulp(x, g):
         conical_pendulum.height(x, g),
         conical_pendulum.height_from_period(x, g),
         conical_pendulum.gravity_from_seconds_pendulum(x),
+        conical_pendulum.gravity(x, g),
+        conical_pendulum.height_from_seconds_pendulum(x, g),
     ]
     assert max(errors(found, exact)) <= 2.1
 
@@ -153,6 +157,9 @@ def test_conical_pendulum_refused(function, bad):
         function(1.0, bad)
     with pytest.raises(ValueError, match="length"):
         conical_pendulum.gravity_from_seconds_pendulum(bad)
+    for other in (conical_pendulum.gravity, conical_pendulum.height_from_seconds_pendulum):
+        with pytest.raises(ValueError, match="period"):
+            other(1.0, bad)
 
 
 def test_the_pendulum_that_beats_seconds():
