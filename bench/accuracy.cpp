@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MPL-2.0
+// Error of every conical height against quadruple precision, and the bound reported with it, for the chains of the
+// tests:  build/dev/bench/accuracy [> results.csv]     columns: chain, N, modes measured, worst error in ulp (2^-52),
+// worst bound in ulp, time in ms (CPU, all modes or the 10 slowest, with shapes).
+#include <cstdio>
+#include <ctime>
+
+#include "revchain/linear/modes.hpp"
+#include "support/chains.hpp"
+#include "support/error_metric.hpp"
+#include "support/truth.hpp"
+
+namespace {
+
+using revchain::Index;
+using support::Quad;
+
+double cpu_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+int main() {
+    std::printf("chain,N,modes,measured,worst_error_ulp,worst_bound_ulp,cpu_ms\n");
+    for (const auto& family : support::families()) {
+        for (const Index n : {1, 2, 10, 100, 1000, 3000, 100'000}) {
+            const auto chain = family.make(n);
+            const Index count = n > 3000 ? 10 : chain.mode_count();
+            const double start = cpu_ms();
+            const auto m = revchain::modes(chain, {.count = count});
+            const double time = cpu_ms() - start;
+            const support::Truth truth(chain);
+            const Index step = n == 1000 ? 17 : n == 3000 ? 101 : n > 3000 ? 3 : 1;
+            double worst = 0;
+            Index measured = 0;
+            for (Index j = 0; j < m.size(); j += step, ++measured) {
+                const Quad h = m.conical_height[j];
+                // 1000 times the bound to start from: the truth may well lie outside it
+                const Quad reach = 1000 * Quad(m.error_bound[j]);
+                const Quad exact = truth.height(j, h * (1 - reach), h * (1 + reach), 1e-19);
+                worst = std::max(worst, support::error_in_ulp(m.conical_height[j], exact));
+            }
+            std::printf("\"%s\",%ld,%ld,%ld,%.3f,%.3f,%.2f\n", family.name.c_str(), static_cast<long>(n),
+                        static_cast<long>(count), static_cast<long>(measured), worst,
+                        m.error_bound.maxCoeff() / revchain::epsilon<double>(), time);
+            std::fflush(stdout);
+        }
+    }
+}
