@@ -88,12 +88,13 @@ std::vector<Quad> offsets(const revchain::Modes<T>& m, Index k) {
     return y;
 }
 
-/// |sum of terms| over the sum of their sizes, in ulp of double: how well a balance of several terms comes out.
-inline double imbalance(std::initializer_list<Quad> terms) {
+/// A relation between offsets, sum of coefficient x offset = 0: |sum| over the sum of |coefficients|, in ulp of double.
+/// Offsets are scaled to at most 1, so this is the error in ulp of the largest offset that would explain what is left.
+inline double imbalance(std::initializer_list<std::pair<Quad, Quad>> terms) {
     Quad sum = 0, size = 0;
-    for (const Quad& term : terms) {
-        sum += term;
-        size += fabsq(term);
+    for (const auto& [coefficient, offset] : terms) {
+        sum += coefficient * offset;
+        size += fabsq(coefficient);
     }
     return static_cast<double>(fabsq(sum) / size) / std::numeric_limits<double>::epsilon();
 }

@@ -50,7 +50,7 @@ TEMPLATE_TEST_CASE("§1 (3): at a small inclination lambda is the length l, T = 
 TEMPLATE_TEST_CASE("§1 (4)-(6): g from the seconds pendulum of 39.1396 inches", "[paper][section_1]", float, double,
                    long double) {
     using T = TestType;
-    const T L = T(39.1396L);  // inches, (5)
+    const T L = T(39.1396L);                                                 // inches, (5)
     const Quad truth = strtoflt128("386.29236841687706059773444", nullptr);  // pi^2 39.1396
     const T g = pendulum::gravity_from_seconds_pendulum(L);
     CHECK(error_in_ulp(g, truth) <= 2.0);                           // measured 1.1 (39.1396 is rounded too)
@@ -60,8 +60,8 @@ TEMPLATE_TEST_CASE("§1 (4)-(6): g from the seconds pendulum of 39.1396 inches",
     CHECK(std::round(g / T(12) * T(100)) == T(3219));  // 32.19 feet per second, per second (printed ft./sec.)
 }
 
-TEMPLATE_TEST_CASE("§1 (7): lambda = L T^2/4, T = 2 sqrt(lambda/L), without g or pi", "[paper][section_1]", float, double,
-                   long double) {
+TEMPLATE_TEST_CASE("§1 (7): lambda = L T^2/4, T = 2 sqrt(lambda/L), without g or pi", "[paper][section_1]", float,
+                   double, long double) {
     using T = TestType;
     const T L = T(39.1396L);
     CHECK(pendulum::height_from_seconds_pendulum(L, T(2)) == L);

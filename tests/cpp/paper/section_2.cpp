@@ -43,22 +43,22 @@ TEST_CASE("§2 (1)-(3): the construction of Fig. 3 on the computed shape", "[pap
         for (paper::Index k = 0; k < 2; ++k) {
             const Quad lambda = m.conical_height[k];
             const auto y = paper::offsets(m, k);  // y[0] of P_1, y[1] of P_2
-            const Quad s2 = y[1] / l2, GP2 = Quad(W1) / (Quad(W1) + W2) * l1;
-            const auto note = [&](std::initializer_list<Quad> terms) {
+            const Quad GP2 = Quad(W1) / (Quad(W1) + W2) * l1;
+            const auto note = [&](std::initializer_list<std::pair<Quad, Quad>> terms) {
                 worst = std::max(worst, paper::imbalance(terms));
             };
             // (1): N_1 C_1 = lambda, where the slope of the lower thread is (y_0 - y_1)/l_1
-            note({y[0], -lambda * y[0] / l1, lambda * y[1] / l1});
-            // (1): H K = lambda, G the centre of gravity
-            note({W1 * y[0] / (Quad(W1) + W2), W2 * y[1] / (Quad(W1) + W2), -lambda * s2});
+            note({{1, y[0]}, {-lambda / l1, y[0]}, {lambda / l1, y[1]}});
+            // (1): H K = lambda, G the centre of gravity, y_1/l_2 the slope of the upper thread
+            note({{W1 / (Quad(W1) + W2), y[0]}, {W2 / (Quad(W1) + W2), y[1]}, {-lambda / l2, y[1]}});
             // (2): C_1 P_2 = lambda - l_1
-            note({y[1], -lambda * y[0] / l1, lambda * y[1] / l1, y[0], -y[1]});
+            note({{1, y[1]}, {-(lambda - l1) / l1, y[0]}, {(lambda - l1) / l1, y[1]}});
             // (3): P_2 E / G P_2 = P_2 C_2 / C_1 P_2, multiplied out, with P_2 E = lambda - l_2 from (2)
-            note({lambda * lambda, -lambda * l1, -lambda * l2, Quad(l1) * l2, -GP2 * l2});
+            note({{lambda * lambda, 1}, {-lambda * l1, 1}, {-lambda * l2, 1}, {Quad(l1) * l2, 1}, {-GP2 * l2, 1}});
         }
     }
     CAPTURE(worst);
-    CHECK(worst <= 2);  // ulp of the terms; measured
+    CHECK(worst <= 7.5);  // measured 6.96, where W_2 = 33 W_1; the rest 3.5
 }
 
 TEMPLATE_TEST_CASE("§2 (6): the worked examples", "[paper][section_2]", float, double, long double) {
@@ -74,8 +74,9 @@ TEMPLATE_TEST_CASE("§2 (6): the worked examples", "[paper][section_2]", float, 
     paper::check_heights(m, {Quad(1.5), Quad(0.5)});
 }
 
-TEMPLATE_TEST_CASE("§2 (6): (lambda - a)^2 = (mu a^2 + x^2)/(1 + mu); at x = 0 the periods are as sqrt(1+mu) + sqrt(mu)",
-                   "[paper][section_2]", float, double, long double) {
+TEMPLATE_TEST_CASE(
+    "§2 (6): (lambda - a)^2 = (mu a^2 + x^2)/(1 + mu); at x = 0 the periods are as sqrt(1+mu) + sqrt(mu)",
+    "[paper][section_2]", float, double, long double) {
     using T = TestType;
     double worst = 0;
     for (const T mu : {T(1e-3), T(0.25), T(1) / T(3), T(0.5), T(1), T(2), T(1e3)}) {
@@ -114,10 +115,10 @@ TEST_CASE("§2 text: two springs, of strengths W_1/l_1 and (W_1 + W_2)/l_2", "[p
     // (k_1 lambda - W_1)((k_1 + k_2) lambda - W_2) = k_1^2 lambda^2, with lambda = g/n^2.
     const auto discord = [&](double k2, Quad lambda) {
         const Quad k1 = Quad(W1) / l1;
-        return paper::imbalance({(k1 * lambda - W1) * ((k1 + k2) * lambda - W2), -k1 * k1 * lambda * lambda});
+        return fabsq((k1 * lambda - W1) * ((k1 + k2) * lambda - W2) - k1 * k1 * lambda * lambda);
     };
     for (const Quad& lambda : lagrange(W1, l1, W2, l2)) {
-        CHECK(discord((W1 + W2) / l2, lambda) <= 1e-15);  // of quadruple precision
-        CHECK(discord(W2 / l2, lambda) > 1e14);           // as printed: wrong by tenths
+        CHECK(discord((W1 + W2) / l2, lambda) < Quad(1e-32));
+        CHECK(discord(W2 / l2, lambda) > Quad(0.1));  // as printed
     }
 }

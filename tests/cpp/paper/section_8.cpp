@@ -1,0 +1,507 @@
+// SPDX-License-Identifier: MPL-2.0
+// Greenhill (1908) §8: jointed links, every equation with sec delta = 1 and coded here by hand from the corrected text,
+// in quadruple precision. Links and pins are numbered as in the paper: link m joins P_m (upper) and P_{m-1}.
+#include <functional>
+
+#include "paper.hpp"
+#include "revchain/linear/assembly.hpp"
+#include "revchain/linear/recurrence.hpp"
+
+using paper::Index;
+using paper::Letters;
+using paper::Quad;
+using revchain::Chain;
+using revchain::compound_pendulum;
+using revchain::Link;
+
+namespace {
+
+using Letterses = std::vector<Letters>;  // [1] the lowest link
+using Offsets = std::vector<Quad>;       // [0] the free end
+
+/// A sum that remembers the size of its terms, and of its coefficients.
+struct Balance {
+    Quad sum = 0, size = 0, coefficients = 0;
+    void add(Quad coefficient, Quad offset) {
+        sum += coefficient * offset;
+        size += fabsq(coefficient * offset);
+        coefficients += fabsq(coefficient);
+    }
+    /// For offsets of at most 1: what is left, in ulp of the largest offset.
+    double in_ulp() const {
+        return static_cast<double>(fabsq(sum) / coefficients) / std::numeric_limits<double>::epsilon();
+    }
+};
+
+std::size_t at(Index m) { return static_cast<std::size_t>(m); }
+
+// (7): moment about P_m of link m's own centrifugal force and weight.
+Quad own_moment(const Letterses& link, Index m, Quad lambda, const Offsets& y) {
+    const auto [W, a, h, l, rho2] = link[at(m)];
+    return W * h / lambda * (y[at(m)] - (lambda - l) / a * (y[at(m - 1)] - y[at(m)]));
+}
+
+// (8) for link r, (9) for r = 1: moment about P_m of a link below, acting at P_{m-1}.
+Quad moment_below(const Letterses& link, Index m, Index r, Quad lambda, const Offsets& y) {
+    const auto [W, a, h, l, rho2] = link[at(r)];
+    const Quad lever = link[at(m)].a, drop = y[at(m - 1)] - y[at(m)];
+    if (r == 1) return W * lever / lambda * (1 + h / (lambda - l)) * y[1] - W * drop;
+    return W * lever / lambda * (y[at(r)] + h / a * (y[at(r - 1)] - y[at(r)])) - W * drop;
+}
+
+// (10): nothing hangs below the lowest link.
+Balance relation_10(const Letterses& link, Quad lambda, const Offsets& y) {
+    const auto [W, a, h, l, rho2] = link[1];
+    Balance b;
+    b.add(W * h / a * (1 + (lambda - l) / a), y[1]);
+    b.add(-W * h / a * (lambda - l) / a, y[0]);
+    return b;
+}
+
+Balance relation_12(const Letterses& link, Quad lambda, const Offsets& y) {
+    const auto [W1, a1, h1, l1, rho1] = link[1];
+    const auto [W2, a2, h2, l2, rho2] = link[2];
+    Balance b;
+    b.add(W1 * lambda / a2 + W2 * h2 / a2 * (1 + (lambda - l2) / a2), y[2]);
+    b.add(W1 * (1 + h1 / (lambda - l1)) - W1 * lambda / a2 - W2 * h2 / a2 * (lambda - l2) / a2, y[1]);
+    return b;
+}
+
+Balance relation_19(const Letterses& link, Quad lambda, const Offsets& y) {
+    const auto [W1, a1, h1, l1, rho1] = link[1];
+    const auto [W2, a2, h2, l2, rho2] = link[2];
+    const auto [W3, a3, h3, l3, rho3] = link[3];
+    Balance b;
+    b.add((W1 + W2) * lambda / a3 + W3 * h3 / a3 * (1 + (lambda - l3) / a3), y[3]);
+    b.add(W2 * (1 - h2 / a2) - (W1 + W2) * lambda / a3 - W3 * h3 / a3 * (lambda - l3) / a3, y[2]);
+    b.add(W1 * (1 + h1 / (lambda - l1)) + W2 * h2 / a2, y[1]);
+    return b;
+}
+
+enum class Form {
+    corrected,
+    printed,   // with h_{m-2}/a_{m-1} where h_{m-2}/a_{m-2} belongs
+    with_y_0,  // corrected, with (y_0 - y_1)/a_1 for y_1/(lambda - l_1), which is of no use at lambda = l_1
+};
+
+// (21) for m >= 3.
+Balance relation_21(const Letterses& link, Index m, Quad lambda, const Offsets& y, Form form = Form::corrected) {
+    const auto ratio = [&](Index r) { return link[at(r)].h / link[at(r)].a; };
+    const auto [W, a, h, l, rho2] = link[at(m)];
+    Quad below = 0;
+    for (Index r = 1; r < m; ++r) below += link[at(r)].W;
+    Balance b;
+    b.add(below * lambda / a + W * h / a * (1 + (lambda - l) / a), y[at(m)]);
+    b.add(link[at(m - 1)].W * (1 - ratio(m - 1)) - below * lambda / a - W * h / a * (lambda - l) / a, y[at(m - 1)]);
+    for (Index r = m - 2; r >= 2; --r) {
+        const Quad lower = form == Form::printed && r == m - 2 ? link[at(r)].h / link[at(m - 1)].a : ratio(r);
+        b.add(link[at(r)].W * (1 - lower) + link[at(r + 1)].W * ratio(r + 1), y[at(r)]);
+    }
+    if (form == Form::with_y_0) {
+        b.add(link[1].W * (1 - ratio(1)) + link[2].W * ratio(2), y[1]);
+        b.add(link[1].W * ratio(1), y[0]);
+    } else {
+        b.add(link[1].W * (1 + link[1].h / (lambda - link[1].l)) + link[2].W * ratio(2), y[1]);
+    }
+    return b;
+}
+
+Balance relation(const Letterses& link, Index m, Quad lambda, const Offsets& y) {
+    return m == 1   ? relation_10(link, lambda, y)
+           : m == 2 ? relation_12(link, lambda, y)
+           : m == 3 ? relation_19(link, lambda, y)
+                    : relation_21(link, m, lambda, y);
+}
+
+/// Any offsets that satisfy (10), so that y_0 may be eliminated as the paper does; the support on the axis.
+Offsets random_offsets(paper::Random& random, const Letterses& link, Quad lambda) {
+    Offsets y(link.size());
+    for (std::size_t m = 1; m + 1 < y.size(); ++m) y[m] = random.between(-1, 1);
+    if (y.size() == 2) {
+        y[0] = random.between(-1, 1);  // one link: y_1 = 0, (10) is its equation
+    } else {
+        y[0] = y[1] * (1 + link[1].a / (lambda - link[1].l));
+    }
+    return y;
+}
+
+/// For random chains of 1 to 8 links, offsets tied by (10) and heights not too near l_1.
+void for_random_chains(const std::function<void(const Chain<double>&, const Letterses&, Quad, const Offsets&)>& check) {
+    paper::Random random(800);
+    for (Index size = 1; size <= 8; ++size) {
+        for (int i = 0; i < 25; ++i) {
+            const auto chain = paper::random_chain<double>(random, size);
+            const auto link = paper::letters(chain);
+            const Quad lambda = link[1].l * Quad(random.between(0, 1) < 0.5 ? random.log_between(0.01, 0.9)
+                                                                            : random.log_between(1.1, 100.0));
+            check(chain, link, lambda, random_offsets(random, link, lambda));
+        }
+    }
+}
+
+const double ulp = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+TEST_CASE("§8 (1): k^2 = h (l - h)", "[paper][section_8]") {
+    // Erratum: P_m G_m . G_m P_{m-1} = h (a - h) is printed as equal to it; it is when L lies at the lower pin, l = a.
+    for (const double l : {0.75, 1.0, 1.25}) {
+        const auto link =
+            compound_pendulum<double>({.weight = 1.0, .length = 1.0, .centroid = 0.625, .pendulum_length = l});
+        CHECK(static_cast<double>(link.gyration_squared) == 0.625 * (l - 0.625));
+        CHECK((static_cast<double>(link.gyration_squared) == 0.625 * (1.0 - 0.625)) == (l == 1.0));
+        CHECK(revchain::pendulum_length(link) == l);
+        const double k = revchain::radius_of_gyration(link);
+        CHECK(k == std::sqrt(0.625 * (l - 0.625)));
+    }
+}
+
+TEST_CASE("§8 (2)-(5), (10): the lowest link, y_1 = (lambda - l_1) delta_1", "[paper][section_8]") {
+    paper::Random random(805);
+    double worst = 0;
+    for (Index size = 2; size <= 6; ++size) {
+        for (int i = 0; i < 20; ++i) {
+            const auto chain = paper::random_chain<double>(random, size);
+            const auto link = paper::letters(chain);
+            const auto modes = revchain::modes(chain);
+            for (Index k = 0; k < modes.size(); ++k) {
+                const auto y = paper::offsets(modes, k);
+                const Quad lambda = modes.conical_height[k];
+                const auto [W, a, h, l, rho2] = link[1];
+                // (4): CP = lambda - l, and with (5) the reaction at P_1 leans by phi = (y_1 + h delta)/lambda
+                worst =
+                    std::max(worst, paper::imbalance({{1, y[1]}, {(l - lambda) / a, y[0]}, {-(l - lambda) / a, y[1]}}));
+            }
+        }
+    }
+    CAPTURE(worst);
+    CHECK(worst <= 40);  // ulp of the largest offset; measured 36
+}
+
+TEST_CASE("§8 (7)-(9), (11), (18): the moments add up to (12), (19), (21)", "[paper][section_8]") {
+    Quad worst = 0, least_printed_18 = 1;
+    for_random_chains([&](const Chain<double>& chain, const Letterses& link, Quad lambda, const Offsets& y) {
+        for (Index m = 2; m <= chain.size(); ++m) {
+            Quad sum = own_moment(link, m, lambda, y);
+            for (Index r = 1; r < m; ++r) sum += moment_below(link, m, r, lambda, y);
+            const Balance b = relation(link, m, lambda, y);
+            const Quad factor = lambda / link[at(m)].a;  // "multiplying by lambda/a_m"
+            worst = std::max(worst, fabsq(sum * factor - b.sum) / b.size);
+            if (m == 3) {  // erratum in (18): the second line ends in - W_3 (y_2 - y_3) for - W_2 (y_2 - y_3)
+                const Quad printed = sum + (link[2].W - link[3].W) * (y[2] - y[3]);
+                least_printed_18 = std::min(least_printed_18, fabsq(printed * factor - b.sum) / b.size);
+            }
+        }
+    });
+    CAPTURE(static_cast<double>(worst * Quad(1e34)), static_cast<double>(least_printed_18));
+    CHECK(worst < Quad(1e-33));                           // an identity; measured 9e-34
+    CHECK(static_cast<double>(least_printed_18) > 5e-5);  // measured 6.5e-5, where W_2 and W_3 happen to be near
+}
+
+TEST_CASE("§8 (10), (12), (19), (21): recurrence_matrices is the relation coded by hand", "[paper][section_8]") {
+    Quad worst = 0;
+    for_random_chains([&](const Chain<double>& chain, const Letterses& link, Quad lambda, const Offsets& y) {
+        const auto pencil = revchain::recurrence_matrices(chain);
+        for (Index m = 1; m <= chain.size(); ++m) {
+            Quad sum = 0, size = 0;
+            for (Index column = 0; column < chain.size(); ++column) {
+                const Quad a = pencil.A(m - 1, column) * y[at(column)],
+                           b = lambda * pencil.B(m - 1, column) * y[at(column)];
+                sum += a - b;
+                size += fabsq(a) + fabsq(b);
+            }
+            worst = std::max(worst, fabsq(sum - relation(link, m, lambda, y).sum) / size / ulp);
+        }
+    });
+    CAPTURE(static_cast<double>(worst));
+    CHECK(worst <= 4);  // ulp of the terms; measured 3.01
+}
+
+TEST_CASE("§8 (21): it is a row summation of the element pencil", "[paper][section_8]") {
+    Quad worst = 0;
+    for_random_chains([&](const Chain<double>& chain, const Letterses& link, Quad lambda, const Offsets& y) {
+        const auto assembled = revchain::assemble(chain);
+        const Quad unit = scalbnq(Quad(1), assembled.units.weight_exponent);
+        const Quad height = scalbnq(lambda, -assembled.units.length_exponent);
+        Quad sum = 0;         // rows 0 ... m - 1 of (lambda K - M) y
+        Quad from_below = 0;  // what the element below puts on the pin both share
+        for (Index m = 1; m <= chain.size(); ++m) {
+            const auto& e = assembled.pencil.elements[at(m - 1)];
+            const Quad k = height * support::quad(e.stiffness), A = support::quad(e.lower), B = support::quad(e.upper);
+            const Quad X = (Quad(e.weight) - A - B) / 2, lower = y[at(m - 1)], upper = y[at(m)];
+            sum += from_below + k * (lower - upper) - A * lower - X * upper;
+            from_below = k * (upper - lower) - X * lower - B * upper;
+            const Balance b = relation(link, m, lambda, y);
+            worst = std::max(worst, fabsq(sum * unit + b.sum) / b.size);
+        }
+    });
+    CAPTURE(static_cast<double>(worst) * 1e30);
+    CHECK(worst < Quad(5e-30));  // the entries are double words; measured 4.2e-30
+}
+
+TEST_CASE("§8 (21): the modes satisfy it as corrected, not as printed", "[paper][section_8]") {
+    // h_{m-2}/a_{m-1} is printed for h_{m-2}/a_{m-2}: harmless while the lengths are equal, wrong from m = 4 on.
+    paper::Random random(821);
+    double worst = 0, least_printed = 1, sum_printed = 0;
+    int chains = 0;
+    for (Index size = 4; size <= 8; ++size) {
+        for (int i = 0; i < 20; ++i) {
+            const auto chain = paper::random_chain<double>(random, size);
+            const auto link = paper::letters(chain);
+            const auto modes = revchain::modes(chain);
+            double printed = 0;
+            for (Index k = 0; k < modes.size(); ++k) {
+                const auto y = paper::offsets(modes, k);
+                const Quad lambda = modes.conical_height[k];
+                for (Index m = 3; m <= size; ++m)
+                    worst = std::max(worst, relation_21(link, m, lambda, y, Form::with_y_0).in_ulp());
+                if (fabsq(lambda - link[1].l) < link[1].l / 100) continue;
+                for (Index m = 4; m <= size; ++m) {
+                    const Balance b = relation_21(link, m, lambda, y, Form::printed);
+                    printed = std::max(printed, static_cast<double>(fabsq(b.sum) / b.size));
+                }
+            }
+            least_printed = std::min(least_printed, printed);
+            sum_printed += printed;
+            ++chains;
+        }
+    }
+    CAPTURE(worst, least_printed, sum_printed / chains);
+    CHECK(worst <= 5);                   // ulp of the largest offset; measured 4.1
+    CHECK(least_printed > 0.001);        // measured 0.002: a chain whose lengths differ little
+    CHECK(sum_printed / chains > 0.35);  // of the terms; measured 0.38
+}
+
+TEMPLATE_TEST_CASE("§8 (13), (14): two links", "[paper][section_8]", float, double, long double) {
+    using T = TestType;
+    paper::Random random(814);
+    int hung_above = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Link<T> lower = paper::random_link<T>(random);
+        Link<T> upper = paper::random_link<T>(random);
+        if (i % 3 == 0) {  // a bell: centroid above its pin
+            upper.centroid = static_cast<T>(-0.3 * random()) * upper.length;
+            upper.weight *= T(0.3);
+        }
+        const auto [W1, a1, h1, l1, rho1] = paper::letters(lower);
+        const auto [W2, a2, h2, l2, rho2] = paper::letters(upper);
+        const Quad m = W2 * h2 / (W1 * a2);
+        if (m < Quad(-0.5)) continue;
+        hung_above += h2 < 0;
+        // (14) expanded; m l_2 = W_2 (h_2^2 + k_2^2)/(W_1 a_2), and no term of the discriminant is negative
+        const Quad ml2 = W2 * (h2 * h2 + rho2) / (W1 * a2);
+        const Quad b = (ml2 + a2) / (m + 1);
+        const auto truth =
+            paper::roots(l1 + b, (ml2 * l1 + a2 * (l1 - h1)) / (m + 1), (l1 - b) * (l1 - b) + 4 * a2 * h1 / (m + 1));
+        for (const Quad& lambda : truth) {
+            const Quad left = a2 * h1 / (lambda - l1), right = (m + 1) * (lambda - l2) + l2 - a2;
+            if (fabsq(lambda - l1) > l1 / 1000)
+                CHECK(fabsq(left - right) < 1e-28 * ((m + 1) * (lambda + fabsq(l2)) + fabsq(l2) + a2));
+        }
+        paper::check_heights(revchain::modes(Chain<T>({lower, upper})), truth);
+    }
+    CHECK(hung_above > 50);
+}
+
+TEMPLATE_TEST_CASE("§8 (15): two links, L_2 at the lower pin", "[paper][section_8]", float, double, long double) {
+    using T = TestType;
+    paper::Random random(815);
+    for (int i = 0; i < 200; ++i) {
+        const Link<T> lower = paper::random_link<T>(random);
+        const T a = static_cast<T>(random.between(0.5, 1.5));
+        const auto upper = compound_pendulum<T>({.weight = static_cast<T>(random.log_between(0.1, 10.0)),
+                                                 .length = a,
+                                                 .centroid = a * static_cast<T>(random.between(0.1, 1.0)),
+                                                 .pendulum_length = a});
+        const auto [W1, a1, h1, l1, rho1] = paper::letters(lower);
+        const auto [W2, a2, h2, l2, rho2] = paper::letters(upper);
+        const Quad share = l2 * h1 / (W2 * h2 / (W1 * a2) + 1);
+        paper::check_heights(revchain::modes(Chain<T>({lower, upper})),
+                             paper::roots(l1 + l2, l1 * l2 - share, (l1 - l2) * (l1 - l2) + 4 * share));
+    }
+}
+
+namespace {
+
+/// How far from one line the links of a two-link mode are: y_1/y_0 against a_2/(a_1 + a_2), in ulp.
+double bend(const revchain::Modes<double>& m, Index k, const Letterses& link) {
+    const Quad straight = link[2].a / (link[1].a + link[2].a);
+    return static_cast<double>(fabsq(m.shape(k, 1) / Quad(m.shape(k, 0)) - straight) / straight) / ulp;
+}
+
+/// The mode whose height is nearest.
+Index nearest(const revchain::Modes<double>& m, Quad height) {
+    return fabsq(m.conical_height[0] - height) < fabsq(m.conical_height[1] - height) ? 0 : 1;
+}
+
+}  // namespace
+
+TEST_CASE("§8 (16): a bell and its clapper in one line, h_1 = (m+1) l_1 + m (a_2 - l_2)", "[paper][section_8]") {
+    // Numbers a double holds exactly: m = 1/2, l_1 = 1, a_2 = 1/4, l_2 = 7/4, so h_1 = 3/4.
+    const Link<double> clapper =
+        compound_pendulum<double>({.weight = 1.0, .length = 1.25, .centroid = 0.75, .pendulum_length = 1.0});
+    const auto bell = [](double pendulum_length) {
+        return compound_pendulum<double>(
+            {.weight = 1.0, .length = 0.25, .centroid = 0.125, .pendulum_length = pendulum_length});
+    };
+    const Chain<double> chain({clapper, bell(1.75)});
+    const auto modes = revchain::modes(chain);
+    const Index k = nearest(modes, 1.25);
+    CHECK(modes.conical_height[k] == 1.25);  // lambda - l_1 = a_2
+    CHECK(bend(modes, k, paper::letters(chain)) <= 1);
+    // Any other bell rings.
+    const Chain<double> other({clapper, bell(1.5)});
+    const auto ringing = revchain::modes(other);
+    CHECK(bend(ringing, nearest(ringing, 1.25), paper::letters(other)) * ulp > 0.01);
+
+    paper::Random random(816);
+    double worst_height = 0, worst_bend = 0;
+    for (int i = 0; i < 200; ++i) {
+        const double W1 = random.between(0.5, 2.0), W2 = random.between(0.5, 2.0), a2 = random.between(0.1, 1.0);
+        const double h2 = a2 * random.between(0.1, 0.5), l1 = random.between(0.5, 2.0), m = W2 * h2 / (W1 * a2);
+        const double excess = l1 / m * random.between(0.05, 0.8);  // l_2 = l_1 + a_2 + excess keeps k_1 real
+        const double l2 = l1 + a2 + excess, h1 = (m + 1) * l1 + m * (a2 - l2);
+        const Chain<double> random_bell(
+            {compound_pendulum<double>({.weight = W1, .length = 1.5 * h1, .centroid = h1, .pendulum_length = l1}),
+             compound_pendulum<double>({.weight = W2, .length = a2, .centroid = h2, .pendulum_length = l2})});
+        const auto m2 = revchain::modes(random_bell);
+        const Index straight = nearest(m2, Quad(l1) + a2);
+        worst_height = std::max(worst_height, paper::error_in_ulp(m2.conical_height[straight], Quad(l1) + a2));
+        worst_bend = std::max(worst_bend, bend(m2, straight, paper::letters(random_bell)));
+    }
+    CAPTURE(worst_height, worst_bend);
+    CHECK(worst_height <= 1);  // h_1 is rounded, and what it is made of; measured 0.61
+    CHECK(worst_bend <= 4);    // measured 3.1
+}
+
+TEST_CASE("§8 (17): a uniform rod hung at C and jointed at D, CG.CD = CA^2", "[paper][section_8]") {
+    // Half the rod is the unit of length; G is its middle, C lies c above G, A is the end above C. Then D lies 1/c - 2
+    // below G: within the rod when c > 1/3, "C must lie outside the middle third". The rest of the gloss is wrong: at
+    // c = 0.45 D lies 0.22 below G, within the middle half; at c = 0.8 on the same side of G as C.
+    double worst = 0, worst_height = 0;
+    for (const double c : {0.34, 0.42, 0.45, 0.5, 0.6, 0.8, 0.9, 0.95}) {
+        const Quad C = c, CA = 1 - C, CD = CA * CA / C, D = CD - C;  // (17); D below G
+        const double below = static_cast<double>(1 - D);             // D to the lower end
+        const double above = static_cast<double>(1 + D);             // A to D
+        const Link<double> lower = revchain::uniform_rod<double>(below, below);
+        const Link<double> upper = compound_pendulum<double>({.weight = above,
+                                                              .length = static_cast<double>(CD),
+                                                              .centroid = static_cast<double>((D - 1) / 2 + C),
+                                                              .radius_of_gyration = above / std::sqrt(12.0)});
+        const Chain<double> chain({lower, upper});
+        const auto link = paper::letters(chain);
+        // It is (16):
+        const auto [W1, a1, h1, l1, rho1] = link[1];
+        const auto [W2, a2, h2, l2, rho2] = link[2];
+        const Quad m = W2 * h2 / (W1 * a2), m_l2 = W2 * (h2 * h2 + rho2) / (W1 * a2);
+        CHECK(fabsq((m + 1) * l1 + m * a2 - m_l2 - h1) < 3e-14);
+        // "L of the rod DB about D must be the centre of oscillation of the whole rod about C"
+        const Quad whole = C + 1 / (3 * C);
+        CHECK(fabsq(CD + l1 - whole) < 1e-15);
+        const auto modes = revchain::modes(chain);
+        const Index k = nearest(modes, whole);
+        INFO("c = " << c);
+        worst_height = std::max(worst_height, paper::error_in_ulp(modes.conical_height[k], whole));
+        worst = std::max(worst, bend(modes, k, link));
+        CHECK((D < 0) == (c > 0.5));
+        CHECK((fabsq(D) < Quad(0.5)) == (c > 0.4 && c < 2.0 / 3));
+    }
+    CAPTURE(worst, worst_height);
+    CHECK(worst_height <= 1);  // measured 0.46
+    CHECK(worst <= 1);         // measured 0.57
+    CHECK(1 / 0.33 - 2 > 1);   // and C within the middle third has its D beyond the rod
+}
+
+namespace {
+
+/// Polynomials in lambda, lowest power first.
+using Polynomial = std::vector<Quad>;
+
+Polynomial operator*(const Polynomial& p, const Polynomial& q) {
+    Polynomial r(p.size() + q.size() - 1, 0);
+    for (std::size_t i = 0; i < p.size(); ++i)
+        for (std::size_t j = 0; j < q.size(); ++j) r[i + j] += p[i] * q[j];
+    return r;
+}
+
+Polynomial plus(const Polynomial& p, Quad factor, const Polynomial& q) {
+    Polynomial r(std::max(p.size(), q.size()), 0);
+    for (std::size_t i = 0; i < p.size(); ++i) r[i] += p[i];
+    for (std::size_t j = 0; j < q.size(); ++j) r[j] += factor * q[j];
+    return r;
+}
+
+/// The root near x.
+Quad root(const Polynomial& p, Quad x) {
+    for (int i = 0; i < 20; ++i) {
+        Quad value = 0, derivative = 0;
+        for (std::size_t j = p.size(); j-- > 0;) {
+            derivative = derivative * x + value;
+            value = value * x + p[j];
+        }
+        x -= value / derivative;
+    }
+    return x;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("§8 (20): three links, a cubic", "[paper][section_8]", float, double, long double) {
+    using T = TestType;
+    paper::Random random(820);
+    for (int i = 0; i < 200; ++i) {
+        const auto chain = paper::random_chain<T>(random, 3);
+        const auto link = paper::letters(chain);
+        const auto [W1, a1, h1, l1, rho1] = link[1];
+        const auto [W2, a2, h2, l2, rho2] = link[2];
+        const auto [W3, a3, h3, l3, rho3] = link[3];
+        const Polynomial u{-l1, 1};                  // lambda - l_1, by which the fractions are cleared
+        const Polynomial first{W1 * (h1 - l1), W1};  // W_1 (1 + h_1/(lambda - l_1)), cleared
+        // (20), left: -d_2/d_1 from (19); right: -c_2/c_1 from (12)
+        const Polynomial d2{W2 * (1 - h2 / a2) + W3 * h3 * l3 / (a3 * a3), -(W1 + W2) / a3 - W3 * h3 / (a3 * a3)};
+        const Polynomial d1 = plus(first, W2 * h2 / a2, u);
+        const Polynomial c2{W2 * h2 / a2 * (1 - l2 / a2), W1 / a2 + W2 * h2 / (a2 * a2)};
+        const Polynomial c1 = plus(first, 1, u * Polynomial{W2 * h2 * l2 / (a2 * a2), -W1 / a2 - W2 * h2 / (a2 * a2)});
+        const Polynomial cubic = plus(d2 * c1, -1, c2 * d1);
+        REQUIRE(cubic.size() == 4);
+        const auto m = revchain::modes(chain);
+        std::vector<Quad> truth;
+        for (const T& height : m.conical_height) truth.push_back(root(cubic, Quad(height)));
+        // Three different roots, and their sum: all of them are found
+        CHECK(fabsq(truth[0] + truth[1] + truth[2] + cubic[2] / cubic[3]) < 1e-30 * truth[0]);
+        CHECK(truth[0] > truth[1]);
+        CHECK(truth[1] > truth[2]);
+        paper::check_heights(m, truth);
+    }
+}
+
+TEMPLATE_TEST_CASE("§8: links whose L is the lower pin are kinetically plummets at the pins", "[paper][section_8]",
+                   float, double, long double) {
+    using T = TestType;
+    paper::Random random(822);
+    for (Index size = 1; size <= 8; ++size) {
+        // Lengths and weights of few bits, centroids at quarters: the plummets' weights are exact.
+        std::vector<Link<T>> links, plummets;
+        for (Index m = 0; m < size; ++m) {
+            const T a = static_cast<T>(1 + int(4 * random())), weight = static_cast<T>(1 + int(16 * random()));
+            const T share = static_cast<T>(1 + int(4 * random())) / T(4);  // h/a
+            links.push_back(
+                compound_pendulum<T>({.weight = weight, .length = a, .centroid = share * a, .pendulum_length = a}));
+            plummets.push_back(revchain::plummet<T>(weight * share, a));
+            if (m + 1 < size)
+                plummets.push_back({weight * (T(1) - share), T(0), T(0), {}});  // goes to the next plummet
+        }
+        std::vector<Link<T>> merged;
+        for (std::size_t i = 0; i < plummets.size(); i += 2) {
+            merged.push_back(plummets[i]);
+            if (i > 0) merged.back().weight += plummets[i - 1].weight;
+        }
+        const auto m = revchain::modes(Chain<T>(links)), p = revchain::modes(Chain<T>(merged));
+        REQUIRE(m.size() == p.size());
+        for (Index k = 0; k < m.size(); ++k) {
+            CHECK(m.conical_height[k] == p.conical_height[k]);
+            for (Index pin = 0; pin <= size; ++pin)
+                CHECK(std::abs(m.shape(k, pin) - p.shape(k, pin)) <= T(20) * revchain::epsilon<T>());  // measured
+        }
+    }
+}
