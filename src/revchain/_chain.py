@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, count as checked_count, floats, real
+from ._arguments import Floats, floats, real
+from ._arguments import count as checked_count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -117,7 +117,9 @@ def common(
 @app.command(epilog=EXIT_CODES)
 @guarded
 def solve(
-    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json); [b]revchain new[/b] writes one.")],
+    scene: Annotated[
+        Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json); [b]revchain new[/b] writes one.")
+    ],
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = None,
     json: Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as JSON; - is stdout.")] = None,
     csv: Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as CSV; - is stdout.")] = None,
@@ -181,7 +183,9 @@ def validate(scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", he
 @app.command()
 @guarded
 def new(
-    file: Annotated[Path, typer.Argument(metavar="[FILE]", help="Where to write it; - is stdout.")] = Path("scene.toml"),
+    file: Annotated[Path, typer.Argument(metavar="[FILE]", help="Where to write it; - is stdout.")] = Path(
+        "scene.toml"
+    ),
     force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it is there.")] = False,
 ) -> None:
     """Write a commented scene to start from."""
@@ -242,5 +246,3 @@ def _write(modes: Modes, path: Path, kind: str, title: str, gravity: float) -> N
         axes.set_title(title, wrap=True)
         figure: Any = axes.figure
         figure.savefig(path, dpi=150)
-
-

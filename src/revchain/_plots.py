@@ -35,9 +35,7 @@ def new_axes(width: float, height: float) -> Axes:
     return axes
 
 
-def plot_modes(
-    modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gravity: float, length_unit: str
-) -> Axes:
+def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gravity: float, length_unit: str) -> Axes:
     """See `Modes.plot`."""
     if modes.shape is None or modes.nodes is None:
         raise ValueError("Modes.plot: there are no shapes; compute them with shapes=True")
@@ -82,10 +80,7 @@ def plot_modes(
     ax.set_xlim(-SPACING / 2, SPACING * (len(chosen) - 0.5))
     ax.set_xticks(
         [SPACING * place for place in range(len(chosen))],
-        [
-            f"mode {mode}\n{digits(speeds[mode - 1], 4)} rad/s\n{digits(turns[mode - 1], 4)} rev/min"
-            for mode in chosen
-        ],
+        [f"mode {mode}\n{digits(speeds[mode - 1], 4)} rad/s\n{digits(turns[mode - 1], 4)} rev/min" for mode in chosen],
         fontsize="small",
     )
     ax.set_ylim(1.03 * depth[0], -0.03 * depth[0])

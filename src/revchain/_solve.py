@@ -8,7 +8,8 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, count as checked_count, floats, positive, real, shown, together
+from ._arguments import STANDARD_GRAVITY, Floats, floats, positive, real, shown, together
+from ._arguments import count as checked_count
 from ._chain import Chain
 from ._modes import Modes
 
@@ -195,5 +196,3 @@ def _compiled(place: str, chain: Chain) -> _core.Chain:
     if not isinstance(chain, Chain):
         raise TypeError(f"{place}: chain must be a revchain.Chain, got {shown(chain)}")
     return chain._compiled
-
-

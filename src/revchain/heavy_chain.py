@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, count as checked_count, floats, positive, real, shown, together
+from ._arguments import STANDARD_GRAVITY, Floats, floats, positive, real, shown, together
+from ._arguments import count as checked_count
 
 __all__ = ["conical_heights", "nodes", "revolutions_per_second", "shape", "vertical_points"]
 

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 settings.register_profile(
-    "revchain", deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    "revchain", deadline=None, max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 settings.load_profile("revchain")
 
@@ -34,7 +34,7 @@ def stored_links() -> Callable:
     def links(chain):
         size, *columns = chain._compiled.__getstate__()
         full = [column.tolist() if column.ndim else [float(column)] * size for column in columns]
-        return [(mp.mpf(w), mp.mpf(a), mp.mpf(h), mp.mpf(high) + mp.mpf(low)) for w, a, h, high, low in zip(*full)]
+        return [(mp.mpf(w), mp.mpf(a), mp.mpf(h), mp.mpf(high) + mp.mpf(low)) for w, a, h, high, low in zip(*full, strict=True)]
 
     return links
 
@@ -52,7 +52,7 @@ def exact_heights(stored_links) -> Callable:
             below = [mp.mpf(0)]
             for link in links[:-1]:
                 below.append(below[-1] + link[0])
-            kappa = [w * h + a * s for (w, a, h, _), s in zip(links, below)]
+            kappa = [w * h + a * s for (w, a, h, _), s in zip(links, below, strict=True)]
             n = len(links)
             inertia = mp.matrix(n)
             for m, (w, a, h, rho2) in enumerate(links):

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tables of a scene file: their keys, what each may hold, and how editors explain them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from msgspec import UNSET, Meta, Struct, UnsetType
+
+from ._units import PATTERN
+
+MOST_LINKS = 10_000_000
+
+WithUnit = Annotated[str, Meta(pattern=PATTERN, description='A number and its unit, such as "39.1396 inch".')]
+Positive = Annotated[float, Meta(gt=0)] | WithUnit
+NotNegative = Annotated[float, Meta(ge=0)] | WithUnit
+AnySign = float | WithUnit
+Count = Annotated[int, Meta(ge=1, le=MOST_LINKS)]
+
+
+class Table(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, repr_omit_defaults=True, kw_only=True):
+    """What all tables of a scene share: fixed keys, no positional arguments."""
+
+
+class Link(Table, frozen=True):
+    """One link, or several equal ones. Numbers are SI (m, kg, N) or text with a unit.
+
+    Attributes
+    ----------
+    length : float or str
+        From pin to pin.
+    weight, mass : float or str
+        One of the two; a mass is multiplied by the scene's gravity. 0 is a massless thread.
+    kind : {"plummet", "rod"}, optional
+        A plummet (all weight at the lower pin) if nothing else is said, or a uniform rod.
+    centroid : float or str, optional
+        From the upper pin to the centre of gravity, positive downwards.
+    pendulum_length, radius_of_gyration : float or str, optional
+        One of the two goes with `centroid`.
+    repeat : int
+        How many such links follow one another.
+    """
+
+    length: Annotated[Positive, Meta(description="From pin to pin.")]
+    weight: Annotated[NotNegative | UnsetType, Meta(description="Weight (N); or give mass.")] = UNSET
+    mass: Annotated[NotNegative | UnsetType, Meta(description="Mass (kg); or give weight.")] = UNSET
+    kind: Annotated[
+        Literal["plummet", "rod"] | UnsetType,
+        Meta(description="plummet (default): all weight at the lower pin; rod: uniform between its pins."),
+    ] = UNSET
+    centroid: Annotated[
+        AnySign | UnsetType, Meta(description="From the upper pin down to the centre of gravity; any sign.")
+    ] = UNSET
+    pendulum_length: Annotated[
+        AnySign | UnsetType, Meta(description="Of the equivalent simple pendulum about the upper pin.")
+    ] = UNSET
+    radius_of_gyration: Annotated[
+        NotNegative | UnsetType, Meta(description="About the centre of gravity; or give pendulum_length.")
+    ] = UNSET
+    repeat: Annotated[Count, Meta(description="How many equal links follow one another.")] = 1
+
+
+class UniformChain(Table, frozen=True):
+    """A chain of equal links. Numbers are SI (m, kg, N) or text with a unit.
+
+    Attributes
+    ----------
+    kind : {"plummets", "rods"}
+        What the links are.
+    count : int
+        How many.
+    length, weight, mass : float or str
+        Of the WHOLE chain; one of weight and mass.
+    """
+
+    kind: Annotated[Literal["plummets", "rods"], Meta(description="What the links are.")]
+    count: Annotated[Count, Meta(description="How many links.")]
+    length: Annotated[Positive, Meta(description="Of the whole chain.")]
+    weight: Annotated[Positive | UnsetType, Meta(description="Of the whole chain (N); or give mass.")] = UNSET
+    mass: Annotated[Positive | UnsetType, Meta(description="Of the whole chain (kg); or give weight.")] = UNSET
+
+
+class Ask(Table, frozen=True):
+    """What is asked.
+
+    Attributes
+    ----------
+    modes : int or "all"
+        How many modes, slowest first; 10, or as many as there are, if left out.
+    rtol : float, optional
+        Relative tolerance of the conical heights; as accurate as possible if left out.
+    method : str
+        As for `revchain.modes`.
+    """
+
+    modes: Annotated[
+        Count | Literal["all"] | UnsetType,
+        Meta(description="How many modes, slowest first; 10, or as many as there are, if left out."),
+    ] = UNSET
+    rtol: Annotated[
+        Annotated[float, Meta(ge=0)] | UnsetType,
+        Meta(description="Relative tolerance of the heights; as accurate as possible if left out."),
+    ] = UNSET
+    method: Annotated[Literal["auto", "bisection", "dense", "recurrence"], Meta(description="How to compute.")] = "auto"
