@@ -74,9 +74,8 @@ TEMPLATE_TEST_CASE("§2 (6): the worked examples", "[paper][section_2]", float, 
     paper::check_heights(m, {Quad(1.5), Quad(0.5)});
 }
 
-TEMPLATE_TEST_CASE(
-    "§2 (6): (lambda - a)^2 = (mu a^2 + x^2)/(1 + mu); at x = 0 the periods are as sqrt(1+mu) + sqrt(mu)",
-    "[paper][section_2]", float, double, long double) {
+TEMPLATE_TEST_CASE("§2 (6): (lambda - a)^2 = (mu a^2 + x^2)/(1 + mu), periods at x = 0 as sqrt(1+mu) + sqrt(mu)",
+                   "[paper][section_2]", float, double, long double) {
     using T = TestType;
     double worst = 0;
     for (const T mu : {T(1e-3), T(0.25), T(1) / T(3), T(0.5), T(1), T(2), T(1e3)}) {
