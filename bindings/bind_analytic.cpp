@@ -28,12 +28,6 @@ void bind_analytic(py::module_& module) {
             return rows(count, length, [=](double l) { return heavy_chain::conical_heights(count, l); });
         },
         "count"_a, "length"_a);
-    module.def(
-        "heavy_chain_revolutions_per_second",
-        [](Index count, const Array& length, double gravity) {
-            return rows(count, length, [=](double l) { return heavy_chain::revolutions_per_second(count, l, gravity); });
-        },
-        "count"_a, "length"_a, "gravity"_a);
     module.def("heavy_chain_shape", py::vectorize([](double x, Index mode, double length) {
                    return heavy_chain::shape(x, mode, length);
                }),

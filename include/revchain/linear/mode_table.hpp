@@ -54,8 +54,10 @@ struct Modes {
     void note_status(const T& bound, const ModesOptions<T>& options) {
         if (!(bound <= options.rtol.value_or(std::numeric_limits<T>::max()))) status = Status::tolerance_not_met;
     }
-    /// Stores the offsets of mode `j` normalised, with residual and nodes; `height` in the unit of `pencil`.
-    void set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<T>& pencil, const T& height,
+    /// Stores the offsets of mode `j` normalised, with nodes and the residual in the pencil's scalar; `height` in its
+    /// unit.
+    template <Real S>
+    void set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<S>& pencil, const T& height,
                    Vector<T> offset);
 
    private:
@@ -122,7 +124,8 @@ Modes<T>::Modes(const Chain<T>& chain, const ModesOptions<T>& options) {
 }
 
 template <Real T>
-void Modes<T>::set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<T>& pencil, const T& height,
+template <Real S>
+void Modes<T>::set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<S>& pencil, const T& height,
                          Vector<T> offset) {
     detail::normalise(offset);
     residual[j] = linalg::relative_residual(pencil, height, offset);

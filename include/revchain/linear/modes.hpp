@@ -9,11 +9,12 @@ namespace revchain {
 /// The `count` slowest whirl speeds of small amplitude, Greenhill (1908) §8 (21) with sec delta = 1.
 ///
 /// Method: bisection on counts in T, eight shifts to a pass; twisted shapes; a Rayleigh quotient in `Wide<T>`; and two
-/// proved counts in `Wide<T>` for every mode. With a loose `rtol` the last two are left out or done in T.
-/// Accuracy: conical heights within 1 ulp of the exact ones of the stored numbers (measured, N up to 1e5, any weights
-/// and lengths), error bound 2 ulp and proved; a loose `rtol` is kept by the bound. Shapes as
-/// `linalg::eigenvector` says: 4e-14 of the largest offset up to N = 1000 for modes well apart.
-/// Cost: about 0.7 microseconds per link and mode with shapes (double), O(N k) memory.
+/// proved counts and the shape in `Wide<T>` for every mode. With a loose `rtol` the quotient is left out and the rest
+/// done in T.
+/// Accuracy: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up to 1e5, ten kinds
+/// of chain: tests/cpp/linear/modes.cpp), error bound 2 ulp and proved; a loose `rtol` is kept by the bound. Shapes
+/// 6e-16 of the largest offset; with a loose `rtol` as good as their height, rtol / (gap to the next height).
+/// Cost: about 0.55 microseconds per link and mode with shapes, 0.3 without (double); O(N k) memory.
 /// Throws InvalidArgument for count < 1 or above `chain.mode_count()`, and for a tolerance that is negative or NaN; a
 /// tolerance out of reach is `Status::tolerance_not_met` with the bounds reached.
 template <Real T>
@@ -21,25 +22,35 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
 namespace detail {
 
-/// Height number `j` to `goal`, from its bracket: the cheapest certificate first.
+/// Height number `j` to `goal`, from its bracket: the cheapest certificate first. `shape`, if asked for, receives the
+/// offsets, in T where the tolerance is loose and else in `Wide<T>` at the height before it is rounded.
 template <Real T>
 linalg::Certified<T> polish(const linalg::ElementPencil<Wide<T>>& wide, const linalg::ElementPencil<T>& pencil, Index j,
-                            const linalg::Bracket<T>& bracket, const T& goal, bool loose) {
+                            const linalg::Bracket<T>& bracket, const T& goal, bool loose, Vector<T>* shape) {
     using S = Wide<T>;
+    using M = Narrow<S>;
     const T start = linalg::between(bracket.lower, bracket.upper);
     if (loose) {
         const T margin = goal / T(2);
-        if (linalg::lies_within<T>(pencil, j, start, margin)) return {start, linalg::bound_of_margin<T>(margin)};
+        if (linalg::lies_within<T>(pencil, j, start, margin)) {
+            if (shape != nullptr) *shape = linalg::eigenvector(pencil, start);
+            return {start, linalg::bound_of_margin<T>(margin)};
+        }
     }
     // One round nearly always, two at most: the quotient's error is the square of the vector's.
     const T margin = T(2) * epsilon<T>();
     T height = start;
     for (int round = 0; round < 2; ++round) {
-        height = static_cast<T>(linalg::rayleigh_quotient<S>(wide, linalg::eigenvector(pencil, height)));
-        if (linalg::lies_within<S>(wide, j, height, static_cast<Narrow<S>>(margin)))
+        const S quotient = linalg::rayleigh_quotient<S>(wide, linalg::eigenvector(pencil, height));
+        height = static_cast<T>(quotient);
+        if (linalg::lies_within<S>(wide, j, height, static_cast<M>(margin))) {
+            if (shape != nullptr) *shape = linalg::eigenvector(wide, quotient).template cast<T>();
             return {height, linalg::bound_of_margin<S>(margin)};
+        }
     }
-    return linalg::bisect_certified<S>(wide, j, start);
+    const auto sure = linalg::bisect_certified<S>(wide, j, start);
+    if (shape != nullptr) *shape = linalg::eigenvector(wide, S(static_cast<M>(sure.eigenvalue))).template cast<T>();
+    return sure;
 }
 
 }  // namespace detail
@@ -65,14 +76,15 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
 
     Modes<T> result(chain, options);
     result.method = "bisection";
+    Vector<T> shape;
     for (Index j = 0; j < count; ++j) {
-        const auto sure =
-            detail::polish(assembled.pencil, pencil, j, brackets[static_cast<std::size_t>(j)], goal, loose);
+        const auto sure = detail::polish(assembled.pencil, pencil, j, brackets[static_cast<std::size_t>(j)], goal,
+                                         loose, options.shapes ? &shape : nullptr);
         result.conical_height[j] = ldexp(sure.eigenvalue, assembled.units.length_exponent);
         result.error_bound[j] = sure.error_bound;
         result.note_status(sure.error_bound, options);
-        if (options.shapes)  // at the final height: the shape then does not depend on what else was asked
-            result.set_shape(j, chain, pencil, sure.eigenvalue, linalg::eigenvector(pencil, sure.eigenvalue));
+        if (options.shapes && loose) result.set_shape(j, chain, pencil, sure.eigenvalue, shape);
+        if (options.shapes && !loose) result.set_shape(j, chain, assembled.pencil, sure.eigenvalue, shape);
         detail::advance(options.progress, 0.3 + 0.7 * static_cast<double>(j + 1) / static_cast<double>(count));
     }
     return result;

@@ -24,12 +24,11 @@ T proved_error(const AssembledChain<T>& assembled, Index j, const T& height) {
 
 template <Real T>
 Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const linalg::Eigensystem<T>& system,
-                  std::string method) {
+                  const char* method) {
     using std::ldexp;
     const AssembledChain<T> assembled = assemble(chain);
-    const linalg::ElementPencil<T> pencil = linalg::rounded<T>(assembled.pencil);
     Modes<T> result(chain, options);
-    result.method = std::move(method);
+    result.method = method;
     for (Index j = 0; j < result.size(); ++j) {
         const T height = system.values[j];
         result.conical_height[j] = ldexp(height, assembled.units.length_exponent);
@@ -38,7 +37,7 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const l
         if (options.shapes) {
             Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
             offset.head(chain.size()) = system.vectors.col(j);
-            result.set_shape(j, chain, pencil, height, std::move(offset));
+            result.set_shape(j, chain, assembled.pencil, height, std::move(offset));
         }
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(result.size()));
     }
