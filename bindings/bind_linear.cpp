@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <chrono>
 #include <functional>
+#include <future>
 #include <optional>
 
 #include "bindings.hpp"
@@ -21,13 +23,37 @@ constexpr std::array<Method, 4> methods{{{"auto", &revchain::modes<double>},
                                          {"dense", &revchain::modes_dense<double>},
                                          {"recurrence", &revchain::modes_recurrence<double>}}};
 
-Modes modes(const Chain& chain, std::optional<Index> count, std::optional<double> rtol, const std::string& method,
-            bool shapes, revchain::Progress* progress) {
+auto find_method(const std::string& method) {
     for (const auto& [name, solve] : methods)
-        if (name == method) return solve(chain, {count, rtol, shapes, progress});
+        if (name == method) return solve;
     std::string known;
     for (const auto& [name, solve] : methods) known += (known.empty() ? "" : ", ") + std::string(name);
     revchain::detail::refuse("modes", "method must be one of " + known, method);
+}
+
+/// Runs with the GIL released. What may take more than a moment runs in a thread of its own while this one looks for
+/// Ctrl-C: Python notes the signal, but hears it only when asked.
+Modes modes(const Chain& chain, std::optional<Index> count, std::optional<double> rtol, const std::string& method,
+            bool shapes, revchain::Progress* progress) {
+    const auto solve = find_method(method);
+    constexpr double a_moment = 2e5;  // links times modes: about 0.1 s
+    const double work = static_cast<double>(chain.size()) * static_cast<double>(count.value_or(chain.mode_count()));
+    if (work < a_moment) return solve(chain, {count, rtol, shapes, progress});
+
+    revchain::Progress own;
+    revchain::Progress* watched = progress != nullptr ? progress : &own;
+    auto result = std::async(std::launch::async, [&] { return solve(chain, {count, rtol, shapes, watched}); });
+    while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+        const py::gil_scoped_acquire acquire;
+        if (PyErr_CheckSignals() == 0) continue;
+        watched->cancel();
+        {
+            const py::gil_scoped_release release;
+            result.wait();
+        }
+        throw py::error_already_set();
+    }
+    return result.get();
 }
 
 /// Elementwise over one or two arrays of one shape (the package broadcasts them), the GIL released.

@@ -6,6 +6,9 @@ import dataclasses
 import json
 import math
 import pickle
+import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -324,3 +327,23 @@ def test_threads_share_a_chain():
         worker.join()
     assert len(results) == 8
     assert all(np.array_equal(result.conical_height, expected) for result in results)
+
+
+def test_ctrl_c_stops_a_long_computation():
+    """In the interpreter as in a script: KeyboardInterrupt, soon, and the session goes on."""
+    script = """
+import revchain as rc, time
+print("ready", flush=True)
+start = time.perf_counter()
+try:
+    rc.modes(rc.Chain.uniform_rods(20_000), shapes=False)   # minutes
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+print(rc.modes(rc.Chain.uniform_rods(1)).conical_height.size)
+"""
+    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(0.5)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert (out, err, process.returncode) == ("interrupted\n1\n", "", 0)
