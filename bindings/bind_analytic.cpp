@@ -28,9 +28,8 @@ void bind_analytic(py::module_& module) {
             return rows(count, length, [=](double l) { return heavy_chain::conical_heights(count, l); });
         },
         "count"_a, "length"_a);
-    module.def("heavy_chain_shape", py::vectorize([](double x, Index mode, double length) {
-                   return heavy_chain::shape(x, mode, length);
-               }),
+    module.def("heavy_chain_shape",
+               py::vectorize([](double x, Index mode, double length) { return heavy_chain::shape(x, mode, length); }),
                "x"_a, "mode"_a, "length"_a);
     module.def(
         "heavy_chain_nodes", [](Index mode, double length) { return to_numpy(heavy_chain::nodes(mode, length)); },

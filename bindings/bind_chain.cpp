@@ -27,8 +27,10 @@ class Size {
         if (column.is_scalar()) return;
         const Index stored = static_cast<Index>(column.stored());
         if (size_ && *size_ != stored)
-            refuse("Chain", name + " must have as many numbers as " + name_ + " (" + std::to_string(*size_) +
-                                ") or be a single number", stored);
+            refuse("Chain",
+                   name + " must have as many numbers as " + name_ + " (" + std::to_string(*size_) +
+                       ") or be a single number",
+                   stored);
         if (!size_) size_ = stored, name_ = name;
     }
     Index value() const { return size_.value_or(1); }
@@ -67,7 +69,8 @@ Chain make_chain(const Array& weight, const Array& length, const std::optional<A
     if (pendulum_length) {
         const Column<double> l = column(*pendulum_length, "pendulum_length");
         size.note(l, "pendulum_length");
-        return Chain(size.value(), W, a, h, combined<Wide>(size.value(), h, l, d::gyration_from_pendulum_length<double>));
+        return Chain(size.value(), W, a, h,
+                     combined<Wide>(size.value(), h, l, d::gyration_from_pendulum_length<double>));
     }
     const Column<double> rho = column(*radius_of_gyration, "radius_of_gyration");
     size.note(rho, "radius_of_gyration");
@@ -104,7 +107,8 @@ py::tuple get_state(const Chain& chain) {
 }
 
 Chain set_state(const py::tuple& state) {
-    if (state.size() != 6) refuse("Chain", "this is not the state of a chain; its number of parts must be 6", state.size());
+    if (state.size() != 6)
+        refuse("Chain", "this is not the state of a chain; its number of parts must be 6", state.size());
     const Column<double> high = column(state[4].cast<Array>(), "gyration_squared");
     const Column<double> low = column(state[5].cast<Array>(), "gyration_squared");
     return Chain(state[0].cast<Index>(), column(state[1].cast<Array>(), "weight"),
@@ -130,7 +134,9 @@ void bind_chain(py::module_& module) {
         .def_property_readonly("centroid", [](const Chain& c) { return to_numpy(c.centroid()); })
         .def_property_readonly("pendulum_length", &derived<revchain::pendulum_length<double>>)
         .def_property_readonly("radius_of_gyration", &derived<revchain::radius_of_gyration<double>>)
-        .def("__eq__", [](const Chain& x, const Chain& y) { return x == y; }, py::is_operator())
-        .def("__hash__", [](const Chain& c) { return py::hash(py::make_tuple(c.size(), c.total_weight(), c.total_length())); })
+        .def(
+            "__eq__", [](const Chain& x, const Chain& y) { return x == y; }, py::is_operator())
+        .def("__hash__",
+             [](const Chain& c) { return py::hash(py::make_tuple(c.size(), c.total_weight(), c.total_length())); })
         .def(py::pickle(&get_state, &set_state));
 }

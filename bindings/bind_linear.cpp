@@ -79,20 +79,23 @@ void bind_linear(py::module_& module) {
     py::class_<Modes>(module, "Modes")
         .def_property_readonly("conical_height", [](const Modes& m) { return to_numpy(m.conical_height); })
         .def_property_readonly("error_bound", [](const Modes& m) { return to_numpy(m.error_bound); })
-        .def_property_readonly("shape", [](const Modes& m) -> std::optional<py::array> {
-            if (m.shape.size() == 0) return std::nullopt;
-            return to_numpy(m.shape);
-        })
-        .def_property_readonly("residual", [](const Modes& m) -> std::optional<py::array> {
-            if (m.residual.size() == 0) return std::nullopt;
-            return to_numpy(m.residual);
-        })
-        .def_property_readonly("nodes", [](const Modes& m) -> std::optional<py::list> {
-            if (m.residual.size() == 0) return std::nullopt;
-            py::list lists;
-            for (const auto& nodes : m.nodes) lists.append(to_numpy(nodes));
-            return lists;
-        })
+        .def_property_readonly("shape",
+                               [](const Modes& m) -> std::optional<py::array> {
+                                   if (m.shape.size() == 0) return std::nullopt;
+                                   return to_numpy(m.shape);
+                               })
+        .def_property_readonly("residual",
+                               [](const Modes& m) -> std::optional<py::array> {
+                                   if (m.residual.size() == 0) return std::nullopt;
+                                   return to_numpy(m.residual);
+                               })
+        .def_property_readonly("nodes",
+                               [](const Modes& m) -> std::optional<py::list> {
+                                   if (m.residual.size() == 0) return std::nullopt;
+                                   py::list lists;
+                                   for (const auto& nodes : m.nodes) lists.append(to_numpy(nodes));
+                                   return lists;
+                               })
         .def_property_readonly("method", [](const Modes& m) { return m.method; })
         .def_property_readonly("status", [](const Modes& m) { return std::string(to_string(m.status)); });
 
@@ -103,7 +106,8 @@ void bind_linear(py::module_& module) {
         "count_modes",
         [](const Chain& chain, const Array& height) {
             const double* h = height.data();
-            return counts(chain, {height}, [h](const auto& counter, py::ssize_t i) { return counter.above_height(h[i]); });
+            return counts(chain, {height},
+                          [h](const auto& counter, py::ssize_t i) { return counter.above_height(h[i]); });
         },
         "chain"_a, "conical_height"_a);
     module.def(

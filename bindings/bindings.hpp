@@ -29,9 +29,7 @@ inline py::array to_numpy(const revchain::Table<double>& values) {
     return frozen(py::array_t<double>({values.rows(), values.cols()}, values.data()));
 }
 
-inline py::array to_numpy(const revchain::Matrix<double>& values) {
-    return to_numpy(revchain::Table<double>(values));
-}
+inline py::array to_numpy(const revchain::Matrix<double>& values) { return to_numpy(revchain::Table<double>(values)); }
 
 // One function per folder of include/revchain, each in bind_<folder>.cpp.
 void bind_core(py::module_& module);

@@ -6,10 +6,12 @@
 #include <vector>
 
 int main() {
-    const std::vector<revchain::Link<double>> links = {  // lowest first
-        revchain::plummet<double>(1.0, 0.5),             // weight, length
+    const std::vector<revchain::Link<double>> links = {
+        // lowest first
+        revchain::plummet<double>(1.0, 0.5),  // weight, length
         revchain::uniform_rod<double>(2.0, 0.3),
-        revchain::compound_pendulum<double>({.weight = 3.0, .length = 1.0, .centroid = -0.05, .radius_of_gyration = 0.4})};
+        revchain::compound_pendulum<double>(
+            {.weight = 3.0, .length = 1.0, .centroid = -0.05, .radius_of_gyration = 0.4})};
     const revchain::Chain<double> chain(links);
     const auto modes = revchain::modes(chain, {.count = 3});
     const auto speed = modes.angular_speed(9.80665);

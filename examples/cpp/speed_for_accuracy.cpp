@@ -14,7 +14,8 @@ int main() {
         const std::clock_t start = std::clock();
         const auto modes = revchain::modes(chain, {.count = 5, .rtol = rtol, .shapes = false});
         const double ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-        const double error = ((modes.conical_height - exact.conical_height).array() / exact.conical_height.array()).abs().maxCoeff();
+        const double error =
+            ((modes.conical_height - exact.conical_height).array() / exact.conical_height.array()).abs().maxCoeff();
         std::printf("%.0e     %.1e   %.1e     %6.1f\n", rtol, modes.error_bound.maxCoeff(), error, ms);
         if (modes.status != revchain::Status::success || error > modes.error_bound.maxCoeff()) return 1;
     }

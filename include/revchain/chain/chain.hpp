@@ -14,7 +14,7 @@ template <class V>
 class Column {
    public:
     Column() = default;
-    Column(V value) : values_(1, std::move(value)) {}                   // NOLINT(google-explicit-constructor)
+    Column(V value) : values_(1, std::move(value)) {}                          // NOLINT(google-explicit-constructor)
     Column(std::vector<V> values) : values_(std::move(values)), stride_(1) {}  // NOLINT(google-explicit-constructor)
 
     bool is_scalar() const { return stride_ == 0; }
@@ -99,7 +99,7 @@ class Chain {
 
    private:
     template <class V>
-    static Column<V> column(const std::vector<Link<T>>& links, V Link<T>::* member) {
+    static Column<V> column(const std::vector<Link<T>>& links, V Link<T>::*member) {
         std::vector<V> values(links.size());
         std::transform(links.begin(), links.end(), values.begin(), [&](const Link<T>& link) { return link.*member; });
         return values;

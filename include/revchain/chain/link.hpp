@@ -53,9 +53,9 @@ template <Real T>
 struct CompoundPendulum {
     T weight{};
     T length{};
-    T centroid{};                            ///< h
-    std::optional<T> pendulum_length{};      ///< l, of the equivalent simple pendulum about the upper pin; sign of h
-    std::optional<T> radius_of_gyration{};   ///< rho >= 0, about the centre of gravity
+    T centroid{};                           ///< h
+    std::optional<T> pendulum_length{};     ///< l, of the equivalent simple pendulum about the upper pin; sign of h
+    std::optional<T> radius_of_gyration{};  ///< rho >= 0, about the centre of gravity
 };
 
 namespace detail {
@@ -64,8 +64,7 @@ namespace detail {
 template <Real T>
 Wide<T> gyration_from_radius(std::string_view place, T radius) {
     using std::isfinite;
-    if (!isfinite(radius) || radius < T(0))
-        refuse(place, "radius of gyration must be finite and not negative", radius);
+    if (!isfinite(radius) || radius < T(0)) refuse(place, "radius of gyration must be finite and not negative", radius);
     require_squarable(place, "radius of gyration", radius);
     return Wide<T>(radius) * Wide<T>(radius);
 }
@@ -99,8 +98,9 @@ Link<T> compound_pendulum(const CompoundPendulum<T>& body) {
     if (body.pendulum_length.has_value() == body.radius_of_gyration.has_value())
         detail::refuse(place, "give either pendulum_length or radius_of_gyration (not both)");
     return {body.weight, body.length, body.centroid,
-            body.radius_of_gyration ? detail::gyration_from_radius<T>(place, *body.radius_of_gyration)
-                                    : detail::gyration_from_pendulum_length<T>(place, body.centroid, *body.pendulum_length)};
+            body.radius_of_gyration
+                ? detail::gyration_from_radius<T>(place, *body.radius_of_gyration)
+                : detail::gyration_from_pendulum_length<T>(place, body.centroid, *body.pendulum_length)};
 }
 
 /// rho, radius of gyration about the centre of gravity.

@@ -22,8 +22,8 @@ struct DoubleWord {
     constexpr DoubleWord() = default;
     constexpr DoubleWord(T x) : high(x) {}  // NOLINT(google-explicit-constructor): a T is a DoubleWord
     template <class Number>
-        requires(std::is_arithmetic_v<Number> && sizeof(Number) <= sizeof(T))
-    constexpr DoubleWord(Number x) : high(static_cast<T>(x)) {}  // NOLINT(google-explicit-constructor)
+    requires(std::is_arithmetic_v<Number> && sizeof(Number) <= sizeof(T)) constexpr DoubleWord(Number x)
+        : high(static_cast<T>(x)) {}  // NOLINT(google-explicit-constructor)
     constexpr DoubleWord(T h, T l) : high(h), low(l) {}
     constexpr explicit operator T() const { return high; }
 

@@ -36,16 +36,16 @@ concept HasRealFunctions = requires(T x, int* exponent) {
 template <class T>
 concept Real = std::numeric_limits<T>::is_specialized && !std::numeric_limits<T>::is_integer &&
                std::numeric_limits<T>::radix == 2 && detail::HasRealFunctions<T> && requires(T x, T y) {
-                   { x + y } -> std::convertible_to<T>;
-                   { x - y } -> std::convertible_to<T>;
-                   { x * y } -> std::convertible_to<T>;
-                   { x / y } -> std::convertible_to<T>;
-                   { -x } -> std::convertible_to<T>;
-                   { x < y } -> std::convertible_to<bool>;
-                   { x == y } -> std::convertible_to<bool>;
-                   T(1);
-                   T(0.5);
-               };
+    { x + y } -> std::convertible_to<T>;
+    { x - y } -> std::convertible_to<T>;
+    { x* y } -> std::convertible_to<T>;
+    { x / y } -> std::convertible_to<T>;
+    { -x } -> std::convertible_to<T>;
+    { x < y } -> std::convertible_to<bool>;
+    { x == y } -> std::convertible_to<bool>;
+    T(1);
+    T(0.5);
+};
 
 /// A column of numbers.
 template <class T>

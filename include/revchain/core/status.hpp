@@ -29,9 +29,7 @@ enum class Status {
     tolerance_not_met,  ///< it is not; `error_bound` says what was reached
 };
 
-inline std::string_view to_string(Status status) {
-    return status == Status::success ? "success" : "tolerance_not_met";
-}
+inline std::string_view to_string(Status status) { return status == Status::success ? "success" : "tolerance_not_met"; }
 
 namespace detail {
 

@@ -123,11 +123,9 @@ std::vector<Bracket<T>> bisect(const ElementPencil<T>& pencil, Index count, T to
         work.resize(work.size() - taken);
         // Few segments: cut each into 4 or 8 at once, so that all lanes work.
         const std::size_t cuts = taken == 1 ? 7 : taken == 2 ? 3 : 1;
-        for (std::size_t i = 0; i < taken; ++i)
-            detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
+        for (std::size_t i = 0; i < taken; ++i) detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
         const auto above = count_above(pencil, shifts);
-        for (std::size_t i = 0; i < taken; ++i)
-            detail::split(now[i], &shifts[i * cuts], &above[i * cuts], cuts, keep);
+        for (std::size_t i = 0; i < taken; ++i) detail::split(now[i], &shifts[i * cuts], &above[i * cuts], cuts, keep);
         finished(done);
     }
     return brackets;

@@ -51,7 +51,7 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
     using M = Narrow<S>;  // magnitudes and errors
     const M unit = operation_error<S>();
     const M local = M(2) * pencil.entry_error + M(6) * unit;  // stiffness times weight has both their errors
-    const M inflate = M(1) + M(16) * epsilon<M>();  // the bound's own rounding
+    const M inflate = M(1) + M(16) * epsilon<M>();            // the bound's own rounding
     const M underflow = std::numeric_limits<M>::min() * M(4);
     const S floor = S(epsilon<S>()) * S(epsilon<S>());
 

@@ -15,10 +15,10 @@ namespace revchain {
 /// What to compute.
 template <Real T>
 struct ModesOptions {
-    std::optional<Index> count{};   ///< the slowest so many; absent: all
-    std::optional<T> rtol{};        ///< relative tolerance of the conical heights; absent: as accurate as T allows
-    bool shapes = true;             ///< also shapes, residuals and nodes
-    Progress* progress = nullptr;   ///< watched and stopped from another thread
+    std::optional<Index> count{};  ///< the slowest so many; absent: all
+    std::optional<T> rtol{};       ///< relative tolerance of the conical heights; absent: as accurate as T allows
+    bool shapes = true;            ///< also shapes, residuals and nodes
+    Progress* progress = nullptr;  ///< watched and stopped from another thread
 };
 
 /// Whirl modes of a chain, slowest first. Mode k stands at index k - 1.
@@ -26,9 +26,9 @@ template <Real T>
 struct Modes {
     Vector<T> conical_height;  ///< (k,) lambda, descending, in the chain's unit of length
     Vector<T> error_bound;     ///< (k,) relative to the exact conical height of the stored numbers; proved by counts
-    Table<T> shape;            ///< (k, N+1) offsets of the pins, free end first, support last (0); largest |offset| = 1,
-                               ///< free end positive; empty without shapes
-    Vector<T> residual;        ///< (k,) force left unbalanced at a pin, relative to the forces that meet there
+    Table<T> shape;      ///< (k, N+1) offsets of the pins, free end first, support last (0); largest |offset| = 1,
+                         ///< free end positive; empty without shapes
+    Vector<T> residual;  ///< (k,) force left unbalanced at a pin, relative to the forces that meet there
     std::vector<Vector<T>> nodes;  ///< k lists: distances from the free end where the mode crosses the axis
     std::string method;
     Status status = Status::success;

@@ -69,10 +69,9 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
     const bool loose = goal > T(64) * epsilon<T>() * T(chain.size());
 
     const T guess = ldexp(chain.total_length(), -assembled.units.length_exponent);
-    const auto brackets =
-        linalg::bisect(pencil, count, loose ? goal / T(4) : finest, guess, [&](Index done) {
-            detail::advance(options.progress, 0.3 * static_cast<double>(done) / static_cast<double>(count));
-        });
+    const auto brackets = linalg::bisect(pencil, count, loose ? goal / T(4) : finest, guess, [&](Index done) {
+        detail::advance(options.progress, 0.3 * static_cast<double>(done) / static_cast<double>(count));
+    });
 
     Modes<T> result(chain, options);
     result.method = "bisection";

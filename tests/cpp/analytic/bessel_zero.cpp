@@ -38,10 +38,12 @@ TEST_CASE("zeros of J0 and J1 against 25 digits, up to the millionth", "[analyti
 TEST_CASE("the two methods meet without a step", "[analytic]") {
     // Increments approach pi from below (J0) and from above (J1): a wrong digit at the change of method would show.
     for (revchain::Index k = 15; k < 25; ++k) {
-        const double d0 = analytic::zero_of_j0(k + 1) - analytic::zero_of_j0(k), d1 = analytic::zero_of_j0(k + 2) - analytic::zero_of_j0(k + 1);
+        const double d0 = analytic::zero_of_j0(k + 1) - analytic::zero_of_j0(k),
+                     d1 = analytic::zero_of_j0(k + 2) - analytic::zero_of_j0(k + 1);
         CHECK(d0 < d1);
         CHECK(d1 < M_PI);
-        const double e0 = analytic::zero_of_j1(k + 1) - analytic::zero_of_j1(k), e1 = analytic::zero_of_j1(k + 2) - analytic::zero_of_j1(k + 1);
+        const double e0 = analytic::zero_of_j1(k + 1) - analytic::zero_of_j1(k),
+                     e1 = analytic::zero_of_j1(k + 2) - analytic::zero_of_j1(k + 1);
         CHECK(e0 > e1);
         CHECK(e1 > M_PI);
     }

@@ -63,14 +63,17 @@ TEST_CASE("many links tend to the chain", "[analytic]") {
     for (Index k = 0; k < 4; ++k) {
         CHECK(rods.conical_height[k] == Approx(heights[k]).epsilon(1e-5));
         for (Index m = 0; m <= n; m += 100)
-            CHECK(rods.shape(k, m) == Approx(heavy_chain::shape(2.5 * static_cast<double>(m) / n, k + 1, 2.5)).margin(2e-4));
+            CHECK(rods.shape(k, m) ==
+                  Approx(heavy_chain::shape(2.5 * static_cast<double>(m) / n, k + 1, 2.5)).margin(2e-4));
         for (Index i = 0; i < k; ++i)
-            CHECK(rods.nodes[static_cast<std::size_t>(k)][i] == Approx(heavy_chain::nodes(k + 1, 2.5)[i]).epsilon(1e-4));
+            CHECK(rods.nodes[static_cast<std::size_t>(k)][i] ==
+                  Approx(heavy_chain::nodes(k + 1, 2.5)[i]).epsilon(1e-4));
     }
 }
 
 TEST_CASE("bad input", "[analytic]") {
-    const double bad = GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
+    const double bad =
+        GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
     CHECK_THROWS_AS(heavy_chain::conical_heights(3, bad), revchain::InvalidArgument);
     CHECK_THROWS_AS(heavy_chain::shape(0.0, 1, bad), revchain::InvalidArgument);
     CHECK_THROWS_AS(heavy_chain::nodes(1, bad), revchain::InvalidArgument);

@@ -30,7 +30,9 @@ TEST_CASE("a chain keeps what it is given", "[chain]") {
 
 TEST_CASE("one number for all links is stored once", "[chain]") {
     const Chain chain = Chain::uniform_rods(10'000'000, 5.0, 2.0);
-    CHECK(chain.weight().stored() + chain.length().stored() + chain.centroid().stored() + chain.gyration_squared().stored() == 4);
+    CHECK(chain.weight().stored() + chain.length().stored() + chain.centroid().stored() +
+              chain.gyration_squared().stored() ==
+          4);
     CHECK(chain.size() == 10'000'000);
     CHECK(chain.total_length() == Approx(5.0).epsilon(1e-15));
     CHECK(chain.total_weight() == Approx(2.0).epsilon(1e-15));
@@ -77,16 +79,21 @@ TEST_CASE("a wrong chain is refused, naming the link and the value", "[chain]") 
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, nan_value)}), ContainsSubstring("link 1: length"));
     CHECK_THROWS_WITH(Chain(Links{plummet(nan_value, 1.0)}), ContainsSubstring("link 1: weight"));
     CHECK_THROWS_WITH(Chain(Links{plummet(infinity, 1.0)}), ContainsSubstring("link 1: weight"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1.0), plummet(-2.0, 1.0)}), ContainsSubstring("link 2: weight") && ContainsSubstring("-2"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(0.0, 1.0), plummet(1.0, 1.0)}), ContainsSubstring("lowest link must have weight"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(1e308, 1.0), plummet(1e308, 1.0)}), ContainsSubstring("link 2: the weights add up to infinity"));
+    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1.0), plummet(-2.0, 1.0)}),
+                      ContainsSubstring("link 2: weight") && ContainsSubstring("-2"));
+    CHECK_THROWS_WITH(Chain(Links{plummet(0.0, 1.0), plummet(1.0, 1.0)}),
+                      ContainsSubstring("lowest link must have weight"));
+    CHECK_THROWS_WITH(Chain(Links{plummet(1e308, 1.0), plummet(1e308, 1.0)}),
+                      ContainsSubstring("link 2: the weights add up to infinity"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1e308), plummet(1.0, 1e308)}), ContainsSubstring("lengths add up"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, infinity, 0.0}}), ContainsSubstring("centroid"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 0.5, -1.0}}), ContainsSubstring("radius of gyration"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 0.0, 1.0}}), ContainsSubstring("link 1: it would stand"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1.0), {10.0, 1.0, -0.2, 1.0}}), ContainsSubstring("link 2: it would stand") && ContainsSubstring("-1"));
+    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1.0), {10.0, 1.0, -0.2, 1.0}}),
+                      ContainsSubstring("link 2: it would stand") && ContainsSubstring("-1"));
     CHECK_NOTHROW(Chain(Links{plummet(1.0, 1.0), {4.9, 1.0, -0.2, 1.0}}));
-    CHECK_THROWS_WITH(Chain(2, std::vector<double>{1, 2, 3}, 1.0, 1.0, revchain::Wide<double>(0)), ContainsSubstring("weight must have one number"));
+    CHECK_THROWS_WITH(Chain(2, std::vector<double>{1, 2, 3}, 1.0, 1.0, revchain::Wide<double>(0)),
+                      ContainsSubstring("weight must have one number"));
     CHECK_THROWS_AS(Chain::uniform_rods(0), revchain::InvalidArgument);
     CHECK_THROWS_AS(Chain::uniform_rods(-3), revchain::InvalidArgument);
     CHECK_THROWS_AS(Chain::uniform_rods(3, -1.0), revchain::InvalidArgument);

@@ -27,14 +27,17 @@ TEMPLATE_TEST_CASE("makers", "[chain]", float, double, long double) {
 }
 
 // What the user gave comes back bit by bit, and enters the equations exactly: rho^2 is kept in twice the digits.
-TEMPLATE_TEST_CASE("pendulum length and radius of gyration are given back exactly", "[chain]", float, double, long double) {
+TEMPLATE_TEST_CASE("pendulum length and radius of gyration are given back exactly", "[chain]", float, double,
+                   long double) {
     using T = TestType;
     support::Random random(5);
     for (int i = 0; i < 20000; ++i) {
         const T h = static_cast<T>(random.between(-1, 1)), rho = static_cast<T>(random.log_between(1e-3, 1e3));
         const T l = h * static_cast<T>(1 + random.log_between(1e-3, 1e3));
-        CHECK(radius_of_gyration(compound_pendulum<T>({.weight = 1, .length = 1, .centroid = h, .radius_of_gyration = rho})) == rho);
-        CHECK(pendulum_length(compound_pendulum<T>({.weight = 1, .length = 1, .centroid = h, .pendulum_length = l})) == l);
+        CHECK(radius_of_gyration(
+                  compound_pendulum<T>({.weight = 1, .length = 1, .centroid = h, .radius_of_gyration = rho})) == rho);
+        CHECK(pendulum_length(compound_pendulum<T>({.weight = 1, .length = 1, .centroid = h, .pendulum_length = l})) ==
+              l);
     }
 }
 
@@ -47,17 +50,26 @@ TEST_CASE("centroid at the pin", "[chain]") {
 TEST_CASE("impossible bodies are refused with a reason", "[chain]") {
     using Catch::Matchers::ContainsSubstring;
     const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-    CHECK_THROWS_WITH(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .pendulum_length = 0.4}),
-                      ContainsSubstring("imaginary radius of gyration") && ContainsSubstring("0.5") && ContainsSubstring("0.4"));
-    CHECK_THROWS_WITH(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5}), ContainsSubstring("either"));
-    CHECK_THROWS_WITH(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .pendulum_length = 0.6, .radius_of_gyration = 0.1}),
+    CHECK_THROWS_WITH(
+        compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .pendulum_length = 0.4}),
+        ContainsSubstring("imaginary radius of gyration") && ContainsSubstring("0.5") && ContainsSubstring("0.4"));
+    CHECK_THROWS_WITH(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5}),
                       ContainsSubstring("either"));
+    CHECK_THROWS_WITH(
+        compound_pendulum<double>(
+            {.weight = 1, .length = 1, .centroid = 0.5, .pendulum_length = 0.6, .radius_of_gyration = 0.1}),
+        ContainsSubstring("either"));
     CHECK_THROWS_WITH(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0, .pendulum_length = 0.6}),
                       ContainsSubstring("radius of gyration instead"));
-    CHECK_THROWS_AS(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .radius_of_gyration = -0.1}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .radius_of_gyration = infinity}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = nan, .pendulum_length = 0.6}), revchain::InvalidArgument);
-    CHECK_THROWS_WITH(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .radius_of_gyration = 1e-200}),
-                      ContainsSubstring("another unit"));
+    CHECK_THROWS_AS(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .radius_of_gyration = -0.1}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(
+        compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .radius_of_gyration = infinity}),
+        revchain::InvalidArgument);
+    CHECK_THROWS_AS(compound_pendulum<double>({.weight = 1, .length = 1, .centroid = nan, .pendulum_length = 0.6}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_WITH(
+        compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .radius_of_gyration = 1e-200}),
+        ContainsSubstring("another unit"));
     CHECK_THROWS_WITH(revchain::uniform_rod<double>(1.0, 1e200), ContainsSubstring("another unit"));
 }

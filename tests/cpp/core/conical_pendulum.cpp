@@ -27,7 +27,8 @@ TEMPLATE_TEST_CASE("the conical pendulum to 2.1 ulp", "[core]", float, double, l
         turns = std::max(turns, error_in_ulp(pendulum::revolutions_per_second(x, g), sqrtq(G / X) / (2 * pi)));
         gravity = std::max(gravity, error_in_ulp(pendulum::gravity(g, x), 4 * pi * pi * G / (X * X)));
         seconds = std::max(seconds, error_in_ulp(pendulum::gravity_from_seconds_pendulum(x), pi * pi * X));
-        seconds_height = std::max(seconds_height, error_in_ulp(pendulum::height_from_seconds_pendulum(g, x), G * X * X / 4));
+        seconds_height =
+            std::max(seconds_height, error_in_ulp(pendulum::height_from_seconds_pendulum(g, x), G * X * X / 4));
     }
     CAPTURE(speed, height, period, back, turns, gravity, seconds, seconds_height);
     CHECK(speed <= 1.3);
@@ -46,7 +47,8 @@ TEST_CASE("quotients that would leave the range do not", "[core]") {
 }
 
 TEST_CASE("what is not positive and finite is refused", "[core]") {
-    const double bad = GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
+    const double bad =
+        GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
     CHECK_THROWS_AS(pendulum::angular_speed(bad, 9.8), revchain::InvalidArgument);
     CHECK_THROWS_AS(pendulum::angular_speed(1.0, bad), revchain::InvalidArgument);
     CHECK_THROWS_AS(pendulum::height(bad, 9.8), revchain::InvalidArgument);

@@ -18,7 +18,9 @@ DoubleWord<T> random_word(support::Random& random) {
     return revchain::fast_two_sum(high, low);
 }
 
-double relative(Quad got, Quad want) { return want == 0 ? static_cast<double>(fabsq(got)) : static_cast<double>(fabsq((got - want) / want)); }
+double relative(Quad got, Quad want) {
+    return want == 0 ? static_cast<double>(fabsq(got)) : static_cast<double>(fabsq((got - want) / want));
+}
 
 }  // namespace
 
@@ -32,9 +34,11 @@ TEMPLATE_TEST_CASE("double-word operations keep their bounds", "[core]", float, 
     for (int i = 0; i < 20000; ++i) {
         const auto x = random_word<T>(random), y = random_word<T>(random);
         // relative to |x| + |y| would be weaker: the accurate sum keeps a RELATIVE error even under cancellation
-        worst_sum = std::max({worst_sum, relative(quad(x + y), quad(x) + quad(y)), relative(quad(x - y), quad(x) - quad(y)),
-                              relative(quad(x + y.high), quad(x) + Quad(y.high))});
-        worst_product = std::max({worst_product, relative(quad(x * y), quad(x) * quad(y)), relative(quad(x * y.high), quad(x) * Quad(y.high))});
+        worst_sum =
+            std::max({worst_sum, relative(quad(x + y), quad(x) + quad(y)), relative(quad(x - y), quad(x) - quad(y)),
+                      relative(quad(x + y.high), quad(x) + Quad(y.high))});
+        worst_product = std::max({worst_product, relative(quad(x * y), quad(x) * quad(y)),
+                                  relative(quad(x * y.high), quad(x) * Quad(y.high))});
         worst_quotient = std::max(worst_quotient, relative(quad(x / y), quad(x) / quad(y)));
         worst_root = std::max(worst_root, relative(quad(sqrt(abs(x))), sqrtq(fabsq(quad(x)))));
     }
@@ -69,7 +73,8 @@ TEMPLATE_TEST_CASE("sums and products of two numbers are exact", "[core]", float
         } else {  // 128 bits do not fit in the reference: the low part is compared with the rest of a split product
             const T cut = static_cast<T>(0x1p33L);
             const T head = (x * cut + x) - x * cut;  // a few leading bits of x
-            CHECK(Quad(revchain::two_product(head, y).high) + Quad(revchain::two_product(head, y).low) == Quad(head) * Quad(y));
+            CHECK(Quad(revchain::two_product(head, y).high) + Quad(revchain::two_product(head, y).low) ==
+                  Quad(head) * Quad(y));
             CHECK(static_cast<double>(fabsq((Quad(p.high) + Quad(p.low)) - Quad(x) * Quad(y))) <= 1e-34);
         }
     }

@@ -41,7 +41,8 @@ TEST_CASE("bisection by proved counts from any guess", "[linalg]") {
         for (Index j = 0; j < chain.mode_count(); ++j) {
             for (const double off : {1.0, 1 + 1e-12, 0.5, 3.0}) {
                 const Quad exact = truth.height(j, 1e-30, 1e12) / unit;
-                const auto found = linalg::bisect_certified<WideDouble>(assembled.pencil, j, static_cast<double>(exact) * off);
+                const auto found =
+                    linalg::bisect_certified<WideDouble>(assembled.pencil, j, static_cast<double>(exact) * off);
                 const double error = static_cast<double>(fabsq(Quad(found.eigenvalue) / exact - 1));
                 CAPTURE(family.name, j, off, found.eigenvalue, error, found.error_bound);
                 CHECK(error <= found.error_bound);
@@ -50,5 +51,6 @@ TEST_CASE("bisection by proved counts from any guess", "[linalg]") {
         }
     }
     const auto assembled = revchain::assemble(revchain::Chain<double>::uniform_rods(5));
-    CHECK(std::isinf(linalg::bisect_certified<WideDouble>(assembled.pencil, 5, 1e-3).error_bound));  // there is no sixth
+    CHECK(
+        std::isinf(linalg::bisect_certified<WideDouble>(assembled.pencil, 5, 1e-3).error_bound));  // there is no sixth
 }

@@ -18,13 +18,16 @@ TEST_CASE("assembled matrices: definite, symmetric, and of the right sums", "[li
         CHECK(Eigen::LLT<Eigen::MatrixXd>(matrices.K).info() == Eigen::Success);
         // tip row of K sums to 0 (no force in a uniform shift), top row to the stiffness of the top link
         CHECK(std::abs(matrices.K.row(0).sum()) <= 1e-15 * matrices.K.row(0).cwiseAbs().sum());
-        CHECK(matrices.K.row(8).sum() == Approx(pencil.elements.back().stiffness).epsilon(1e-12).margin(1e-12 * matrices.K(8, 8)));
+        CHECK(matrices.K.row(8).sum() ==
+              Approx(pencil.elements.back().stiffness).epsilon(1e-12).margin(1e-12 * matrices.K(8, 8)));
     }
 }
 
 TEST_CASE("both solvers return pairs, in order", "[linalg]") {
-    const auto matrices = linalg::assembled(linalg::rounded<double>(revchain::assemble(revchain::Chain<double>::uniform_rods(12)).pencil));
-    for (const auto& system : {linalg::solve_symmetric_definite(matrices.K, matrices.M), linalg::solve_general(matrices.M, matrices.K)}) {
+    const auto matrices = linalg::assembled(
+        linalg::rounded<double>(revchain::assemble(revchain::Chain<double>::uniform_rods(12)).pencil));
+    for (const auto& system :
+         {linalg::solve_symmetric_definite(matrices.K, matrices.M), linalg::solve_general(matrices.M, matrices.K)}) {
         for (Index j = 0; j < 12; ++j) {
             const Eigen::VectorXd y = system.vectors.col(j);
             const double size = (matrices.M * y).norm();

@@ -55,7 +55,8 @@ TEST_CASE("next to an eigenvalue double doubts and the double word decides", "[l
     const double high = static_cast<double>(height);
     const WideDouble exact(high, static_cast<double>(height - high));
     for (const double away : {1e-16, 1e-18, 1e-20, 1e-22}) {
-        const auto count = linalg::certified_count<WideDouble, 2>(assembled.pencil, {exact * (WideDouble(1) - away), exact * (WideDouble(1) + away)});
+        const auto count = linalg::certified_count<WideDouble, 2>(
+            assembled.pencil, {exact * (WideDouble(1) - away), exact * (WideDouble(1) + away)});
         CAPTURE(away);
         CHECK(count[0].proved);
         CHECK(count[1].proved);

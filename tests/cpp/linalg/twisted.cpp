@@ -92,8 +92,9 @@ TEST_CASE("a shape of 1e5 links is smooth to the last pin", "[linalg]") {
     const Truth truth(chain);
     for (Index j = 0; j < 3; ++j) {
         const double h = m.conical_height[j];
-        const double error = difference(
-            m.shape.row(j), truth.shape(truth.height(j, Quad(h) * (1 - Quad(1e-15)), Quad(h) * (1 + Quad(1e-15)), 1e-28)));
+        const double error =
+            difference(m.shape.row(j),
+                       truth.shape(truth.height(j, Quad(h) * (1 - Quad(1e-15)), Quad(h) * (1 + Quad(1e-15)), 1e-28)));
         CAPTURE(j, error);
         CHECK(error <= 1e-16);  // measured 9e-17
         CHECK(m.nodes[static_cast<std::size_t>(j)].size() == j);

@@ -30,7 +30,8 @@ TEST_CASE("a user's own scalar", "[linear]") {
     }
     CHECK(static_cast<double>(fabsq(sum / 144 - 1)) <= 1e-31);
     CHECK(static_cast<double>(fabsq(product / factorial - 1)) <= 1e-30);
-    CHECK(static_cast<double>(m.angular_speed(QuadScalar(9.8))[0]) == Approx(std::sqrt(9.8 / static_cast<double>(m.conical_height[0]))));
+    CHECK(static_cast<double>(m.angular_speed(QuadScalar(9.8))[0]) ==
+          Approx(std::sqrt(9.8 / static_cast<double>(m.conical_height[0]))));
     CHECK(revchain::recurrence_matrices(chain).A.rows() == 12);
 }
 

@@ -20,8 +20,11 @@ TEST_CASE("every entry is within entry_error of the exact one", "[linear]") {
         for (Index m = 0; m < chain.size(); ++m) {
             const auto link = chain.link(m);
             const auto& e = assembled.pencil.elements[static_cast<std::size_t>(m)];
-            const Quad W = quad(link.weight), a = quad(link.length), h = quad(link.centroid), g = quad(link.gyration_squared);
-            const auto off = [](Quad got, Quad want) { return want == 0 ? static_cast<double>(fabsq(got)) : static_cast<double>(fabsq(got / want - 1)); };
+            const Quad W = quad(link.weight), a = quad(link.length), h = quad(link.centroid),
+                       g = quad(link.gyration_squared);
+            const auto off = [](Quad got, Quad want) {
+                return want == 0 ? static_cast<double>(fabsq(got)) : static_cast<double>(fabsq(got / want - 1));
+            };
             CAPTURE(family.name, m);
             CHECK(off(quad(e.stiffness) * weight_unit / length_unit, (W * h + a * below) / (a * a)) <= bound);
             CHECK(off(quad(e.lower) * weight_unit, W * (h * h + g) / (a * a)) <= bound);
@@ -36,8 +39,8 @@ TEST_CASE("every entry is within entry_error of the exact one", "[linear]") {
 
 TEST_CASE("a link whose pendulum length is its length has a diagonal mass matrix", "[linear]") {
     // Greenhill §8, last remark: kinetically equivalent to plummets at the pins. h = 1/4, l = a = 1.
-    const revchain::Chain<double> chain(std::vector{revchain::compound_pendulum<double>(
-        {.weight = 2, .length = 1, .centroid = 0.25, .pendulum_length = 1})});
+    const revchain::Chain<double> chain(std::vector{
+        revchain::compound_pendulum<double>({.weight = 2, .length = 1, .centroid = 0.25, .pendulum_length = 1})});
     const auto& e = revchain::assemble(chain).pencil.elements[0];
     CHECK(e.lower.high + e.upper.high == e.weight);
     CHECK(e.lower.high / e.weight == 0.25);

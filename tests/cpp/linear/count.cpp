@@ -38,7 +38,8 @@ TEST_CASE("exceeding is strict", "[linear]") {
 
 TEST_CASE("bad heights and speeds", "[linear]") {
     const auto chain = revchain::Chain<double>::uniform_rods(3);
-    const double bad = GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
+    const double bad =
+        GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
     CHECK_THROWS_AS(count_modes(chain, bad), revchain::InvalidArgument);
     CHECK_THROWS_AS(count_modes(chain, bad, 9.8), revchain::InvalidArgument);
     CHECK_THROWS_AS(count_modes(chain, 1.0, bad), revchain::InvalidArgument);

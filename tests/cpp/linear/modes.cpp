@@ -41,7 +41,7 @@ TEST_CASE("every height of every chain is within its bound, and within 1 ulp", "
             CHECK(m.error_bound.maxCoeff() <= 0x1.0001p-51);  // 2 ulp; asked: 1e-13
             require_bounds(chain, m);
             const Truth truth(chain);
-            for (Index j = 0; j < m.size(); j += n > 100 ? 53 : 1) {
+            for (Index j = 0; j<m.size(); j += n> 100 ? 53 : 1) {
                 const Quad h = m.conical_height[j];
                 const Quad exact = truth.height(j, h * (1 - Quad(1e-15)), h * (1 + Quad(1e-15)), 1e-19);
                 worst = std::max(worst, support::error_in_ulp(m.conical_height[j], exact));
@@ -108,10 +108,11 @@ TEMPLATE_TEST_CASE("laws", "[linear]", float, double, long double) {
             const int n = 1 + static_cast<int>(9 * random());
             for (int m = 0; m < n; ++m) {
                 const T a = static_cast<T>(unit * random.between(0.5, 1.5));
-                links.push_back(revchain::compound_pendulum<T>({.weight = static_cast<T>(unit * random.between(0.1, 2)),
-                                                                .length = a,
-                                                                .centroid = a * static_cast<T>(random.between(0.2, 1)),
-                                                                .radius_of_gyration = a * static_cast<T>(random.between(0, 0.6))}));
+                links.push_back(
+                    revchain::compound_pendulum<T>({.weight = static_cast<T>(unit * random.between(0.1, 2)),
+                                                    .length = a,
+                                                    .centroid = a * static_cast<T>(random.between(0.2, 1)),
+                                                    .radius_of_gyration = a * static_cast<T>(random.between(0, 0.6))}));
             }
             const Chain<T> chain(links);
             const auto m = revchain::modes(chain, {});
@@ -134,13 +135,15 @@ TEMPLATE_TEST_CASE("laws", "[linear]", float, double, long double) {
             long double trace = 0, below = 0;
             std::vector<long double> flexibility(static_cast<std::size_t>(n));
             for (std::size_t i = 0; i < links.size(); ++i) {
-                flexibility[i] = static_cast<long double>(links[i].length) * links[i].length /
-                                 (static_cast<long double>(links[i].weight) * links[i].centroid + links[i].length * below);
+                flexibility[i] =
+                    static_cast<long double>(links[i].length) * links[i].length /
+                    (static_cast<long double>(links[i].weight) * links[i].centroid + links[i].length * below);
                 below += links[i].weight;
             }
             for (std::size_t i = 0; i < links.size(); ++i) {
                 const long double p = static_cast<long double>(links[i].centroid) / links[i].length;
-                const long double r2 = static_cast<long double>(support::quad(links[i].gyration_squared)) / (static_cast<long double>(links[i].length) * links[i].length);
+                const long double r2 = static_cast<long double>(support::quad(links[i].gyration_squared)) /
+                                       (static_cast<long double>(links[i].length) * links[i].length);
                 // K^-1 between two pins: the sum of flexibilities above the higher; M_i = W (y_G^2 + rho^2 s^2)
                 long double above = 0;
                 for (std::size_t k = i + 1; k < links.size(); ++k) above += flexibility[k];
@@ -161,7 +164,8 @@ TEMPLATE_TEST_CASE("laws", "[linear]", float, double, long double) {
 
             // k - 1 nodes when l <= a
             bool short_pendulums = true;
-            for (const auto& link : links) short_pendulums = short_pendulums && revchain::pendulum_length(link) <= link.length;
+            for (const auto& link : links)
+                short_pendulums = short_pendulums && revchain::pendulum_length(link) <= link.length;
             for (Index j = 0; j < m.size() && short_pendulums; ++j) {
                 REQUIRE(m.nodes[static_cast<std::size_t>(j)].size() == j);
                 for (Index i = 0; i < j; ++i) {
@@ -182,7 +186,10 @@ TEST_CASE("a stiffer-minded count: mode numbers by counting, for long pendulum l
     for (int i = 0; i < 300; ++i) {
         const auto chain = support::chain_of(4, [&](Index) {
             const double a = random.between(0.5, 1.5), h = a * random.between(0.1, 1.0);
-            return revchain::compound_pendulum<double>({.weight = random.between(0.5, 2), .length = a, .centroid = h, .pendulum_length = h + a * random.between(1, 4)});
+            return revchain::compound_pendulum<double>({.weight = random.between(0.5, 2),
+                                                        .length = a,
+                                                        .centroid = h,
+                                                        .pendulum_length = h + a * random.between(1, 4)});
         });
         const auto m = revchain::modes(chain, {});
         const Truth truth(chain);
@@ -213,7 +220,8 @@ TEST_CASE("what was asked is what comes", "[linear]") {
     CHECK(all.revolutions_per_second(9.8)[2] == Approx(1 / all.period(9.8)[2]).epsilon(1e-15));
     CHECK_THROWS_AS(all.angular_speed(0.0), revchain::InvalidArgument);
     CHECK(revchain::modes(chain, {.rtol = 0.0}).status == revchain::Status::tolerance_not_met);
-    CHECK(revchain::modes(chain, {.rtol = std::numeric_limits<double>::infinity()}).status == revchain::Status::success);
+    CHECK(revchain::modes(chain, {.rtol = std::numeric_limits<double>::infinity()}).status ==
+          revchain::Status::success);
 }
 
 TEST_CASE("wrong calls", "[linear]") {
@@ -261,7 +269,8 @@ TEST_CASE("no floating-point alarms, at extremes too", "[linear]") {
 TEST_CASE("two plummets at the limits of the scalar", "[linear]") {
     for (const auto& [w1, w2] : {std::pair(1e-60, 1e60), std::pair(1e60, 1e-60), std::pair(1.0, 3.0)}) {
         for (const auto& [a1, a2] : {std::pair(1e-38, 1e38), std::pair(1e38, 1e-38), std::pair(0.3, 0.7)}) {
-            const auto m = revchain::modes(Chain<double>(std::vector{revchain::plummet(w1, a1), revchain::plummet(w2, a2)}), {});
+            const auto m =
+                revchain::modes(Chain<double>(std::vector{revchain::plummet(w1, a1), revchain::plummet(w2, a2)}), {});
             const Quad l1 = a1, l2 = a2, mu = Quad(w1) / (Quad(w1) + Quad(w2)), rest = Quad(w2) / (Quad(w1) + Quad(w2));
             const Quad first = (l1 + l2 + sqrtq((l1 - l2) * (l1 - l2) + 4 * mu * l1 * l2)) / 2;
             const Quad second = l1 * l2 * rest / first;
@@ -275,9 +284,12 @@ TEST_CASE("two plummets at the limits of the scalar", "[linear]") {
 
 TEST_CASE("a link that hardly hangs, and one that hardly swings", "[linear]") {
     std::vector<Chain<double>> chains;
-    chains.emplace_back(std::vector{revchain::plummet(1.0, 1.0),
-                                    revchain::compound_pendulum<double>({.weight = 1, .length = 1, .centroid = -1 + 1e-15, .radius_of_gyration = 0.3})});
-    chains.emplace_back(std::vector{revchain::compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 1e-15, .radius_of_gyration = 1})});
+    chains.emplace_back(
+        std::vector{revchain::plummet(1.0, 1.0),
+                    revchain::compound_pendulum<double>(
+                        {.weight = 1, .length = 1, .centroid = -1 + 1e-15, .radius_of_gyration = 0.3})});
+    chains.emplace_back(std::vector{
+        revchain::compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 1e-15, .radius_of_gyration = 1})});
     for (const auto& chain : chains) {
         const auto m = revchain::modes(chain, {});
         CHECK(m.error_bound.maxCoeff() <= 4e-14);  // the first: W h + a S keeps 1e-15 of its terms

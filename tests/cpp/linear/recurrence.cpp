@@ -21,7 +21,8 @@ TEST_CASE("relation (21) is the running sum of the assembled rows", "[linear]") 
             REQUIRE(pencil.A.rows() == n);
             REQUIRE(pencil.B.cols() == n);
             Eigen::RowVectorXd mass = Eigen::RowVectorXd::Zero(n), stiffness = mass, stiffness_size = mass;
-            Eigen::RowVectorXd mass_size = mass;  // of the terms of column c: everything the two links at pin c enter with
+            Eigen::RowVectorXd mass_size =
+                mass;  // of the terms of column c: everything the two links at pin c enter with
             for (Index c = 0; c < n; ++c)
                 for (Index link = std::max(c - 1, Index(0)); link <= c; ++link) {
                     const auto& e = assembled.pencil.elements[static_cast<std::size_t>(link)];

@@ -29,7 +29,8 @@ TEST_CASE("three formulations give the same modes, each within its own bound", "
 
 TEST_CASE("ordinary chains: the dense solvers agree to their accuracy", "[linear]") {
     const auto chain = revchain::Chain<double>::uniform_rods(30);
-    const auto dense = revchain::modes_dense(chain, {.count = 3}), general = revchain::modes_recurrence(chain, {.count = 3});
+    const auto dense = revchain::modes_dense(chain, {.count = 3}),
+               general = revchain::modes_recurrence(chain, {.count = 3});
     const auto fast = revchain::modes(chain, {.count = 3});
     CHECK(dense.method == "dense");
     CHECK(general.method == "recurrence");
@@ -43,7 +44,8 @@ TEST_CASE("ordinary chains: the dense solvers agree to their accuracy", "[linear
 }
 
 TEST_CASE("a dense solver that cannot keep the tolerance says so", "[linear]") {
-    const auto chain = support::chain_of(30, [](Index m) { return revchain::plummet<double>(support::graded(29 - m, 30, 1e12), 1.0); });
+    const auto chain = support::chain_of(
+        30, [](Index m) { return revchain::plummet<double>(support::graded(29 - m, 30, 1e12), 1.0); });
     CHECK(revchain::modes(chain, {.rtol = 1e-14}).status == revchain::Status::success);
     CHECK(revchain::modes_dense(chain, {.rtol = 1e-14}).status == revchain::Status::tolerance_not_met);
 }

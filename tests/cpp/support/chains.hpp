@@ -71,7 +71,9 @@ inline std::vector<Family> families() {
         {"weights 1 ... 1e12 upward",
          [](Index n) { return chain_of(n, [=](Index m) { return plummet<double>(graded(m, n, 1e12), 1.0); }); }},
         {"weights 1e12 ... 1 upward (heavy tip)",
-         [](Index n) { return chain_of(n, [=](Index m) { return uniform_rod<double>(graded(n - 1 - m, n, 1e12), 1.0); }); }},
+         [](Index n) {
+             return chain_of(n, [=](Index m) { return uniform_rod<double>(graded(n - 1 - m, n, 1e12), 1.0); });
+         }},
         {"random weights 1e12, lengths 1e6",
          [](Index n) {
              Random random(13);
@@ -92,8 +94,10 @@ inline std::vector<Family> families() {
                  // a light bell head on a heavier chain: W h + a S stays positive
                  const double weight = random.between(0.5, 1.5) / (m == 0 ? 1.0 : 4.0);
                  const double h = a * (m == 0 ? 0.5 : random.between(-0.6, 1.8));
-                 return compound_pendulum<double>(
-                     {.weight = weight, .length = a, .centroid = h, .radius_of_gyration = a * random.between(0.01, 1.0)});
+                 return compound_pendulum<double>({.weight = weight,
+                                                   .length = a,
+                                                   .centroid = h,
+                                                   .radius_of_gyration = a * random.between(0.01, 1.0)});
              });
          }},
         {"long pendulum lengths (l > a)",
@@ -103,8 +107,10 @@ inline std::vector<Family> families() {
                  const double weight = random.log_between(1.0, 100.0);
                  const double a = random.between(0.5, 1.5);
                  const double h = a * random.between(0.2, 2.0);
-                 return compound_pendulum<double>(
-                     {.weight = weight, .length = a, .centroid = h, .pendulum_length = h + a * random.between(0.5, 5.0)});
+                 return compound_pendulum<double>({.weight = weight,
+                                                   .length = a,
+                                                   .centroid = h,
+                                                   .pendulum_length = h + a * random.between(0.5, 5.0)});
              });
          }},
         {"massless links between",

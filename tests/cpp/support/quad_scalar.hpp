@@ -16,8 +16,7 @@ class QuadScalar {
    public:
     QuadScalar() = default;
     template <class Number>
-        requires std::is_arithmetic_v<Number>
-    QuadScalar(Number x) : value_(x) {}  // NOLINT(google-explicit-constructor)
+    requires std::is_arithmetic_v<Number> QuadScalar(Number x) : value_(x) {}  // NOLINT(google-explicit-constructor)
     explicit QuadScalar(__float128 x) : value_(x) {}
     explicit operator double() const { return static_cast<double>(value_); }
     __float128 value() const { return value_; }
@@ -33,8 +32,8 @@ class QuadScalar {
     QuadScalar& operator/=(QuadScalar y) { return *this = *this / y; }
     friend bool operator==(QuadScalar x, QuadScalar y) { return x.value_ == y.value_; }
     friend std::partial_ordering operator<=>(QuadScalar x, QuadScalar y) {
-        return x.value_ < y.value_   ? std::partial_ordering::less
-               : x.value_ > y.value_ ? std::partial_ordering::greater
+        return x.value_ < y.value_    ? std::partial_ordering::less
+               : x.value_ > y.value_  ? std::partial_ordering::greater
                : x.value_ == y.value_ ? std::partial_ordering::equivalent
                                       : std::partial_ordering::unordered;
     }
@@ -65,5 +64,13 @@ struct std::numeric_limits<support::QuadScalar> : std::numeric_limits<long doubl
 
 template <>
 struct Eigen::NumTraits<support::QuadScalar> : Eigen::GenericNumTraits<support::QuadScalar> {
-    enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 2, AddCost = 40, MulCost = 40 };
+    enum {
+        IsComplex = 0,
+        IsInteger = 0,
+        IsSigned = 1,
+        RequireInitialization = 0,
+        ReadCost = 2,
+        AddCost = 40,
+        MulCost = 40
+    };
 };
