@@ -34,5 +34,5 @@ TEST_CASE("§3: the thread above P_m is parallel to GK, G the centre of gravity 
         }
     }
     CAPTURE(worst);
-    CHECK(worst <= 1);  // ulp of the largest offset; measured 0.94
+    CHECK(worst <= 0.25);  // ulp of the largest offset; measured 0.19
 }

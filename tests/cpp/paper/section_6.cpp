@@ -111,7 +111,7 @@ TEST_CASE("§6 (2), (5), (7)-(9): the construction of Fig. 7 on the computed sha
         }
     }
     CAPTURE(worst);
-    CHECK(worst <= 3);  // ulp of the largest offset; measured 2.5
+    CHECK(worst <= 1.3);  // ulp of the largest offset; measured 1.22
 }
 
 TEST_CASE("§6: at lambda - l small the bag follows the hand no more: the two heights keep apart",
