@@ -22,15 +22,31 @@ S ratio(const S& cross, const S& pivot) {
 
 }  // namespace detail
 
-/// Eigenvector of the pencil at an eigenvalue, offsets of pins 0 ... N with the held pin N last (0); |largest| near 1.
+/// Scales offsets so that the largest is 1 in size and the free end (else the lowest pin off the axis) positive.
+template <class Offsets>
+void normalise(Offsets& offset) {
+    using S = std::decay_t<decltype(offset[0])>;
+    using std::abs;
+    const S zero(Narrow<S>(0));
+    S largest = zero, sign = zero;
+    for (const S& y : offset) {
+        if (abs(y) > abs(largest)) largest = abs(y);
+        if (sign == zero) sign = y;
+    }
+    if (sign < zero) largest = -largest;
+    for (S& y : offset) y = y / largest + zero;  // no -0
+}
+
+/// Eigenvector of the pencil at an eigenvalue: offsets of pins 0 ... N, the held pin N last (0), normalised.
 ///
 /// Twisted factorisation: dynamic stiffness D of what hangs below each pin, going up, and E of what holds it from
 /// above, going down; they balance best (|D + E| least) where the mode is largest, and from there the offsets follow
 /// outwards by ratios without cancellation. The plain upward recurrence loses 3e-11 near the support at N = 1e5.
 /// Dhillon, Parlett (2004), doi:10.1016/j.laa.2003.12.028, carried over to elements.
-/// Cost: two passes, three numbers of S per link of scratch. Accuracy, of the largest offset, measured: with S a double
-/// word 6e-16 for all modes up to N = 1000 and 1e-16 for the slowest at N = 1e5 (tests/cpp/linalg/twisted.cpp); with
-/// S = double 4e-14 / gap up to N = 1000 and 3e-12 at 1e5, where gap (at most 1) is the relative distance to the next eigenvalue. An error e in `eigenvalue` adds e / gap.
+/// Cost: two passes, four numbers of S per link of scratch. Accuracy, of the largest offset, measured: with S a double
+/// word 3.5e-16 for all modes up to N = 1000 and 6e-17 for the slowest at N = 1e5 (tests/cpp/linalg/twisted.cpp); with
+/// S = double 1.5e-15 / gap up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
+/// eigenvalue. An error e in `eigenvalue` adds e / gap.
 template <Real S>
 Vector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
     using std::abs;
@@ -71,24 +87,27 @@ Vector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalu
             pins[m].up = detail::ratio(cross_of(e, stiffness), pivot);
             above = ((stiffness - e.lower) * above - (stiffness * S(e.weight) - e.coupling)) / pivot;
         }
-        const T balance = abs(static_cast<T>(pins[m].stiffness_below + above));
+        // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the mode,
+        // and the ratios between them cancel.
+        T forces = static_cast<T>(stiffness) + static_cast<T>(e.lower);
+        if (m > 0) {
+            const Element<S>& hung = pencil.elements[m - 1];
+            forces = forces + static_cast<T>(eigenvalue * hung.stiffness) + static_cast<T>(hung.upper);
+        }
+        const T balance = abs(static_cast<T>(pins[m].stiffness_below + above)) / forces;
         if (balance < least) {
             least = balance;
             twist = m;
         }
     }
-    Vector<T> offset(n + 1);
-    S y(T(1));
-    for (std::size_t m = twist + 1; m-- > 0;) {
-        if (m < twist) y = pins[m].down * y;
-        offset[static_cast<Index>(m)] = static_cast<T>(y);
-    }
-    y = S(T(1));
-    for (std::size_t m = twist; m < pins.size(); ++m) {
-        y = pins[m].up * y;
-        offset[static_cast<Index>(m) + 1] = static_cast<T>(y);
-    }
-    return offset;
+    std::vector<S> offset(pins.size() + 1);
+    offset[twist] = S(T(1));
+    for (std::size_t m = twist; m-- > 0;) offset[m] = pins[m].down * offset[m + 1];
+    for (std::size_t m = twist; m < pins.size(); ++m) offset[m + 1] = pins[m].up * offset[m];
+    normalise(offset);
+    Vector<T> rounded(n + 1);
+    for (Index m = 0; m <= n; ++m) rounded[m] = static_cast<T>(offset[static_cast<std::size_t>(m)]);
+    return rounded;
 }
 
 /// lambda = y^T M y / y^T K y in S, element by element, from offsets in a narrower scalar: its error is the square of

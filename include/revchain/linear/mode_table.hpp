@@ -54,7 +54,7 @@ struct Modes {
     void note_status(const T& bound, const ModesOptions<T>& options) {
         if (!(bound <= options.rtol.value_or(std::numeric_limits<T>::max()))) status = Status::tolerance_not_met;
     }
-    /// Stores the offsets of mode `j` normalised, with nodes and the residual in the pencil's scalar; `height` in its
+    /// Stores the normalised offsets of mode `j`, with nodes and the residual in the pencil's scalar; `height` in its
     /// unit.
     template <Real S>
     void set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<S>& pencil, const T& height,
@@ -88,19 +88,6 @@ Vector<T> nodes(const Chain<T>& chain, const Vector<T>& offset) {
     return Eigen::Map<const Vector<T>>(found.data(), static_cast<Index>(found.size()));
 }
 
-/// Largest |offset| = 1, free end positive.
-template <Real T>
-void normalise(Vector<T>& offset) {
-    using std::abs;
-    T largest(0), sign(0);
-    for (Index m = 0; m < offset.size(); ++m) {
-        if (abs(offset[m]) > largest) largest = abs(offset[m]);
-        if (sign == T(0)) sign = offset[m];
-    }
-    if (sign < T(0)) largest = -largest;
-    for (Index m = 0; m < offset.size(); ++m) offset[m] = offset[m] / largest + T(0);  // no -0
-}
-
 template <Real T>
 void check(const Chain<T>& chain, const ModesOptions<T>& options) {
     if (options.count && *options.count < 1) refuse("modes", "count must be at least 1", *options.count);
@@ -127,7 +114,6 @@ template <Real T>
 template <Real S>
 void Modes<T>::set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<S>& pencil, const T& height,
                          Vector<T> offset) {
-    detail::normalise(offset);
     residual[j] = linalg::relative_residual(pencil, height, offset);
     nodes[static_cast<std::size_t>(j)] = detail::nodes(chain, offset);
     shape.row(j) = offset.transpose();

@@ -13,7 +13,7 @@ namespace revchain {
 /// done in T.
 /// Accuracy: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up to 1e5, ten kinds
 /// of chain: tests/cpp/linear/modes.cpp), error bound 2 ulp and proved; a loose `rtol` is kept by the bound. Shapes
-/// 6e-16 of the largest offset; with a loose `rtol` as good as their height, rtol / (gap to the next height).
+/// 3.5e-16 of the largest offset; with a loose `rtol` as good as their height, rtol / (gap to the next height).
 /// Cost: about 0.55 microseconds per link and mode with shapes, 0.3 without (double); O(N k) memory.
 /// Throws InvalidArgument for count < 1 or above `chain.mode_count()`, and for a tolerance that is negative or NaN; a
 /// tolerance out of reach is `Status::tolerance_not_met` with the bounds reached.

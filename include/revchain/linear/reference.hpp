@@ -37,6 +37,7 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const l
         if (options.shapes) {
             Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
             offset.head(chain.size()) = system.vectors.col(j);
+            linalg::normalise(offset);
             result.set_shape(j, chain, assembled.pencil, height, std::move(offset));
         }
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(result.size()));
