@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "../tests/cpp/support/cuttings.hpp"
+#include "support/cuttings.hpp"
 #include "revchain/linear/modes.hpp"
 
 namespace {
