@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
+import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import mpmath as mp
 import pytest
@@ -106,3 +109,23 @@ sys.meta_path.insert(0, Blocker())
 def without() -> Callable:
     """Python code that makes packages unimportable."""
     return lambda *blocked: BLOCKER.format(blocked=set(blocked))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def hear_ctrl_c() -> None:
+    """Programs started in the background by a shell ignore Ctrl-C, and so would all that the tests start."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    """Start a program to be watched and interrupted; it and its pipes are gone after the test, whatever happens."""
+    with contextlib.ExitStack() as stack:
+
+        def run(*command: str, **options: Any) -> subprocess.Popen[str]:
+            process = stack.enter_context(subprocess.Popen(command, **{"text": True, **options}))
+            stack.callback(process.kill)
+            return process
+
+        yield run
