@@ -13,7 +13,6 @@ namespace revchain {
 template <class V>
 class Column {
    public:
-    Column() = default;
     Column(V value) : values_(1, std::move(value)) {}                          // NOLINT(google-explicit-constructor)
     Column(std::vector<V> values) : values_(std::move(values)), stride_(1) {}  // NOLINT(google-explicit-constructor)
 
@@ -115,6 +114,12 @@ class Chain {
 
     void check();
     void check_that_links_hang() const;
+    /// Links that a check has to look at: one where one number of each kind serves all.
+    Index distinct_links() const {
+        const bool uniform =
+            weight_.is_scalar() && length_.is_scalar() && centroid_.is_scalar() && gyration_squared_.is_scalar();
+        return uniform ? 1 : size_;
+    }
     Index inertialess_coordinates() const;
 
     Index size_ = 0;
@@ -156,7 +161,7 @@ void Chain<T>::check() {
         largest_length_ = std::max(largest_length_, x);
     };
     Wide<T> below(T(0)), straight(T(0));  // weight hung below the link; length so far
-    for (Index m = 0; m < size_; ++m) {
+    for (Index m = 0; m < distinct_links(); ++m) {
         const Link<T> it = link(m);
         if (!isfinite(it.weight) || it.weight < T(0))
             detail::refuse(at(m), "weight must be finite and not negative", it.weight);
@@ -164,7 +169,9 @@ void Chain<T>::check() {
         if (!isfinite(it.length) || !(it.length > T(0)))
             detail::refuse(at(m), "length must be positive and finite", it.length);
         if (!isfinite(it.centroid)) detail::refuse(at(m), "centroid must be finite", it.centroid);
-        if (!isfinite(it.gyration_squared) || it.gyration_squared < Wide<T>(T(0)))
+        // ... and, as a double word, normalised
+        if (!isfinite(it.gyration_squared) || it.gyration_squared < Wide<T>(T(0)) ||
+            !(it.gyration_squared + Wide<T>(T(0)) == it.gyration_squared))
             detail::refuse(at(m), "square of the radius of gyration must be finite and not negative",
                            static_cast<T>(it.gyration_squared));
         note_length(it.length);
@@ -179,6 +186,12 @@ void Chain<T>::check() {
         if (!isfinite(below)) detail::refuse(at(m), "the weights add up to infinity, from this link's", it.weight);
         if (!isfinite(straight)) detail::refuse(at(m), "the lengths add up to infinity, from this link's", it.length);
     }
+    if (distinct_links() < size_) {
+        below = below * Wide<T>(T(size_));
+        straight = straight * Wide<T>(T(size_));
+        if (!isfinite(below)) detail::refuse("Chain", "the weights add up to infinity, each", weight_[0]);
+        if (!isfinite(straight)) detail::refuse("Chain", "the lengths add up to infinity, each", length_[0]);
+    }
     // Within these ratios no product of the recursions leaves the range of T, whatever its units.
     constexpr int reach = std::numeric_limits<T>::max_exponent;
     if (largest_weight / ldexp(T(1), 2 * reach / 5) > smallest_weight)
@@ -190,7 +203,7 @@ void Chain<T>::check() {
     total_weight_ = static_cast<T>(below);
     total_length_ = static_cast<T>(straight);
     check_that_links_hang();
-    mode_count_ = size_ - inertialess_coordinates();
+    mode_count_ = distinct_links() < size_ ? size_ : size_ - inertialess_coordinates();
 }
 
 template <Real T>
@@ -198,7 +211,7 @@ void Chain<T>::check_that_links_hang() const {
     using std::ldexp;
     const ChainUnits units = this->units();
     Wide<T> below(T(0));
-    for (Index m = 0; m < size_; ++m) {
+    for (Index m = 0; m < distinct_links(); ++m) {  // of equal links, the lowest hangs least
         const T weight = ldexp(weight_[m], -units.weight_exponent);
         const Wide<T> kappa = Wide<T>(weight) * Wide<T>(ldexp(centroid_[m], -units.length_exponent)) +
                               Wide<T>(ldexp(length_[m], -units.length_exponent)) * below;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <cmath>
+#include <compare>
+#include <limits>
 #include <type_traits>
 
 #include "revchain/core/scalar.hpp"
@@ -16,13 +19,15 @@ namespace revchain {
 /// Own type because no header-only library that is kept up offers one without Boost: the core needs Eigen alone.
 template <std::floating_point T>
 struct DoubleWord {
+    static_assert(std::numeric_limits<T>::is_iec559, "double words need correctly rounded sums");
     T high{};
     T low{};
 
     constexpr DoubleWord() = default;
     constexpr DoubleWord(T x) : high(x) {}  // NOLINT(google-explicit-constructor): a T is a DoubleWord
     template <class Number>
-    requires(std::is_arithmetic_v<Number> && sizeof(Number) <= sizeof(T)) constexpr DoubleWord(Number x)
+    requires(std::is_arithmetic_v<Number>&& std::numeric_limits<Number>::digits <=
+             std::numeric_limits<T>::digits) constexpr DoubleWord(Number x)
         : high(static_cast<T>(x)) {}  // NOLINT(google-explicit-constructor)
     constexpr DoubleWord(T h, T l) : high(h), low(l) {}
     constexpr explicit operator T() const { return high; }
@@ -50,7 +55,7 @@ constexpr DoubleWord<T> fast_two_sum(T x, T y) {
 namespace detail {
 template <class T>
 inline constexpr bool has_fast_fma =
-#if defined(__FP_FAST_FMA) && defined(__FP_FAST_FMAF)
+#if (defined(__FP_FAST_FMA) && defined(__FP_FAST_FMAF)) || defined(__FMA__)
     std::is_same_v<T, double> || std::is_same_v<T, float>;
 #else
     false;
@@ -137,7 +142,7 @@ inline DoubleWord<T> frexp(const DoubleWord<T>& x, int* exponent) {
 
 template <std::floating_point T>
 inline bool isfinite(const DoubleWord<T>& x) {
-    return std::isfinite(x.high);
+    return std::isfinite(x.high) && std::isfinite(x.low);
 }
 
 /// One Newton step on the root of the high part.

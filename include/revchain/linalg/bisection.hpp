@@ -110,7 +110,9 @@ std::vector<Bracket<T>> bisect(const ElementPencil<T>& pencil, Index count, T to
     const auto keep = [&](const detail::Segment<T>& s) {
         const T width = s.upper - s.lower;
         const bool alone = s.last - s.first == 1;
-        if (width > finest * s.lower && (width > tolerance * s.lower || !alone)) {
+        const T middle = between(s.lower, s.upper);
+        const bool divisible = s.lower < middle && middle < s.upper;  // else never done, among subnormal numbers
+        if (divisible && width > finest * s.lower && (width > tolerance * s.lower || !alone)) {
             work.push_back(s);
         } else {
             for (Index j = s.first; j < s.last; ++j) brackets[static_cast<std::size_t>(j)] = {s.lower, s.upper, alone};

@@ -21,7 +21,7 @@ AssembledPencil<T> assembled(const ElementPencil<T>& pencil) {
     AssembledPencil<T> result{Matrix<T>::Zero(n + 1, n + 1), Matrix<T>::Zero(n + 1, n + 1)};
     for (Index m = 0; m < n; ++m) {
         const Element<T>& e = pencil.elements[static_cast<std::size_t>(m)];
-        const T cross = (e.weight - e.lower - e.upper) / T(2);
+        const T cross = cross_mass(e);
         result.K(m, m) += e.stiffness;
         result.K(m, m + 1) -= e.stiffness;
         result.K(m + 1, m) -= e.stiffness;

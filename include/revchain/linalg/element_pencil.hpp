@@ -21,6 +21,12 @@ struct Element {
     Narrow<S> weight{};  ///< W >= 0
 };
 
+/// X = (W - A - B) / 2, off the diagonal of the mass matrix.
+template <Real S>
+S cross_mass(const Element<S>& e) {
+    return ((S(e.weight) - e.lower) - e.upper) * S(Narrow<S>(0.5));
+}
+
 /// A symmetric pencil lambda K - M kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once
 /// added, lose the slowest modes. The last element's upper pin is held. lambda K y = M y has positive eigenvalues.
 template <Real S>
@@ -31,7 +37,8 @@ struct ElementPencil {
     Index size() const { return static_cast<Index>(elements.size()); }
 };
 
-/// The same pencil in a narrower scalar; one more rounding in each entry.
+/// The same pencil in a narrower scalar; one more rounding in each entry. Where an entry leaves the normal range of T
+/// its relative error is not known: `entry_error` is then infinite and nothing is proved with this pencil.
 template <Real T, Real S>
 ElementPencil<T> rounded(const ElementPencil<S>& wide) {
     if constexpr (std::is_same_v<T, S>) {
@@ -42,7 +49,12 @@ ElementPencil<T> rounded(const ElementPencil<S>& wide) {
         for (const Element<S>& e : wide.elements)
             pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.lower), static_cast<T>(e.upper),
                                        static_cast<T>(e.coupling), static_cast<T>(e.weight)});
+        using std::abs;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
+        for (const Element<T>& e : pencil.elements)
+            for (const T& entry : {e.stiffness, e.lower, e.upper, e.weight})
+                if (entry != T(0) && abs(entry) < std::numeric_limits<T>::min())
+                    pencil.entry_error = std::numeric_limits<T>::infinity();
         return pencil;
     }
 }

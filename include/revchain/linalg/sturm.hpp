@@ -50,8 +50,9 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
     using std::abs;
     using M = Narrow<S>;  // magnitudes and errors
     const M unit = operation_error<S>();
-    const M local = M(2) * pencil.entry_error + M(6) * unit;  // stiffness times weight has both their errors
-    const M inflate = M(1) + M(16) * epsilon<M>();            // the bound's own rounding
+    const M local = M(2) * pencil.entry_error + M(6) * unit;             // stiffness times weight has both their errors
+    const M relative = M(4) * epsilon<M>() + M(2) * pencil.entry_error;  // of magnitudes taken from rounded entries
+    const M inflate = M(1) + M(16) * epsilon<M>();                       // the bound's own rounding
     const M underflow = std::numeric_limits<M>::min() * M(4);
     const S floor = S(epsilon<S>()) * S(epsilon<S>());
 
@@ -61,14 +62,14 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
     for (auto& r : result) r.proved = true;
     for (const Element<S>& e : pencil.elements) {
         const M lower(static_cast<M>(e.lower)), upper(static_cast<M>(e.upper)), coupling(static_cast<M>(e.coupling));
-        const M cross = (e.weight - lower - upper) / M(2);  // X
-        const M cross_error = M(4) * epsilon<M>() * (e.weight + lower + upper);
+        const M cross(static_cast<M>(cross_mass(e)));  // X
+        const M cross_error = relative * (e.weight + lower + upper);
         for (std::size_t i = 0; i < L; ++i) {
             const S stiffness = shifts[i] * e.stiffness;
             const S pivot = below[i] + (stiffness - e.lower);
             const M size = abs(static_cast<M>(below[i]));
             const M k = static_cast<M>(stiffness);
-            const M pivot_error = local * (k + lower + size);
+            const M pivot_error = local * (k + lower + size) + underflow;
             const M pivot_size = abs(static_cast<M>(pivot)) * (M(1) - M(2) * epsilon<M>());
             const M least = pivot_size - pivot_error;
             const M least_with_below = least - error[i] * inflate;
@@ -78,9 +79,10 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
             const S safe = pivot == S(M(0)) ? stiffness * floor : pivot;
             below[i] = ((stiffness - e.upper) * below[i] - (stiffness * S(e.weight) - e.coupling)) / safe;
 
-            const M gain = abs(k + cross) + (cross_error + M(4) * epsilon<M>() * k);
+            const M gain = abs(k + cross) + (cross_error + relative * k);
             const M quotient = abs(static_cast<M>(below[i]));
-            const M numerator_error = local * ((k + upper) * size + k * e.weight + coupling) + underflow;
+            const M numerator_error =
+                local * ((k + upper) * size + k * e.weight + coupling) + underflow * (M(1) + size);
             error[i] = inflate * ((gain / least) * (gain / least_with_below) * error[i] +
                                   (numerator_error + quotient * pivot_error) / least + M(2) * unit * quotient);
         }

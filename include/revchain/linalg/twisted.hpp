@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "revchain/linalg/element_pencil.hpp"
@@ -22,22 +23,43 @@ S ratio(const S& cross, const S& pivot) {
 
 }  // namespace detail
 
-/// Scales offsets so that the largest is 1 in size and the free end (else the lowest pin off the axis) positive.
-template <class Offsets>
-void normalise(Offsets& offset) {
-    using S = std::decay_t<decltype(offset[0])>;
+/// Where a mode crosses the axis: in `element`, at `share` of its length from its lower pin.
+template <Real T>
+struct Crossing {
+    Index element{};
+    T share{};
+};
+
+/// Offsets of pins 0 ... N, free end first, the held pin last (0): the largest is 1 in size, the free end positive.
+/// Crossings and the free end's sign are those of the exact ratios of neighbours: they outlast offsets that underflow.
+template <Real T>
+struct Eigenvector {
+    Vector<T> offset;
+    std::vector<Crossing<T>> crossings;  ///< lowest first, the held pin left out
+};
+
+/// The same from offsets alone, as dense solvers give them.
+template <Real T>
+Eigenvector<T> normalised(Vector<T> offset) {
     using std::abs;
-    const S zero(Narrow<S>(0));
-    S largest = zero, sign = zero;
-    for (const S& y : offset) {
-        if (abs(y) > abs(largest)) largest = abs(y);
-        if (sign == zero) sign = y;
+    Eigenvector<T> result;
+    T largest(0), side(0), sign(0);  // side: the offset last seen off the axis; sign: the first
+    for (Index m = 0; m < offset.size(); ++m) {
+        const T y = offset[m];
+        if (abs(y) > largest) largest = abs(y);
+        if (y == T(0)) continue;
+        if (sign == T(0)) sign = y;
+        if (m + 1 < offset.size() && side != T(0) && (y < T(0)) != (side < T(0)))
+            result.crossings.push_back({m - 1, offset[m - 1] == T(0) ? T(0) : offset[m - 1] / (offset[m - 1] - y)});
+        side = y;
     }
-    if (sign < zero) largest = -largest;
-    for (S& y : offset) y = y / largest + zero;  // no -0
+    if (sign < T(0)) largest = -largest;
+    for (T& y : offset) y = y / largest + T(0);  // no -0
+    result.offset = std::move(offset);
+    return result;
 }
 
-/// Eigenvector of the pencil at an eigenvalue: offsets of pins 0 ... N, the held pin N last (0), normalised.
+/// Eigenvector of the pencil at an eigenvalue.
 ///
 /// Twisted factorisation: dynamic stiffness D of what hangs below each pin, going up, and E of what holds it from
 /// above, going down; they balance best (|D + E| least) where the mode is largest, and from there the offsets follow
@@ -48,7 +70,7 @@ void normalise(Offsets& offset) {
 /// S = double 1.5e-15 / gap up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
 /// eigenvalue. An error e in `eigenvalue` adds e / gap.
 template <Real S>
-Vector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
+Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
     using std::abs;
     using T = Narrow<S>;
     const Index n = pencil.size();
@@ -59,9 +81,6 @@ Vector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalu
         S up;               // offset of the pin above over that of this pin
     };
     std::vector<Pin> pins(static_cast<std::size_t>(n));
-    const auto cross_of = [](const Element<S>& e, const S& stiffness) {
-        return stiffness + ((S(e.weight) - e.lower) - e.upper) * S(T(0.5));
-    };
     S below = zero;
     for (std::size_t m = 0; m < pins.size(); ++m) {
         const Element<S>& e = pencil.elements[m];
@@ -70,7 +89,7 @@ Vector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalu
         S pivot = below + (stiffness - e.lower);
         if (pivot == zero) pivot = stiffness * floor;
         below = ((stiffness - e.upper) * below - (stiffness * S(e.weight) - e.coupling)) / pivot;
-        pins[m].down = detail::ratio(cross_of(e, stiffness), pivot);
+        pins[m].down = detail::ratio(stiffness + cross_mass(e), pivot);
     }
     std::size_t twist = pins.size() - 1;
     T least = std::numeric_limits<T>::infinity();
@@ -84,7 +103,7 @@ Vector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalu
         } else {
             S pivot = above + (stiffness - e.upper);
             if (pivot == zero) pivot = stiffness * floor;
-            pins[m].up = detail::ratio(cross_of(e, stiffness), pivot);
+            pins[m].up = detail::ratio(stiffness + cross_mass(e), pivot);
             above = ((stiffness - e.lower) * above - (stiffness * S(e.weight) - e.coupling)) / pivot;
         }
         // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the mode,
@@ -104,10 +123,22 @@ Vector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalu
     offset[twist] = S(T(1));
     for (std::size_t m = twist; m-- > 0;) offset[m] = pins[m].down * offset[m + 1];
     for (std::size_t m = twist; m < pins.size(); ++m) offset[m + 1] = pins[m].up * offset[m];
-    normalise(offset);
-    Vector<T> rounded(n + 1);
-    for (Index m = 0; m <= n; ++m) rounded[m] = static_cast<T>(offset[static_cast<std::size_t>(m)]);
-    return rounded;
+
+    Eigenvector<T> result{Vector<T>(n + 1), {}};
+    S largest = zero;
+    for (const S& y : offset)
+        if (abs(y) > largest) largest = abs(y);
+    for (std::size_t m = 0; m < pins.size(); ++m) {
+        const T down = static_cast<T>(pins[m].down), up = static_cast<T>(pins[m].up);
+        if (m < twist && down < T(0)) {
+            result.crossings.push_back({static_cast<Index>(m), down / (down - T(1))});
+            largest = -largest;  // the free end is to be positive, and each crossing below the twist changes its sign
+        }
+        if (m >= twist && up < T(0)) result.crossings.push_back({static_cast<Index>(m), T(1) / (T(1) - up)});
+    }
+    for (Index m = 0; m <= n; ++m)
+        result.offset[m] = static_cast<T>(offset[static_cast<std::size_t>(m)] / largest + zero);
+    return result;
 }
 
 /// lambda = y^T M y / y^T K y in S, element by element, from offsets in a narrower scalar: its error is the square of
@@ -120,8 +151,7 @@ S rayleigh_quotient(const ElementPencil<S>& pencil, const Vector<T>& offset) {
         const Element<S>& e = pencil.elements[static_cast<std::size_t>(m)];
         const S lower(static_cast<Narrow<S>>(offset[m])), upper(static_cast<Narrow<S>>(offset[m + 1]));
         const S difference = lower - upper;
-        // M in the form A y^2 + B y'^2 + 2 X y y' with 2 X = W - A - B
-        const S twice_cross = (S(e.weight) - e.lower) - e.upper;
+        const S twice_cross = cross_mass(e) * S(Narrow<S>(2));
         inertia = inertia + (lower * (e.lower * lower + twice_cross * upper) + e.upper * upper * upper);
         stiffness = stiffness + e.stiffness * difference * difference;
     }
@@ -141,7 +171,7 @@ T relative_residual(const ElementPencil<S>& pencil, const T& eigenvalue, const V
     for (Index m = 0; m < pencil.size(); ++m) {
         const Element<S>& e = pencil.elements[static_cast<std::size_t>(m)];
         const S k = e.stiffness * S(static_cast<M>(eigenvalue));
-        const S cross = ((S(e.weight) - e.lower) - e.upper) * S(M(0.5));
+        const S cross = cross_mass(e);
         const S lower(static_cast<M>(offset[m])), upper(static_cast<M>(offset[m + 1]));
         const S spring = k * (lower - upper);
         const M spring_size = size_of(k) * (size_of(lower) + size_of(upper));

@@ -44,13 +44,13 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
         const S rest = a - h;
         result.pencil.elements.push_back({kappa / square, (h * h + gyration) / square * S(weight),
                                           (rest * rest + gyration) / square * S(weight),
-                                          S(weight) * S(weight) * gyration / square, weight});
+                                          gyration / square * S(weight) * S(weight), weight});
         const E amplification = (abs(static_cast<E>(moment)) + static_cast<E>(carried)) / static_cast<E>(kappa);
         if (amplification > cancelled) cancelled = amplification;
         hung = hung + S(weight);
     }
-    // S_m is a sum of up to N terms; every other entry takes at most six operations.
-    result.pencil.entry_error = operation_error<S>() * (E(chain.size() + 4) * cancelled * E(1.01) + E(6));
+    // S_m is a sum of up to N terms; every other entry takes at most seven operations.
+    result.pencil.entry_error = operation_error<S>() * (E(chain.size() + 4) * cancelled * E(1.01) + E(7));
     return result;
 }
 

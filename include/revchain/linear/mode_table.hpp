@@ -33,10 +33,6 @@ struct Modes {
     std::string method;
     Status status = Status::success;
 
-    Modes() = default;
-    /// Room for what the options ask of the chain.
-    Modes(const Chain<T>& chain, const ModesOptions<T>& options);
-
     Index size() const { return conical_height.size(); }
     /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2 ulp.
     Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
@@ -50,16 +46,6 @@ struct Modes {
         return each(gravity, &conical_pendulum::revolutions_per_second<T>);
     }
 
-    /// A bound beyond the tolerance asked, or none at all, is `tolerance_not_met`.
-    void note_status(const T& bound, const ModesOptions<T>& options) {
-        if (!(bound <= options.rtol.value_or(std::numeric_limits<T>::max()))) status = Status::tolerance_not_met;
-    }
-    /// Stores the normalised offsets of mode `j`, with nodes and the residual in the pencil's scalar; `height` in its
-    /// unit.
-    template <Real S>
-    void set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<S>& pencil, const T& height,
-                   Vector<T> offset);
-
    private:
     Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
         Vector<T> result(size());
@@ -70,22 +56,17 @@ struct Modes {
 
 namespace detail {
 
-/// Distances from the free end at which the polygon of offsets crosses the axis, the support left out.
+/// Distances of the crossings from the free end, along the chain.
 template <Real T>
-Vector<T> nodes(const Chain<T>& chain, const Vector<T>& offset) {
-    std::vector<T> found;
-    Wide<T> below(T(0));  // distance of the link's lower pin from the free end
-    T side(0);            // offset last seen off the axis
-    for (Index m = 0; m < chain.size(); ++m) {
-        const T lower = offset[m], upper = offset[m + 1];
-        if (lower != T(0)) side = lower;
-        if (m + 1 < chain.size() && (upper < T(0) ? side > T(0) : upper > T(0) && side < T(0))) {
-            const T share = lower == T(0) ? T(0) : lower / (lower - upper);
-            found.push_back(static_cast<T>(below + Wide<T>(share * chain.length()[m])));
-        }
-        below = below + Wide<T>(chain.length()[m]);
+Vector<T> nodes(const Chain<T>& chain, const std::vector<linalg::Crossing<T>>& crossings) {
+    Vector<T> found(static_cast<Index>(crossings.size()));
+    Wide<T> below(T(0));  // distance of the lower pin of link `m` from the free end
+    Index m = 0, i = 0;
+    for (const linalg::Crossing<T>& crossing : crossings) {
+        for (; m < crossing.element; ++m) below = below + Wide<T>(chain.length()[m]);
+        found[i++] = static_cast<T>(below + Wide<T>(crossing.share * chain.length()[m]));
     }
-    return Eigen::Map<const Vector<T>>(found.data(), static_cast<Index>(found.size()));
+    return found;
 }
 
 template <Real T>
@@ -97,26 +78,43 @@ void check(const Chain<T>& chain, const ModesOptions<T>& options) {
     if (options.rtol && !(*options.rtol >= T(0))) refuse("modes", "rtol must not be negative or NaN", *options.rtol);
 }
 
-}  // namespace detail
-
+/// Room for what the options ask of the chain, nothing computed yet.
 template <Real T>
-Modes<T>::Modes(const Chain<T>& chain, const ModesOptions<T>& options) {
+Modes<T> room_for_modes(const Chain<T>& chain, const ModesOptions<T>& options, const char* method) {
     const Index count = options.count.value_or(chain.mode_count());
-    conical_height.resize(count);
-    error_bound.resize(count);
-    if (!options.shapes) return;
-    shape.resize(count, chain.size() + 1);
-    residual.resize(count);
-    nodes.resize(static_cast<std::size_t>(count));
+    Modes<T> result;
+    result.method = method;
+    result.conical_height.resize(count);
+    result.error_bound.resize(count);
+    if (!options.shapes) return result;
+    result.shape.resize(count, chain.size() + 1);
+    result.residual.resize(count);
+    result.nodes.resize(static_cast<std::size_t>(count));
+    return result;
 }
 
+/// Stores height number `j`, given in units of 2^exponent. Where it leaves the normal range of T on the way to the
+/// user's unit, the bound takes up what is lost. A bound beyond the tolerance asked is `tolerance_not_met`.
 template <Real T>
-template <Real S>
-void Modes<T>::set_shape(Index j, const Chain<T>& chain, const linalg::ElementPencil<S>& pencil, const T& height,
-                         Vector<T> offset) {
-    residual[j] = linalg::relative_residual(pencil, height, offset);
-    nodes[static_cast<std::size_t>(j)] = detail::nodes(chain, offset);
-    shape.row(j) = offset.transpose();
+void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent, const ModesOptions<T>& options) {
+    using std::abs;
+    using std::ldexp;
+    const T stored = ldexp(height, exponent);
+    const T lost = abs(ldexp(stored, -exponent) - height);
+    if (lost > T(0)) bound = stored > T(0) ? bound + T(2) * (lost / height) : std::numeric_limits<T>::infinity();
+    modes.conical_height[j] = stored;
+    modes.error_bound[j] = bound;
+    if (!(bound <= options.rtol.value_or(std::numeric_limits<T>::max()))) modes.status = Status::tolerance_not_met;
 }
 
+/// Stores shape and nodes of mode `j`, and its residual in the pencil's scalar; `height` in the pencil's unit.
+template <Real T, Real S>
+void set_shape(Modes<T>& modes, Index j, const Chain<T>& chain, const linalg::ElementPencil<S>& pencil, const T& height,
+               const linalg::Eigenvector<T>& vector) {
+    modes.residual[j] = linalg::relative_residual(pencil, height, vector.offset);
+    modes.nodes[static_cast<std::size_t>(j)] = nodes(chain, vector.crossings);
+    modes.shape.row(j) = vector.offset.transpose();
+}
+
+}  // namespace detail
 }  // namespace revchain

@@ -27,18 +27,14 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const l
                   const char* method) {
     using std::ldexp;
     const AssembledChain<T> assembled = assemble(chain);
-    Modes<T> result(chain, options);
-    result.method = method;
+    Modes<T> result = room_for_modes(chain, options, method);
     for (Index j = 0; j < result.size(); ++j) {
         const T height = system.values[j];
-        result.conical_height[j] = ldexp(height, assembled.units.length_exponent);
-        result.error_bound[j] = proved_error(assembled, j, height);
-        result.note_status(result.error_bound[j], options);
+        set_height(result, j, height, proved_error(assembled, j, height), assembled.units.length_exponent, options);
         if (options.shapes) {
             Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
             offset.head(chain.size()) = system.vectors.col(j);
-            linalg::normalise(offset);
-            result.set_shape(j, chain, assembled.pencil, height, std::move(offset));
+            set_shape(result, j, chain, assembled.pencil, height, linalg::normalised(std::move(offset)));
         }
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(result.size()));
     }

@@ -42,6 +42,24 @@ TEST_CASE("one number for all links is stored once", "[chain]") {
     CHECK(mixed.link(2).weight == 3.0);
 }
 
+TEST_CASE("a uniform chain costs nothing to check", "[chain]") {
+    const Chain chain = Chain::uniform_rods(1'000'000'000'000, 5.0, 2.0);
+    CHECK(chain.mode_count() == 1'000'000'000'000);
+    CHECK(chain.total_length() == Approx(5.0).epsilon(1e-15));
+    CHECK_THROWS_AS(Chain(Chain(Links{plummet(1.0, 1.0)}).size() + 9, 1e308, 1.0, 1.0, revchain::Wide<double>(0)),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(Chain(10, 1.0, 1e308, 1.0, revchain::Wide<double>(0)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(Chain(10, 1.0, 1.0, -0.5, revchain::Wide<double>(1)), revchain::InvalidArgument);
+    CHECK(Chain(10, 1.0, 1.0, 0.5, revchain::Wide<double>(0)).mode_count() == 10);
+}
+
+TEST_CASE("double words that are none", "[chain]") {
+    using WideDouble = revchain::Wide<double>;
+    CHECK_THROWS_AS(Chain(Links{{1.0, 1.0, 0.5, WideDouble(0.1, nan_value)}}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(Chain(Links{{1.0, 1.0, 0.5, WideDouble(0.1, -0.2)}}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(Chain(Links{{1.0, 1.0, 0.5, WideDouble(0.0, 1e-9)}}), revchain::InvalidArgument);
+}
+
 TEST_CASE("weights and lengths are summed without loss", "[chain]") {
     // 1e6 times 0.1: a plain sum is off by 1e-6 relative 1e-11
     CHECK(Chain(1'000'000, 0.1, 0.1, 0.1, revchain::Wide<double>(0)).total_weight() == 100000.0 * (1 + 0x1p-54));

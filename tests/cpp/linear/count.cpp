@@ -44,3 +44,21 @@ TEST_CASE("bad heights and speeds", "[linear]") {
     CHECK_THROWS_AS(count_modes(chain, bad, 9.8), revchain::InvalidArgument);
     CHECK_THROWS_AS(count_modes(chain, 1.0, bad), revchain::InvalidArgument);
 }
+
+TEST_CASE("ties and extremes", "[linear]") {
+    support::Random random(61);
+    for (int i = 0; i < 2000; ++i) {  // one link: its height is its pendulum length, as given
+        const double h = random.between(0.1, 1), l = h * random.between(1, 3), a = random.between(0.5, 2);
+        const revchain::Chain<double> one(std::vector{revchain::compound_pendulum<double>(
+            {.weight = random.between(0.1, 9), .length = a, .centroid = h, .pendulum_length = l})});
+        REQUIRE(count_modes(one, l) == 0);
+        REQUIRE(count_modes(one, std::nextafter(l, 0.0)) == 1);
+    }
+    const revchain::Chain<double> threaded(
+        std::vector{revchain::plummet(1.0, 1.0), revchain::plummet(0.0, 1.0), revchain::plummet(1.0, 1.0)});
+    CHECK(threaded.mode_count() == 2);
+    for (const double slow : {1e-300, 1e-200, 1e-150}) CHECK(count_modes(threaded, slow, 9.8) == 0);
+    for (const double fast : {1e150, 1e200, 1e300}) CHECK(count_modes(threaded, fast, 9.8) == 2);
+    CHECK(count_modes(threaded, 5e-324) == 2);
+    CHECK(count_modes(threaded, 1.7e308) == 0);
+}

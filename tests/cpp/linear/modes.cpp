@@ -297,3 +297,86 @@ TEST_CASE("a link that hardly hangs, and one that hardly swings", "[linear]") {
         require_bounds(chain, m);
     }
 }
+
+// W^2 rho^2 / a^2 must not underflow on the way: it is of the order of 1e-340 before the division.
+TEST_CASE("a tiny coupling of masses", "[linear]") {
+    using WideDouble = revchain::Wide<double>;
+    const Chain<double> chain(std::vector<revchain::Link<double>>{
+        {0xd.9fb4658eeac6p-411, 0xb.918e68241ce9p-258, 0xb.918e68241ce9p-258,
+         WideDouble(0xd.4caa40da0ebf8p-394, -0xe.43d943a343b8p-449)},
+        {0x8.49c10ff790c6p-36, 0x8.527d19d678dfp-27, 0xd.72d47d36b021p-228, WideDouble(0)}});
+    const auto m = revchain::modes(chain, {});
+    CHECK(support::error_in_ulp(m.conical_height[0], strtoflt128("1.319699319837711969577697e-41", nullptr)) <= 0.501);
+    CHECK(support::error_in_ulp(m.conical_height[1], strtoflt128("2.634016138520184008980816e-60", nullptr)) <= 0.501);
+    CHECK(m.error_bound.maxCoeff() <= 0x1.0001p-51);
+}
+
+TEST_CASE("a chain at the edge of float comes to an end", "[linear]") {
+    const Chain<float> chain(
+        std::vector<revchain::Link<float>>{{0xf.01fa8p-53F, 0x9.fa325p-34F, 0x9.fa325p-34F, 0x1.6193bap-9},
+                                           {0xf.f33b7p-4F, 0xa.98629p-16F, 0xe.20837p-18F, 0x1.31900ap-59},
+                                           {0x0p+0F, 0xb.53693p-19F, 0x0p+0F, 0x1.15d492p-10},
+                                           {0xc.9e48fp-53F, 0xa.a854fp-13F, 0x0p+0F, 0x1.7be1aep-47},
+                                           {0xa.f5a4dp-4F, 0x8.2a0ffp-27F, 0x8.2a0ffp-27F, 0x0p+0},
+                                           {0x8.36cdp-30F, 0x8.c3a9cp-4F, 0xb.36ddp-32F, 0x0p+0},
+                                           {0x8.d3ddbp-51F, 0xd.a6e38p-30F, 0xd.a6e38p-31F, 0x1.f0ffbcp-57}});
+    CHECK(revchain::modes(chain, {}).size() == chain.mode_count());
+}
+
+// Offsets below 1e-308 underflow; nodes and the free end's sign are taken from ratios, which do not.
+TEST_CASE("every node of every mode, where offsets underflow too", "[linear]") {
+    support::Random random(51);
+    std::vector<Chain<double>> chains{Chain<double>::uniform_plummets(1000)};
+    for (const double ratio : {1e2, 1e6, 1e12})
+        chains.push_back(support::chain_of(
+            300, [&](Index) { return revchain::plummet<double>(random.log_between(1, ratio), 1.0); }));
+    for (const auto& chain : chains) {
+        const auto m = revchain::modes(chain, {});
+        const Truth truth(chain);
+        for (Index j = 0; j < m.size(); ++j) {
+            const auto& nodes = m.nodes[static_cast<std::size_t>(j)];
+            REQUIRE(nodes.size() == j);
+            for (Index i = 1; i < j; ++i) REQUIRE(nodes[i] > nodes[i - 1]);
+            if (j % 50 != 49) continue;
+            const Quad h = m.conical_height[j];
+            const auto shape = truth.shape(truth.height(j, h * (1 - Quad(1e-15)), h * (1 + Quad(1e-15)), 1e-28));
+            for (Index i = 0; i <= chain.size();
+                 ++i)  // quadruple precision reaches to 1e-4932: the true sign of the free end
+                if (std::abs(m.shape(j, i)) > 1e-3)
+                    REQUIRE((m.shape(j, i) > 0) == (shape[static_cast<std::size_t>(i)] > 0));
+        }
+    }
+}
+
+// lambda k + X = 0 at lambda = 1 cuts the chain there; both parts have the height 1. Bounds hold, heights stay in order.
+TEST_CASE("heights that coincide, and nearly", "[linear]") {
+    for (const double away : {0.0, 1e-30, 1e-16, 1e-15, 4e-15, 1e-14, 1e-12, 1e-8, 1e-4}) {
+        const Chain<double> chain(
+            {revchain::plummet(1.0, 3.0),
+             revchain::Link<double>{1.0, 1.0, 0.5, revchain::Wide<double>(1.75) + revchain::Wide<double>(away)},
+             revchain::plummet(0.0, 4.0)});
+        const auto m = revchain::modes(chain, {});
+        CAPTURE(away, m.conical_height[0], m.conical_height[1], m.conical_height[2], m.error_bound[1],
+                m.error_bound[2]);
+        CHECK(m.conical_height[1] >= m.conical_height[2]);
+        CHECK(m.error_bound.maxCoeff() <= 1e-13);
+        CHECK(m.residual.maxCoeff() <= 1e-15);
+        const Truth truth(chain);
+        for (Index j = 0; j < 3; ++j) {
+            const Quad exact = away == 0 ? Quad(j == 0 ? 7 : 1) : truth.height(j, 0.5, 10, 1e-30);
+            CHECK(static_cast<double>(fabsq(Quad(m.conical_height[j]) / exact - 1)) <= m.error_bound[j] + 1e-25);
+        }
+    }
+}
+
+TEST_CASE("what does not fit into the scalar is not promised", "[linear]") {
+    const auto m = revchain::modes(Chain<double>::uniform_plummets(1000, 1e-304), {.shapes = false});
+    const auto ordinary = revchain::modes(Chain<double>::uniform_plummets(1000, 1.0), {.shapes = false});
+    for (Index j = 0; j < m.size(); ++j) {
+        const Quad exact = Quad(ordinary.conical_height[j]) * Quad(1e-304);
+        const double error = static_cast<double>(fabsq(Quad(m.conical_height[j]) / exact - 1));
+        CHECK(error <= m.error_bound[j] + 2e-15);
+    }
+    CHECK(m.error_bound[0] <= 0x1.0001p-51);
+    CHECK(m.error_bound[999] > 1e-14);  // subnormal
+}
