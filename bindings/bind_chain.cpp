@@ -137,6 +137,6 @@ void bind_chain(py::module_& module) {
         .def(
             "__eq__", [](const Chain& x, const Chain& y) { return x == y; }, py::is_operator())
         .def("__hash__",
-             [](const Chain& c) { return py::hash(py::make_tuple(c.size(), c.total_weight(), c.total_length())); })
+             [](const Chain& c) { return py::hash(py::make_tuple(c.size(), c.weight()[0], c.length()[0])); })
         .def(py::pickle(&get_state, &set_state));
 }

@@ -19,6 +19,8 @@ array([ 6.2757, 14.4064, 22.59  ])
 
 from __future__ import annotations
 
+from contextlib import suppress
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from . import conical_pendulum, heavy_chain
@@ -36,17 +38,18 @@ if TYPE_CHECKING:
 __all__ = [
     "Chain",
     "Modes",
-    "Scene",
     "SceneError",
     "__version__",
     "conical_pendulum",
     "count_modes",
     "heavy_chain",
     "load",
-    "load_scene",
     "modes",
     "recurrence_matrices",
 ]
+with suppress(ImportError):  # without it, `from revchain import *` must not ask for them
+    if find_spec("msgspec") is not None:
+        __all__ += ["Scene", "load_scene"]
 
 
 def __getattr__(name: str) -> Any:
@@ -54,7 +57,10 @@ def __getattr__(name: str) -> Any:
     if name in ("Scene", "load_scene"):
         from ._extras import require
 
-        require("msgspec", "cli", "a scene file")
+        try:
+            require("msgspec", "cli", "a scene file")
+        except ImportError as error:
+            raise AttributeError(str(error)) from error
         from . import scene
 
         value = getattr(scene, name)

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import math
 import operator
+from contextlib import suppress
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -16,11 +18,16 @@ STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
 
 
-def floats(place: str, name: str, value: ArrayLike) -> Floats:
+def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
     """`value` as a float64 array; anything but real numbers is refused with a ValueError."""
     try:
         array = np.asarray(value)
     except (TypeError, ValueError, OverflowError):  # ragged lists among others
+        array = np.asarray(None)
+    if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
+        with suppress(OverflowError):
+            array = array.astype(np.float64)  # whole numbers beyond 64 bits, fractions
+    if isinstance(value, (bytes, bytearray, memoryview)):
         array = np.asarray(None)
     if array.dtype.kind not in "iuf" or (array.size == 0 and array.ndim == 0):
         raise ValueError(f"{place}: {name} must be a real number or an array of them, got {shown(value)}")

@@ -93,7 +93,7 @@ class Chain:
                 ("pendulum_length", pendulum_length),
                 ("radius_of_gyration", radius_of_gyration),
             )
-            if value is not None
+            if value is not None or name in ("weight", "length")
         }
         _check_shapes(columns)
         object.__setattr__(self, "_compiled", _core.Chain(**columns))
@@ -275,13 +275,20 @@ class Chain:
         return f"Chain of {links}, length {self.total_length:.6g}, weight {self.total_weight:.6g}"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Chain._wrap, (self._compiled,)
+        return _restored, (self._compiled.__getstate__(),)
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a Chain cannot be changed: {name} was not set")
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"a Chain cannot be changed: {name} was not deleted")
+
+
+def _restored(state: tuple[Any, ...]) -> Chain:
+    """A chain from its pickled state: for every pickle protocol, which the compiled one is not."""
+    compiled = _core.Chain.__new__(_core.Chain)
+    compiled.__setstate__(state)
+    return Chain._wrap(compiled)
 
 
 def _check_shapes(columns: dict[str, Floats]) -> None:

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import functools
+import io
 import json as json_module
+import os
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -52,6 +54,11 @@ class Stop(Exception):
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command line; the exit code is returned."""
+    if sys.stdout is None:  # closed by the caller
+        sys.stdout = open(os.devnull, "w")
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal that has no line characters shows question marks
     try:
         app(arguments, prog_name="revchain")
     except SystemExit as end:
@@ -226,11 +233,14 @@ def _outputs(
             kinds.append(".png")
         except ModuleNotFoundError as error:
             print(f"revchain: no picture: {error}", file=sys.stderr)
-        out.mkdir(parents=True, exist_ok=True)
         outputs.extend((out / f"{scene.stem}{kind}", kind) for kind in kinds)
     places = [path.resolve() for path, _ in outputs]
     if len(set(places)) < len(places):
         raise Stop("two outputs have the same name", ExitCode.WRONG_USAGE)
+    if scene.resolve() in places:
+        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+    if out is not None:
+        out.mkdir(parents=True, exist_ok=True)
     return outputs
 
 

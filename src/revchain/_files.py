@@ -10,6 +10,10 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 
+class OutputError(OSError, ValueError):
+    """An output that cannot be written: an OSError by nature, and wrong input like any other."""
+
+
 @contextmanager
 def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
     """Yield an empty file beside each path, with the same ending; rename all of them at the end.

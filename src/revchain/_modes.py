@@ -49,7 +49,7 @@ class Modes:
 
     Notes
     -----
-    Everything in it is read-only. `shape`, `residual` and `nodes` are None if ``shapes=False`` was
+    Arrays are read-only. Two results are equal when everything in them is. `shape`, `residual` and `nodes` are None if ``shapes=False`` was
     asked.
 
     Examples
@@ -85,6 +85,13 @@ class Modes:
 
     def __len__(self) -> int:
         return int(self.conical_height.size)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Modes):
+            return NotImplemented
+        return all(_same(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+
+    __hash__ = None  # type: ignore[assignment]
 
     def angular_speed(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:
         """Return the whirl speed of each mode, ``sqrt(gravity / conical_height)``.
@@ -285,8 +292,8 @@ class Modes:
         ImportError
             If what ``.nc`` needs is not installed; the message says how to install it.
         OSError
-            If the file cannot be written. It is written aside and renamed: what was there before
-            stays until the new file is whole.
+            (a ValueError too) If the file cannot be written. It is written aside and renamed: what
+            was there before stays until the new file is whole.
 
         Notes
         -----
@@ -317,3 +324,14 @@ class Modes:
         from ._tables import html_table
 
         return html_table(self)
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two fields are equal, number for number."""
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(_same, one, other))
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return np.array_equal(one, other, equal_nan=True)
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return False
+    return bool(one == other)

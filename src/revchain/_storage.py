@@ -14,7 +14,7 @@ import numpy as np
 from . import _core
 from ._chain import Chain
 from ._extras import require
-from ._files import written_aside
+from ._files import OutputError, written_aside
 from ._modes import Modes
 from ._record import to_xarray
 
@@ -26,12 +26,15 @@ def save(modes: Modes, path: str | os.PathLike[str]) -> None:
     """See `Modes.save`."""
     ending = _ending(path)
     dataset = _dataset(modes) if ending == ".nc" else None
-    with written_aside(path) as [aside]:
-        if dataset is not None:
-            dataset.to_netcdf(aside, engine="h5netcdf")
-        else:
-            with open(aside, "wb") as file:  # given a name, numpy may add to it
-                np.savez(file, allow_pickle=False, **_arrays(modes))
+    try:
+        with written_aside(path) as [aside]:
+            if dataset is not None:
+                dataset.to_netcdf(aside, engine="h5netcdf")
+            else:
+                with open(aside, "wb") as file:  # given a name, numpy may add to it
+                    np.savez(file, allow_pickle=False, **_arrays(modes))
+    except OSError as error:
+        raise OutputError(error.errno, error.strerror or str(error), os.fspath(path)) from error
 
 
 def load(path: str | os.PathLike[str]) -> Modes:

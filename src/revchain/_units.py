@@ -9,8 +9,13 @@ from typing import Any
 
 from ._extras import require
 
-PATTERN = r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*[a-zA-Zµμ°][^'\"]*$"
-"""A number and the name of a unit, such as ``39.1396 inch``."""
+_NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
+_UNIT = r"[a-zA-Zµμ°]+((\^|\*\*)-?\d)?"
+PATTERN = rf"^\s*{_NUMBER}\s*{_UNIT}((\s*[*/]\s*|\s+){_UNIT})*\s*$"
+"""A number and a unit, such as ``39.1396 inch`` or ``9.81 m/s^2``.
+
+Exponents have one digit: pint works out whatever stands there, and ``m**9**9**9`` would take it for ever.
+"""
 
 SI = {
     "length": ("m", "a length", "39.1396 inch"),
@@ -24,9 +29,9 @@ SI = {
 def si_value(text: str, quantity: str) -> float:
     """The number that `text` means in SI units; a ValueError says what is wrong with it."""
     unit, name, example = SI[quantity]
-    if re.match(PATTERN, text) is None:
+    if len(text) > 100 or re.match(PATTERN, text) is None:
         raise ValueError(f'must be a number, or a number and its unit such as "{example}", got "{text}"')
-    number = re.match(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", text)
+    number = re.match(rf"\s*{_NUMBER}", text)
     assert number is not None
     registry = _registry()
     try:

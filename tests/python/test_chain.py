@@ -165,3 +165,24 @@ def test_arguments_have_names():
 def test_uniform_refused(make, arguments):
     with pytest.raises(ValueError, match="uniform_"):
         make(*arguments)
+
+
+def test_equal_however_they_are_stored():
+    one, other = rc.Chain(weight=[1, 2, 3], length=1.0), rc.Chain(weight=[1, 2, 3], length=[1.0, 1.0, 1.0])
+    assert one == other
+    assert hash(one) == hash(other)
+    assert one != rc.Chain(weight=[1, 2, 3], length=[1.0, 1.0, 1.5])
+
+
+def test_whole_numbers_beyond_64_bits():
+    assert rc.Chain(weight=[10**30, 1], length=1).weight[0] == 1e30
+
+
+@pytest.mark.parametrize("weight", [None, b"12", bytearray(b"12"), [1, None], object()])
+def test_no_numbers(weight):
+    with pytest.raises(ValueError, match="weight must be a real number"):
+        rc.Chain(weight=weight, length=1)
+
+
+def test_a_huge_uniform_chain_is_made_at_once():
+    assert rc.Chain.uniform_rods(10**15).mode_count == 10**15

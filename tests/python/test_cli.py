@@ -360,3 +360,18 @@ def test_errors_of_the_worker_arrive(monkeypatch):
 
     with pytest.raises(ValueError, match="from the thread"):
         watched(work, Console())
+
+
+def test_a_terminal_without_line_characters(python):
+    done = python("-m", "revchain", "solve", "watch.toml", env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert done.returncode == ExitCode.OK, done.stderr
+    assert "Watch chain" in done.stdout and "6.27" in done.stdout
+
+
+def test_the_scene_is_not_overwritten(python):
+    before = Path("watch.toml").read_text()
+    done = python("-m", "revchain", "solve", "watch.toml", "--json", "watch.toml")
+    assert (done.returncode, done.stderr) == (
+        ExitCode.WRONG_USAGE, "revchain: watch.toml: the scene itself would be overwritten\n"
+    )
+    assert Path("watch.toml").read_text() == before

@@ -346,3 +346,31 @@ print(rc.modes(rc.Chain.uniform_rods(1)).conical_height.size)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=60)
     assert (out, err, process.returncode) == ("interrupted\n1\n", "", 0)
+
+
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_every_pickle_protocol(protocol):
+    chain = rc.Chain(weight=[1, 2], length=1.0, centroid=0.3, radius_of_gyration=[0.1, 0.2])
+    result = rc.modes(chain)
+    assert pickle.loads(pickle.dumps(chain, protocol)) == chain
+    assert pickle.loads(pickle.dumps(result, protocol)) == result
+
+
+def test_equal_results():
+    chain = rc.Chain.uniform_rods(5)
+    assert rc.modes(chain) == rc.modes(chain)
+    assert rc.modes(chain) != rc.modes(chain, count=4)
+    assert rc.modes(chain) != rc.modes(chain, shapes=False)
+    assert rc.modes(chain) != 3
+
+
+def test_nodes_outlast_offsets_that_underflow():
+    result = rc.modes(rc.Chain.uniform_plummets(500))
+    assert [len(nodes) for nodes in result.nodes] == list(range(500))
+
+
+def test_a_light_link_below_a_heavy_one():
+    lengths = [0.9277025938204417, 0.5091991363691613]
+    result = rc.modes(rc.Chain(weight=[1, 1e12], length=lengths))
+    height = result.conical_height[1]
+    assert result.shape[1, 1] == pytest.approx(1 - lengths[0] / height, rel=1e-14)  # the moment about the upper pin

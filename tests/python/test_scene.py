@@ -272,3 +272,9 @@ def test_the_schema_knows_every_key():
         assert list(tables[name]["properties"]) == list(struct.__struct_fields__)
         assert tables[name]["additionalProperties"] is False
         assert all("description" in entry for entry in tables[name]["properties"].values())
+
+
+@pytest.mark.parametrize("text", ["1 m**9**9**9", "1 m^9^9^9", "1 m*9**9**9**9/m", "1 m**99", "1 " + "m*" * 200 + "m"])
+def test_units_are_not_a_calculator(text):
+    with pytest.raises(ValueError, match=r"links\[0\].length"):
+        links({"mass": 1.0, "length": text}).chain()

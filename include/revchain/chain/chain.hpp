@@ -94,7 +94,13 @@ class Chain {
         return units;
     }
 
-    friend bool operator==(const Chain&, const Chain&) = default;
+    /// The same links, however they are stored.
+    friend bool operator==(const Chain& x, const Chain& y) {
+        if (x.size_ != y.size_) return false;
+        for (Index m = 0; m < std::max(x.distinct_links(), y.distinct_links()); ++m)
+            if (!(x.link(m) == y.link(m))) return false;
+        return true;
+    }
 
    private:
     template <class V>
@@ -195,11 +201,11 @@ void Chain<T>::check() {
     // Within these ratios no product of the recursions leaves the range of T, whatever its units.
     constexpr int reach = std::numeric_limits<T>::max_exponent;
     if (largest_weight / ldexp(T(1), 2 * reach / 5) > smallest_weight)
-        detail::refuse("Chain", "the weights span too wide a ratio for this scalar; the smallest not zero is",
-                       smallest_weight);
+        detail::refuse("Chain", "the weights span too wide a ratio for this scalar, from " +
+                                    detail::in_digits(smallest_weight) + " to " + detail::in_digits(largest_weight));
     if (largest_length_ / ldexp(T(1), reach / 4) > smallest_length)
-        detail::refuse("Chain", "the lengths span too wide a ratio for this scalar; the smallest not zero is",
-                       smallest_length);
+        detail::refuse("Chain", "the lengths span too wide a ratio for this scalar, from " +
+                                    detail::in_digits(smallest_length) + " to " + detail::in_digits(largest_length_));
     total_weight_ = static_cast<T>(below);
     total_length_ = static_cast<T>(straight);
     check_that_links_hang();

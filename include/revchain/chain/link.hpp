@@ -19,6 +19,8 @@ struct Link {
     /// l = h + rho^2/h because h = 0 is allowed, and in twice the digits because h (l - h) and rho rho do not fit in T:
     /// the answers then belong to the numbers the user gave, not to a rounding of them.
     Wide<T> gyration_squared{};
+
+    friend bool operator==(const Link&, const Link&) = default;
 };
 
 namespace detail {
@@ -81,10 +83,10 @@ Wide<T> gyration_from_pendulum_length(std::string_view place, T centroid, T pend
     require_squarable(place, "pendulum length", pendulum_length);
     const Wide<T> squared = Wide<T>(centroid) * (Wide<T>(pendulum_length) - Wide<T>(centroid));
     if (squared < Wide<T>(T(0)))
-        refuse(place,
-               "imaginary radius of gyration: centroid (pendulum length - centroid) is negative, with centroid " +
-                   in_digits(centroid) + " and pendulum length",
-               pendulum_length);
+        refuse(
+            place,
+            "imaginary radius of gyration: centroid (pendulum length - centroid) must not be negative, with centroid " +
+                in_digits(centroid) + " and pendulum length " + in_digits(pendulum_length));
     return squared;
 }
 
