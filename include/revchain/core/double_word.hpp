@@ -33,7 +33,8 @@ struct DoubleWord {
     constexpr explicit operator T() const { return high; }
 
     friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
-    friend constexpr auto operator<=>(const DoubleWord& x, const DoubleWord& y) = default;  // high first, then low
+    // high first, then low
+    friend constexpr auto operator<=>(const DoubleWord& x, const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
     friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
 };
 
