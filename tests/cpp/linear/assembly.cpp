@@ -41,7 +41,7 @@ TEST_CASE("a link whose pendulum length is its length has a diagonal mass matrix
     // Greenhill §8, last remark: kinetically equivalent to plummets at the pins. h = 1/4, l = a = 1.
     const revchain::Chain<double> chain(std::vector{
         revchain::compound_pendulum<double>({.weight = 2, .length = 1, .centroid = 0.25, .pendulum_length = 1})});
-    const auto& e = revchain::assemble(chain).pencil.elements[0];
+    const auto e = revchain::assemble(chain).pencil.elements[0];
     CHECK(e.lower.high + e.upper.high == e.weight);
     CHECK(e.lower.high / e.weight == 0.25);
 }
