@@ -56,13 +56,12 @@ Modes modes(const Chain& chain, std::optional<Index> count, std::optional<double
     return result.get();
 }
 
-/// Elementwise over one or two arrays of one shape (the package broadcasts them), the GIL released.
-py::array_t<std::int64_t> counts(const Chain& chain, const std::vector<Array>& arguments,
+/// One count for each place of an array shaped like `like`, the GIL released.
+py::array_t<std::int64_t> counts(const Chain& chain, const Array& like,
                                  const std::function<Index(const revchain::ModeCounter<double>&, py::ssize_t)>& count) {
-    const Array& first = arguments.front();
-    py::array_t<std::int64_t> result(std::vector<py::ssize_t>(first.shape(), first.shape() + first.ndim()));
+    py::array_t<std::int64_t> result(std::vector<py::ssize_t>(like.shape(), like.shape() + like.ndim()));
     std::int64_t* out = result.mutable_data();
-    const py::ssize_t size = first.size();
+    const py::ssize_t size = like.size();
     const py::gil_scoped_release release;
     const revchain::ModeCounter<double> counter(chain);
     for (py::ssize_t i = 0; i < size; ++i) out[i] = count(counter, i);
@@ -106,7 +105,7 @@ void bind_linear(py::module_& module) {
         "count_modes",
         [](const Chain& chain, const Array& height) {
             const double* h = height.data();
-            return counts(chain, {height},
+            return counts(chain, height,
                           [h](const auto& counter, py::ssize_t i) { return counter.above_height(h[i]); });
         },
         "chain"_a, "conical_height"_a);
@@ -116,7 +115,7 @@ void bind_linear(py::module_& module) {
             const double *n = speed.data(), *g = gravity.data();
             if (speed.size() != gravity.size())
                 revchain::detail::refuse("count_modes", "angular_speed and gravity must have one shape");
-            return counts(chain, {speed, gravity},
+            return counts(chain, speed,
                           [n, g](const auto& counter, py::ssize_t i) { return counter.below_speed(n[i], g[i]); });
         },
         "chain"_a, "angular_speed"_a, "gravity"_a);

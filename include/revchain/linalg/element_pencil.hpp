@@ -27,6 +27,19 @@ S cross_mass(const Element<S>& e) {
     return ((S(e.weight) - e.lower) - e.upper) * S(Narrow<S>(0.5));
 }
 
+/// Dynamic stiffness carried across an element, equation (1) of docs/accuracy.md: from `near` at the pin where it is
+/// known to the other, whose own mass is `far`; `stiffness` is lambda k.
+template <Real S>
+S carried(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& pivot) {
+    return ((stiffness - far) * near - (stiffness * S(e.weight) - e.coupling)) / pivot;
+}
+
+/// The pivot, or where it is exactly 0 something positive and tiny: an eigenvalue at the shift is not above it.
+template <Real S>
+S not_zero(const S& pivot, const S& stiffness) {
+    return pivot == S(Narrow<S>(0)) ? stiffness * (S(epsilon<S>()) * S(epsilon<S>())) : pivot;
+}
+
 /// A symmetric pencil lambda K - M kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once
 /// added, lose the slowest modes. The last element's upper pin is held. lambda K y = M y has positive eigenvalues.
 template <Real S>

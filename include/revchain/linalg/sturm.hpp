@@ -20,16 +20,14 @@ inline constexpr std::size_t lanes = 8;
 /// ulp and whose parts below a pin are scaled by a few ulp for each link above; for a proof see `certified_count`.
 template <Real T, std::size_t L>
 std::array<Index, L> count_above(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
-    const T floor = epsilon<T>() * epsilon<T>();  // a pivot of exactly 0 counts as positive: "above" is strict
     std::array<T, L> below{};
     std::array<Index, L> negative{};
     for (const Element<T>& e : pencil.elements) {
         for (std::size_t i = 0; i < L; ++i) {  // compilers turn this loop into SIMD code
             const T stiffness = shifts[i] * e.stiffness;
-            const T pivot = below[i] + (stiffness - e.lower);
-            const T safe = pivot == T(0) ? stiffness * floor : pivot;
-            negative[i] += safe < T(0) ? 1 : 0;
-            below[i] = ((stiffness - e.upper) * below[i] - (stiffness * e.weight - e.coupling)) / safe;
+            const T pivot = not_zero(below[i] + (stiffness - e.lower), stiffness);
+            negative[i] += pivot < T(0) ? 1 : 0;
+            below[i] = carried(e, stiffness, below[i], e.upper, pivot);
         }
     }
     return negative;
@@ -54,7 +52,6 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
     const M relative = M(4) * epsilon<M>() + M(2) * pencil.entry_error;  // of magnitudes taken from rounded entries
     const M inflate = M(1) + M(16) * epsilon<M>();                       // the bound's own rounding
     const M underflow = std::numeric_limits<M>::min() * M(4);
-    const S floor = S(epsilon<S>()) * S(epsilon<S>());
 
     std::array<S, L> below{};
     std::array<M, L> error{};
@@ -76,8 +73,7 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
             // Written so that a NaN anywhere withdraws the proof.
             result[i].proved = result[i].proved && least_with_below > M(0);
             result[i].above += pivot < S(M(0)) ? 1 : 0;
-            const S safe = pivot == S(M(0)) ? stiffness * floor : pivot;
-            below[i] = ((stiffness - e.upper) * below[i] - (stiffness * S(e.weight) - e.coupling)) / safe;
+            below[i] = carried(e, stiffness, below[i], e.upper, not_zero(pivot, stiffness));
 
             const M gain = abs(k + cross) + (cross_error + relative * k);
             const M quotient = abs(static_cast<M>(below[i]));

@@ -74,7 +74,7 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
     using std::abs;
     using T = Narrow<S>;
     const Index n = pencil.size();
-    const S floor = S(epsilon<S>()) * S(epsilon<S>()), zero(T(0));
+    const S zero(T(0));
     struct Pin {
         S stiffness_below;  // D
         S down;             // offset of this pin over that of the pin above
@@ -86,9 +86,8 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
         const Element<S>& e = pencil.elements[m];
         const S stiffness = eigenvalue * e.stiffness;
         pins[m].stiffness_below = below;
-        S pivot = below + (stiffness - e.lower);
-        if (pivot == zero) pivot = stiffness * floor;
-        below = ((stiffness - e.upper) * below - (stiffness * S(e.weight) - e.coupling)) / pivot;
+        const S pivot = not_zero(below + (stiffness - e.lower), stiffness);
+        below = carried(e, stiffness, below, e.upper, pivot);
         pins[m].down = detail::ratio(stiffness + cross_mass(e), pivot);
     }
     std::size_t twist = pins.size() - 1;
@@ -101,10 +100,9 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
             pins[m].up = zero;
             above = stiffness - e.lower;
         } else {
-            S pivot = above + (stiffness - e.upper);
-            if (pivot == zero) pivot = stiffness * floor;
+            const S pivot = not_zero(above + (stiffness - e.upper), stiffness);
             pins[m].up = detail::ratio(stiffness + cross_mass(e), pivot);
-            above = ((stiffness - e.lower) * above - (stiffness * S(e.weight) - e.coupling)) / pivot;
+            above = carried(e, stiffness, above, e.lower, pivot);
         }
         // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the mode,
         // and the ratios between them cancel.
