@@ -6,6 +6,7 @@
 
 #include "revchain/chain/chain.hpp"            // IWYU pragma: export
 #include "revchain/core/conical_pendulum.hpp"  // IWYU pragma: export
+#include "revchain/core/double_double.hpp"     // IWYU pragma: export
 #include "revchain/linear/count.hpp"           // IWYU pragma: export
 #include "revchain/linear/modes.hpp"           // IWYU pragma: export
 #include "revchain/linear/recurrence.hpp"      // IWYU pragma: export

@@ -31,16 +31,16 @@ struct Segment {
     Index first = 0, last = 0;
 };
 
-/// An upper bound of all eigenvalues and a lower bound of the first `count`, near `guess` and by counts.
+/// A bracket of the eigenvalues `first` ... `last - 1`, from `guess` on and by counts.
 template <Real T>
-Segment<T> enclose(const ElementPencil<T>& pencil, Index count, T guess) {
-    Segment<T> all{guess, guess, 0, count};
+Segment<T> enclose(const ElementPencil<T>& pencil, Index first, Index last, T guess) {
+    Segment<T> all{guess, guess, first, last};
     std::array<T, lanes> shifts;
     for (bool found = false; !found;) {  // upwards, by factors of 4
         for (std::size_t i = 0; i < lanes; ++i) shifts[i] = all.upper = i == 0 ? all.upper : all.upper * T(4);
         const auto above = count_above(pencil, shifts);
         for (std::size_t i = 0; i < lanes && !found; ++i)
-            if (above[i] == 0) {
+            if (above[i] <= first) {
                 all.upper = shifts[i];
                 found = true;
             } else {
@@ -49,18 +49,16 @@ Segment<T> enclose(const ElementPencil<T>& pencil, Index count, T guess) {
         if (all.upper > std::numeric_limits<T>::max() / T(1024)) return all;  // nothing to find in this scalar
     }
     all.lower = std::min(all.lower, all.upper / T(4));
-    T ratio(4);  // downwards, squaring the stride: the last modes may lie far below
+    T ratio(4);  // downwards, squaring the stride: the modes asked for may lie far below
     for (bool found = false; !found;) {
         shifts[0] = all.lower;
         for (std::size_t i = 1; i < lanes; ++i) shifts[i] = shifts[i - 1] / ratio;
         const auto above = count_above(pencil, shifts);
-        for (std::size_t i = 0; i < lanes && !found; ++i)
-            if (above[i] >= count) {
-                all.lower = shifts[i];
-                found = true;
-            }
-        if (found) break;
-        all.lower = shifts[lanes - 1];
+        for (std::size_t i = 0; i < lanes && !found; ++i) {
+            all.lower = shifts[i];
+            found = above[i] >= last;
+            if (above[i] <= first) all.upper = shifts[i];
+        }
         if (ratio < T(256)) ratio = ratio * ratio;
         if (all.lower < std::numeric_limits<T>::min() * T(1e12)) break;
     }
@@ -94,16 +92,18 @@ void split(const Segment<T>& segment, const T* shifts, const Index* above, std::
 
 }  // namespace detail
 
-/// Brackets of the `count` largest eigenvalues, descending, each no wider than `tolerance` relative or a few ulp;
-/// eigenvalues that share a bracket at the tolerance are bisected on, down to a few ulp.
-/// Preconditions: 1 <= count <= number of finite eigenvalues; tolerance >= 0; guess > 0.
-/// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues. Accuracy: that of `count_above`.
-/// `finished(done)` is called after every pass with the number of eigenvalues bracketed so far, and may throw.
+/// Brackets of the `count` eigenvalues from number `first` on (from 0, descending), each no wider than `tolerance`
+/// relative or a few ulp; eigenvalues that share a bracket at the tolerance are bisected on, down to a few ulp.
+/// Preconditions: first >= 0; count >= 1; first + count <= number of finite eigenvalues; tolerance >= 0; guess > 0.
+/// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues asked for, whatever `first`. Accuracy: that of
+/// `count_above`. `finished(done)` is called after every pass with the number of eigenvalues bracketed so far, and may
+/// throw.
 template <Real T, class Finished>
-std::vector<Bracket<T>> bisect(const ElementPencil<T>& pencil, Index count, T tolerance, T guess, Finished finished) {
+std::vector<Bracket<T>> bisect(const ElementPencil<T>& pencil, Index first, Index count, T tolerance, T guess,
+                               Finished finished) {
     const T finest = T(4) * epsilon<T>();
     std::vector<Bracket<T>> brackets(static_cast<std::size_t>(count));
-    std::vector<detail::Segment<T>> work{detail::enclose(pencil, count, guess)}, now;
+    std::vector<detail::Segment<T>> work{detail::enclose(pencil, first, first + count, guess)}, now;
     std::array<T, lanes> shifts;
     shifts.fill(guess);
     Index done = 0;
@@ -115,7 +115,8 @@ std::vector<Bracket<T>> bisect(const ElementPencil<T>& pencil, Index count, T to
         if (divisible && width > finest * s.lower && (width > tolerance * s.lower || !alone)) {
             work.push_back(s);
         } else {
-            for (Index j = s.first; j < s.last; ++j) brackets[static_cast<std::size_t>(j)] = {s.lower, s.upper, alone};
+            for (Index j = s.first; j < s.last; ++j)
+                brackets[static_cast<std::size_t>(j - first)] = {s.lower, s.upper, alone};
             done += s.last - s.first;
         }
     };

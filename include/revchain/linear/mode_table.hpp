@@ -5,35 +5,53 @@
 #include <string>
 #include <vector>
 
-#include "revchain/core/conical_pendulum.hpp"
 #include "revchain/core/progress.hpp"
 #include "revchain/linalg/twisted.hpp"
-#include "revchain/linear/assembly.hpp"
+#include "revchain/linear/count.hpp"
 
 namespace revchain {
 
-/// What to compute.
+/// Which modes, and how. Which: numbers `first`, `first + 1`, ..., or those in one window, never both.
 template <Real T>
 struct ModesOptions {
-    std::optional<Index> count{};  ///< the slowest so many; absent: all
-    std::optional<T> rtol{};       ///< relative tolerance of the conical heights; absent: as accurate as T allows
-    bool shapes = true;            ///< also shapes, residuals and nodes
+    Index first = 1;                                  ///< number of the slowest mode wanted, from 1
+    std::optional<Index> count{};                     ///< so many from `first` on; absent: all
+    std::optional<HeightWindow<T>> conical_height{};  ///< instead: low < conical height <= high
+    std::optional<SpeedWindow<T>> angular_speed{};    ///< instead: low <= whirl speed < high
+    std::optional<T> rtol{};  ///< relative tolerance of the conical heights; absent: as accurate as T allows
+    bool shapes = true;       ///< also shapes, residuals and nodes
+    bool certify = false;     ///< also the intervals that are proved to hold the heights, and the counts that prove it
     Progress* progress = nullptr;  ///< watched and stopped from another thread
 };
 
-/// Whirl modes of a chain, slowest first. Mode k stands at index k - 1.
+/// Intervals lower < exact conical height <= upper, and why: of the exact heights of the stored numbers, mode k being
+/// one of them, `above_lower` >= k exceed `lower` and `above_upper` < k exceed `upper`. Both counts are proved;
+/// `count_modes` gives them too. An end that no count could be proved at is 0 or infinite.
+template <Real T>
+struct Certificate {
+    Vector<T> lower;  ///< (k,) in the chain's unit of length
+    Vector<T> upper;
+    Vector<Index> above_lower;
+    Vector<Index> above_upper;
+};
+
+/// Whirl modes of a chain, slowest first. Mode k, the k-th slowest of all, stands at index k - first. None may be there
+/// where a window was asked for; `first` is then the number that the next faster mode has.
 template <Real T>
 struct Modes {
+    Index first = 1;           ///< number of the slowest mode here
     Vector<T> conical_height;  ///< (k,) lambda, descending, in the chain's unit of length
     Vector<T> error_bound;     ///< (k,) relative to the exact conical height of the stored numbers; proved by counts
     Table<T> shape;      ///< (k, N+1) offsets of the pins, free end first, support last (0); largest |offset| = 1,
                          ///< free end positive; empty without shapes
     Vector<T> residual;  ///< (k,) force left unbalanced at a pin, relative to the forces that meet there
     std::vector<Vector<T>> nodes;  ///< k lists: distances from the free end where the mode crosses the axis
+    Certificate<T> certificate;    ///< empty unless asked for
     std::string method;
     Status status = Status::success;
 
     Index size() const { return conical_height.size(); }
+    ModeRange range() const { return {first, size()}; }
     /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2 ulp.
     Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::angular_speed<T>);
@@ -70,26 +88,66 @@ Vector<T> nodes(const Chain<T>& chain, const std::vector<linalg::Crossing<T>>& c
 }
 
 template <Real T>
-void check(const Chain<T>& chain, const ModesOptions<T>& options) {
-    if (options.count && *options.count < 1) refuse("modes", "count must be at least 1", *options.count);
-    if (options.count && *options.count > chain.mode_count())
-        refuse("modes", "count must not exceed the " + std::to_string(chain.mode_count()) + " modes of this chain",
-               *options.count);
+void check(const ModesOptions<T>& options) {
     if (options.rtol && !(*options.rtol >= T(0))) refuse("modes", "rtol must not be negative or NaN", *options.rtol);
 }
 
-/// Room for what the options ask of the chain, nothing computed yet.
+/// The numbers of the modes asked for.
+template <Real T>
+ModeRange chosen(const Chain<T>& chain, OnDemand<T>& assembled, const ModesOptions<T>& options) {
+    const bool numbered = options.first != 1 || options.count.has_value();
+    if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
+        refuse("modes", "give one of mode numbers (first, count), conical_height and angular_speed, not several");
+    if (options.conical_height) return assembled.counter().within(*options.conical_height);
+    if (options.angular_speed) return assembled.counter().within(*options.angular_speed);
+    const Index all = chain.mode_count();
+    const std::string of = std::to_string(all) + " modes of this chain";
+    if (options.first < 1) refuse("modes", "first must be at least 1", options.first);
+    if (options.first > all) refuse("modes", "first must not exceed the " + of, options.first);
+    const Index left = all - options.first + 1;
+    const Index count = options.count.value_or(left);
+    if (count < 1) refuse("modes", "count must be at least 1", count);
+    if (count > left)
+        refuse("modes",
+               "count must not exceed the " + (left == all ? of
+                                                           : std::to_string(left) + " from number " +
+                                                                 std::to_string(options.first) + " on of the " + of),
+               count);
+    return {options.first, count};
+}
+
+/// For solvers that find the slowest modes only.
+template <Real T>
+void check(const Chain<T>& chain, const ModesOptions<T>& options) {
+    check(options);
+    if (options.first != 1 || options.conical_height || options.angular_speed || options.certify)
+        refuse("modes", "this method takes neither first nor a window, and certifies nothing");
+    OnDemand<T> unused(chain);
+    chosen(chain, unused, options);
+}
+
+/// Room for what the options ask of these modes, nothing computed yet.
+template <Real T>
+Modes<T> room_for_modes(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
+    Modes<T> result;
+    result.first = range.first;
+    result.conical_height.resize(range.count);
+    result.error_bound.resize(range.count);
+    if (options.certify)
+        result.certificate = {Vector<T>(range.count), Vector<T>(range.count), Vector<Index>(range.count),
+                              Vector<Index>(range.count)};
+    if (!options.shapes) return result;
+    result.shape.resize(range.count, chain.size() + 1);
+    result.residual.resize(range.count);
+    result.nodes.resize(static_cast<std::size_t>(range.count));
+    return result;
+}
+
+/// The same for the slowest.
 template <Real T>
 Modes<T> room_for_modes(const Chain<T>& chain, const ModesOptions<T>& options, const char* method) {
-    const Index count = options.count.value_or(chain.mode_count());
-    Modes<T> result;
+    Modes<T> result = room_for_modes(chain, ModeRange{1, options.count.value_or(chain.mode_count())}, options);
     result.method = method;
-    result.conical_height.resize(count);
-    result.error_bound.resize(count);
-    if (!options.shapes) return result;
-    result.shape.resize(count, chain.size() + 1);
-    result.residual.resize(count);
-    result.nodes.resize(static_cast<std::size_t>(count));
     return result;
 }
 

@@ -31,7 +31,7 @@ TEST_CASE("brackets hold their eigenvalue, at any tolerance", "[linalg]") {
             for (const double tolerance : {0.5, 1e-3, 1e-9, 0.0}) {
                 for (const Index count : {Index(1), (n + 1) / 2, chain.mode_count()}) {
                     if (count > chain.mode_count()) continue;
-                    const auto brackets = linalg::bisect(pencil, count, tolerance, 1.0, nothing);
+                    const auto brackets = linalg::bisect(pencil, 0, count, tolerance, 1.0, nothing);
                     REQUIRE(static_cast<Index>(brackets.size()) == count);
                     for (Index j = 0; j < count; ++j) {
                         const auto& b = brackets[static_cast<std::size_t>(j)];
@@ -51,9 +51,9 @@ TEST_CASE("brackets hold their eigenvalue, at any tolerance", "[linalg]") {
 
 TEST_CASE("the first guess does not matter", "[linalg]") {
     const auto pencil = linalg::rounded<double>(revchain::assemble(revchain::Chain<double>::uniform_rods(6)).pencil);
-    const auto expected = linalg::bisect(pencil, 6, 1e-12, 1.0, nothing);
+    const auto expected = linalg::bisect(pencil, 0, 6, 1e-12, 1.0, nothing);
     for (const double guess : {1e-30, 1e-6, 1e6, 1e30}) {
-        const auto brackets = linalg::bisect(pencil, 6, 1e-12, guess, nothing);
+        const auto brackets = linalg::bisect(pencil, 0, 6, 1e-12, guess, nothing);
         for (std::size_t j = 0; j < 6; ++j) CHECK(brackets[j].lower == Approx(expected[j].lower).epsilon(1e-11));
     }
 }
@@ -61,7 +61,7 @@ TEST_CASE("the first guess does not matter", "[linalg]") {
 TEST_CASE("every eigenvalue is reported done", "[linalg]") {
     const auto pencil = linalg::rounded<double>(revchain::assemble(revchain::Chain<double>::uniform_rods(50)).pencil);
     Index last = 0;
-    linalg::bisect(pencil, 50, 1e-6, 1.0, [&](Index done) {
+    linalg::bisect(pencil, 0, 50, 1e-6, 1.0, [&](Index done) {
         CHECK(done >= last);
         last = done;
     });

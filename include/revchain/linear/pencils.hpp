@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linalg/sturm.hpp"
+#include "revchain/linear/assembly.hpp"
+
+namespace revchain::detail {
+
+/// The pencil of a chain in `Wide<T>` and rounded to T, heights in units of 2^length_exponent.
+template <Real T>
+class Pencils {
+   public:
+    explicit Pencils(const Chain<T>& chain) : assembled_(assemble(chain)) {
+        if constexpr (!std::is_same_v<Wide<T>, T>) rounded_ = linalg::rounded<T>(assembled_.pencil);
+    }
+
+    const linalg::ElementPencil<Wide<T>>& wide() const { return assembled_.pencil; }
+    const linalg::ElementPencil<T>& rounded() const {
+        if constexpr (std::is_same_v<Wide<T>, T>) {
+            return assembled_.pencil;
+        } else {
+            return rounded_;
+        }
+    }
+    int length_exponent() const { return assembled_.units.length_exponent; }
+
+    /// A number in the chain's unit of length, in the pencils'.
+    template <class Number>
+    Number scaled(const Number& height) const {
+        using std::ldexp;
+        return ldexp(height, -length_exponent());
+    }
+
+    /// Proved counts above heights in the pencils' units: in T where that suffices, else in `Wide<T>` (8 times the
+    /// cost).
+    template <std::size_t L>
+    std::array<linalg::CertifiedCount, L> certified_count(const std::array<Wide<T>, L>& heights) const {
+        std::array<T, L> narrow;
+        bool exact = true;
+        for (std::size_t i = 0; i < L; ++i) {
+            narrow[i] = static_cast<T>(heights[i]);
+            exact = exact && Wide<T>(narrow[i]) == heights[i];
+        }
+        if (exact) {
+            const auto quick = linalg::certified_count<T, L>(rounded(), narrow);
+            bool proved = true;
+            for (const auto& count : quick) proved = proved && count.proved;
+            if (proved || std::is_same_v<Wide<T>, T>) return quick;
+        }
+        return linalg::certified_count<Wide<T>, L>(wide(), heights);
+    }
+
+   private:
+    AssembledChain<T> assembled_;
+    linalg::ElementPencil<T> rounded_;
+};
+
+}  // namespace revchain::detail
