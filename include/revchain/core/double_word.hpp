@@ -34,7 +34,8 @@ struct DoubleWord {
 
     friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
     // high first, then low
-    friend constexpr auto operator<=>(const DoubleWord& x, const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
+    friend constexpr auto operator<=>(const DoubleWord& x,
+                                      const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
     friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
 };
 
@@ -146,6 +147,12 @@ inline bool isfinite(const DoubleWord<T>& x) {
     return std::isfinite(x.high) && std::isfinite(x.low);
 }
 
+/// Finite, and the low part no more than what rounding the sum leaves over: what every operation here returns.
+template <std::floating_point T>
+inline bool is_normalised(const DoubleWord<T>& x) {
+    return std::isfinite(x.high) && x.high + x.low == x.high;
+}
+
 /// One Newton step on the root of the high part.
 template <std::floating_point T>
 inline DoubleWord<T> sqrt(const DoubleWord<T>& x) {
@@ -181,6 +188,11 @@ using Wide = typename detail::Wider<T>::type;
 
 namespace detail {
 template <class S>
+inline constexpr bool is_double_word = false;
+template <class T>
+inline constexpr bool is_double_word<DoubleWord<T>> = true;
+
+template <class S>
 struct Narrower {
     using type = S;
 };
@@ -193,6 +205,13 @@ struct Narrower<DoubleWord<T>> {
 /// The type in which sizes and errors of numbers of type S are kept: T for a double word of T, S itself otherwise.
 template <class S>
 using Narrow = typename detail::Narrower<S>::type;
+
+/// Whether x is a number as arithmetic returns it: finite and, as a double word, normalised.
+template <Real S>
+bool is_normalised(const S& x) {
+    using std::isfinite;
+    return isfinite(x);
+}
 
 /// Bound on the relative error of one operation + - * / in S.
 template <class S>
