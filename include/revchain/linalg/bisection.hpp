@@ -34,6 +34,7 @@ struct Segment {
 /// A bracket of the eigenvalues `first` ... `last - 1`, from `guess` on and by counts.
 template <Real T>
 Segment<T> enclose(const ElementPencil<T>& pencil, Index first, Index last, T guess) {
+    using std::ldexp;
     Segment<T> all{guess, guess, first, last};
     std::array<T, lanes> shifts;
     for (bool found = false; !found;) {  // upwards, by factors of 4
@@ -46,7 +47,7 @@ Segment<T> enclose(const ElementPencil<T>& pencil, Index first, Index last, T gu
             } else {
                 all.lower = shifts[i];
             }
-        if (all.upper > std::numeric_limits<T>::max() / T(1024)) return all;  // nothing to find in this scalar
+        if (all.upper > ldexp(T(1), std::numeric_limits<T>::max_exponent - 10)) return all;  // nothing in this scalar
     }
     all.lower = std::min(all.lower, all.upper / T(4));
     T ratio(4);  // downwards, squaring the stride: the modes asked for may lie far below

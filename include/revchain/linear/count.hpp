@@ -94,9 +94,11 @@ class ModeCounter {
 
     /// `rough` is `height` in T: it says where the height has left the range of the scalar.
     Index above(const Wide<T>& height, const T& rough) const {
+        using std::ldexp;
         const T scaled = pencils_.scaled(rough);
-        if (!(scaled < std::numeric_limits<T>::max() * epsilon<T>())) return 0;
-        if (scaled < std::numeric_limits<T>::min() / epsilon<T>()) return mode_count_;
+        using limits = std::numeric_limits<T>;
+        if (!(scaled < ldexp(T(1), limits::max_exponent - limits::digits))) return 0;
+        if (scaled < ldexp(T(1), limits::min_exponent + limits::digits)) return mode_count_;
         const Wide<T> shift = pencils_.scaled(height);
         const auto sure = pencils_.template certified_count<1>({shift});
         if (sure[0].proved) return sure[0].above;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linalg/certificate.hpp"
-#include "revchain/linear/mode_table.hpp"
+#include "revchain/linear/heights.hpp"
 
 namespace revchain {
 
@@ -25,91 +24,6 @@ template <Real T>
 Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
 namespace detail {
-
-/// A height in the units of the chain's pencils.
-template <Real T>
-struct Height {
-    T value{};
-    T error_bound{};      ///< of `value`, relative to the exact height; proved
-    Wide<T> unrounded{};  ///< what the shape is computed at
-};
-
-/// What the first stage of `modes` gives: the heights of a range of modes, descending.
-template <Real T>
-struct Heights {
-    std::vector<Height<T>> height;
-    const char* method = "";
-};
-
-/// Whether all can be done in T: counts in T are proved down to about an ulp for each link; below that the certificate
-/// needs `Wide<T>`.
-template <Real T>
-bool is_loose(const Chain<T>& chain, const ModesOptions<T>& options) {
-    return std::min(options.rtol.value_or(T(0)), T(0.5)) > T(64) * epsilon<T>() * T(chain.size());
-}
-
-/// Height number `j` (from 0) to `goal`, from its bracket: the cheapest certificate first.
-template <Real T>
-Height<T> refined(const Pencils<T>& pencils, Index j, const linalg::Bracket<T>& bracket, const T& goal, bool loose) {
-    using S = Wide<T>;
-    using M = Narrow<S>;
-    const T start = linalg::between(bracket.lower, bracket.upper);
-    if (loose && linalg::lies_within<T>(pencils.rounded(), j, start, goal / T(2)))
-        return {start, linalg::bound_of_margin<T>(goal / T(2)), S(start)};
-    const auto quotient = [&](const auto& pencil, const auto& height) {
-        return linalg::rayleigh_quotient<S>(pencils.wide(), linalg::eigenvector(pencil, height).offset);
-    };
-    // One round nearly always, two at most: the quotient's error is the square of the vector's. Where no arithmetic is
-    // wider than T, rounding in T limits what two counts can prove: then as many ulp as it takes, within a factor of 2.
-    T margin = T(2) * epsilon<T>();
-    T height = start;
-    S fine(start);
-    for (int round = 0; round < (std::is_same_v<S, T> ? 24 : 2); ++round) {
-        if (round < 2) fine = quotient(pencils.rounded(), height);
-        height = static_cast<T>(fine);
-        if (linalg::lies_within<S>(pencils.wide(), j, height, static_cast<M>(margin)))
-            return {height, linalg::bound_of_margin<S>(margin), fine};
-        if constexpr (std::is_same_v<S, T>) margin = margin * T(2);
-    }
-    const auto sure = linalg::bisect_certified<S>(pencils.wide(), j, start);
-    return {sure.eigenvalue, sure.error_bound, quotient(pencils.wide(), S(static_cast<M>(sure.eigenvalue)))};
-}
-
-/// Heights closer together than their bounds may come out in the wrong order; exchanged, the larger bound holds for both.
-template <Real T>
-void restore_order(std::vector<Height<T>>& heights) {
-    for (std::size_t j = 1; j < heights.size(); ++j)
-        for (std::size_t i = j; i > 0 && heights[i - 1].value < heights[i].value; --i) {
-            std::swap(heights[i - 1], heights[i]);
-            heights[i].error_bound = heights[i - 1].error_bound =
-                std::max(heights[i - 1].error_bound, heights[i].error_bound);
-        }
-}
-
-/// Stage 1 of `modes`: the heights of `range`, which is not empty, to `options.rtol`. Reports progress up to `share`.
-/// This one serves every valid chain; cost as said there.
-template <Real T>
-Heights<T> heights_by_bisection(const Chain<T>& chain, OnDemand<T>& assembled, const ModeRange& range,
-                                const ModesOptions<T>& options, double share) {
-    using std::ldexp;
-    const Pencils<T>& pencils = assembled.pencils();
-    const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
-    const bool loose = is_loose(chain, options);
-    const double count = static_cast<double>(range.count);
-    const auto brackets =
-        linalg::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
-                       pencils.scaled(chain.total_length()),
-                       [&](Index done) { advance(options.progress, share * 0.5 * static_cast<double>(done) / count); });
-    Heights<T> result{{}, "bisection"};
-    result.height.reserve(brackets.size());
-    for (const auto& bracket : brackets) {
-        const Index j = static_cast<Index>(result.height.size());
-        result.height.push_back(refined(pencils, range.first - 1 + j, bracket, goal, loose));
-        advance(options.progress, share * (0.5 + 0.5 * static_cast<double>(j + 1) / count));
-    }
-    restore_order(result.height);
-    return result;
-}
 
 /// The eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.
 template <Real T>
@@ -167,6 +81,34 @@ void certify(Modes<T>& modes, Index j, const Pencils<T>& pencils, Index mode_cou
             above = true;
         }
     }
+}
+
+/// The modes asked for, from a solver that finds the slowest ones only.
+template <Real T>
+Modes<T> chosen_among_slowest(const Chain<T>& chain, const ModesOptions<T>& options,
+                              Modes<T> (*solve)(const Chain<T>&, const ModesOptions<T>&)) {
+    check(options);
+    OnDemand<T> assembled(chain);
+    const ModeRange range = chosen(chain, assembled, options);
+    Modes<T> result = room_for_modes(chain, range, options);
+    if (range.count == 0) return result;
+    Modes<T> slowest = solve(chain, {.count = range.first - 1 + range.count,
+                                     .rtol = options.rtol,
+                                     .shapes = options.shapes,
+                                     .progress = options.progress});
+    result.method = slowest.method;
+    result.conical_height = slowest.conical_height.tail(range.count);
+    result.error_bound = slowest.error_bound.tail(range.count);
+    if (!(result.error_bound.array() <= options.rtol.value_or(std::numeric_limits<T>::max())).all())
+        result.status = Status::tolerance_not_met;
+    if (options.shapes) {
+        result.shape = slowest.shape.bottomRows(range.count);
+        result.residual = slowest.residual.tail(range.count);
+        result.nodes.assign(slowest.nodes.end() - range.count, slowest.nodes.end());
+    }
+    if (options.certify)
+        for (Index j = 0; j < range.count; ++j) certify(result, j, assembled.pencils(), chain.mode_count());
+    return result;
 }
 
 }  // namespace detail
