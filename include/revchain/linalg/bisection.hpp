@@ -32,8 +32,8 @@ struct Segment {
 };
 
 /// A bracket of the eigenvalues `first` ... `last - 1`, from `guess` on and by counts.
-template <Real T>
-Segment<T> enclose(const ElementPencil<T>& pencil, Index first, Index last, T guess) {
+template <class Pencil, Real T>
+Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
     using std::ldexp;
     Segment<T> all{guess, guess, first, last};
     std::array<T, lanes> shifts;
@@ -93,14 +93,14 @@ void split(const Segment<T>& segment, const T* shifts, const Index* above, std::
 
 }  // namespace detail
 
-/// Brackets of the `count` eigenvalues from number `first` on (from 0, descending), each no wider than `tolerance`
+/// Pencil: whatever has a `count_above` for `lanes` shifts. Brackets of the `count` eigenvalues from number `first` on (from 0, descending), each no wider than `tolerance`
 /// relative or a few ulp; eigenvalues that share a bracket at the tolerance are bisected on, down to a few ulp.
 /// Preconditions: first >= 0; count >= 1; first + count <= number of finite eigenvalues; tolerance >= 0; guess > 0.
 /// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues asked for, whatever `first`. Accuracy: that of
 /// `count_above`. `finished(done)` is called after every pass with the number of eigenvalues bracketed so far, and may
 /// throw.
-template <Real T, class Finished>
-std::vector<Bracket<T>> bisect(const ElementPencil<T>& pencil, Index first, Index count, T tolerance, T guess,
+template <class Pencil, Real T, class Finished>
+std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T tolerance, T guess,
                                Finished finished) {
     const T finest = T(4) * epsilon<T>();
     std::vector<Bracket<T>> brackets(static_cast<std::size_t>(count));

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+
+#include "revchain/linalg/block_builder.hpp"
+#include "revchain/linear/condensation.hpp"
+
+namespace revchain {
+
+namespace detail {
+
+/// One link as a run, from the chain's numbers in `Wide<T>`. Alone where the polynomials do not hold.
+template <Real T>
+linalg::CondensedRun<T> single_link(const linalg::BlockBuilder<T>& builder, const Link<T>& link, const T& unit_length,
+                                    const Wide<T>& below) {
+    using S = Wide<T>;
+    using E = Narrow<S>;
+    linalg::CondensedRun<T> run;
+    run.links = 1;
+    const S weight(static_cast<E>(link.weight)), a = S(static_cast<E>(link.length));
+    const S p = S(static_cast<E>(link.centroid)) / a;
+    const S lower = weight * p;
+    const S spring = (lower + below) / a * S(static_cast<E>(unit_length));
+    const S cross = weight * (p * (S(E(1)) - p) - link.gyration_ratio);
+    run.flexibility = S(E(1)) / spring;
+    run.weight = weight;
+    run.moment = run.flexibility * lower;
+    const T f = static_cast<T>(run.flexibility), x = static_cast<T>(cross);
+    const T at_lower = static_cast<T>(lower), at_upper = static_cast<T>(weight - lower);
+    run.stiffness_error = epsilon<T>() / T(64);
+    if (at_lower >= T(0) && at_upper >= T(0) && x >= T(0)) {
+        linalg::append_mass(run.transfer, at_lower);
+        linalg::append_spring(run.transfer, f, x * f);
+        linalg::append_mass(run.transfer, at_upper);
+        run.alone = !builder.template is_complete<linalg::Block<T>::degree>(run);
+    } else {
+        run.alone = true;
+    }
+    if (run.alone) {
+        run.cross = x;
+    } else {
+        const auto [spring, mass] = builder.second_terms(run);
+        builder.note_roundings(run, T(9), spring, mass);
+        builder.template note_truncation<linalg::Block<T>::degree>(run);
+    }
+    return run;
+}
+
+/// Lane `lane` of runs condensed together.
+template <class T, class V>
+linalg::CondensedRun<T> lane_of(const LaneRuns<V>& runs, Index lane, Index links) {
+    using S = Wide<T>;
+    linalg::CondensedRun<T> run;
+    for (std::size_t i = 0; i < leaf_degree; ++i) {
+        run.transfer.a[i] = runs.transfer.a[i][lane];
+        run.transfer.c[i] = runs.transfer.c[i][lane];
+        run.transfer.d[i] = runs.transfer.d[i][lane];
+    }
+    for (std::size_t i = 0; i <= leaf_degree; ++i) run.transfer.b[i] = runs.transfer.b[i][lane];
+    run.weight = S(runs.weight.high[lane]) + S(runs.weight.low[lane]);
+    run.flexibility = S(runs.flexibility.high[lane]) + S(runs.flexibility.low[lane]);
+    run.moment = S(runs.moment.high[lane]) + S(runs.moment.low[lane]);
+    run.links = links;
+    run.stiffness_error = T(2.3) * epsilon<T>() / T(2);
+    return run;
+}
+
+/// The kind of link decides the loop.
+template <class T, class V>
+LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
+    const auto of = [&]<LinkKind kind>() {
+        // Leaves of up to 4 links are exact with 4 terms; those of longer runs are so short that 3 do.
+        return length < 64 ? condense<kind, 4, T, V>(links, first, length, below)
+                           : condense<kind, 3, T, V>(links, first, length, below);
+    };
+    if (links.plummets()) return of.template operator()<LinkKind::equal_plummets>();
+    if (links.equal_but_for_weights()) return of.template operator()<LinkKind::equal_links>();
+    return of.template operator()<LinkKind::any_links>();
+}
+
+}  // namespace detail
+
+/// A chain condensed into blocks that hold for every conical height above `least_height`, in the unit of length
+/// `unit_length`; heights of the pencil are in that unit.
+template <Real T>
+struct CompressedChain {
+    linalg::BlockPencil<T> pencil;
+    T unit_length{};
+};
+
+/// Runs of links -> blocks. How long the runs may be is found on the way: doubled while they are small beside the
+/// wavelength, halved where they are not; links that fit no run stay alone.
+/// Cost O(N): see `condense`; memory O(blocks).
+template <std::floating_point T>
+CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
+    using namespace detail;
+    using V = typename Pack<T>::type;
+    const LinkColumns<T> links(chain);
+    const T unit_length = links.unit_length();
+    linalg::BlockBuilder<T> builder(least_height / unit_length);
+    const T leaf_reach(1.6e-3);  // the phase up to which degree 4 is complete for a uniform run
+    Wide<T> below(Narrow<Wide<T>>(0));
+    const auto add_singles = [&](Index first, Index last) {
+        for (Index m = first; m < last; ++m) {
+            builder.add(single_link(builder, chain.link(m), unit_length, below));
+            below = below + Wide<T>(static_cast<Narrow<Wide<T>>>(chain.weight()[m]));
+        }
+    };
+    Index length = 1;
+    for (Index m = 0; m < chain.size();) {
+        const Index left = chain.size() - m;
+        if (left < runs_at_once) {
+            add_singles(m, chain.size());
+            break;
+        }
+        while (length * runs_at_once > left) length /= 2;
+        Wide<T> above = below;
+        const auto hung = weights_below<T, V>(chain, links, m, length, above);
+        const auto runs = condensed<T, V>(links, m, length, hung);
+        std::array<linalg::CondensedRun<T>, runs_at_once> run;
+        bool fits = true;
+        T largest(0);
+        for (Index lane = 0; lane < runs_at_once && fits; ++lane) {
+            auto& one = run[static_cast<std::size_t>(lane)];
+            one = lane_of<T>(runs, lane, length);
+            const T phase = builder.phase(one);
+            largest = std::max(largest, phase);
+            fits = !(runs.worst[lane] > T(0)) && (length == 1 || phase < leaf_reach) &&
+                   builder.template is_complete<leaf_degree>(one);
+            if (!fits) break;
+            const T leaf = runs.leaf_phase[lane] / builder.least_shift();
+            const T links_of_leaf(leaf_links(length));
+            const T half = epsilon<T>() / T(2);
+            builder.note_roundings(one, T(4) * links_of_leaf, leaf / T(4), leaf / T(2));
+            builder.note_moved_mass(one, T(2) * links_of_leaf * half, runs.leaf_moment[lane]);
+            if (length > leaf_links(length)) {
+                const T moment = static_cast<T>(one.moment);
+                const auto [spring, mass] = builder.second_terms(one);
+                builder.note_roundings(one, T(5) * T(length) / links_of_leaf, spring, mass);
+                builder.note_moved_mass(one, T(2) * half,
+                                        moment * moment / (static_cast<T>(one.weight) * static_cast<T>(one.flexibility)));
+                builder.template note_truncation<leaf_degree>(one);
+            }
+        }
+        if (!fits && length > 1) {
+            length /= 2;
+            continue;
+        }
+        if (length == 1) {
+            add_singles(m, m + runs_at_once);  // exact
+        } else {
+            for (const auto& one : run) builder.add(one);
+            below = above;
+        }
+        m += runs_at_once * length;
+        if (fits && largest < T(0.2) * leaf_reach && m % (2 * runs_at_once * length) == 0) length *= 2;
+    }
+    return {builder.finish(), unit_length};
+}
+
+}  // namespace revchain
