@@ -40,14 +40,15 @@ class Size {
     std::string name_;
 };
 
-/// A column made from two others, link by link; one number where both are.
-template <class V, class Make>
-Column<V> combined(Index size, const Column<double>& x, const Column<double>& y, Make make) {
-    if (x.is_scalar() && y.is_scalar()) return Column<V>(make("Chain", x[0], y[0]));
-    std::vector<V> values;
+/// A column made from others, link by link; one number where all are.
+template <class Make, class... V>
+auto combined(Index size, Make make, const Column<V>&... columns) {
+    using Made = decltype(make("", columns[0]...));
+    if ((columns.is_scalar() && ...)) return Column<Made>(make("Chain", columns[0]...));
+    std::vector<Made> values;
     values.reserve(static_cast<std::size_t>(size));
-    for (Index m = 0; m < size; ++m) values.push_back(make("Chain: link " + std::to_string(m + 1), x[m], y[m]));
-    return values;
+    for (Index m = 0; m < size; ++m) values.push_back(make("Chain: link " + std::to_string(m + 1), columns[m]...));
+    return Column<Made>(std::move(values));
 }
 
 Chain make_chain(const Array& weight, const Array& length, const std::optional<Array>& centroid,
@@ -69,15 +70,11 @@ Chain make_chain(const Array& weight, const Array& length, const std::optional<A
     if (pendulum_length) {
         const Column<double> l = column(*pendulum_length, "pendulum_length");
         size.note(l, "pendulum_length");
-        return Chain(size.value(), W, a, h,
-                     combined<Wide>(size.value(), h, l, d::gyration_from_pendulum_length<double>));
+        return Chain(size.value(), W, a, h, combined(size.value(), d::gyration_from_pendulum_length<double>, a, h, l));
     }
     const Column<double> rho = column(*radius_of_gyration, "radius_of_gyration");
     size.note(rho, "radius_of_gyration");
-    return Chain(size.value(), W, a, h,
-                 combined<Wide>(size.value(), rho, rho, [](std::string_view place, double radius, double) {
-                     return d::gyration_from_radius(place, radius);
-                 }));
+    return Chain(size.value(), W, a, h, combined(size.value(), d::gyration_from_radius<double>, a, rho));
 }
 
 py::array to_numpy(bool is_scalar, Index size, auto value) {
@@ -93,28 +90,45 @@ py::array to_numpy(const Column<double>& column) {
 /// A property of a link computed from its data, as a column.
 template <double (*property)(const revchain::Link<double>&)>
 py::array derived(const Chain& chain) {
-    const bool is_scalar = chain.centroid().is_scalar() && chain.gyration_squared().is_scalar();
+    const bool is_scalar =
+        chain.length().is_scalar() && chain.centroid().is_scalar() && chain.gyration_ratio().is_scalar();
     return to_numpy(is_scalar, chain.size(), [&](Index m) { return property(chain.link(m)); });
 }
 
-/// Exact: both words of the squared radius of gyration.
+/// What `get_state` returns ends with this; states of version 1 end before, with the squared radius of gyration itself.
+constexpr int state_version = 2;
+
+/// Exact: both words of the ratio of squares.
 py::tuple get_state(const Chain& chain) {
-    const Column<Wide>& g = chain.gyration_squared();
+    const Column<Wide>& g = chain.gyration_ratio();
     const Index stored = static_cast<Index>(g.stored());
     return py::make_tuple(chain.size(), to_numpy(chain.weight()), to_numpy(chain.length()), to_numpy(chain.centroid()),
                           to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].high; }),
-                          to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].low; }));
+                          to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].low; }), state_version);
 }
 
 Chain set_state(const py::tuple& state) {
-    if (state.size() != 6)
-        refuse("Chain", "this is not the state of a chain; its number of parts must be 6", state.size());
-    const Column<double> high = column(state[4].cast<Array>(), "gyration_squared");
-    const Column<double> low = column(state[5].cast<Array>(), "gyration_squared");
-    return Chain(state[0].cast<Index>(), column(state[1].cast<Array>(), "weight"),
-                 column(state[2].cast<Array>(), "length"), column(state[3].cast<Array>(), "centroid"),
-                 combined<Wide>(static_cast<Index>(std::min(high.stored(), low.stored())), high, low,
-                                [](std::string_view, double h, double l) { return Wide(h, l); }));
+    if (state.size() != 6 && state.size() != 7)
+        refuse("Chain", "this is not the state of a chain; its number of parts must be 7", state.size());
+    if (state.size() == 7 && state[6].cast<int>() != state_version)
+        refuse("Chain", "this is the state of a chain of another version; known is 2", state[6].cast<int>());
+    const Index size = state[0].cast<Index>();
+    const Column<double> a = column(state[2].cast<Array>(), "length");
+    const Column<double> high = column(state[4].cast<Array>(), "gyration_ratio");
+    const Column<double> low = column(state[5].cast<Array>(), "gyration_ratio");
+    const Index stored = static_cast<Index>(std::min(high.stored(), low.stored()));
+    const auto words = [](std::string_view, double h, double l) { return Wide(h, l); };
+    const auto ratio = [](std::string_view, const Wide& square, double length) {
+        return revchain::detail::in_lengths(revchain::detail::in_lengths(square, length), length);
+    };
+    Column<Wide> gyration = combined(stored, words, high, low);
+    const bool first_version = state.size() == 6;
+    if (first_version) {
+        const Index common = std::min(gyration.is_scalar() ? size : stored, a.is_scalar() ? size : Index(a.stored()));
+        gyration = combined(common, ratio, gyration, a);
+    }
+    return Chain(size, column(state[1].cast<Array>(), "weight"), a, column(state[3].cast<Array>(), "centroid"),
+                 std::move(gyration));
 }
 
 }  // namespace

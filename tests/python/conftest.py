@@ -32,12 +32,15 @@ def repository() -> Path:
 
 @pytest.fixture(scope="session")
 def stored_links() -> Callable:
-    """(W, a, h, rho^2) of each link, exactly the numbers that a chain stores (rho^2 in two words)."""
+    """(W, a, h, rho^2) of each link, from the numbers that a chain stores (rho^2/a^2 in two words)."""
 
     def links(chain):
-        size, *columns = chain._compiled.__getstate__()
+        size, *columns, _ = chain._compiled.__getstate__()
         full = [column.tolist() if column.ndim else [float(column)] * size for column in columns]
-        return [(mp.mpf(w), mp.mpf(a), mp.mpf(h), mp.mpf(high) + mp.mpf(low)) for w, a, h, high, low in zip(*full, strict=True)]
+        return [
+            (mp.mpf(w), mp.mpf(a), mp.mpf(h), (mp.mpf(high) + mp.mpf(low)) * mp.mpf(a) ** 2)
+            for w, a, h, high, low in zip(*full, strict=True)
+        ]
 
     return links
 

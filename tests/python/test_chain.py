@@ -83,6 +83,33 @@ def test_equality_hash_copy_pickle():
         assert np.array_equal(rc.modes(twin).conical_height, rc.modes(chain).conical_height)
 
 
+def test_states_of_the_first_version_are_read():
+    """They held rho^2 where it now is rho^2 / a^2."""
+    length = [0.1, 0.5, 0.7]
+    chain = rc.Chain(weight=[1, 2.5, 3], length=length, centroid=0.04, radius_of_gyration=[0.0, 0.25, 0.3])
+    size, weight, a, h, high, low, version = chain._compiled.__getstate__()
+    assert version == 2
+    again = chain._compiled.__class__.__new__(chain._compiled.__class__)
+    square = np.array([0.0, 0.25**2, 0.09 - 2.0**-60])
+    again.__setstate__((size, weight, a, h, square, np.zeros(3)))
+    assert again.radius_of_gyration[:2].tolist() == [0.0, 0.25]
+    assert again.radius_of_gyration[2] == pytest.approx(0.3, rel=1e-15)
+    again.__setstate__((size, weight, a, h, np.array(0.0625), np.array(0.0)))
+    assert again.radius_of_gyration.tolist() == [0.25] * 3
+    for wrong in ((size, weight, a, h, high, low, 3), (size, weight, a, h)):
+        with pytest.raises(ValueError, match="state of a chain"):
+            again.__setstate__(wrong)
+
+
+def test_units_at_the_ends_of_the_range():
+    for unit in (5e-324, 1e-300, 1e300):
+        chain = rc.Chain(weight=[1.0, 2.0], length=unit, centroid=unit / 2, radius_of_gyration=0.0)
+        assert rc.modes(chain).status == "success"
+        chain = rc.Chain(weight=[unit, 1.0, 1 / max(unit, 1e-308)], length=1.0)
+        assert rc.modes(chain, count=1).status == "success"
+    assert rc.Chain.uniform_rods(3, length=1e300).radius_of_gyration[0] == pytest.approx(1e300 / 3 / math.sqrt(12))
+
+
 def test_it_cannot_be_changed():
     chain = rc.Chain(weight=1.0, length=1.0)
     for name in ("weight", "size", "_compiled", "colour"):

@@ -22,8 +22,8 @@ struct ChainUnits {
 ///
 /// Throws InvalidArgument, naming the link (counted from 1, lowest first), for: no links; numbers that are not finite;
 /// lengths <= 0; negative weights; a massless lowest link; weights whose sum overflows; a link that would stand rather
-/// than hang (W h + a S <= 0, S the weight hung below it); ratios of weights or of lengths too wide for T (above
-/// 2^(2 max_exponent/5) and 2^(max_exponent/4): 1e123 and 1e77 in double), beyond which products would underflow.
+/// than hang (W h + a S <= 0, S the weight hung below it); lengths, of any kind, too far apart for T (2^(max_exponent/4):
+/// 1e77 in double).
 /// Cost O(N) once; memory one number per stored number.
 template <Real T>
 class Chain {
@@ -33,17 +33,17 @@ class Chain {
           weight_(column(links, &Link<T>::weight)),
           length_(column(links, &Link<T>::length)),
           centroid_(column(links, &Link<T>::centroid)),
-          gyration_squared_(column(links, &Link<T>::gyration_squared)) {
+          gyration_ratio_(column(links, &Link<T>::gyration_ratio)) {
         check();
     }
 
     /// `size` links from columns, each of `size` numbers or one.
-    Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_squared)
+    Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio)
         : size_(size),
           weight_(std::move(weight)),
           length_(std::move(length)),
           centroid_(std::move(centroid)),
-          gyration_squared_(std::move(gyration_squared)) {
+          gyration_ratio_(std::move(gyration_ratio)) {
         check();
     }
 
@@ -58,11 +58,11 @@ class Chain {
     }
 
     Index size() const { return size_; }
-    Link<T> link(Index m) const { return {weight_[m], length_[m], centroid_[m], gyration_squared_[m]}; }
+    Link<T> link(Index m) const { return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]}; }
     const Column<T>& weight() const { return weight_; }
     const Column<T>& length() const { return length_; }
     const Column<T>& centroid() const { return centroid_; }
-    const Column<Wide<T>>& gyration_squared() const { return gyration_squared_; }
+    const Column<Wide<T>>& gyration_ratio() const { return gyration_ratio_; }
 
     /// How many finite conical heights the chain has: N, less one for each coordinate that carries no inertia.
     Index mode_count() const { return mode_count_; }
@@ -72,7 +72,7 @@ class Chain {
     /// `segment_size`, else O(segment_size) (70 ns in double).
     Wide<T> weight_below(Index m) const {
         const Index whole = m / segment_size, rest = m % segment_size;
-        if (weight_.is_scalar()) return Wide<T>(weight_[0]) * Wide<T>(static_cast<Narrow<Wide<T>>>(m));
+        if (weight_.is_scalar()) return times(weight_[0], m);
         if (m == size_) return partial_weights_.back();
         const Wide<T>& below = partial_weights_[static_cast<std::size_t>(whole)];
         return rest == 0 ? below : below + summary(weight_.data() + whole * segment_size, rest).sum;
@@ -80,6 +80,8 @@ class Chain {
     /// Weights hung below links 0, `segment_size`, 2 `segment_size` ... and, last, of all links; empty where one weight
     /// serves all links.
     const std::vector<Wide<T>>& partial_weights() const { return partial_weights_; }
+    /// Whether the ratio of the weights (up to 1e123 in double) lets one unit serve them all.
+    bool has_one_weight_unit() const { return one_weight_unit_; }
     /// Straight length from the support to the free end.
     T total_length() const { return total_length_; }
     ChainUnits units() const {
@@ -111,7 +113,7 @@ class Chain {
         detail::require_positive(place, "length", length);
         detail::require_positive(place, "weight", weight);
         const Link<T> one = make(weight / T(count), length / T(count));
-        return Chain(count, one.weight, one.length, one.centroid, one.gyration_squared);
+        return Chain(count, one.weight, one.length, one.centroid, one.gyration_ratio);
     }
 
     void check();
@@ -121,7 +123,7 @@ class Chain {
     /// Links that a check has to look at: one where one number of each kind serves all.
     Index distinct_links() const {
         const bool uniform =
-            weight_.is_scalar() && length_.is_scalar() && centroid_.is_scalar() && gyration_squared_.is_scalar();
+            weight_.is_scalar() && length_.is_scalar() && centroid_.is_scalar() && gyration_ratio_.is_scalar();
         return uniform ? 1 : size_;
     }
 
@@ -129,12 +131,13 @@ class Chain {
     Column<T> weight_;
     Column<T> length_;
     Column<T> centroid_;
-    Column<Wide<T>> gyration_squared_;
+    Column<Wide<T>> gyration_ratio_;
     std::vector<Wide<T>> partial_weights_;  // see partial_weights()
     Index mode_count_ = 0;
     T total_weight_{};
     T total_length_{};
-    T largest_length_{};  // of any kind: a, |h|, rho
+    T largest_length_{};  // a or |h|
+    bool one_weight_unit_ = true;
 };
 
 namespace detail {
@@ -158,7 +161,6 @@ template <Real T>
 void Chain<T>::check() {
     using std::isfinite;
     using std::ldexp;
-    using std::sqrt;
     if (size_ < 1) detail::refuse("Chain", "a chain needs at least one link", size_);
     const auto check_stored = [&](std::size_t stored, bool is_scalar, std::string_view name) {
         if (!is_scalar && stored != static_cast<std::size_t>(size_))
@@ -170,18 +172,20 @@ void Chain<T>::check() {
     check_stored(weight_.stored(), weight_.is_scalar(), "weight");
     check_stored(length_.stored(), length_.is_scalar(), "length");
     check_stored(centroid_.stored(), centroid_.is_scalar(), "centroid");
-    check_stored(gyration_squared_.stored(), gyration_squared_.is_scalar(), "gyration_squared");
+    check_stored(gyration_ratio_.stored(), gyration_ratio_.is_scalar(), "gyration_ratio");
 
     const Summary<T> weights = summary(weight_, size_, &partial_weights_);
     const Summary<T> lengths = summary(length_, size_);
     const Summary<T> centroids = summary(centroid_, size_);
     bool radii = true, all_turn = true;
-    Wide<T> largest_square(T(0));
-    for (std::size_t m = 0; m < gyration_squared_.stored(); ++m) {
-        const Wide<T>& square = gyration_squared_.data()[m];
-        radii = radii && is_normalised(square) && square >= Wide<T>(T(0));
-        all_turn = all_turn && square > Wide<T>(T(0));
-        if (square > largest_square) largest_square = square;
+    T least_ratio = std::numeric_limits<T>::infinity(), largest_ratio{};
+    for (std::size_t m = 0; m < gyration_ratio_.stored(); ++m) {
+        const Wide<T>& ratio = gyration_ratio_.data()[m];
+        const T size = static_cast<T>(ratio);
+        radii = radii && is_normalised(ratio) && size >= T(0);
+        all_turn = all_turn && size > T(0);
+        if (size > T(0) && size < least_ratio) least_ratio = size;
+        if (size > largest_ratio) largest_ratio = size;
     }
     if (!(isfinite(weights.sum) && weights.least >= T(0) && weight_[0] > T(0) && isfinite(lengths.sum) &&
           lengths.least > T(0) && isfinite(centroids.sum) && radii))
@@ -189,27 +193,25 @@ void Chain<T>::check() {
     if (!isfinite(weights.sum)) detail::refuse("Chain", "the weights add up to infinity, each", weight_[0]);
     if (!isfinite(lengths.sum)) detail::refuse("Chain", "the lengths add up to infinity, each", length_[0]);
 
+    total_weight_ = static_cast<T>(weights.sum);
+    total_length_ = static_cast<T>(lengths.sum);
     const T least_weight = weights.least > T(0)
                                ? weights.least
                                : detail::least_size<T>(distinct_links(), [&](Index m) { return weight_[m]; });
+    one_weight_unit_ = total_weight_ * ldexp(T(1), -2 * std::numeric_limits<T>::max_exponent / 5) <= least_weight;
     const T least_centroid = centroids.least > T(0)
                                  ? centroids.least
                                  : detail::least_size<T>(distinct_links(), [&](Index m) { return centroid_[m]; });
-    const T least_radius = sqrt(detail::least_size<T>(static_cast<Index>(gyration_squared_.stored()),
-                                                      [&](Index m) { return static_cast<T>(gyration_squared_[m]); }));
-    const T least_length = std::min({lengths.least, least_centroid, least_radius});
-    largest_length_ =
-        std::max({largest_size(length_), largest_size(centroid_), T(sqrt(static_cast<T>(largest_square)))});
-    total_weight_ = static_cast<T>(weights.sum);
-    total_length_ = static_cast<T>(lengths.sum);
-    // Within these ratios no product of the recursions leaves the range of T, whatever its units.
-    constexpr int reach = std::numeric_limits<T>::max_exponent;
-    if (total_weight_ / ldexp(T(1), 2 * reach / 5) > least_weight)
-        detail::refuse("Chain", "the weights span too wide a ratio for this scalar, from " +
-                                    detail::in_digits(least_weight) + " of " + detail::in_digits(total_weight_));
-    if (largest_length_ / ldexp(T(1), reach / 4) > least_length)
+    const T least_length = std::min(lengths.least, least_centroid), span = detail::length_span<T>();
+    largest_length_ = std::max(largest_size(length_), largest_size(centroid_));
+    if (largest_length_ / span > least_length)
         detail::refuse("Chain", "the lengths span too wide a ratio for this scalar, from " +
                                     detail::in_digits(least_length) + " to " + detail::in_digits(largest_length_));
+    if (largest_ratio / span > span || least_ratio < T(1) / span / span)
+        detail::refuse("Chain",
+                       "a radius of gyration is too far from its link's length for this scalar; its square over "
+                       "that of the length",
+                       largest_ratio > T(1) ? largest_ratio : least_ratio);
     check_that_links_hang(centroids);
     // Every link with weight, and none with all of it in the upper pin: each holds a coordinate of its own.
     const bool all_hold = weights.least > T(0) && (centroids.least > T(0) || all_turn);
@@ -230,9 +232,9 @@ void Chain<T>::check_each_link() const {
         if (!isfinite(it.length) || !(it.length > T(0)))
             detail::refuse(at(m), "length must be positive and finite", it.length);
         if (!isfinite(it.centroid)) detail::refuse(at(m), "centroid must be finite", it.centroid);
-        if (!is_normalised(it.gyration_squared) || it.gyration_squared < Wide<T>(T(0)))
-            detail::refuse(at(m), "square of the radius of gyration must be finite and not negative",
-                           static_cast<T>(it.gyration_squared));
+        if (!is_normalised(it.gyration_ratio) || it.gyration_ratio < Wide<T>(T(0)))
+            detail::refuse(at(m), "(radius of gyration / length)^2 must be finite and not negative",
+                           static_cast<T>(it.gyration_ratio));
         below = below + Wide<T>(it.weight);
         straight = straight + Wide<T>(it.length);
         if (!isfinite(below)) detail::refuse(at(m), "the weights add up to infinity, from this link's", it.weight);
@@ -242,19 +244,24 @@ void Chain<T>::check_each_link() const {
 
 template <Real T>
 void Chain<T>::check_that_links_hang(const Summary<T>& centroids) const {
+    using std::frexp;
     using std::ldexp;
     if (centroids.least >= T(0) && centroid_[0] > T(0)) return;  // all terms positive
-    const ChainUnits units = this->units();
     Wide<T> below(T(0));
     for (Index m = 0; m < distinct_links(); ++m) {  // of equal links, the lowest hangs least
-        const T weight = ldexp(weight_[m], -units.weight_exponent);
-        const Wide<T> kappa = Wide<T>(weight) * Wide<T>(ldexp(centroid_[m], -units.length_exponent)) +
-                              Wide<T>(ldexp(length_[m], -units.length_exponent)) * below;
-        if (!(kappa > Wide<T>(T(0))))
-            detail::refuse("Chain: link " + std::to_string(m + 1),
-                           "it would stand, not hang: weight x centroid + length x (weight below) must be positive",
-                           ldexp(static_cast<T>(kappa), units.weight_exponent + units.length_exponent));
-        below = below + Wide<T>(weight);
+        if (m % segment_size == 0) below = weight_below(m);
+        if (!(centroid_[m] > T(0))) {  // in the unit of the larger of W and S
+            int exponent = 0;
+            frexp(std::max(weight_[m], static_cast<T>(below)), &exponent);
+            const Wide<T> share =
+                Wide<T>(ldexp(weight_[m], -exponent)) * detail::in_lengths<T>(centroid_[m], length_[m]) +
+                ldexp(below, -exponent);
+            if (!(share > Wide<T>(T(0))))
+                detail::refuse("Chain: link " + std::to_string(m + 1),
+                               "it would stand, not hang: weight x centroid + length x (weight below) must be positive",
+                               ldexp(detail::times_length(share, length_[m]), exponent));
+        }
+        below = below + Wide<T>(weight_[m]);
     }
 }
 
@@ -270,7 +277,7 @@ Index Chain<T>::inertialess_coordinates() const {
         if (it.weight == T(0)) {
             nullity += free ? 1 : 0;  // both pins at liberty: the upper one is a coordinate of its own
             free = true;
-        } else if (it.gyration_squared > Wide<T>(T(0))) {
+        } else if (it.gyration_ratio > Wide<T>(T(0))) {
             free = false;  // two quadratic terms hold both pins
         } else if (it.centroid == T(0)) {
             free = true;  // the upper pin is held, the lower one is not

@@ -122,12 +122,22 @@ Summary<T> summary(const T* x, Index count) {
     return {detail::summary_of_segment(padded).sum, *std::min_element(x, x + count)};
 }
 
+/// count times x: one operation, whatever the unit of x.
+template <Real T>
+Wide<T> times(const T& x, Index count) {
+    using std::frexp;
+    using std::ldexp;
+    int exponent = 0;
+    const Wide<T> digits(frexp(x, &exponent));
+    return ldexp(digits * Wide<T>(static_cast<Narrow<Wide<T>>>(count)), exponent);
+}
+
 /// Summary of a column over `size` links; a single number is multiplied. `below`, if given, receives the sums of the
 /// numbers below each segment and, last, of all: within one operation of the segments' own errors.
 template <Real T>
 Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* below = nullptr) {
     using S = Wide<T>;
-    if (column.is_scalar()) return {S(column[0]) * S(static_cast<Narrow<S>>(size)), column[0]};
+    if (column.is_scalar()) return {times(column[0], size), column[0]};
     T least = column[0];
     detail::RunningSum<S> sum;
     if (below != nullptr) below->reserve(static_cast<std::size_t>(size / segment_size + 2));

@@ -19,8 +19,12 @@ template <Real T>
 AssembledPencil<T> assembled(const ElementPencil<T>& pencil) {
     const Index n = pencil.size();
     AssembledPencil<T> result{Matrix<T>::Zero(n + 1, n + 1), Matrix<T>::Zero(n + 1, n + 1)};
+    using std::ldexp;
     for (Index m = 0; m < n; ++m) {
-        const Element<T>& e = pencil.elements[static_cast<std::size_t>(m)];
+        Element<T> e = pencil.elements[static_cast<std::size_t>(m)];
+        if (!pencil.units.empty())
+            for (T* entry : {&e.stiffness, &e.lower, &e.upper, &e.weight})
+                *entry = ldexp(*entry, pencil.units[static_cast<std::size_t>(m)]);
         const T cross = cross_mass(e);
         result.K(m, m) += e.stiffness;
         result.K(m, m + 1) -= e.stiffness;

@@ -9,15 +9,16 @@ namespace revchain::linalg {
 
 /// One element between two neighbouring pins (lower, upper) of the pencil  lambda K - M:
 ///
-///     K = k [ 1 -1 ; -1 1 ],     M = [ A  X ; X  B ],     A + 2 X + B = W,     A B - X^2 = C.
+///     K = k [ 1 -1 ; -1 1 ],     M = [ A  X ; X  B ],     A + 2 X + B = W,     A B - X^2 = c W.
 ///
-/// W and C = W^2 rho^2 / a^2 are data of their own, never differences: that is what keeps the counts accurate.
+/// W and c are data of their own, never differences: that is what keeps the counts accurate. All are linear in the
+/// weights: no square of a small one underflows.
 template <Real S>
 struct Element {
     S stiffness{};       ///< k > 0
     S lower{};           ///< A >= 0
     S upper{};           ///< B >= 0
-    S coupling{};        ///< C >= 0, determinant of the mass matrix
+    S turning{};         ///< c >= 0, what the element resists turning with
     Narrow<S> weight{};  ///< W >= 0
 };
 
@@ -28,16 +29,25 @@ S cross_mass(const Element<S>& e) {
 }
 
 /// Dynamic stiffness carried across an element, equation (1) of docs/accuracy.md: from `near` at the pin where it is
-/// known to the other, whose own mass is `far`; `stiffness` is lambda k.
+/// known to the other, whose own mass is `far`; `stiffness` is L = lambda k, `inverse` one over the pivot.
 template <Real S>
-S carried(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& pivot) {
-    return ((stiffness - far) * near - (stiffness * S(e.weight) - e.coupling)) / pivot;
+S carried(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& inverse) {
+    return (stiffness - far) * (near * inverse) - (stiffness - e.turning) * (S(e.weight) * inverse);
 }
 
-/// The pivot, or where it is exactly 0 something positive and tiny: an eigenvalue at the shift is not above it.
+/// The same by equation (2), from what couples the two pins, L + X: accurate where that is small and the pivot, too.
+template <Real S>
+S carried_by_coupling(const S& stiffness, const S& far, const S& coupling, const S& inverse) {
+    return (stiffness - far) - coupling * (coupling * inverse);
+}
+
+/// The pivot, or where it is 0 or too small to divide by something positive and tiny: an eigenvalue at the shift is not
+/// above it.
 template <Real S>
 S not_zero(const S& pivot, const S& stiffness) {
-    return pivot == S(Narrow<S>(0)) ? stiffness * (S(epsilon<S>()) * S(epsilon<S>())) : pivot;
+    using std::abs;
+    const S least(std::numeric_limits<Narrow<S>>::min() * Narrow<S>(4));
+    return abs(pivot) < least ? stiffness * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
 /// A symmetric pencil lambda K - M kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once
@@ -45,13 +55,28 @@ S not_zero(const S& pivot, const S& stiffness) {
 template <Real S>
 struct ElementPencil {
     std::vector<Element<S>> elements;
-    Narrow<S> entry_error{};  ///< bound on the relative error of every number in `elements`
+    /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents that never fall on
+    /// the way up and end at 0. Else empty.
+    std::vector<int> units;
+    /// Bound on the relative error of every number in `elements`, besides what underflows: the least normal number in
+    /// masses, `stiffness_underflow` in stiffnesses.
+    Narrow<S> entry_error{};
 
     Index size() const { return static_cast<Index>(elements.size()); }
+    /// The exponent by which what is carried across pin m from below grows less: in the unit of element m from that of
+    /// m - 1.
+    int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
 };
 
-/// The same pencil in a narrower scalar; one more rounding in each entry. Where an entry leaves the normal range of T
-/// its relative error is not known: `entry_error` is then infinite and nothing is proved with this pencil.
+/// 4 / a times the least positive number, a the shortest length there can be beside one of 1.
+template <Real M>
+M stiffness_underflow() {
+    using std::ldexp;
+    return ldexp(std::numeric_limits<M>::min() * std::numeric_limits<M>::epsilon(),
+                 std::numeric_limits<M>::max_exponent / 4 + 2);
+}
+
+/// The same pencil in a narrower scalar; one more rounding in each entry.
 template <Real T, Real S>
 ElementPencil<T> rounded(const ElementPencil<S>& wide) {
     if constexpr (std::is_same_v<T, S>) {
@@ -61,13 +86,9 @@ ElementPencil<T> rounded(const ElementPencil<S>& wide) {
         pencil.elements.reserve(wide.elements.size());
         for (const Element<S>& e : wide.elements)
             pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.lower), static_cast<T>(e.upper),
-                                       static_cast<T>(e.coupling), static_cast<T>(e.weight)});
-        using std::abs;
+                                       static_cast<T>(e.turning), static_cast<T>(e.weight)});
+        pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
-        for (const Element<T>& e : pencil.elements)
-            for (const T& entry : {e.stiffness, e.lower, e.upper, e.weight})
-                if (entry != T(0) && abs(entry) < std::numeric_limits<T>::min())
-                    pencil.entry_error = std::numeric_limits<T>::infinity();
         return pencil;
     }
 }

@@ -21,6 +21,41 @@ S ratio(const S& cross, const S& pivot) {
     return abs(change) < T(0.5) ? S(T(1)) + S(change) : cross / pivot;
 }
 
+/// Dynamic stiffness carried across an element by the one of equations (1) and (2) that rounds less, and the ratio of the
+/// offset at `near`'s pin to that at the other; `near_mass` and `far_mass` are the element's own at the two pins.
+template <Real S>
+struct Across {
+    S stiffness, ratio;
+};
+
+template <Real S>
+Across<S> across(const Element<S>& e, const S& stiffness, const S& near, const S& near_mass, const S& far_mass) {
+    using std::abs;
+    using T = Narrow<S>;
+    const S coupling = stiffness + cross_mass(e);
+    const S pivot = not_zero(near + (stiffness - near_mass), stiffness);
+    const S inverse = S(T(1)) / pivot;
+    const T k = static_cast<T>(stiffness), far = static_cast<T>(far_mass), p = abs(static_cast<T>(pivot));
+    const T by_coupling =
+        T(2) * abs(static_cast<T>(coupling)) * ((k + e.weight + static_cast<T>(near_mass) + far) / p) + (k + far);
+    const T by_weight = (k + far) * (abs(static_cast<T>(near)) / p) + (k + static_cast<T>(e.turning)) * (e.weight / p);
+    return {by_coupling < by_weight ? carried_by_coupling(stiffness, far_mass, coupling, inverse)
+                                    : carried(e, stiffness, near, far_mass, inverse),
+            ratio(coupling, pivot)};
+}
+
+/// x in another unit, held where it would leave the range of the scalar: all but rigid.
+template <Real S>
+S rescaled(const S& x, int step) {
+    using std::abs;
+    using std::ldexp;
+    using T = Narrow<S>;
+    if (step == 0) return x;
+    const S limit(ldexp(T(1), std::numeric_limits<T>::max_exponent / 2));
+    if (step > 0 && abs(x) > ldexp(limit, -step)) return x < S(T(0)) ? -limit : limit;
+    return ldexp(x, step);
+}
+
 }  // namespace detail
 
 /// Where a mode crosses the axis: in `element`, at `share` of its length from its lower pin.
@@ -84,11 +119,10 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
     S below = zero;
     for (std::size_t m = 0; m < pins.size(); ++m) {
         const Element<S>& e = pencil.elements[m];
-        const S stiffness = eigenvalue * e.stiffness;
-        pins[m].stiffness_below = below;
-        const S pivot = not_zero(below + (stiffness - e.lower), stiffness);
-        below = carried(e, stiffness, below, e.upper, pivot);
-        pins[m].down = detail::ratio(stiffness + cross_mass(e), pivot);
+        pins[m].stiffness_below = below = detail::rescaled(below, pencil.step_down(m));
+        const auto across = detail::across(e, eigenvalue * e.stiffness, below, e.lower, e.upper);
+        below = across.stiffness;
+        pins[m].down = across.ratio;
     }
     std::size_t twist = pins.size() - 1;
     T least = std::numeric_limits<T>::infinity();
@@ -100,16 +134,18 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
             pins[m].up = zero;
             above = stiffness - e.lower;
         } else {
-            const S pivot = not_zero(above + (stiffness - e.upper), stiffness);
-            pins[m].up = detail::ratio(stiffness + cross_mass(e), pivot);
-            above = carried(e, stiffness, above, e.lower, pivot);
+            above = detail::rescaled(above, -pencil.step_down(m + 1));
+            const auto across = detail::across(e, stiffness, above, e.upper, e.lower);
+            pins[m].up = across.ratio;
+            above = across.stiffness;
         }
         // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the mode,
         // and the ratios between them cancel.
         T forces = static_cast<T>(stiffness) + static_cast<T>(e.lower);
         if (m > 0) {
             const Element<S>& hung = pencil.elements[m - 1];
-            forces = forces + static_cast<T>(eigenvalue * hung.stiffness) + static_cast<T>(hung.upper);
+            forces = forces + detail::rescaled(static_cast<T>(eigenvalue * hung.stiffness) + static_cast<T>(hung.upper),
+                                               pencil.step_down(m));
         }
         const T balance = abs(static_cast<T>(pins[m].stiffness_below + above)) / forces;
         if (balance < least) {
@@ -139,15 +175,54 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
     return result;
 }
 
+namespace detail {
+
+/// Offsets of an element's pins, brought to one unit for all elements where their own differ: forces are as offsets times
+/// weights (`share` 1), energies as squares of offsets times weights (`share` 2). The largest is then of the order of 1.
+template <Real S, Real T>
+class InOneUnit {
+   public:
+    InOneUnit(const ElementPencil<S>& pencil, const Vector<T>& offset, int share)
+        : pencil_(pencil), offset_(offset), share_(share) {
+        using std::abs;
+        using std::frexp;
+        bool first = true;
+        for (std::size_t m = 0; m < pencil.units.size(); ++m)
+            for (Index pin = static_cast<Index>(m); pin < static_cast<Index>(m) + 2; ++pin) {
+                if (offset[pin] == T(0)) continue;
+                int exponent = 0;
+                frexp(offset[pin], &exponent);
+                exponent += pencil.units[m] / share;
+                if (first || exponent > largest_) largest_ = exponent;
+                first = false;
+            }
+    }
+    S operator()(std::size_t element, Index pin) const {
+        using std::ldexp;
+        const T& y = offset_[pin];
+        return S(static_cast<Narrow<S>>(
+            pencil_.units.empty() ? y : T(ldexp(y, pencil_.units[element] / share_ - largest_))));
+    }
+
+   private:
+    const ElementPencil<S>& pencil_;
+    const Vector<T>& offset_;
+    int share_;
+    int largest_ = 0;
+};
+
+}  // namespace detail
+
 /// lambda = y^T M y / y^T K y in S, element by element, from offsets in a narrower scalar: its error is the square of
 /// theirs, so that offsets good to 1e-13 give a quotient good to 1e-25. Both sums have positive terms only.
 /// Preconditions: offsets of pins 0 ... N, not all 0. Cost: one pass, no division.
 template <Real S, Real T>
 S rayleigh_quotient(const ElementPencil<S>& pencil, const Vector<T>& offset) {
+    const detail::InOneUnit<S, T> offsets(pencil, offset, 2);
     S inertia(0), stiffness(0);
-    for (Index m = 0; m < pencil.size(); ++m) {
-        const Element<S>& e = pencil.elements[static_cast<std::size_t>(m)];
-        const S lower(static_cast<Narrow<S>>(offset[m])), upper(static_cast<Narrow<S>>(offset[m + 1]));
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        const Element<S>& e = pencil.elements[m];
+        const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
         const S difference = lower - upper;
         const S twice_cross = cross_mass(e) * S(Narrow<S>(2));
         inertia = inertia + (lower * (e.lower * lower + twice_cross * upper) + e.upper * upper * upper);
@@ -164,13 +239,14 @@ T relative_residual(const ElementPencil<S>& pencil, const T& eigenvalue, const V
     using std::abs;
     using M = Narrow<S>;
     const auto size_of = [](const S& x) { return abs(static_cast<M>(x)); };
+    const detail::InOneUnit<S, T> offsets(pencil, offset, 1);
     M largest(0), worst(0), size(0);
     S force(M(0));  // carried over from the link below
-    for (Index m = 0; m < pencil.size(); ++m) {
-        const Element<S>& e = pencil.elements[static_cast<std::size_t>(m)];
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        const Element<S>& e = pencil.elements[m];
         const S k = e.stiffness * S(static_cast<M>(eigenvalue));
         const S cross = cross_mass(e);
-        const S lower(static_cast<M>(offset[m])), upper(static_cast<M>(offset[m + 1]));
+        const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
         const S spring = k * (lower - upper);
         const M spring_size = size_of(k) * (size_of(lower) + size_of(upper));
         worst = std::max(worst, size_of(force + (spring - (e.lower * lower + cross * upper))));

@@ -26,13 +26,14 @@ RecurrencePencil<T> recurrence_matrices(const Chain<T>& chain) {
     for (Index row = 0; row < n; ++row) {
         const Link<T> link = chain.link(row);
         const T W = link.weight, a = link.length, h = link.centroid;
-        const T hl = static_cast<T>(Wide<T>(h) * Wide<T>(h) + link.gyration_squared);
+        const Wide<T> p = detail::in_lengths<T>(h, a);
+        const T hl = static_cast<T>(p * p + link.gyration_ratio);  // over a^2
         for (Index column = 0; column < row; ++column) pencil.A(row, column) = below[column];
-        pencil.A(row, row) = upper_share + W * (hl / a) / a;
+        pencil.A(row, row) = upper_share + W * hl;
         const T stiffness = static_cast<T>(sum) / a + W * (h / a) / a;
         pencil.B(row, row) = stiffness;
         if (row + 1 < n) {
-            pencil.A(row, row + 1) = W * (h / a) - W * (hl / a) / a;
+            pencil.A(row, row + 1) = W * (h / a) - W * hl;
             pencil.B(row, row + 1) = -stiffness;
         }
         below[row] = upper_share + W * (h / a);

@@ -31,7 +31,7 @@ TEST_CASE("a chain keeps what it is given", "[chain]") {
 TEST_CASE("one number for all links is stored once", "[chain]") {
     const Chain chain = Chain::uniform_rods(10'000'000, 5.0, 2.0);
     CHECK(chain.weight().stored() + chain.length().stored() + chain.centroid().stored() +
-              chain.gyration_squared().stored() ==
+              chain.gyration_ratio().stored() ==
           4);
     CHECK(chain.size() == 10'000'000);
     CHECK(chain.total_length() == Approx(5.0).epsilon(1e-15));
@@ -118,13 +118,27 @@ TEST_CASE("a wrong chain is refused, naming the link and the value", "[chain]") 
     CHECK_THROWS_AS(Chain::uniform_plummets(3, 1.0, nan_value), revchain::InvalidArgument);
 }
 
-TEST_CASE("any unit of weight and length is taken, ratios beyond the scalar are not", "[chain]") {
-    for (const double unit : {1e-300, 1e-100, 1.0, 1e100, 1e300}) {
+TEST_CASE("any unit of weight and length is taken, and any ratio of weights", "[chain]") {
+    for (const double unit : {5e-324, 1e-300, 1e-100, 1.0, 1e100, 1e300}) {
         CHECK_NOTHROW(Chain(Links{plummet(unit, 1.0), plummet(2 * unit, 1.0)}));
-        CHECK_NOTHROW(Chain(Links{plummet(1.0, unit), plummet(2.0, unit)}));
+        CHECK_NOTHROW(Chain(Links{plummet(1.0, unit), uniform_rod(2.0, unit)}));
+        CHECK_NOTHROW(Chain(Links{plummet(unit, 1.0), plummet(1 / std::max(unit, 1e-308), 1.0)}));
+        CHECK(Chain(1, unit, 1.0, 1.0, revchain::Wide<double>(0)).total_weight() == unit);
+        // -1/4 + 1/2 > 0
+        CHECK_NOTHROW(Chain(Links{plummet(unit, 1.0), {unit, 2.0, -0.5, 1.0}}));
+        CHECK_THROWS_WITH(Chain(Links{plummet(unit, 1.0), {unit, 2.0, -2.0, 1.0}}), ContainsSubstring("stand"));
+        CHECK_THROWS_WITH(Chain(Links{plummet(1.0, unit), {1.0, unit, -unit, 1.0}}), ContainsSubstring("stand"));
     }
-    CHECK_NOTHROW(Chain(Links{plummet(1e-60, 1.0), plummet(1e60, 1.0)}));
-    CHECK_THROWS_WITH(Chain(Links{plummet(1e-70, 1.0), plummet(1e70, 1.0)}), ContainsSubstring("weights span"));
+    CHECK(Chain(Links{plummet(1e60, 1.0), plummet(1e-60, 1.0)}).has_one_weight_unit());
+    CHECK_FALSE(Chain(Links{plummet(1e70, 1.0), plummet(1e-70, 1.0)}).has_one_weight_unit());
+    CHECK_FALSE(Chain(Links{plummet(1e-300, 1.0), plummet(1e300, 1.0)}).has_one_weight_unit());
+    CHECK(Chain(Links{plummet(1.0, 1.0), plummet(0.0, 1.0)}).has_one_weight_unit());
+}
+
+TEST_CASE("lengths too far apart are refused", "[chain]") {
     CHECK_NOTHROW(Chain(Links{plummet(1.0, 1e-38), plummet(1.0, 1e38)}));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1e-40), plummet(1.0, 1e40)}), ContainsSubstring("lengths span"));
+    CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 1e-80, 1.0}}), ContainsSubstring("lengths span"));
+    CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 1.0, 1e-160}}), ContainsSubstring("radius of gyration is too far"));
+    CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 1.0, 1e160}}), ContainsSubstring("radius of gyration is too far"));
 }

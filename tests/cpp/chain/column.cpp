@@ -66,7 +66,7 @@ TEMPLATE_TEST_CASE("partial weights are right to a rounding", "[chain]", float, 
 TEMPLATE_TEST_CASE("partial weights that do not fit", "[chain]", float, double) {
     using T = TestType;
     double worst = 0;
-    for (const double span : {1.0, 1e3, 1e12}) {
+    for (const double span : {1.0, 1e3, 1e30}) {
         support::Random random(7);
         std::vector<T> weight;
         const Index size = 100'000;

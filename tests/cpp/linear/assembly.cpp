@@ -21,7 +21,7 @@ TEST_CASE("every entry is within entry_error of the exact one", "[linear]") {
             const auto link = chain.link(m);
             const auto& e = assembled.pencil.elements[static_cast<std::size_t>(m)];
             const Quad W = quad(link.weight), a = quad(link.length), h = quad(link.centroid),
-                       g = quad(link.gyration_squared);
+                       r = quad(link.gyration_ratio), g = r * a * a;
             const auto off = [](Quad got, Quad want) {
                 return want == 0 ? static_cast<double>(fabsq(got)) : static_cast<double>(fabsq(got / want - 1));
             };
@@ -29,7 +29,7 @@ TEST_CASE("every entry is within entry_error of the exact one", "[linear]") {
             CHECK(off(quad(e.stiffness) * weight_unit / length_unit, (W * h + a * below) / (a * a)) <= bound);
             CHECK(off(quad(e.lower) * weight_unit, W * (h * h + g) / (a * a)) <= bound);
             CHECK(off(quad(e.upper) * weight_unit, W * ((a - h) * (a - h) + g) / (a * a)) <= bound);
-            CHECK(off(quad(e.coupling) * weight_unit * weight_unit, W * W * g / (a * a)) <= bound);
+            CHECK(off(quad(e.turning) * weight_unit, W * r) <= bound);
             CHECK(Quad(e.weight) * weight_unit == W);
             below += W;
         }

@@ -29,7 +29,7 @@ struct Letters {
 
 template <class T>
 Letters letters(const Link<T>& link) {
-    const Quad h = quad(link.centroid), rho2 = quad(link.gyration_squared);
+    const Quad h = quad(link.centroid), rho2 = quad(link.gyration_ratio) * quad(link.length) * quad(link.length);
     return {quad(link.weight), quad(link.length), h, h == 0 ? Quad(0) : h + rho2 / h, rho2};
 }
 

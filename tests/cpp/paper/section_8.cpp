@@ -148,8 +148,8 @@ TEST_CASE("§8 (1): k^2 = h (l - h)", "[paper][section_8]") {
     for (const double l : {0.75, 1.0, 1.25}) {
         const auto link =
             compound_pendulum<double>({.weight = 1.0, .length = 1.0, .centroid = 0.625, .pendulum_length = l});
-        CHECK(static_cast<double>(link.gyration_squared) == 0.625 * (l - 0.625));
-        CHECK((static_cast<double>(link.gyration_squared) == 0.625 * (1.0 - 0.625)) == (l == 1.0));
+        CHECK(static_cast<double>(link.gyration_ratio) == 0.625 * (l - 0.625));
+        CHECK((static_cast<double>(link.gyration_ratio) == 0.625 * (1.0 - 0.625)) == (l == 1.0));
         CHECK(revchain::pendulum_length(link) == l);
         const double k = revchain::radius_of_gyration(link);
         CHECK(k == std::sqrt(0.625 * (l - 0.625)));

@@ -85,7 +85,7 @@ Chain<T> shifted_ends(Index count) {
     for (auto [link, share] : {std::pair{&links.front(), T(11)}, std::pair{&links.back(), T(13)}}) {
         link->centroid = share / T(24);
         const Wide<T> h(link->centroid);
-        link->gyration_squared = h - h * h - Wide<T>(T(1)) / Wide<T>(T(12));
+        link->gyration_ratio = h - h * h - Wide<T>(T(1)) / Wide<T>(T(12));
     }
     return Chain<T>(links);
 }

@@ -35,9 +35,9 @@ class Truth {
         for (std::size_t m = 0; m < n; ++m) {
             const revchain::Link<T> link = chain.link(static_cast<revchain::Index>(m));
             const Quad W = quad(link.weight), a = quad(link.length), h = quad(link.centroid);
-            const Quad rho2 = quad(link.gyration_squared);
+            const Quad turn = quad(link.gyration_ratio);
             const Quad k = (W * h + a * below) / (a * a);
-            const Quad y_lower = h / a, y_upper = (a - h) / a, turn = rho2 / (a * a);
+            const Quad y_lower = h / a, y_upper = (a - h) / a;
             below += W;
             k0_[m] += k;
             m0_[m] += W * (y_lower * y_lower + turn);
