@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "revchain/core/pack.hpp"
 #include "revchain/core/scalar.hpp"
 
 namespace revchain {
@@ -17,20 +18,21 @@ namespace revchain {
 /// and a sum into one fused operation. Valid while no low part underflows.
 /// Algorithms: Joldes, Muller, Popescu (2017), doi:10.1145/3121432, numbers 4, 6, 9, 12, 15, 17.
 /// Own type because no header-only library that is kept up offers one without Boost: the core needs Eigen alone.
-template <std::floating_point T>
+template <Word T>
 struct DoubleWord {
-    static_assert(std::numeric_limits<T>::is_iec559, "double words need correctly rounded sums");
+    static_assert(std::numeric_limits<Lane<T>>::is_iec559, "double words need correctly rounded sums");
     T high{};
     T low{};
 
     constexpr DoubleWord() = default;
-    constexpr DoubleWord(T x) : high(x) {}  // NOLINT(google-explicit-constructor): a T is a DoubleWord
+    [[gnu::always_inline]] constexpr DoubleWord(const T& x)
+        : high(x) {}  // NOLINT(google-explicit-constructor): a T is a DoubleWord
     template <class Number>
     requires(std::is_arithmetic_v<Number>&& std::numeric_limits<Number>::digits <=
              std::numeric_limits<T>::digits) constexpr DoubleWord(Number x)
         : high(static_cast<T>(x)) {}  // NOLINT(google-explicit-constructor)
-    constexpr DoubleWord(T h, T l) : high(h), low(l) {}
-    constexpr explicit operator T() const { return high; }
+    [[gnu::always_inline]] constexpr DoubleWord(const T& h, const T& l) : high(h), low(l) {}
+    [[gnu::always_inline]] constexpr explicit operator T() const { return high; }
 
     friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
     // high first, then low
@@ -40,16 +42,16 @@ struct DoubleWord {
 };
 
 /// x + y = high + low exactly (Knuth).
-template <std::floating_point T>
-constexpr DoubleWord<T> two_sum(T x, T y) {
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> two_sum(const T& x, const T& y) {
     const T s = x + y;
     const T v = s - x;
     return {s, (x - (s - v)) + (y - v)};
 }
 
 /// The same where |x| >= |y| or x = 0 (Dekker).
-template <std::floating_point T>
-constexpr DoubleWord<T> fast_two_sum(T x, T y) {
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> fast_two_sum(const T& x, const T& y) {
     const T s = x + y;
     return {s, y - (s - x)};
 }
@@ -66,10 +68,22 @@ inline constexpr bool has_fast_fma =
 
 /// x y = high + low exactly: one fused multiply-add where the machine has it, else Veltkamp's split and Dekker's
 /// product (a library call of fma costs more, and on old machines is emulated).
-template <std::floating_point T>
-inline DoubleWord<T> two_product(T x, T y) {
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     const T p = x * y;
-    if constexpr (detail::has_fast_fma<T>) {
+    if constexpr (IsPack<T>) {
+        if constexpr (detail::has_fast_fma<Lane<T>>) {
+            T rest;
+            for (std::size_t i = 0; i < pack_size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
+            return {p, rest};
+        } else {
+            // Halves by cutting bits off: their products are exact, so that REVCHAIN_SIMD may fuse them with the sums;
+            // Veltkamp's split would not survive that. xl yl may be rounded, at u^2/4.
+            const T xh = upper_half(x), yh = upper_half(y);
+            const T xl = x - xh, yl = y - yh;
+            return {p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl};
+        }
+    } else if constexpr (detail::has_fast_fma<T>) {
         return {p, std::fma(x, y, -p)};
     } else {
         constexpr T splitter = static_cast<T>((1ULL << ((std::numeric_limits<T>::digits + 1) / 2)) + 1);
@@ -83,44 +97,44 @@ inline DoubleWord<T> two_product(T x, T y) {
     }
 }
 
-template <std::floating_point T>
-constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const DoubleWord<T>& y) {
     const DoubleWord<T> s = two_sum(x.high, y.high);
     const DoubleWord<T> t = two_sum(x.low, y.low);
     const DoubleWord<T> v = fast_two_sum(s.high, s.low + t.high);
     return fast_two_sum(v.high, t.low + v.low);
 }
 
-template <std::floating_point T>
-constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, std::type_identity_t<T> y) {
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
     const DoubleWord<T> s = two_sum(x.high, y);
     return fast_two_sum(s.high, x.low + s.low);
 }
 
-template <std::floating_point T>
-constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const DoubleWord<T>& y) {
     return x + (-y);
 }
 
-template <std::floating_point T>
-constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, std::type_identity_t<T> y) {
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
     return x + (-y);
 }
 
-template <std::floating_point T>
-inline DoubleWord<T> operator*(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x, const DoubleWord<T>& y) {
     const DoubleWord<T> p = two_product(x.high, y.high);
     return fast_two_sum(p.high, p.low + (x.low * y.low + x.high * y.low + x.low * y.high));
 }
 
-template <std::floating_point T>
-inline DoubleWord<T> operator*(const DoubleWord<T>& x, std::type_identity_t<T> y) {
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
     const DoubleWord<T> p = two_product(x.high, y);
     return fast_two_sum(p.high, p.low + x.low * y);
 }
 
-template <std::floating_point T>
-inline DoubleWord<T> operator/(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> operator/(const DoubleWord<T>& x, const DoubleWord<T>& y) {
     const T q = x.high / y.high;
     const DoubleWord<T> r = y * q;
     return fast_two_sum(q, ((x.high - r.high) + (x.low - r.low)) / y.high);

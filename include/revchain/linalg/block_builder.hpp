@@ -72,7 +72,8 @@ class BlockBuilder {
     /// mu b2 / b1 and mu (a2 + d2) / (b1 c0): how much the block's spring and masses depend on mu.
     std::pair<T, T> second_terms(const Run& run) const {
         const T ratio = mu_ / static_cast<T>(run.flexibility);
-        return {ratio * run.transfer.b[1], ratio * (run.transfer.a[1] + run.transfer.d[1]) / static_cast<T>(run.weight)};
+        return {ratio * run.transfer.b[1],
+                ratio * (run.transfer.a[1] + run.transfer.d[1]) / static_cast<T>(run.weight)};
     }
 
     /// The next run up the chain; merged with those below as long as the result is small enough.

@@ -8,27 +8,21 @@
 #include "revchain/linalg/block_transfer.hpp"
 #include "revchain/linalg/sturm.hpp"
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+
 namespace revchain::linalg {
 
-/// Dynamic stiffness of a block at one shift, lambda K - M: a spring between its two pins and a mass at each,
-///
-///     spring [ 1 -1 ; -1 1 ]  -  [ lower 0 ; 0 upper ].
-template <Real S>
-struct LumpedElement {
-    S spring{}, lower{}, upper{};
-};
-
-/// A run of links condensed to its two end pins, exactly up to rounding and truncation. Its spring and its two masses
-/// depend on mu = 1/lambda; with z = -mu and t = 1 + b1 z + b2 z^2 + ... they are
+/// A run of links condensed to its two end pins, exactly up to rounding and truncation: a spring between the pins and a
+/// mass at each, all depending on mu = 1/lambda. With z = -mu and t = 1 + b1 z + b2 z^2 + ... they are
 ///
 ///     lambda k / t + cross,    (lower + a1 z + ...) / t,    (upper + d1 z + ...) / t.
 ///
-/// The leading numbers are kept in S, the rest, smaller by mu (mass)/(stiffness) of the block, in T.
+/// The leading numbers are kept in `Wide<T>`; the rest, smaller by mu (mass)/(stiffness) of the block, in T.
 template <Real T>
 struct Block {
     static constexpr std::size_t degree = 6;
-    using S = Wide<T>;
-    S stiffness{}, lower{}, upper{};
+    Wide<T> stiffness{}, lower{}, upper{};
     T cross{};  ///< off-diagonal mass of a link that stands alone
     std::array<T, degree> b{};
     std::array<T, degree - 1> a{}, d{};
@@ -41,145 +35,190 @@ struct BlockPencil {
     T least_shift{};
     /// Every eigenvalue above `least_shift` is within this (relative) of the exact chain's: docs/accuracy.md.
     T error{};
-    Index size() const { return static_cast<Index>(blocks.size()); }
+};
+
+/// Dynamic stiffness of a block at one shift, lambda K - M:
+///
+///     spring [ 1 -1 ; -1 1 ]  -  [ lower 0 ; 0 upper ].
+template <class S>
+struct LumpedElement {
+    S spring{}, lower{}, upper{};
 };
 
 namespace detail {
-template <class T, std::size_t Count>
-inline T horner(const std::array<T, Count>& coefficient, const T& z) {
-    T value = coefficient[Count - 1];
-    for (std::size_t i = Count - 1; i-- > 0;) value = coefficient[i] + z * value;
+
+/// A number of `Wide<T>` in S, a scalar or pack of T or a double word of one.
+template <class S, class W>
+[[gnu::always_inline]] inline S spread(const W& x) {
+    if constexpr (IsPack<S>) {
+        return S(static_cast<Lane<S>>(x));
+    } else if constexpr (revchain::detail::is_double_word<S> && revchain::detail::is_double_word<W>) {
+        using N = Narrow<S>;
+        return {N(x.high), N(x.low)};
+    } else {
+        return static_cast<S>(x);
+    }
+}
+
+template <class N, class T, std::size_t Count>
+[[gnu::always_inline]] inline N horner(const std::array<T, Count>& coefficient, const N& z) {
+    N value(coefficient[Count - 1]);
+    for (std::size_t i = Count - 1; i-- > 0;) value = N(coefficient[i]) + z * value;
     return z * value;
 }
+
 }  // namespace detail
 
-/// The block's dynamic stiffness at a shift, in S = T or `Wide<T>`. The corrections are evaluated in T: they are small.
-template <Real S, Real T>
-LumpedElement<S> element_at(const Block<T>& block, const S& shift) {
-    const T z = T(-1) / static_cast<T>(shift);
-    const T series = detail::horner(block.b, z);
-    const S change(-series / (T(1) + series));  // 1/t - 1
-    const S stiffness = shift * S(static_cast<S>(block.stiffness));
-    const S lower = S(static_cast<S>(block.lower)) + S(detail::horner(block.a, z));
-    const S upper = S(static_cast<S>(block.upper)) + S(detail::horner(block.d, z));
-    return {stiffness + stiffness * change + S(block.cross), lower + lower * change, upper + upper * change};
+/// The block's dynamic stiffness at a shift in S: T, `Wide<T>`, packs of T or double words of packs, one shift a lane.
+/// The corrections are evaluated in T: they are small.
+template <class S, Real T>
+[[gnu::always_inline]] inline LumpedElement<S> element_at(const Block<T>& block, const S& shift) {
+    using N = Narrow<S>;
+    const N z = N(T(-1)) / static_cast<N>(shift);
+    const N series = detail::horner(block.b, z);
+    const S change(-series / (N(T(1)) + series));  // 1/t - 1
+    const S stiffness = shift * detail::spread<S>(block.stiffness);
+    const S lower = detail::spread<S>(block.lower) + S(detail::horner(block.a, z));
+    const S upper = detail::spread<S>(block.upper) + S(detail::horner(block.d, z));
+    return {stiffness + stiffness * change + detail::spread<S>(Wide<T>(block.cross)), lower + lower * change,
+            upper + upper * change};
 }
 
 /// For each shift the number of eigenvalues above it, as `count_above` of an ElementPencil.
-/// Preconditions: shifts >= least_shift. Cost: O(blocks).
+/// Preconditions: shifts >= least_shift. Cost: 15 ns per block for 8 shifts of double.
 template <Real T, std::size_t L>
-std::array<Index, L> count_above(const BlockPencil<T>& pencil, const std::array<T, L>& shifts) {
-    std::array<T, L> below{}, z;
-    std::array<Index, L> negative{};
-    for (std::size_t i = 0; i < L; ++i) z[i] = T(-1) / shifts[i];
-    for (const Block<T>& block : pencil.blocks) {
-        const T k = static_cast<T>(block.stiffness), lower = static_cast<T>(block.lower),
-                upper = static_cast<T>(block.upper);
-        for (std::size_t i = 0; i < L; ++i) {
-            const T t = T(1) + detail::horner(block.b, z[i]);
-            const T spring = shifts[i] * k + block.cross * t;  // all three times t
-            const T hung = below[i] * t - (lower + detail::horner(block.a, z[i]));
-            const T sum = spring + hung;
-            const T pivot = sum == T(0) ? spring * epsilon<T>() * epsilon<T>() : sum;
-            negative[i] += pivot < T(0) ? 1 : 0;
-            below[i] = (spring * hung / pivot - (upper + detail::horner(block.d, z[i]))) / t;
-        }
-    }
-    return negative;
-}
-
-/// The count with a running bound on the error of the recursion from rounding in S, for the chain of exactly these
-/// elements: `proved` as in sturm.hpp. Cost: 60 ns per block and shift in double words.
-template <Real S, Real T, std::size_t L>
-std::array<CertifiedCount, L> certified_count(const BlockPencil<T>& pencil, const std::array<S, L>& shifts) {
-    using std::abs;
-    using M = Narrow<S>;
-    const M unit = M(2) * operation_error<S>();
-    const M inflate = M(1) + M(16) * epsilon<M>();
-    const M underflow = std::numeric_limits<M>::min() * M(4);
-    std::array<S, L> below{};
-    std::array<M, L> error{};
-    std::array<CertifiedCount, L> result{};
-    for (auto& r : result) r.proved = true;
+REVCHAIN_SIMD std::array<Index, L> count_above(const BlockPencil<T>& pencil, const std::array<T, L>& shifts) {
+    using V = Pack<T>;
+    constexpr std::size_t packs = (L + pack_size - 1) / pack_size;
+    std::array<V, packs> shift, below{}, negative{};
+    for (std::size_t i = 0; i < packs * pack_size; ++i)
+        shift[i / pack_size].set(i % pack_size, shifts[std::min(i, L - 1)]);
     for (const Block<T>& block : pencil.blocks)
-        for (std::size_t i = 0; i < L; ++i) {
-            const LumpedElement<S> e = element_at<S>(block, shifts[i]);
-            const S hung = below[i] - e.lower;
-            const S pivot = hung + e.spring;
-            const M spring = static_cast<M>(e.spring), size = abs(static_cast<M>(pivot));
-            const M hung_error = (error[i] + unit * abs(static_cast<M>(hung))) * inflate + underflow;
-            const M least = size * (M(1) - M(4) * epsilon<M>()) - unit * size;
-            const M least_with_below = least - hung_error;
-            result[i].proved = result[i].proved && spring > M(0) && least_with_below > M(0);
-            result[i].above += pivot < S(M(0)) ? 1 : 0;
-            const S carried = e.spring * (hung / not_zero(pivot, e.spring));
-            below[i] = carried - e.upper;
-            error[i] = inflate * ((spring / least) * (spring / least_with_below) * hung_error +
-                                  M(3) * unit * abs(static_cast<M>(carried)) + unit * abs(static_cast<M>(below[i]))) +
-                       underflow;
+        for (std::size_t i = 0; i < packs; ++i) {
+            const LumpedElement<V> e = element_at<V>(block, shift[i]);
+            const V hung = below[i] - e.lower;
+            const V sum = e.spring + hung;
+            const V pivot = if_equal(sum, V{}, e.spring * (epsilon<T>() * epsilon<T>()), sum);
+            negative[i] += if_less(pivot, V{}, V(T(1)), V{});
+            below[i] = e.spring * hung / pivot - e.upper;
         }
+    std::array<Index, L> result;
+    for (std::size_t i = 0; i < L; ++i) result[i] = static_cast<Index>(negative[i / pack_size][i % pack_size]);
     return result;
 }
 
-/// One step of Newton's method on  y^T (lambda K - M) y = 0  with y the twisted vector at `shift`: the error is cubed
-/// where a single eigenvalue is near. The form is summed in S, so that the result may be as accurate as S.
-/// Cost: three passes over the blocks.
-template <Real S, Real T>
-S improved(const BlockPencil<T>& pencil, const S& shift) {
-    using std::abs;
-    const std::size_t n = pencil.blocks.size();
-    const T at = static_cast<T>(shift);
-    std::vector<LumpedElement<T>> element(n);
-    std::vector<T> down(n), balance(n);
-    T below(0);
-    for (std::size_t m = 0; m < n; ++m) {
-        element[m] = element_at<T>(pencil.blocks[m], at);
-        const T hung = below - element[m].lower;
-        const T pivot = not_zero(element[m].spring + hung, element[m].spring);
-        balance[m] = below;
-        down[m] = element[m].spring / pivot;  // offset of this pin over that of the pin above
-        below = down[m] * hung - element[m].upper;
+/// Counts at the shifts of a pack of double words, in numbers of T; `proved` is 1 or 0.
+template <class V>
+struct CertifiedCounts {
+    V above{}, proved{};
+};
+
+/// The count with a running bound on the error of the recursion from rounding, for the chain of exactly these elements:
+/// `proved` as in sturm.hpp. Cost: 40 ns per block for the four shifts of a pack.
+template <Real T>
+REVCHAIN_SIMD CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
+    using V = Pack<T>;
+    using S = DoubleWord<V>;
+    const T unit = T(2) * operation_error<DoubleWord<T>>();
+    const T inflate = T(1) + T(16) * epsilon<T>();
+    const T underflow = std::numeric_limits<T>::min() * T(4);
+    const V zero{}, one(T(1));
+    S below{};
+    V error{};
+    CertifiedCounts<V> result{zero, one};
+    for (const Block<T>& block : pencil.blocks) {
+        const LumpedElement<S> e = element_at<S>(block, shift);
+        const S hung = below - e.lower;
+        const S pivot = hung + e.spring;
+        const V spring = e.spring.high, size = abs(pivot.high);
+        const V hung_error = (error + unit * abs(hung.high)) * inflate + underflow;
+        const V least = size * (T(1) - T(4) * epsilon<T>());
+        const V least_with_below = least - hung_error;
+        result.proved = if_less(zero, spring, if_less(zero, least_with_below, result.proved, zero), zero);
+        result.above += if_less(pivot.high, zero, one, zero);
+        const S carried = e.spring * (hung / pivot);  // a pivot of 0 leaves the count unproved
+        below = carried - e.upper;
+        error = inflate * ((spring / least) * (spring / least_with_below) * hung_error +
+                           (T(3) * unit) * abs(carried.high) + unit * abs(below.high)) +
+                underflow;
     }
-    std::vector<T> up(n);  // offset of the pin above over that of this pin
-    std::size_t twist = n - 1;
-    T least = std::numeric_limits<T>::infinity(), above(0);
+    return result;
+}
+
+/// A shift and by how much it has changed.
+template <class S>
+struct Improved {
+    S shift{};
+    Narrow<S> change{};
+};
+
+/// One step of Newton's method on  y^T (lambda K - M) y = 0  for each lane, y being the twisted vector at `shift` (see
+/// twisted.hpp): where one eigenvalue is near, the step cubes the error. S, a pack or a double word of one, says how
+/// accurately the form is summed. Cost: 100 to 200 ns per block.
+template <class S, Real T>
+REVCHAIN_SIMD Improved<S> improved(const BlockPencil<T>& pencil, const S& shift) {
+    using V = Pack<T>;
+    const std::size_t n = pencil.blocks.size();
+    const V at = static_cast<V>(shift), tiny(epsilon<T>() * epsilon<T>()), zero{}, one(T(1));
+    struct Pin {
+        LumpedElement<V> element;  // above this pin
+        V below;                   // dynamic stiffness of what hangs there
+        V down;                    // offset of this pin over that of the pin above
+        V up;                      // offset of the pin above over that of this pin
+        V offset;
+    };
+    std::vector<Pin> pins(n + 1);
+    V below{};
+    for (std::size_t m = 0; m < n; ++m) {
+        const LumpedElement<V> e = element_at<V>(pencil.blocks[m], at);
+        const V hung = below - e.lower;
+        const V sum = e.spring + hung;
+        const V down = e.spring / if_equal(sum, zero, e.spring * tiny, sum);
+        pins[m] = {e, below, down, V{}, V{}};
+        below = down * hung - e.upper;
+    }
+    V above{}, least(std::numeric_limits<T>::infinity()), twist{};
     for (std::size_t m = n; m-- > 0;) {
-        const LumpedElement<T>& e = element[m];
+        const LumpedElement<V>& e = pins[m].element;
+        V forces = e.spring + e.lower;
         if (m + 1 == n) {
-            up[m] = T(0);
             above = e.spring - e.lower;
         } else {
-            const T held = above - e.upper;
-            const T pivot = not_zero(e.spring + held, e.spring);
-            up[m] = e.spring / pivot;
-            above = up[m] * held - e.lower;
+            const V held = above - e.upper;
+            const V sum = e.spring + held;
+            pins[m].up = e.spring / if_equal(sum, zero, e.spring * tiny, sum);
+            above = pins[m].up * held - e.lower;
         }
-        const T forces = e.spring + e.lower + (m > 0 ? element[m - 1].spring + element[m - 1].upper : T(0));
-        const T unbalanced = abs(balance[m] + above) / forces;
-        if (unbalanced < least) {
-            least = unbalanced;
-            twist = m;
-        }
+        if (m > 0) forces += pins[m - 1].element.spring + pins[m - 1].element.upper;
+        const V unbalanced = abs(pins[m].below + above) / forces;
+        twist = if_less(unbalanced, least, V(static_cast<T>(m)), twist);
+        least = if_less(unbalanced, least, unbalanced, least);
     }
-    std::vector<T> offset(n + 1);
-    offset[twist] = T(1);
-    for (std::size_t m = twist; m-- > 0;) offset[m] = down[m] * offset[m + 1];
-    for (std::size_t m = twist; m < n; ++m) offset[m + 1] = up[m] * offset[m];
-    // The form at the shift, in S, and its derivative from a second value, in T.
-    const T step = at * T(1e-5);
-    S form(T(0));
-    T ahead(0), here(0);
+    for (std::size_t m = n; m-- > 0;) {
+        const V here(static_cast<T>(m));
+        pins[m].offset = if_less(here, twist, pins[m].down * pins[m + 1].offset, if_equal(here, twist, one, zero));
+    }
+    for (std::size_t m = 0; m + 1 < n; ++m) {
+        const V here(static_cast<T>(m));
+        pins[m + 1].offset = if_less(here, twist, pins[m + 1].offset, pins[m].up * pins[m].offset);
+    }
+    // The form at the shift, in S; its derivative from a second value, in T.
+    const V step = at * T(1e-5);
+    S form{};
+    V ahead{};
     for (std::size_t m = 0; m < n; ++m) {
-        const S lower(offset[m]), upper(offset[m + 1]), stretch = lower - upper;
+        const V lower = pins[m].offset, upper = pins[m + 1].offset;
+        const S stretch = S(lower) - S(upper);
         const LumpedElement<S> e = element_at<S>(pencil.blocks[m], shift);
-        form = form + (e.spring * stretch * stretch - (e.lower * lower * lower + e.upper * upper * upper));
-        const LumpedElement<T> f = element_at<T>(pencil.blocks[m], at + step);
-        const T s = static_cast<T>(stretch);
-        const T value = f.spring * s * s - (f.lower * offset[m] * offset[m] + f.upper * offset[m + 1] * offset[m + 1]);
-        ahead = ahead + value;
+        form = form + (stretch * stretch * e.spring - (S(lower) * S(lower) * e.lower + S(upper) * S(upper) * e.upper));
+        const LumpedElement<V> f = element_at<V>(pencil.blocks[m], at + step);
+        const V s = lower - upper;
+        ahead += f.spring * s * s - (f.lower * lower * lower + f.upper * upper * upper);
     }
-    here = static_cast<T>(form);
-    return shift - form / S((ahead - here) / step);
+    const S change = form / S((ahead - static_cast<V>(form)) / step);
+    return {shift - change, -static_cast<V>(change)};
 }
 
 }  // namespace revchain::linalg
+
+#pragma GCC diagnostic pop

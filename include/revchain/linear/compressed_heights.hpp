@@ -62,30 +62,40 @@ std::optional<Heights<T>> heights_by_compression(const Chain<T>& chain, const Mo
     }
     const linalg::BlockPencil<T>& pencil = compressed.pencil;
     const S unit(compressed.unit_length);
-    const auto brackets = linalg::bisect(pencil, range.first - 1, range.count, T(1e-3), pencil.least_shift, [](Index) {});
+    const auto brackets =
+        linalg::bisect(pencil, range.first - 1, range.count, T(1e-3), pencil.least_shift, [](Index) {});
     Heights<T> result{{}, "block compression"};
     result.height.reserve(brackets.size());
     const T margin = epsilon<T>() / T(8);
     const T bound = linalg::bound_of_margin<S>(margin + pencil.error) + epsilon<T>() * T(0.51);
     if (!(bound <= options.rtol.value_or(T(4) * epsilon<T>()))) return std::nullopt;
-    for (const auto& bracket : brackets) {
-        const Index j = range.first - 1 + static_cast<Index>(result.height.size());
-        const auto is_proved = [&](const S& height) {
-            const S reach = height * S(margin);
-            const auto count = linalg::certified_count<S>(pencil, std::array<S, 2>{height - reach, height + reach});
-            return count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j;
-        };
-        const S rough(linalg::improved<T>(pencil, linalg::between(bracket.lower, bracket.upper)));
-        S height = linalg::improved<S>(pencil, rough);
-        bool proved = is_proved(height);
+    using V = Pack<T>;
+    using P = DoubleWord<V>;
+    for (Index done = 0; done < range.count; done += pack_size) {
+        V start, number;  // of four modes at a time; the last one repeated
+        for (std::size_t lane = 0; lane < pack_size; ++lane) {
+            const Index j = std::min(done + static_cast<Index>(lane), range.count - 1);
+            const auto& bracket = brackets[static_cast<std::size_t>(j)];
+            start.set(lane, linalg::between(bracket.lower, bracket.upper));
+            number.set(lane, static_cast<T>(range.first + j));
+        }
+        P height(linalg::improved<V>(pencil, start).shift);
+        bool proved = false;
         for (int round = 0; round < 3 && !proved; ++round) {
-            height = linalg::improved<S>(pencil, height);
-            proved = is_proved(height);
+            height = linalg::improved<P>(pencil, height).shift;
+            const P reach = height * P(V(margin));
+            const auto below = linalg::certified_count(pencil, height - reach);
+            const auto above = linalg::certified_count(pencil, height + reach);
+            proved = true;
+            for (std::size_t lane = 0; lane < pack_size; ++lane)
+                proved = proved && below.proved[lane] == T(1) && above.proved[lane] == T(1) &&
+                         below.above[lane] >= number[lane] && above.above[lane] < number[lane];
         }
         if (!proved) return std::nullopt;
-        const S in_user_units = height * unit;
-        const S scaled = ldexp(in_user_units, -units.length_exponent);
-        result.height.push_back({static_cast<T>(scaled), bound, scaled});
+        for (std::size_t lane = 0; lane < pack_size && done + static_cast<Index>(lane) < range.count; ++lane) {
+            const S scaled = ldexp(S(height.high[lane], height.low[lane]) * unit, -units.length_exponent);
+            result.height.push_back({static_cast<T>(scaled), bound, scaled});
+        }
         advance(options.progress, share * static_cast<double>(result.height.size()) / static_cast<double>(range.count));
     }
     restore_order(result.height);

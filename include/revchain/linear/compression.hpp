@@ -6,6 +6,9 @@
 #include "revchain/linalg/block_builder.hpp"
 #include "revchain/linear/condensation.hpp"
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+
 namespace revchain {
 
 namespace detail {
@@ -49,7 +52,7 @@ linalg::CondensedRun<T> single_link(const linalg::BlockBuilder<T>& builder, cons
 
 /// Lane `lane` of runs condensed together.
 template <class T, class V>
-linalg::CondensedRun<T> lane_of(const LaneRuns<V>& runs, Index lane, Index links) {
+linalg::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index links) {
     using S = Wide<T>;
     linalg::CondensedRun<T> run;
     for (std::size_t i = 0; i < leaf_degree; ++i) {
@@ -95,7 +98,7 @@ struct CompressedChain {
 template <std::floating_point T>
 CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
     using namespace detail;
-    using V = typename Pack<T>::type;
+    using V = Pack<T>;
     const LinkColumns<T> links(chain);
     const T unit_length = links.unit_length();
     linalg::BlockBuilder<T> builder(least_height / unit_length);
@@ -121,8 +124,8 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
         std::array<linalg::CondensedRun<T>, runs_at_once> run;
         bool fits = true;
         T largest(0);
-        for (Index lane = 0; lane < runs_at_once && fits; ++lane) {
-            auto& one = run[static_cast<std::size_t>(lane)];
+        for (std::size_t lane = 0; lane < pack_size && fits; ++lane) {
+            auto& one = run[lane];
             one = lane_of<T>(runs, lane, length);
             const T phase = builder.phase(one);
             largest = std::max(largest, phase);
@@ -138,8 +141,8 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
                 const T moment = static_cast<T>(one.moment);
                 const auto [spring, mass] = builder.second_terms(one);
                 builder.note_roundings(one, T(5) * T(length) / links_of_leaf, spring, mass);
-                builder.note_moved_mass(one, T(2) * half,
-                                        moment * moment / (static_cast<T>(one.weight) * static_cast<T>(one.flexibility)));
+                builder.note_moved_mass(
+                    one, T(2) * half, moment * moment / (static_cast<T>(one.weight) * static_cast<T>(one.flexibility)));
                 builder.template note_truncation<leaf_degree>(one);
             }
         }
@@ -160,3 +163,5 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
 }
 
 }  // namespace revchain
+
+#pragma GCC diagnostic pop

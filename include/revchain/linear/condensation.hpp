@@ -4,20 +4,17 @@
 #include "revchain/chain/chain.hpp"
 #include "revchain/linalg/block_transfer.hpp"
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+
 namespace revchain::detail {
 
-inline constexpr Index runs_at_once = 4;         ///< neighbouring runs, one in each SIMD lane
-inline constexpr std::size_t leaf_degree = 4;    ///< of their polynomials
+inline constexpr Index runs_at_once = pack_size;  ///< neighbouring runs, one in each SIMD lane
+inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials
 
 /// Links that are summed plainly; longer runs are merged from such leaves. A sixteenth of the run keeps what their
 /// roundings move from pin to pin below 1/4 unit; 32 make the merges cheap.
 constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<Index>(length / 16, 4, 64)); }
-
-/// Four numbers, which compilers keep in SIMD registers.
-template <std::floating_point T>
-struct Pack {
-    typedef T type __attribute__((vector_size(runs_at_once * sizeof(T))));
-};
 
 /// Sum of numbers, or of packs lane by lane: high + low.
 template <class V>
@@ -51,10 +48,10 @@ template <class V>
 struct LaneRuns {
     linalg::Transfer<V, leaf_degree> transfer;
     CompensatedSum<V> weight, flexibility, moment;  ///< c0, b1, a1
-    V leaf_phase{};   ///< largest c0 b1 of a leaf
-    V leaf_moment{};  ///< largest a1^2 / (c0 b1) of a leaf
+    V leaf_phase{};                                 ///< largest c0 b1 of a leaf
+    V leaf_moment{};                                ///< largest a1^2 / (c0 b1) of a leaf
     V worst{};  ///< positive: the run is not valid (a centroid beyond the pins, an inertia beyond l = a, a weight above
-                ///< all below it, a leaf too light to be told from what it carries, a lowest link too long for its spring)
+        ///< all below it, a leaf too light to be told from what it carries, a lowest link too long for its spring)
 };
 
 /// What the condensation reads of a chain: pointers and strides (0 where one number serves all links).
@@ -89,9 +86,9 @@ struct LinkColumns {
 
 /// One number for each lane, `apart` from one another.
 template <class V, class T, class From>
-inline V gathered(const From* first, Index apart) {
-    return V{static_cast<T>(first[0]), static_cast<T>(first[apart]), static_cast<T>(first[2 * apart]),
-             static_cast<T>(first[3 * apart])};
+[[gnu::always_inline]] inline V gathered(const From* first, Index apart) {
+    return V(static_cast<T>(first[0]), static_cast<T>(first[apart]), static_cast<T>(first[2 * apart]),
+             static_cast<T>(first[3 * apart]));
 }
 
 enum class LinkKind { equal_plummets, equal_links, any_links };  // equal but for their weights
@@ -101,23 +98,22 @@ enum class LinkKind { equal_plummets, equal_links, any_links };  // equal but fo
 /// pin, X = W (p (1 - p) - rho^2/a^2). Roundings: f 2.25 units (in the last place, halved), weight and flexibility of a run
 /// less than 0.01, moment of a leaf 2 leaf_links + 2, other coefficients 4 leaf_links + 4.
 /// Cost: 0.9 ns a plummet, 1.5 ns a link in double with AVX-512, twice and three times that with AVX2 and SSE2.
-template <LinkKind Kind, std::size_t Degree, class T, class V = typename Pack<T>::type>
-LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
+template <LinkKind Kind, std::size_t Degree, class T, class V = Pack<T>>
+REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
+                                   const CompensatedSum<V>& below) {
     LaneRuns<V> runs;
     CompensatedSum<V> hung = below;
-    const auto broadcast = [](const T& x) { return V{x, x, x, x}; };
-    V p = broadcast(T(1)), coefficient{}, a = broadcast(T(1));
-    const auto larger = [](const V& x, const V& y) { return x > y ? x : y; };
-    const auto set_link = [&](Index m) {
+    V p = V(T(1)), coefficient{}, a = V(T(1));
+    const auto set_link = [&](Index m) __attribute__((always_inline)) {
         a = gathered<V, T>(links.length + m * links.length_stride, length * links.length_stride);
         const V inverse = T(1) / a;
         p = inverse * gathered<V, T>(links.centroid + m * links.centroid_stride, length * links.centroid_stride);
         const V square =
             gathered<V, T>(links.gyration_ratio + m * links.gyration_stride, length * links.gyration_stride);
         coefficient = p * (T(1) - p) - square;
-        if constexpr (Kind == LinkKind::equal_links) a = broadcast(T(1));
-        runs.worst = larger(runs.worst, larger(larger(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
-        coefficient = larger(coefficient, V{});
+        if constexpr (Kind == LinkKind::equal_links) a = V(T(1));
+        runs.worst = max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
+        coefficient = max(coefficient, V{});
     };
     if constexpr (Kind == LinkKind::equal_links) set_link(first);
     const Index step = leaf_links(length);
@@ -132,7 +128,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
         for (Index m = start; m < start + step; ++m) {
             if constexpr (Kind == LinkKind::any_links) set_link(first + m);
             const V w = gathered<V, T>(links.weight + (first + m) * links.weight_stride, length * links.weight_stride);
-            runs.worst = larger(runs.worst, hung.high > V{} ? w - hung.high : V{});
+            runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
             if constexpr (Kind == LinkKind::equal_plummets) {
                 linalg::append_mass(leaf, w);
                 hung.add_smaller(w);
@@ -151,17 +147,17 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
                     flexibility.add_smaller(f);
                 else
                     flexibility.add(f);
-                runs.worst = larger(runs.worst, (T(1) - p) * at_lower - T(0.125) * s);
+                runs.worst = max(runs.worst, (T(1) - p) * at_lower - T(0.125) * s);
             }
         }
         if constexpr (Kind != LinkKind::equal_plummets) linalg::append_mass(leaf, carry);
         CompensatedSum<V> mass{hung.high, V{}};
         mass.add(-at_start.high);
         mass.add(hung.low - at_start.low);
-        runs.worst = larger(runs.worst, hung.high * lost - mass.high);
+        runs.worst = max(runs.worst, hung.high * lost - mass.high);
         const V phase = mass.high * flexibility.high;
-        runs.leaf_phase = larger(runs.leaf_phase, phase);
-        runs.leaf_moment = larger(runs.leaf_moment, leaf.a[0] * leaf.a[0] / phase);
+        runs.leaf_phase = max(runs.leaf_phase, phase);
+        runs.leaf_moment = max(runs.leaf_moment, leaf.a[0] * leaf.a[0] / phase);
         runs.moment.add(leaf.a[0] + flexibility.high * runs.weight.high);
         const auto larger_leaf = linalg::extended<leaf_degree>(leaf);
         runs.transfer = start == 0 ? larger_leaf : linalg::merged(runs.transfer, larger_leaf);
@@ -172,7 +168,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
 }
 
 /// The weight hung below each of four neighbouring runs of `length` links, the first one hung by `below`.
-template <class T, class V = typename Pack<T>::type>
+template <class T, class V = Pack<T>>
 CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& links, Index first, Index length,
                                 Wide<T>& below) {
     using S = Wide<T>;
@@ -182,12 +178,14 @@ CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& lin
         for (Index m = first; m < first + length; ++m)
             sum.add(gathered<V, T>(links.weight + m * links.weight_stride, length * links.weight_stride));
     for (Index lane = 0; lane < runs_at_once; ++lane) {
-        result.high[lane] = static_cast<T>(below);
-        result.low[lane] = static_cast<T>(below - S(result.high[lane]));
-        below = in_segments ? chain.weight_below(first + (lane + 1) * length)
-                            : below + S(sum.high[lane]) + S(sum.low[lane]);
+        const auto i = static_cast<std::size_t>(lane);
+        result.high.set(i, static_cast<T>(below));
+        result.low.set(i, static_cast<T>(below - S(result.high[i])));
+        below = in_segments ? chain.weight_below(first + (lane + 1) * length) : below + S(sum.high[i]) + S(sum.low[i]);
     }
     return result;
 }
 
 }  // namespace revchain::detail
+
+#pragma GCC diagnostic pop
