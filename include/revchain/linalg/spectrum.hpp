@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linalg/certificate.hpp"
+#include "revchain/linalg/spectrum_quotient.hpp"
+#include "revchain/linalg/spectrum_window.hpp"
+#include "revchain/linalg/twisted.hpp"
+
+namespace revchain::linalg {
+
+namespace spectrum {
+
+/// An eigenvalue with what is known of it before its neighbours are.
+struct Candidate {
+    double shift = 0;       ///< mu the vector was computed at
+    double eigenvalue = 0;  ///< Rayleigh quotient
+    double residual = std::numeric_limits<double>::infinity();  ///< some eigenvalue lies within this, relative
+    double bound = std::numeric_limits<double>::infinity();     ///< proved, relative to the exact eigenvalue
+    double rounding = 0;                                        ///< what rounding has in `residual`
+    bool counted = false;                                       ///< proved by counts, its number with it
+};
+
+/// What rounding adds to a Rayleigh quotient, relative: 16 links to a plain sum, one or two terms each.
+inline double rounding_quotient(const PinnedChain& chain, double mu) {
+    const double skewed = std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
+    const double terms = static_cast<double>(longest_leg) * (chain.swings ? 3 : 2) + 24;
+    return (epsilon<double>() / 2) * terms * (1 + 4 * skewed);
+}
+
+/// Vectors and quotients at the candidates' shifts.
+inline void evaluate(const PinnedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which) {
+    std::vector<double> shifts;
+    for (const std::size_t i : which) shifts.push_back(all[i].shift);
+    const auto quotients = quotients_all(chain, shifts);
+    for (std::size_t j = 0; j < which.size(); ++j) {
+        Candidate& c = all[which[j]];
+        const Quotient& q = quotients[j];
+        if (!(q.ratio > 0.5 && q.ratio < 2)) continue;  // also a NaN: the vector says nothing of this shift
+        c.eigenvalue = q.ratio / c.shift;
+        // the residual is least at the quotient; 2^-40 covers its own rounding and the change of scale, |ratio - 1|
+        c.residual = q.residual / std::min(q.ratio, 1.0) * (1 + 0x1p-40);
+        c.rounding = q.rounding;
+    }
+}
+
+/// Distance to the next interval, relative to the eigenvalue; negative where they overlap.
+inline double gap(const Candidate& a, const Candidate& b) {
+    return (std::abs(a.eigenvalue - b.eigenvalue) - (b.residual + 0x1p-52) * b.eigenvalue * (1 + 0x1p-50)) /
+           a.eigenvalue * (1 - 0x1p-50);
+}
+
+/// Kato and Temple: |lambda - quotient| <= residual^2 / distance to the rest of the spectrum.
+inline double temple(const Candidate& c, double distance) { return c.residual * c.residual / distance; }
+
+/// An eigenvalue by counts alone: bisection, twisted vector, two proved counts in two words.
+template <Real S>
+Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pencil, Index j,
+                  const Bracket<double>& bracket) {
+    const double margin = 2 * epsilon<double>();
+    double eigenvalue = between(bracket.lower, bracket.upper);
+    Certified<double> sure;
+    for (int round = 0; round < 2 && !std::isfinite(sure.error_bound); ++round) {
+        eigenvalue = static_cast<double>(rayleigh_quotient<S>(wide, eigenvector(pencil, eigenvalue).offset));
+        if (lies_within<S>(wide, j, eigenvalue, margin)) sure = {eigenvalue, bound_of_margin<S>(margin)};
+    }
+    if (!std::isfinite(sure.error_bound))
+        sure = bisect_certified<S>(wide, j, between(bracket.lower, bracket.upper));
+    return {1 / sure.eigenvalue, sure.eigenvalue, sure.error_bound, sure.error_bound, 0, true};
+}
+
+}  // namespace spectrum
+
+/// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with a
+/// bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` or what
+/// two words can prove. For long ranges; below some 50 eigenvalues bisection is as fast.
+///
+/// Method: windows of some 60 eigenvalues by counts; the characteristic polynomial, without division, at 2.4 shifts per
+/// eigenvalue and its Chebyshev interpolant's zeros; at each the Rayleigh quotient of a twisted vector, its residual and
+/// those of its neighbours. All in SIMD lanes, one shift to a lane. What cannot be proved this way (clusters, negative
+/// cross masses) is left to bisection and counts in two words.
+template <Real S>
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
+                                               double tolerance) {
+    using namespace spectrum;
+    std::vector<Certified<double>> result;
+    if (first >= last) return result;
+    const ElementPencil<double> pencil = rounded<double>(wide);
+    const auto nothing = [](Index) {};
+    const auto by_counts = [&](Index j, double guess) {
+        return counted(wide, pencil, j, bisect(pencil, j, Index(1), 2 * epsilon<double>(), guess, nothing).front());
+    };
+    const PinnedChain chain = pinned(wide);
+    std::vector<Candidate> all;
+    Index begin = first;  // number of all.front()
+
+    const auto fast = [&] {
+        if (!chain.fit || chain.size() < 2) return false;
+        std::vector<Window> found;
+        if (!isolate(chain, first, last, found, all)) return false;
+        begin = found.front().first;
+        const Index end = found.back().last;
+        // With the proved counts at both ends there are as many eigenvalues as intervals.
+        const auto proved = [&](double mu, Index above) {
+            const auto count = certified_count<S, 1>(wide, {S(1.0) / S(mu)});
+            return count[0].proved && count[0].above == above;
+        };
+        if (begin > 0 && !proved(found.front().lower, begin)) return false;
+        if (end < total && !proved(found.back().upper, end)) return false;
+        const double top = begin > 0 ? 1 / found.front().lower : std::numeric_limits<double>::infinity();
+        const double bottom = end < total ? 1 / found.back().upper : 0;
+
+        // Rounds of quotients until their error, the square of the vector's, is below rounding.
+        std::vector<std::size_t> which(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) which[i] = i;
+        const auto distance = [&](std::size_t i) {
+            const Candidate& c = all[i];
+            const double above = i > 0 ? gap(c, all[i - 1]) : (top - c.eigenvalue) / c.eigenvalue * (1 - 0x1p-50);
+            const double below =
+                i + 1 < all.size() ? gap(c, all[i + 1]) : (c.eigenvalue - bottom) / c.eigenvalue * (1 - 0x1p-50);
+            return std::min(above, below);
+        };
+        for (int round = 0; round < 4 && !which.empty(); ++round) {
+            if (round > 0)
+                for (const std::size_t i : which) all[i].shift = 1 / all[i].eigenvalue;
+            evaluate(chain, all, which);
+            std::vector<std::size_t> again;
+            for (const std::size_t i : which) {
+                const Candidate& c = all[i];
+                const bool rough = c.residual > 4 * c.rounding;
+                if (std::isfinite(c.residual) && rough && !(temple(c, distance(i)) < 0x1p-56)) again.push_back(i);
+            }
+            which = std::move(again);
+        }
+        // What is not apart from its neighbours is left to counts, and what then is not apart from those.
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                Candidate& c = all[i];
+                if (c.counted) continue;
+                const double apart = distance(i) - c.residual * (1 + 0x1p-50);
+                if (apart > 0) {
+                    c.bound = (temple(c, distance(i)) + rounding_quotient(chain, c.shift)) * (1 + 0x1p-30);
+                    if (c.bound <= tolerance) continue;
+                }
+                const Index j = begin + static_cast<Index>(i);
+                if (j < first || j >= last) {
+                    if (apart > 0) continue;  // a neighbour only
+                }
+                c = by_counts(j, std::isfinite(c.residual) ? c.eigenvalue : 1 / c.shift);
+                changed = true;
+                if (!std::isfinite(c.bound)) return false;
+            }
+        }
+        return true;
+    };
+    if (!fast()) {
+        begin = first;
+        all.clear();
+        const auto brackets = bisect(pencil, first, last - first, 2 * epsilon<double>(), 1.0, nothing);
+        for (std::size_t i = 0; i < brackets.size(); ++i)
+            all.push_back(counted(wide, pencil, first + static_cast<Index>(i), brackets[i]));
+    }
+    for (Index j = first; j < last; ++j) {
+        const Candidate& c = all[static_cast<std::size_t>(j - begin)];
+        result.push_back({c.eigenvalue, c.bound});
+    }
+    return result;
+}
+
+}  // namespace revchain::linalg

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "revchain/linalg/element_pencil.hpp"
+
+namespace revchain::linalg::spectrum {
+
+/// A few doubles that one instruction serves: as many as the registers of the target hold.
+#if defined(__AVX512F__)
+inline constexpr std::size_t width = 8;
+#elif defined(__AVX__)
+inline constexpr std::size_t width = 4;
+#else
+inline constexpr std::size_t width = 2;
+#endif
+typedef double Pack __attribute__((vector_size(width * sizeof(double))));
+typedef long long Mask __attribute__((vector_size(width * sizeof(double))));  ///< all bits set where true
+
+inline Pack filled(double x) { return Pack{} + x; }
+inline Pack magnitude(Pack x) { return (Pack)((Mask)x & 0x7fffffffffffffffLL); }
+/// The exponent e of 2^e <= x < 2^(e+1), and 2^-e. Preconditions: x positive and normal.
+inline Mask exponent_of(Pack x) { return ((Mask)x >> 52) - 1023; }
+inline Pack inverse_power(Pack x) { return (Pack)((2046LL << 52) - ((Mask)x & (0x7ffLL << 52))); }
+inline bool any(Mask m) {
+    long long some = 0;
+    for (std::size_t i = 0; i < width; ++i) some |= m[i];
+    return some != 0;
+}
+
+/// One link in the form the all-modes engine walks: an elastic, massless link between two pins that carry lumped mass,
+/// and the mass -X that only the difference of the two offsets feels. A link's own inertia is
+///
+///     A y_l^2 + 2 X y_l y_u + B y_u^2 = W/4 (y_l + y_u + skew (y_l - y_u))^2 + turn (y_l - y_u)^2,
+///
+/// motion of the centroid and rotation about it: two squares, whatever the sign of X.
+struct PinnedLink {
+    double flexibility;     ///< 1/k
+    double stiffness;       ///< k
+    double mass;            ///< of the pin above: B + X of this link and A + X of the next
+    double swing;           ///< X/k
+    double quarter_weight;  ///< W/4
+    double skew;            ///< (A - B)/W = 2 h/a - 1
+    double turn;            ///< C/W = W rho^2/a^2
+};
+
+/// Links between two looks at sizes and sums, at most.
+inline constexpr std::size_t longest_leg = 16;
+
+/// What rounding bounds need to know of a run of links: the largest X/k, and of k/m, m the mass of the pin above, the
+/// largest root and the largest root times X/k.
+struct Bounds {
+    double swing = 0, root = 0, swing_root = 0;
+};
+
+/// The pencil as lumped pins and links, every number within `data_error` (relative) of the exact one.
+struct PinnedChain {
+    std::vector<PinnedLink> links;
+    std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
+    double tip_mass = 0;                    ///< of pin 0
+    double rounding_root = 0;               ///< root of C of docs/accuracy.md: sum over j of k_j (sum of 1/k from j up)
+    std::vector<Bounds> bounds;             ///< of each run of `longest_leg` links
+    double liveliest = 0;                   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
+    double skew_against_turn = 0;           ///< max |skew| (W/4 / turn)^(1/2): how much a link's two squares can cancel
+    double skew_against_stiffness = 0;      ///< max |skew| (W/4 / k)^(1/2)
+    bool swings = false;                    ///< some X is not 0
+    bool fit = true;                        ///< masses >= 0 and all numbers in a range whose squares are normal
+
+    std::size_t size() const { return links.size(); }
+};
+
+template <Real S>
+PinnedChain pinned(const ElementPencil<S>& wide) {
+    PinnedChain chain;
+    const std::size_t n = wide.elements.size();
+    chain.links.reserve(n);
+    const S zero(0.0);
+    const auto in_range = [](double x) { return x > 0x1p-300 && x < 0x1p300; };
+    S carried = zero;  // B + X of the link below
+    double carried_size = 0;
+    for (std::size_t m = 0; m <= n; ++m) {
+        S mass = carried;
+        double size = carried_size;
+        if (m < n) {
+            const Element<S>& e = wide.elements[m];
+            const S cross = cross_mass(e);
+            mass = mass + (e.lower + cross);
+            carried = e.upper + cross;
+            carried_size = static_cast<double>(e.lower) + static_cast<double>(e.upper) + e.weight;
+            size += carried_size;
+        }
+        const double pin = static_cast<double>(mass);
+        // negative masses are not served, nor sums that cancel to less than a 2^-30th
+        chain.fit = chain.fit && (m == n || pin == 0 || (in_range(pin) && size < 0x1p30 * pin));
+        if (m == 0) {
+            chain.tip_mass = pin;
+        } else {
+            chain.links[m - 1].mass = m < n ? pin : 0.0;
+        }
+        if (m == n) break;
+        const Element<S>& e = wide.elements[m];
+        const S cross = cross_mass(e);
+        const double k = static_cast<double>(e.stiffness);
+        const double swing = static_cast<double>(cross / e.stiffness);
+        const S weight(e.weight);
+        const bool massless = e.weight == 0;
+        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, swing, e.weight / 4,
+                               massless ? 0.0 : static_cast<double>((e.lower - e.upper) / weight),
+                               massless ? 0.0 : static_cast<double>(e.coupling / weight)});
+        const PinnedLink& last = chain.links.back();
+        if (last.skew != 0 && last.swing != 0) {
+            const double skewed = std::abs(last.skew) * std::sqrt(last.quarter_weight);
+            chain.skew_against_turn = std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
+            chain.skew_against_stiffness = std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
+        }
+        chain.swings = chain.swings || static_cast<double>(cross) != 0;
+        chain.fit = chain.fit && in_range(k) && 
+                    (cross == zero || (in_range(static_cast<double>(cross)) &&
+                                       carried_size < 0x1p30 * static_cast<double>(cross)));
+    }
+    chain.bounds.assign((n - 1) / longest_leg + 1, {});
+    for (std::size_t m = 0; m < n; ++m) {
+        const PinnedLink& link = chain.links[m];
+        Bounds& b = chain.bounds[m / longest_leg];
+        const double root = m + 1 < n ? std::sqrt(link.stiffness / link.mass) : 0;  // the held pin does not move
+        b.swing = std::max(b.swing, link.swing);
+        b.root = std::max(b.root, root);
+        b.swing_root = std::max(b.swing_root, root * link.swing);
+    }
+    chain.flexibility_above.assign(n + 1, 0.0);
+    double square = 0;
+    for (std::size_t m = n; m-- > 0;) {
+        const PinnedLink& link = chain.links[m];
+        chain.flexibility_above[m] = chain.flexibility_above[m + 1] + link.flexibility;
+        square += link.stiffness * chain.flexibility_above[m];
+        const double below = m == 0 ? chain.tip_mass : chain.links[m - 1].mass;
+        chain.liveliest = std::max(
+            chain.liveliest, (std::max(link.mass, below) + std::abs(link.swing) * link.stiffness) * link.flexibility);
+    }
+    chain.rounding_root = std::sqrt(square) * (1 + 0x1p-20);
+    return chain;
+}
+
+/// How many links may be walked before sizes are looked at, a power of 2: the growth stays below 2^300.
+inline std::size_t stretch_length(const PinnedChain& chain, double largest_shift, std::size_t longest) {
+    const double growth = std::log2(4.0 + 2.0 * largest_shift * chain.liveliest);
+    return std::bit_floor(std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
+}
+
+}  // namespace revchain::linalg::spectrum
