@@ -4,45 +4,90 @@
 #include <functional>
 #include <future>
 #include <optional>
+#include <tuple>
 
 #include "bindings.hpp"
 #include "revchain/linear/count.hpp"
 #include "revchain/linear/modes.hpp"
 #include "revchain/linear/reference.hpp"
+#include "scalars.hpp"
 
 namespace {
 
 using revchain::Index;
 using Chain = revchain::Chain<double>;
-using Modes = revchain::Modes<double>;
-using Options = revchain::ModesOptions<double>;
+using Pair = std::pair<double, double>;
+using Triple = std::tuple<double, double, double>;
 
-using Method = std::pair<std::string_view, Modes (*)(const Chain&, const Options&)>;
-constexpr std::array<Method, 4> methods{{{"auto", &revchain::modes<double>},
-                                         {"bisection", &revchain::modes<double>},
-                                         {"dense", &revchain::modes_dense<double>},
-                                         {"recurrence", &revchain::modes_recurrence<double>}}};
+constexpr std::array<std::string_view, 4> methods{"auto", "bisection", "dense", "recurrence"};
+constexpr std::array<std::string_view, 4> precisions{"single", "double", "extended", "double-double"};
 
-auto find_method(const std::string& method) {
-    for (const auto& [name, solve] : methods)
-        if (name == method) return solve;
+template <std::size_t N>
+void check_word(std::string_view what, const std::string& word, const std::array<std::string_view, N>& words) {
     std::string known;
-    for (const auto& [name, solve] : methods) known += (known.empty() ? "" : ", ") + std::string(name);
-    revchain::detail::refuse("modes", "method must be one of " + known, method);
+    for (const auto& each : words) {
+        if (each == word) return;
+        known += (known.empty() ? "" : ", ") + std::string(each);
+    }
+    revchain::detail::refuse("modes", std::string(what) + " must be one of " + known, word);
+}
+
+/// What Python asks, before it is known in which scalar.
+struct Asked {
+    Index first;
+    std::optional<Index> count;
+    std::optional<Pair> conical_height;
+    std::optional<Triple> angular_speed;
+    std::optional<double> rtol;
+    bool shapes, certify;
+
+    template <class T>
+    revchain::ModesOptions<T> options(revchain::Progress* progress) const {
+        revchain::ModesOptions<T> result{.first = first, .count = count};
+        const auto number = [](double x) { return static_cast<T>(x); };
+        if (conical_height) result.conical_height = {number(conical_height->first), number(conical_height->second)};
+        if (angular_speed)
+            result.angular_speed = {number(std::get<0>(*angular_speed)), number(std::get<1>(*angular_speed)),
+                                    number(std::get<2>(*angular_speed))};
+        if (rtol) result.rtol = number(*rtol);
+        result.shapes = shapes;
+        result.certify = certify;
+        result.progress = progress;
+        return result;
+    }
+};
+
+template <class T>
+using Solver = revchain::Modes<T> (*)(const revchain::Chain<T>&, const revchain::ModesOptions<T>&);
+
+template <class T>
+Solver<T> solver(const std::string& method) {
+    if constexpr (std::is_same_v<T, double>) {
+        using Options = revchain::ModesOptions<double>;
+        if (method == "dense")
+            return [](const Chain& chain, const Options& options) {
+                return revchain::detail::chosen_among_slowest(chain, options, &revchain::modes_dense<double>);
+            };
+        if (method == "recurrence")
+            return [](const Chain& chain, const Options& options) {
+                return revchain::detail::chosen_among_slowest(chain, options, &revchain::modes_recurrence<double>);
+            };
+    } else if (method == "dense" || method == "recurrence") {
+        revchain::detail::refuse("modes", "this method knows precision double only", method);
+    }
+    return &revchain::modes<T>;
 }
 
 /// Runs with the GIL released. What may take more than a moment runs in a thread of its own while this one looks for
 /// Ctrl-C: Python notes the signal, but hears it only when asked.
-Modes modes(const Chain& chain, std::optional<Index> count, std::optional<double> rtol, const std::string& method,
-            bool shapes, revchain::Progress* progress) {
-    const auto solve = find_method(method);
-    constexpr double a_moment = 2e5;  // links times modes: about 0.1 s
-    const double work = static_cast<double>(chain.size()) * static_cast<double>(count.value_or(chain.mode_count()));
-    if (work < a_moment) return solve(chain, {count, rtol, shapes, progress});
+template <class Result>
+Result watched(double work, revchain::Progress* progress, const std::function<Result(revchain::Progress*)>& solve) {
+    constexpr double a_moment = 2e5;  // links times modes in double: about 0.1 s
+    if (work < a_moment) return solve(progress);
 
     revchain::Progress own;
     revchain::Progress* watched = progress != nullptr ? progress : &own;
-    auto result = std::async(std::launch::async, [&] { return solve(chain, {count, rtol, shapes, watched}); });
+    auto result = std::async(std::launch::async, [&] { return solve(watched); });
     while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
         const py::gil_scoped_acquire acquire;
         if (PyErr_CheckSignals() == 0) continue;
@@ -54,6 +99,66 @@ Modes modes(const Chain& chain, std::optional<Index> count, std::optional<double
         throw py::error_already_set();
     }
     return result.get();
+}
+
+template <class T>
+py::tuple as_tuple(const revchain::Modes<T>& m, bool shapes, bool certified) {
+    py::array_t<std::int64_t> number(m.size());
+    for (Index j = 0; j < m.size(); ++j) number.mutable_data()[j] = m.first + j;
+    py::object shape = py::none(), residual = py::none(), nodes = py::none(), certificate = py::none();
+    if (shapes) {
+        shape = leading(m.shape);
+        residual = leading(m.residual);
+        py::list lists(m.nodes.size());
+        for (std::size_t j = 0; j < m.nodes.size(); ++j) lists[j] = leading(m.nodes[j]);
+        nodes = std::move(lists);
+    }
+    if (certified) {
+        const auto& c = m.certificate;
+        certificate = py::make_tuple(leading(c.lower), leading(c.upper), leading(c.above_lower), leading(c.above_upper),
+                                     rest(c.lower), rest(c.upper));
+    }
+    return py::make_tuple(frozen(std::move(number)), leading(m.conical_height), rest(m.conical_height),
+                          bounds(m.error_bound), shape, residual, nodes, certificate, m.method,
+                          std::string(to_string(m.status)));
+}
+
+template <class T>
+py::tuple solved(const Chain& chain, const Asked& asked, const std::string& method, double cost,
+                 revchain::Progress* progress) {
+    const Solver<T> solve = solver<T>(method);
+    const auto run = [&] {
+        const py::gil_scoped_release release;
+        const Index count = asked.count.value_or(chain.mode_count());
+        const double work = cost * static_cast<double>(chain.size()) * static_cast<double>(count);
+        return watched<revchain::Modes<T>>(work, progress, [&](revchain::Progress* seen) {
+            if constexpr (std::is_same_v<T, double>) {
+                return solve(chain, asked.options<double>(seen));
+            } else {
+                return solve(converted<T>(chain), asked.options<T>(seen));
+            }
+        });
+    };
+    return as_tuple(run(), asked.shapes, asked.certify);
+}
+
+py::tuple modes(const Chain& chain, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
+                std::optional<Triple> angular_speed, std::optional<double> rtol, bool shapes, bool certify,
+                const std::string& precision, const std::string& method, revchain::Progress* progress) {
+    check_word("method", method, methods);
+    check_word("precision", precision, precisions);
+    const Asked asked{first, count, conical_height, angular_speed, rtol, shapes, certify};
+    if (precision == "single") return solved<float>(chain, asked, method, 1, progress);
+    if (precision == "extended") return solved<long double>(chain, asked, method, 4, progress);
+    if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, 50, progress);
+    return solved<double>(chain, asked, method, 1, progress);
+}
+
+template <std::size_t N>
+py::tuple words(const std::array<std::string_view, N>& names) {
+    py::tuple result(N);
+    for (std::size_t i = 0; i < N; ++i) result[i] = py::str(std::string(names[i]));
+    return result;
 }
 
 /// One count for each place of an array shaped like `like`, the GIL released.
@@ -71,35 +176,11 @@ py::array_t<std::int64_t> counts(const Chain& chain, const Array& like,
 }  // namespace
 
 void bind_linear(py::module_& module) {
-    py::tuple names(methods.size());
-    for (std::size_t i = 0; i < methods.size(); ++i) names[i] = py::str(std::string(methods[i].first));
-    module.attr("METHODS") = names;
+    module.attr("METHODS") = words(methods);
+    module.attr("PRECISIONS") = words(precisions);
 
-    py::class_<Modes>(module, "Modes")
-        .def_property_readonly("conical_height", [](const Modes& m) { return to_numpy(m.conical_height); })
-        .def_property_readonly("error_bound", [](const Modes& m) { return to_numpy(m.error_bound); })
-        .def_property_readonly("shape",
-                               [](const Modes& m) -> std::optional<py::array> {
-                                   if (m.shape.size() == 0) return std::nullopt;
-                                   return to_numpy(m.shape);
-                               })
-        .def_property_readonly("residual",
-                               [](const Modes& m) -> std::optional<py::array> {
-                                   if (m.residual.size() == 0) return std::nullopt;
-                                   return to_numpy(m.residual);
-                               })
-        .def_property_readonly("nodes",
-                               [](const Modes& m) -> std::optional<py::list> {
-                                   if (m.residual.size() == 0) return std::nullopt;
-                                   py::list lists;
-                                   for (const auto& nodes : m.nodes) lists.append(to_numpy(nodes));
-                                   return lists;
-                               })
-        .def_property_readonly("method", [](const Modes& m) { return m.method; })
-        .def_property_readonly("status", [](const Modes& m) { return std::string(to_string(m.status)); });
-
-    module.def("modes", &modes, "chain"_a, "count"_a = py::none(), "rtol"_a = py::none(), "method"_a = "auto",
-               "shapes"_a = true, "progress"_a = py::none(), py::call_guard<py::gil_scoped_release>());
+    module.def("modes", &modes, "chain"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a, "rtol"_a,
+               "shapes"_a, "certify"_a, "precision"_a, "method"_a, "progress"_a = py::none());
 
     module.def(
         "count_modes",

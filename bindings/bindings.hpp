@@ -17,7 +17,7 @@ using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// numpy arrays that Python can read and not change.
 inline py::array frozen(py::array array) {
-    array.attr("setflags")("write"_a = false);
+    py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
     return array;
 }
 

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import conical_pendulum, heavy_chain
 from ._chain import Chain
-from ._modes import Modes
+from ._modes import Certificate, Modes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
 from ._storage import load
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Certificate",
     "Chain",
     "Modes",
     "SceneError",

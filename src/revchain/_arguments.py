@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Floats = NDArray[np.float64]
+Numbers = NDArray[Any]  # float32, float64 or longdouble, by the precision asked for
+Whole = NDArray[np.int64]
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
@@ -58,6 +60,8 @@ def count(place: str, name: str, value: object) -> int:
 
 def real(place: str, name: str, value: object) -> float:
     """`value` as a float; anything but one real number is refused with a ValueError."""
+    if type(value) is float:
+        return value
     array = floats(place, name, value)  # type: ignore[arg-type]
     if array.ndim != 0:
         raise ValueError(f"{place}: {name} must be a single number, got an array of shape {array.shape}")

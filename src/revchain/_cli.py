@@ -7,6 +7,7 @@ import functools
 import io
 import json as json_module
 import os
+import re
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -133,8 +134,23 @@ def solve(
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder for everything: .json, .csv, .npz (with shapes), .png.")
     ] = None,
-    modes: Annotated[int | None, typer.Option(metavar="K", help="How many modes, instead of the scene's.")] = None,
+    modes: Annotated[
+        str | None,
+        typer.Option(metavar="K|FIRST:LAST", help="How many modes, or which by their numbers, instead of the scene's."),
+    ] = None,
+    conical_height: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="LOW HIGH", help="Instead: the modes with LOW < conical height <= HIGH, in m."),
+    ] = None,
+    angular_speed: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="LOW HIGH", help="Instead: the modes with LOW <= speed < HIGH, in rad/s."),
+    ] = None,
     rtol: Annotated[float | None, typer.Option(metavar="X", help="Relative tolerance of the heights.")] = None,
+    certify: Annotated[bool, typer.Option("--certify", help="Also the intervals and counts that prove them.")] = False,
+    precision: Annotated[
+        str | None, typer.Option(metavar="P", help=f"One of {', '.join(_core.PRECISIONS)}.")
+    ] = None,
     method: Annotated[str | None, typer.Option(metavar="M", help=f"One of {', '.join(_core.METHODS)}.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progress bar.")] = False,
 ) -> None:
@@ -143,15 +159,25 @@ def solve(
     outputs = _outputs(scene, plot, json, csv, out)
     chain = given.chain()
     gravity = given.gravity_value()
-    asked = (
-        given.count(chain) if modes is None else modes,
-        (given.ask.rtol if isinstance(given.ask.rtol, float) else None) if rtol is None else rtol,
-        given.ask.method if method is None else method,
-    )
+    asked = given.asked(chain)
+    chosen = {"modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
+    if len(named := [name for name, value in chosen.items() if value is not None]) > 0:
+        if len(named) > 1:
+            options = " and ".join("--" + name.replace("_", "-") for name in named)
+            raise Stop(f"{options} cannot both say which modes", ExitCode.WRONG_USAGE)
+        for name in ("count", *chosen):
+            asked.pop(name, None)
+        asked |= {"gravity": gravity, **(_numbers(modes) if modes is not None else {named[0]: chosen[named[0]]})}
+    overriding = {"rtol": rtol, "precision": precision, "method": method}
+    asked |= {name: value for name, value in overriding.items() if value is not None}
+    if certify:
+        asked["certify"] = True
     title = given.title or scene.stem
     with written_aside(*(path for path, _ in outputs)) as asides:
         try:
-            found = watched(lambda progress: solve_chain(chain, *asked, True, progress), Console(stderr=True), quiet)
+            found = watched(
+                lambda progress: solve_chain(chain, **asked, progress=progress), Console(stderr=True), quiet
+            )
         except ValueError as error:  # the scene itself has been checked: it is what the options say
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
         for aside, (_, kind) in zip(asides, outputs, strict=True):
@@ -167,7 +193,8 @@ def solve(
         for path, _ in outputs:
             print(f"wrote {path}")
     if found.status != "success":
-        asked_for = "" if asked[1] is None else f": asked {asked[1]:g}, reached {found.error_bound.max():.1e}"
+        wanted = asked.get("rtol")
+        asked_for = "" if wanted is None else f": asked {wanted:g}, reached {found.error_bound.max():.1e}"
         raise Stop(f"the tolerance is not met{asked_for}", ExitCode.TOLERANCE_NOT_MET)
 
 
@@ -212,6 +239,16 @@ def new(
 def schema() -> None:
     """Print the JSON Schema of scene files, for editors."""
     sys.stdout.write(json_module.dumps(json_schema(), indent=2) + "\n")
+
+
+def _numbers(text: str) -> dict[str, Any]:
+    """What ``--modes`` says."""
+    found = re.fullmatch(r"(\d{1,18})(?::(\d{1,18}))?", text)
+    if found is None:
+        raise Stop(f"--modes: must be a number such as 5, or two such as 1000:1009, got {text}", ExitCode.WRONG_USAGE)
+    if found[2] is None:
+        return {"count": int(found[1])}
+    return {"modes": range(int(found[1]), int(found[2]) + 1)}
 
 
 def _outputs(

@@ -7,6 +7,7 @@ import numpy.typing
 _Floats = numpy.typing.NDArray[numpy.float64]
 
 METHODS: tuple[str, ...]
+PRECISIONS: tuple[str, ...]
 
 class Cancelled(RuntimeError): ...
 
@@ -50,30 +51,33 @@ class Chain:
     @property
     def radius_of_gyration(self) -> _Floats: ...
 
-class Modes:
-    @property
-    def conical_height(self) -> _Floats: ...
-    @property
-    def error_bound(self) -> _Floats: ...
-    @property
-    def shape(self) -> _Floats | None: ...
-    @property
-    def residual(self) -> _Floats | None: ...
-    @property
-    def nodes(self) -> list[_Floats] | None: ...
-    @property
-    def method(self) -> str: ...
-    @property
-    def status(self) -> str: ...
+_Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
+_Whole = numpy.typing.NDArray[numpy.int64]
 
 def modes(
     chain: Chain,
-    count: int | None = None,
-    rtol: float | None = None,
-    method: str = "auto",
-    shapes: bool = True,
+    first: int,
+    count: int | None,
+    conical_height: tuple[float, float] | None,
+    angular_speed: tuple[float, float, float] | None,
+    rtol: float | None,
+    shapes: bool,
+    certify: bool,
+    precision: str,
+    method: str,
     progress: Progress | None = None,
-) -> Modes: ...
+) -> tuple[
+    _Whole,
+    _Numbers,
+    _Floats | None,
+    _Numbers,
+    _Numbers | None,
+    _Numbers | None,
+    list[_Numbers] | None,
+    tuple[_Numbers, _Numbers, _Whole, _Whole, _Floats | None, _Floats | None] | None,
+    str,
+    str,
+]: ...
 def count_modes(chain: Chain, conical_height: _Floats) -> numpy.typing.NDArray[numpy.int64]: ...
 def count_modes_at_speed(
     chain: Chain, angular_speed: _Floats, gravity: _Floats

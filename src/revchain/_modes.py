@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, positive, read_only, together
+from ._arguments import STANDARD_GRAVITY, Floats, Numbers, Whole, positive, read_only, together
 from ._chain import Chain
 
 if TYPE_CHECKING:
@@ -20,14 +20,74 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 
+TURN = 8 * np.arctan(np.longdouble(1))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Certificate:
+    """Intervals that are proved to hold the conical heights, and the counts that prove it.
+
+    Exactly ``above_lower[i]`` conical heights of the chain exceed ``lower[i]`` and ``above_upper[i]``
+    exceed ``upper[i]``. As ``above_upper[i] < number[i] <= above_lower[i]``, the height with that number
+    lies in between: ``lower < height <= upper``.
+
+    Attributes
+    ----------
+    lower, upper : ndarray, shape (k,)
+        Ends of the intervals, as far from the height as `Modes.error_bound` says, rounded. An end at
+        which nothing could be proved is 0 or infinite.
+    above_lower, above_upper : ndarray of int64, shape (k,)
+        Proved counts of the heights above each end.
+    lower_low, upper_low : ndarray, shape (k,), or None
+        With ``precision="double-double"``: what is to be added to `lower` and `upper`.
+
+    Notes
+    -----
+    `revchain.count_modes` gives the same counts at the very same numbers, in double precision. The
+    heights are those of the numbers stored, with another precision those of the rounded ones.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> chain = rc.Chain(weight=[1.0, 3.0], length=1.0)
+    >>> proof = rc.modes(chain, certify=True).certificate
+    >>> proof.above_lower, proof.above_upper
+    (array([1, 2]), array([0, 1]))
+    >>> rc.count_modes(chain, conical_height=proof.lower)
+    array([1, 2])
+    """
+
+    lower: Numbers
+    upper: Numbers
+    above_lower: Whole
+    above_upper: Whole
+    lower_low: Floats | None = None
+    upper_low: Floats | None = None
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Certificate, _values(self)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Certificate):
+            return NotImplemented
+        return all(map(_same, _values(self), _values(other)))
+
+    __hash__ = None  # type: ignore[assignment]
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Modes:
-    """The slowest modes of a chain, slowest first; mode 1 is index 0.
+    """Modes of a chain, slowest first.
 
     Attributes
     ----------
     chain : Chain
         The chain of N links they belong to.
+    number : ndarray of int64, shape (k,)
+        Mode numbers: the slowest of all modes has number 1.
     conical_height : ndarray, shape (k,)
         Height ``gravity / angular_speed**2`` of the equivalent conical pendulum, descending, in the
         unit of the chain's lengths.
@@ -46,11 +106,18 @@ class Modes:
         The method that was used.
     status : str
         ``"success"`` or ``"tolerance_not_met"``.
+    precision : str
+        As asked of `revchain.modes`, which says what it means for the arrays.
+    certificate : Certificate or None
+        What proves the error bounds, if ``certify=True`` was asked.
+    conical_height_low : ndarray, shape (k,), or None
+        With ``precision="double-double"``: what is to be added to `conical_height`, whose sum
+        `error_bound` is of.
 
     Notes
     -----
-    Arrays are read-only. Two results are equal when everything in them is. `shape`, `residual` and `nodes` are None if ``shapes=False`` was
-    asked.
+    Arrays are read-only. Two results are equal when everything in them is. `shape`, `residual` and
+    `nodes` are None if ``shapes=False`` was asked. There may be no modes (k = 0) in a window.
 
     Examples
     --------
@@ -64,24 +131,25 @@ class Modes:
     """
 
     chain: Chain
-    conical_height: Floats
-    error_bound: Floats
-    shape: Floats | None
-    residual: Floats | None
-    nodes: list[Floats] | None
+    number: Whole
+    conical_height: Numbers
+    error_bound: Numbers
+    shape: Numbers | None
+    residual: Numbers | None
+    nodes: list[Numbers] | None
     method: str
     status: str
+    precision: str = "double"
+    certificate: Certificate | None = None
+    conical_height_low: Floats | None = None
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            if isinstance(value, np.ndarray):
-                object.__setattr__(self, field.name, read_only(value))
-        if self.nodes is not None:
+        _freeze(self)
+        if self.nodes is not None and any(nodes.flags.writeable for nodes in self.nodes):
             object.__setattr__(self, "nodes", [read_only(nodes) for nodes in self.nodes])
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Modes, tuple(getattr(self, field.name) for field in fields(self))
+        return Modes, _values(self)
 
     def __len__(self) -> int:
         return int(self.conical_height.size)
@@ -89,11 +157,11 @@ class Modes:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Modes):
             return NotImplemented
-        return all(_same(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+        return all(map(_same, _values(self), _values(other)))
 
     __hash__ = None  # type: ignore[assignment]
 
-    def angular_speed(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:
+    def angular_speed(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Numbers:
         """Return the whirl speed of each mode, ``sqrt(gravity / conical_height)``.
 
         Parameters
@@ -105,7 +173,8 @@ class Modes:
         Returns
         -------
         ndarray, shape (k,)
-            In rad/s, ascending. Relative error at most half of `error_bound` and 2.1 ulp.
+            In rad/s, ascending; longdouble with ``precision="extended"``, else float64. Relative error
+        at most half of `error_bound` and 2.1 ulp.
 
         Raises
         ------
@@ -118,9 +187,13 @@ class Modes:
         >>> rc.modes(rc.Chain(weight=1.0, length=2.4525)).angular_speed(gravity=9.81)
         array([2.])
         """
-        return _core.conical_pendulum_angular_speed(*self._with_gravity("angular_speed", gravity))
+        height, g = self._with_gravity("angular_speed", gravity)
+        if self.precision == "extended":
+            extended: Numbers = np.sqrt(g) / np.sqrt(height)
+            return extended
+        return _core.conical_pendulum_angular_speed(height, g)
 
-    def period(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:
+    def period(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Numbers:
         """Return the time of one turn of each mode, ``2 pi sqrt(conical_height / gravity)``.
 
         Parameters
@@ -148,9 +221,13 @@ class Modes:
         >>> rc.modes(rc.Chain(weight=1.0, length=39.1396)).period(gravity=386.2924).round(5)
         array([2.])
         """
-        return _core.conical_pendulum_period(*self._with_gravity("period", gravity))
+        height, g = self._with_gravity("period", gravity)
+        if self.precision == "extended":
+            extended: Numbers = TURN * (np.sqrt(height) / np.sqrt(g))
+            return extended
+        return _core.conical_pendulum_period(height, g)
 
-    def revolutions_per_second(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:
+    def revolutions_per_second(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Numbers:
         """Return the turns in a second of each mode.
 
         Parameters
@@ -174,7 +251,11 @@ class Modes:
         >>> rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=2).revolutions_per_second().round(4)
         array([0.9988, 2.2928])
         """
-        return _core.conical_pendulum_revolutions_per_second(*self._with_gravity("revolutions_per_second", gravity))
+        height, g = self._with_gravity("revolutions_per_second", gravity)
+        if self.precision == "extended":
+            extended: Numbers = np.sqrt(g) / np.sqrt(height) / (TURN)
+            return extended
+        return _core.conical_pendulum_revolutions_per_second(height, g)
 
     def plot(
         self,
@@ -191,7 +272,7 @@ class Modes:
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
         modes : iterable of int, optional
-            Which modes, counted from 1; the six slowest if left out.
+            Which modes, by their numbers; the six slowest of this result if left out.
         gravity : float, optional
             For the speeds written below the axes.
         length_unit : str
@@ -234,8 +315,10 @@ class Modes:
         dict
             ``{"modes": [{"mode": 1, "conical_height": ..., "angular_speed": ..., "period": ...,
             "revolutions_per_minute": ..., "error_bound": ..., "nodes": [...], "residual": ...,
-            "shape": [...]}, ...], "method": ..., "status": ..., "gravity": ..., "chain": {...}}``;
-            the last three of a mode are left out where they were not computed.
+            "shape": [...]}, ...], "method": ..., "status": ..., "precision": ..., "gravity": ...,
+            "chain": {...}}``;
+            what was not computed is left out. ``"conical_height_low"`` is added to the height where
+            a float is too short for it, ``"certificate"`` where there is one.
 
         Raises
         ------
@@ -258,7 +341,7 @@ class Modes:
         Returns
         -------
         xarray.Dataset
-            Variables over the dimensions ``mode`` (from 1), ``pin`` (from the free end), ``link``
+            Variables over the dimensions ``mode`` (its number), ``pin`` (from the free end), ``link``
             (lowest first) and ``node`` (padded with NaN).
 
         Raises
@@ -311,9 +394,13 @@ class Modes:
 
         save(self, path)
 
-    def _with_gravity(self, name: str, gravity: ArrayLike) -> list[Floats]:
+    def _with_gravity(self, name: str, gravity: ArrayLike) -> tuple[Numbers, Numbers]:
         place = f"revchain.Modes.{name}"
-        return together(place, conical_height=self.conical_height, gravity=positive(place, "gravity", gravity))
+        wide = np.longdouble if self.precision == "extended" else np.float64
+        height = self.conical_height.astype(wide, copy=False)
+        g = positive(place, "gravity", gravity).astype(wide, copy=False)
+        height, g = together(place, conical_height=height, gravity=g)
+        return height, g
 
     def __repr__(self) -> str:
         from ._tables import text_table
@@ -324,6 +411,18 @@ class Modes:
         from ._tables import html_table
 
         return html_table(self)
+
+
+def _values(record: Certificate | Modes) -> tuple[Any, ...]:
+    return tuple(getattr(record, field.name) for field in fields(record))
+
+
+def _freeze(record: Certificate | Modes) -> None:
+    """Make the arrays read-only that are not."""
+    for name in record.__slots__:
+        value = getattr(record, name)
+        if isinstance(value, np.ndarray) and value.flags.writeable:
+            object.__setattr__(record, name, read_only(value))
 
 
 def _same(one: Any, other: Any) -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import Floats, integer, positive, real
+from ._arguments import Numbers, Whole, integer, positive, real
 from ._extras import require
 from ._tables import digits
 
@@ -40,7 +40,8 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gr
     if modes.shape is None or modes.nodes is None:
         raise ValueError("Modes.plot: there are no shapes; compute them with shapes=True")
     gravity = float(positive("Modes.plot", "gravity", real("Modes.plot", "gravity", gravity)))
-    chosen = _chosen(len(modes), which)
+    chosen = _chosen(modes.number, which)
+    first = int(modes.number[0])
     if ax is None:
         ax = new_axes(max(4.0, 1.6 + 1.25 * len(chosen)), 6.0)
     lengths = modes.chain.length
@@ -51,7 +52,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gr
     for place, mode in enumerate(chosen):
         axis = SPACING * place
         colour = f"C{place % 10}"
-        shape = modes.shape[mode - 1]
+        shape = modes.shape[mode - first]
         kept = thinned(shape)
         ax.plot([axis, axis], [depth[0], 0.0], color="0.6", linestyle="--", linewidth=0.9, zorder=1)
         ax.plot(
@@ -64,7 +65,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gr
             zorder=2,
             label=f"mode {mode}",
         )
-        nodes = depth[0] - modes.nodes[mode - 1]
+        nodes = depth[0] - modes.nodes[mode - first]
         if nodes.size <= MOST_PINS_AS_DOTS:
             ax.plot(
                 np.full(nodes.size, axis),
@@ -80,7 +81,10 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gr
     ax.set_xlim(-SPACING / 2, SPACING * (len(chosen) - 0.5))
     ax.set_xticks(
         [SPACING * place for place in range(len(chosen))],
-        [f"mode {mode}\n{digits(speeds[mode - 1], 4)} rad/s\n{digits(turns[mode - 1], 4)} rev/min" for mode in chosen],
+        [
+            f"mode {mode}\n{digits(speeds[mode - first], 4)} rad/s\n{digits(turns[mode - first], 4)} rev/min"
+            for mode in chosen
+        ],
         fontsize="small",
     )
     ax.set_ylim(1.03 * depth[0], -0.03 * depth[0])
@@ -146,7 +150,7 @@ def plot_chain(chain: Chain, ax: Axes | None, *, length_unit: str, weight_unit: 
     return ax
 
 
-def thinned(curve: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
+def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     """Indices of the points worth drawing: the ends, and the extremes of every stretch."""
     if curve.size <= MOST_POINTS:
         return np.arange(curve.size)
@@ -158,13 +162,16 @@ def thinned(curve: Floats) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     return np.array(sorted(kept), dtype=np.intp)
 
 
-def _chosen(available: int, which: Iterable[int] | None) -> list[int]:
+def _chosen(available: Whole, which: Iterable[int] | None) -> list[int]:
+    """Numbers of the modes to draw."""
+    if available.size == 0:
+        raise ValueError("Modes.plot: there are no modes")
     if which is None:
-        return list(range(1, min(available, MOST_SHAPES) + 1))
+        return [int(number) for number in available[:MOST_SHAPES]]
     chosen = [integer("Modes.plot", "modes", mode) for mode in which]
     for mode in chosen:
-        if not 1 <= mode <= available:
-            raise ValueError(f"Modes.plot: mode must be from 1 to {available}, got {mode}")
+        if not available[0] <= mode <= available[-1]:
+            raise ValueError(f"Modes.plot: mode must be from {available[0]} to {available[-1]}, got {mode}")
     if not chosen:
         raise ValueError("Modes.plot: modes names no mode")
     return chosen

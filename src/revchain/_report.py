@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ._modes import Modes
-from ._tables import digits
+from ._tables import digits, which
 
 MOST_ROWS = 20
 NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
@@ -26,7 +26,7 @@ def table(modes: Modes, title: str, gravity: float) -> Group:
     heading = Text(title, style="bold")
     facts = Text(
         f"{links}, length {chain.total_length:.6g} m, weight {chain.total_weight:.6g} N, gravity {gravity:.6g} m/s²\n"
-        f"{len(modes):,} of {chain.mode_count:,} modes by {modes.method}: "
+        f"{which(modes)} by {modes.method}: "
     )
     met = modes.status == "success"
     facts.append("success" if met else modes.status.replace("_", " "), style="green" if met else "bold yellow")
@@ -41,7 +41,7 @@ def table(modes: Modes, title: str, gravity: float) -> Group:
     period = modes.period(gravity)
     for k in range(min(len(modes), MOST_ROWS)):
         grid.add_row(
-            f"{k + 1}",
+            f"{modes.number[k]}",
             digits(speed[k], 6),
             digits(turns[k], 6),
             digits(period[k], 6),
@@ -50,11 +50,26 @@ def table(modes: Modes, title: str, gravity: float) -> Group:
             _nodes(modes, k),
         )
     parts: list[Text | Table] = [heading, facts, grid]
+    if modes.certificate is not None:
+        parts.append(_proof(modes))
     hidden = len(modes) - MOST_ROWS
     if hidden > 0:
         parts.append(Text(f"and {hidden:,} more; --json and --csv write all of them", style="dim"))
     parts.append(Text("height: of the equivalent conical pendulum; error bound: relative, of the height", style="dim"))
     return Group(*parts)
+
+
+def _proof(modes: Modes) -> Table:
+    """The certificate: ends of each interval to all their digits, and the counts there."""
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for name in ("mode", "height is above\nm", "and up to\nm", "proved: so many\nare above", "and above\nthe latter"):
+        grid.add_column(name, justify="right", no_wrap=True)
+    proof = modes.certificate
+    assert proof is not None
+    for k in range(min(len(modes), MOST_ROWS)):
+        ends = (f"{proof.lower[k]:.17g}", f"{proof.upper[k]:.17g}")
+        grid.add_row(f"{modes.number[k]}", *ends, f"{proof.above_lower[k]}", f"{proof.above_upper[k]}")
+    return grid
 
 
 def _nodes(modes: Modes, k: int) -> str:
@@ -82,8 +97,13 @@ def csv_text(modes: Modes, gravity: float) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     names = ["mode", "conical_height", "angular_speed", "period", "revolutions_per_minute", "error_bound"]
-    writer.writerow([*names, "node_count", "nodes"])
-    for mode in modes.to_dict(gravity, shapes=False)["modes"]:
+    table = modes.to_dict(gravity, shapes=False)["modes"]
+    if modes.precision in ("extended", "double-double"):
+        names.append("conical_height_low")
+    proof = [] if modes.certificate is None else list(table[0]["certificate"]) if table else []
+    writer.writerow([*names, "node_count", "nodes", *proof])
+    for mode in table:
         nodes = mode["nodes"]
-        writer.writerow([*(mode[name] for name in names), len(nodes), " ".join(map(repr, nodes))])
+        proved = (mode["certificate"][name] for name in proof)
+        writer.writerow([*(mode[name] for name in names), len(nodes), " ".join(map(repr, nodes)), *proved])
     return text.getvalue()

@@ -26,14 +26,14 @@ class Numbers:
     def refuse(self, key: str, reason: str) -> SceneError:
         return SceneError(self.source, ".".join(part for part in (self.table, key) if part), reason)
 
-    def value(self, key: str, given: float | str, quantity: str, sign: str) -> float:
+    def value(self, key: str, given: float | str, quantity: str, sign: str, finite: bool = True) -> float:
         try:
             number = si_value(given, quantity) if isinstance(given, str) else float(given)
         except ValueError as error:
             raise self.refuse(key, str(error)) from None
         shown = f'"{given}"' if isinstance(given, str) else f"{given}"
-        if not math.isfinite(number):
-            raise self.refuse(key, f"must be finite, got {shown}")
+        if math.isnan(number) or (finite and math.isinf(number)):
+            raise self.refuse(key, f"must be {'finite' if finite else 'a number'}, got {shown}")
         if sign == "positive" and not number > 0:
             raise self.refuse(key, f"must be positive, got {shown}")
         if sign == "not negative" and not number >= 0:

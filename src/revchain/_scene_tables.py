@@ -13,7 +13,8 @@ MOST_LINKS = 10_000_000
 
 WithUnit = Annotated[str, Meta(pattern=PATTERN, description='A number and its unit, such as "39.1396 inch".')]
 Positive = Annotated[float, Meta(gt=0)] | WithUnit
-NotNegative = Annotated[float, Meta(ge=0)] | WithUnit
+NotNegativeNumber = Annotated[float, Meta(ge=0)]
+NotNegative = NotNegativeNumber | WithUnit
 AnySign = float | WithUnit
 Count = Annotated[int, Meta(ge=1, le=MOST_LINKS)]
 
@@ -87,9 +88,17 @@ class Ask(Table, frozen=True):
     ----------
     modes : int or "all"
         How many modes, slowest first; 10, or as many as there are, if left out.
+    first : int
+        Number of the slowest mode wanted, from 1; those before are not computed.
+    conical_height : [low, high], optional
+        Instead of `modes` and `first`: the modes with low < conical height <= high.
+    angular_speed : [low, high], optional
+        Instead of them: the modes with low <= whirl speed < high, in rad/s.
     rtol : float, optional
         Relative tolerance of the conical heights; as accurate as possible if left out.
-    method : str
+    certify : bool
+        Whether to give for each height the interval that holds it and the counts that prove it.
+    precision, method : str
         As for `revchain.modes`.
     """
 
@@ -97,8 +106,21 @@ class Ask(Table, frozen=True):
         Count | Literal["all"] | UnsetType,
         Meta(description="How many modes, slowest first; 10, or as many as there are, if left out."),
     ] = UNSET
+    first: Annotated[Count | UnsetType, Meta(description="Number of the slowest mode wanted, from 1.")] = UNSET
+    conical_height: Annotated[
+        tuple[NotNegative, NotNegative] | UnsetType,
+        Meta(description="Instead of modes and first: low < conical height <= high."),
+    ] = UNSET
+    angular_speed: Annotated[
+        tuple[NotNegativeNumber, NotNegativeNumber] | UnsetType,
+        Meta(description="Instead of modes and first: low <= whirl speed < high, in rad/s."),
+    ] = UNSET
     rtol: Annotated[
         Annotated[float, Meta(ge=0)] | UnsetType,
         Meta(description="Relative tolerance of the heights; as accurate as possible if left out."),
     ] = UNSET
+    certify: Annotated[bool, Meta(description="Whether to prove each height with an interval and its counts.")] = False
+    precision: Annotated[
+        Literal["single", "double", "extended", "double-double"], Meta(description="The arithmetic of the result.")
+    ] = "double"
     method: Annotated[Literal["auto", "bisection", "dense", "recurrence"], Meta(description="How to compute.")] = "auto"

@@ -3,56 +3,88 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, positive, real, shown, together
+from ._arguments import STANDARD_GRAVITY, Floats, floats, integer, positive, real, shown, together
 from ._arguments import count as checked_count
 from ._chain import Chain
-from ._modes import Modes
+from ._modes import Certificate, Modes
 
 
 def modes(
     chain: Chain,
     count: int | None = None,
-    rtol: float | None = None,
-    method: str = "auto",
+    *,
+    modes: Iterable[int] | None = None,
+    conical_height: tuple[float, float] | None = None,
+    angular_speed: tuple[float, float] | None = None,
+    gravity: float = STANDARD_GRAVITY,
     shapes: bool = True,
+    rtol: float | None = None,
+    certify: bool = False,
+    precision: str = "double",
+    method: str = "auto",
 ) -> Modes:
-    """Find the slowest ways in which a chain whirls.
+    """Find the ways in which a chain whirls: the slowest, those with given numbers, or those in a window.
 
     Parameters
     ----------
     chain : Chain
         The chain of N links.
     count : int, optional
-        How many modes, slowest first; all ``chain.mode_count`` of them if left out.
+        How many modes, slowest first; all ``chain.mode_count`` of them if nothing is said.
+    modes : range, optional
+        Instead of `count`: numbers of the modes, from 1 for the slowest, without gaps and ascending.
+        ``range(1000, 1010)`` is the 1000th to the 1009th slowest; those before are not computed.
+    conical_height : (low, high), optional
+        Instead of `count`: the modes with ``low < conical height <= high``, in the unit of the chain's
+        lengths. `low` may be 0, `high` infinite.
+    angular_speed : (low, high), optional
+        Instead of `count`: the modes with ``low <= whirl speed < high``, in rad/s. `low` may be 0,
+        `high` infinite.
+    gravity : float, optional
+        For `angular_speed`; standard gravity, in metres, if left out.
+    shapes : bool
+        Whether to compute shapes, residuals and nodes.
     rtol : float, optional
-        Relative tolerance asked of the conical heights; as accurate as double precision allows
-        (2 ulp, that is 4.4e-16) if left out.
+        Relative tolerance asked of the conical heights; as accurate as the precision allows (2 ulp,
+        that is 4.4e-16 in double precision) if left out.
+    certify : bool
+        Whether to return with every height the interval that holds it and the counts that prove it.
+    precision : {"double", "single", "extended", "double-double"}
+        The arithmetic of the result. ``"single"``: the chain's numbers and the window are ROUNDED to
+        float32 first, and results are float32. ``"extended"``: results are of numpy's longdouble, which
+        has 64 bits on x86-64 and on some platforms is no more than double. ``"double-double"``: about 31
+        digits; ``conical_height + conical_height_low``, two float64 arrays, is the height that
+        `error_bound` (1e-28 to 1e-24, it grows with N) is of, and shapes are rounded to float64.
     method : {"auto", "bisection", "dense", "recurrence"}
         ``"bisection"`` counts the modes above a height and halves intervals, each height certified
         by counting; ``"dense"`` solves the assembled pencil and ``"recurrence"`` relation (21) as
-        printed: references for small chains. ``"auto"`` chooses.
-    shapes : bool
-        Whether to compute shapes, residuals and nodes.
+        printed: references for small chains, in double precision alone. ``"auto"`` chooses.
 
     Returns
     -------
     Modes
         ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached;
-        ``error_bound`` says what was.
+        ``error_bound`` says what was. An empty window gives no modes.
 
     Raises
     ------
     ValueError
-        If `count` is not from 1 to ``chain.mode_count``, `rtol` is NaN or negative, or `method` is
-        unknown.
+        If more than one of `count`, `modes`, `conical_height` and `angular_speed` is given; if a mode
+        number is not from 1 to ``chain.mode_count``, `modes` has gaps, or a window is none; if `rtol`
+        is NaN or negative, or `method` or `precision` unknown.
 
     Notes
     -----
+    Which modes lie in a window is decided as `count_modes` counts, by proved counts of the exact
+    heights: windows that meet share no mode and lose none. A height just above `low` may be rounded to
+    it.
+
     Accuracy: the relative error bound is returned in ``error_bound`` (2 ulp by default, certified
     by counting). Cost of bisection O(N) for each halving, about 50 halvings a mode; shapes O(N)
     time and memory a mode. Other Python threads run on meanwhile.
@@ -69,37 +101,98 @@ def modes(
     array([1.5, 0.5])
     >>> result.status
     'success'
+    >>> rods = rc.Chain.uniform_rods(2000, length=0.36)
+    >>> rc.modes(rods, modes=range(1000, 1003)).number
+    array([1000, 1001, 1002])
+    >>> rc.modes(rods, angular_speed=(20.0, 40.0)).angular_speed().round(3)
+    array([22.583, 30.772, 38.964])
     """
-    return solve(chain, count, rtol, method, shapes)
+    return solve(
+        chain,
+        count,
+        modes=modes,
+        conical_height=conical_height,
+        angular_speed=angular_speed,
+        gravity=gravity,
+        shapes=shapes,
+        rtol=rtol,
+        certify=certify,
+        precision=precision,
+        method=method,
+    )
 
 
 def solve(
     chain: Chain,
-    count: int | None,
-    rtol: float | None,
-    method: str,
+    count: int | None = None,
+    *,
+    modes: Iterable[int] | None = None,
+    conical_height: tuple[float, float] | None = None,
+    angular_speed: tuple[float, float] | None = None,
+    gravity: float = STANDARD_GRAVITY,
     shapes: bool = True,
+    rtol: float | None = None,
+    certify: bool = False,
+    precision: str = "double",
+    method: str = "auto",
     progress: _core.Progress | None = None,
 ) -> Modes:
     """`modes`, watched: `progress` tells how far it is and can cancel it from another thread."""
     place = "revchain.modes"
+    core = _compiled(place, chain)
+    if (modes is not None) + (conical_height is not None) + (angular_speed is not None) + (count is not None) > 1:
+        selectors = {"count": count, "modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
+        given = " and ".join(name for name, value in selectors.items() if value is not None)
+        raise ValueError(f"{place}: give only one of {', '.join(selectors)}, got {given}")
+    first = 1
+    heights = speeds = None
     if count is not None:
         count = checked_count(place, "count", count)
+    elif modes is not None:
+        first, count = _run_of_numbers(place, modes)
+    elif conical_height is not None:
+        heights = _window(place, "conical_height", conical_height)
+    elif angular_speed is not None:
+        speeds = (*_window(place, "angular_speed", angular_speed), real(place, "gravity", gravity))
     if rtol is not None:
         rtol = real(place, "rtol", rtol)
-    if not isinstance(method, str):
-        raise ValueError(f"{place}: method must be one of {', '.join(_core.METHODS)}, got {shown(method)}")
-    found = _core.modes(_compiled(place, chain), count, rtol, method, bool(shapes), progress)
-    return Modes(
-        chain=chain,
-        conical_height=found.conical_height,
-        error_bound=found.error_bound,
-        shape=found.shape,
-        residual=found.residual,
-        nodes=found.nodes,
-        method=found.method,
-        status=found.status,
+    for name, word, known in (("method", method, _core.METHODS), ("precision", precision, _core.PRECISIONS)):
+        if word not in known:
+            raise ValueError(f"{place}: {name} must be one of {', '.join(known)}, got {shown(word)}")
+    number, height, low, bound, shape, residual, nodes, proof, used, status = _core.modes(
+        core, first, count, heights, speeds, rtol, bool(shapes), bool(certify), precision, method, progress
     )
+    certificate = None if proof is None else Certificate(*proof)
+    return Modes(chain, number, height, bound, shape, residual, nodes, used, status, precision, certificate, low)
+
+
+def _run_of_numbers(place: str, modes: Iterable[int]) -> tuple[int, int]:
+    """First and count of consecutive mode numbers."""
+    wanted = "modes must be mode numbers without gaps, ascending, such as range(1000, 1010)"
+    if not isinstance(modes, range):
+        try:
+            numbers = [integer(place, "modes", number) for number in modes]
+        except TypeError:
+            raise ValueError(f"{place}: {wanted}, got {shown(modes)}") from None
+        modes = range(numbers[0], numbers[0] + len(numbers)) if numbers else range(0)
+        if list(modes) != numbers:
+            raise ValueError(f"{place}: {wanted}, got {shown(numbers)}")
+    if not modes:
+        raise ValueError(f"{place}: modes names no mode, got {shown(modes)}")
+    first, last = modes[0], modes[-1]
+    if first != last and modes.step != 1:
+        raise ValueError(f"{place}: {wanted}, got {modes}")
+    return checked_count(place, "modes: its first number", first), checked_count(place, "modes", last - first + 1)
+
+
+def _window(place: str, name: str, window: object) -> tuple[float, float]:
+    """The two ends of a window; whether they make one is checked where it is used."""
+    if isinstance(window, str) or not isinstance(window, Iterable):
+        raise ValueError(f"{place}: {name} must be a pair (low, high), got {shown(window)}")
+    ends = [real(place, f"{name} (each end)", end) for end in window]
+    if len(ends) != 2:
+        raise ValueError(f"{place}: {name} must be a pair (low, high), got {shown(window)}")
+    return ends[0], ends[1]
 
 
 def count_modes(

@@ -16,7 +16,7 @@ from ._chain import Chain
 from ._extras import require
 from ._files import OutputError, written_aside
 from ._modes import Modes
-from ._record import to_xarray
+from ._record import extra_columns, extra_fields, to_xarray
 
 KIND = "revchain modes 1"
 STATE = "chain_state_"
@@ -111,15 +111,18 @@ def _arrays(modes: Modes) -> dict[str, Any]:
         "kind": np.asarray(KIND),
         "method": np.asarray(modes.method),
         "status": np.asarray(modes.status),
+        "precision": np.asarray(modes.precision),
+        "number": modes.number,
         "conical_height": modes.conical_height,
         "error_bound": modes.error_bound,
+        **extra_columns(modes),
         **_state(modes.chain),
     }
     if modes.shape is not None and modes.residual is not None and modes.nodes is not None:
         arrays["shape"] = modes.shape
         arrays["residual"] = modes.residual
-        arrays["node_count"] = np.array([nodes.size for nodes in modes.nodes])
-        arrays["node_position"] = np.concatenate(modes.nodes)
+        arrays["node_count"] = np.array([nodes.size for nodes in modes.nodes], dtype=np.int64)
+        arrays["node_position"] = np.concatenate([modes.conical_height[:0], *modes.nodes])
     return arrays
 
 
@@ -128,9 +131,10 @@ def _from_arrays(arrays: Mapping[str, Any]) -> Modes:
         raise ValueError(f"its kind is {arrays['kind']}")
     nodes = None
     if "shape" in arrays:
-        nodes = np.split(arrays["node_position"], np.cumsum(arrays["node_count"])[:-1])
+        nodes = np.split(arrays["node_position"], np.cumsum(arrays["node_count"]))[:-1]
     return Modes(
         chain=_chain(arrays),
+        number=arrays["number"],
         conical_height=arrays["conical_height"],
         error_bound=arrays["error_bound"],
         shape=arrays.get("shape"),
@@ -138,6 +142,8 @@ def _from_arrays(arrays: Mapping[str, Any]) -> Modes:
         nodes=nodes,
         method=str(arrays["method"]),
         status=str(arrays["status"]),
+        precision=str(arrays["precision"]),
+        **extra_fields(arrays),
     )
 
 
@@ -158,6 +164,7 @@ def _from_dataset(dataset: Any) -> Modes:
         nodes = [row[~np.isnan(row)] for row in dataset["node_position"].values]
     return Modes(
         chain=_chain({name: dataset[name].values for name in names if name.startswith(STATE)}),
+        number=dataset["mode"].values,
         conical_height=dataset["conical_height"].values,
         error_bound=dataset["error_bound"].values,
         shape=dataset["shape"].values if nodes is not None else None,
@@ -165,4 +172,6 @@ def _from_dataset(dataset: Any) -> Modes:
         nodes=nodes,
         method=dataset.attrs["method"],
         status=dataset.attrs["status"],
+        precision=dataset.attrs["precision"],
+        **extra_fields({name: dataset[name].values for name in names}),
     )

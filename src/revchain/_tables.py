@@ -22,8 +22,17 @@ def digits(number: float, count: int) -> str:
 
 def caption(modes: Modes) -> str:
     """One sentence: how many modes of which chain, found how."""
-    of = f"{len(modes):,} of {modes.chain.mode_count:,} modes"
-    return f"{of}: {modes.chain!r}; {modes.method}, {modes.status.replace('_', ' ')}"
+    return f"{which(modes)}: {modes.chain!r}; {modes.method}, {modes.status.replace('_', ' ')}"
+
+
+def which(modes: Modes) -> str:
+    """How many modes of how many, or which where they are not the slowest."""
+    total = f"{modes.chain.mode_count:,}"
+    if len(modes) == 0 or modes.number[0] == 1:
+        return f"{len(modes):,} of {total} modes"
+    if len(modes) == 1:
+        return f"mode {modes.number[0]:,} of {total}"
+    return f"modes {modes.number[0]:,} to {modes.number[-1]:,} of {total}"
 
 
 def rows(modes: Modes) -> list[tuple[str, ...]]:
@@ -34,7 +43,7 @@ def rows(modes: Modes) -> list[tuple[str, ...]]:
     for k in range(min(len(modes), MOST_ROWS)):
         nodes = "-" if modes.nodes is None else f"{modes.nodes[k].size:,}"
         numbers = (digits(modes.conical_height[k], 12), digits(speeds[k], 6), digits(turns[k], 6))
-        table.append((str(k + 1), *numbers, f"{modes.error_bound[k]:.1e}", nodes))
+        table.append((str(modes.number[k]), *numbers, f"{modes.error_bound[k]:.1e}", nodes))
     return table
 
 

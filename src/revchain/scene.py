@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from typing import Annotated, Any, Literal
 
@@ -13,6 +12,7 @@ from . import _scene_file
 from ._arguments import STANDARD_GRAVITY
 from ._chain import Chain
 from ._modes import Modes
+from ._scene_ask import asked
 from ._scene_chain import Numbers, chain_of_links, uniform_chain
 from ._scene_error import SceneError
 from ._scene_tables import Ask, Link, Positive, Table, UniformChain
@@ -20,7 +20,6 @@ from ._solve import modes
 
 __all__ = ["Ask", "Link", "Scene", "UniformChain", "json_schema", "load_scene"]
 
-DEFAULT_MODES = 10
 _WEIGHT = ("weight", "mass")  # one of the two
 
 
@@ -154,8 +153,8 @@ class Scene(Table, frozen=True):
         """
         return self._chain("scene")
 
-    def count(self, chain: Chain) -> int | None:
-        """Return how many modes of `chain` are asked for; None for all.
+    def asked(self, chain: Chain) -> dict[str, Any]:
+        """Return what is asked as keyword arguments of `revchain.modes`.
 
         Parameters
         ----------
@@ -164,18 +163,21 @@ class Scene(Table, frozen=True):
 
         Returns
         -------
-        int or None
+        dict
+
+        Raises
+        ------
+        SceneError
+            If the modes asked for are not there, or cannot be meant.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1, "repeat": 30}]})
-        >>> scene.count(scene.chain())
-        10
+        >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1, "repeat": 30}], "ask": {"first": 25}})
+        >>> scene.asked(scene.chain())
+        {'modes': range(25, 31)}
         """
-        if self.ask.modes == "all":
-            return None
-        return min(DEFAULT_MODES, chain.mode_count) if self.ask.modes is UNSET else self.ask.modes
+        return asked(self.ask, chain, self.gravity_value(), "scene")
 
     def modes(self) -> Modes:
         """Solve the scene.
@@ -199,16 +201,11 @@ class Scene(Table, frozen=True):
         array([1.])
         """
         chain = self.chain()
-        return modes(chain, self.count(chain), None if self.ask.rtol is UNSET else self.ask.rtol, self.ask.method)
+        return modes(chain, **self.asked(chain))
 
     def _check(self, source: str) -> None:
         """Whatever `chain`, `modes` and `gravity_value` would refuse, said with the name of the file."""
-        chain = self._chain(source)
-        asked = self.ask.modes
-        if isinstance(asked, int) and asked > chain.mode_count:
-            raise SceneError(source, "ask.modes", f"must be at most {chain.mode_count}, got {asked}")
-        if self.ask.rtol is not UNSET and not math.isfinite(self.ask.rtol):
-            raise SceneError(source, "ask.rtol", f"must be finite, got {self.ask.rtol}")
+        asked(self.ask, self._chain(source), self.gravity_value(), source)
 
     def _chain(self, source: str) -> Chain:
         gravity = Numbers(source, "").value("gravity", self.gravity, "gravity", "positive")

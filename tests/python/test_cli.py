@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -222,7 +223,7 @@ def test_failure_in_the_middle_leaves_nothing_half_written(run, monkeypatch):
 
 
 def test_memory(run, monkeypatch):
-    def greedy(*_):
+    def greedy(*_, **__):
         raise MemoryError
 
     monkeypatch.setattr(_cli, "solve_chain", greedy)
@@ -260,7 +261,8 @@ def test_what_the_new_scene_says_in_comments_is_right(run):
     uncommented = [line.removeprefix("# ") for line in rest.splitlines()[2:] if not line.startswith("# ----")]
     Path("b.toml").write_text("\n".join(line for line in uncommented if line != "#"))
     assert rc.load_scene("b.toml").chain() == rc.Chain.uniform_rods(120, 0.36, 0.03 * 9.80665)
-    assert rc.load_scene("b.toml").ask.rtol == 1e-9
+    ask = rc.load_scene("b.toml").ask
+    assert (ask.rtol, ask.first, ask.modes, ask.certify) == (1e-9, 3, 5, True)
 
 
 def test_schema(run):
@@ -375,3 +377,85 @@ def test_the_scene_is_not_overwritten(python):
         ExitCode.WRONG_USAGE, "revchain: watch.toml: the scene itself would be overwritten\n"
     )
     assert Path("watch.toml").read_text() == before
+
+
+def test_modes_by_number(run):
+    code, out, _ = run("solve", "watch.toml", "--modes", "100:104")
+    assert code == 0 and "modes 100 to 104 of 120 by" in out
+    rows = [line.split()[0] for line in out.splitlines() if line.strip()[:3].isdigit()]
+    assert rows[1:] == ["100", "101", "102", "103", "104"]
+    data = json.loads(run("solve", "watch.toml", "--modes", "7:7", "--json", "-")[1])
+    assert [mode["mode"] for mode in data["modes"]] == [7]
+    assert "mode 120 of 120" in run("solve", "watch.toml", "--modes", "120:120")[1]
+
+
+def test_a_window(run):
+    chain = rc.load_scene("watch.toml").chain()
+    for options, expected in (
+        (("--conical-height", 0.01, 0.02), rc.modes(chain, conical_height=(0.01, 0.02))),
+        (("--angular-speed", 20, 60), rc.modes(chain, angular_speed=(20, 60))),
+    ):
+        code, out, _ = run("solve", "watch.toml", *options, "--csv", "-")
+        rows = list(csv.DictReader(out.splitlines()))
+        assert code == 0
+        assert [int(row["mode"]) for row in rows] == expected.number.tolist()
+        assert [float(row["conical_height"]) for row in rows] == expected.conical_height.tolist()
+    code, out, _ = run("solve", "watch.toml", "--conical-height", 5, 6)
+    assert code == 0 and "0 of 120 modes" in out
+    assert run("solve", "watch.toml", "--conical-height", 5, 6, "--csv", "-")[1].count("\n") == 1
+    assert run("solve", "watch.toml", "--conical-height", 5, 6, "--certify", "--csv", "-")[0] == 0
+
+
+def test_certify(run):
+    data = json.loads(run("solve", "watch.toml", "--certify", "--json", "-")[1])
+    for mode in data["modes"]:
+        proof = mode["certificate"]
+        assert proof["lower"] < mode["conical_height"] < proof["upper"]
+        assert (proof["above_lower"], proof["above_upper"]) == (mode["mode"], mode["mode"] - 1)
+    row = next(csv.DictReader(run("solve", "watch.toml", "--certify", "--csv", "-")[1].splitlines()))
+    assert float(row["upper"]) == data["modes"][0]["certificate"]["upper"] and row["above_lower"] == "1"
+    code, out, _ = run("solve", "watch.toml", "--certify")
+    assert code == 0 and f"{data['modes'][3]['certificate']['lower']:.17g}" in out
+    assert max(map(len, out.splitlines())) <= 80
+
+
+@pytest.mark.parametrize("precision", _core.PRECISIONS)
+def test_precision(run, precision):
+    data = json.loads(run("solve", "watch.toml", "--precision", precision, "--json", "-")[1])
+    assert data["precision"] == precision and data["status"] == "success"
+    assert ("conical_height_low" in data["modes"][0]) == (precision in ("extended", "double-double"))
+    out = run("solve", "watch.toml", "--precision", precision, "--certify", "--csv", "-")[1]
+    assert len(list(csv.DictReader(out.splitlines()))) == 4
+    code, out, _ = run("solve", "watch.toml", "--precision", precision, "--certify")
+    assert code == 0 and max(map(len, out.splitlines())) <= 80
+    assert run("solve", "watch.toml", "--precision", precision, "--out", "all")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--modes", "5:3"), "modes names no mode"),
+        (("--modes", "0:3"), "at least 1, got 0"),
+        (("--modes", "119:121"), "121|the 2 from number 119"),
+        (("--modes", "121:121"), "the 120 modes of this chain, got 121"),
+        (("--modes", "some"), "such as 1000:1009, got some"),
+        (("--modes", "3", "--angular-speed", "1", "2"), "--modes and --angular-speed"),
+        (("--conical-height", "2", "1"), "exceed its low end 2, got 1"),
+        (("--conical-height", "-1", "1"), "not negative, got -1"),
+        (("--angular-speed", "nan", "1"), "nan"),
+        (("--precision", "half"), "single, double, extended, double-double.*half"),
+        (("--precision", "single", "--method", "dense"), "precision double only"),
+    ],
+)
+def test_selections_refused(run, options, message):
+    code, out, err = run("solve", "watch.toml", *options)
+    assert (code, out) == (ExitCode.WRONG_USAGE, "")
+    assert re.search(message, err), err
+
+
+def test_a_scene_that_asks_for_a_window_gives_way_to_options(run):
+    Path("window.toml").write_text(WATCH.replace("modes = 4", "conical_height = ['10 mm', 0.02]\ncertify = true"))
+    inside = json.loads(run("solve", "window.toml", "--json", "-")[1])["modes"]
+    assert all(0.01 < mode["conical_height"] <= 0.02 and "certificate" in mode for mode in inside) and inside
+    slowest = json.loads(run("solve", "window.toml", "--modes", 2, "--json", "-")[1])["modes"]
+    assert [mode["mode"] for mode in slowest] == [1, 2]

@@ -127,7 +127,8 @@ def test_fields():
     chain = rc.Chain.uniform_rods(5, length=2.0)
     result = rc.modes(chain, count=3)
     assert [field.name for field in dataclasses.fields(result)] == (
-        ["chain", "conical_height", "error_bound", "shape", "residual", "nodes", "method", "status"]
+        ["chain", "number", "conical_height", "error_bound", "shape", "residual", "nodes", "method", "status"]
+        + ["precision", "certificate", "conical_height_low"]
     )
     assert result.chain is chain and len(result) == 3
     assert result.conical_height.shape == result.error_bound.shape == (3,)
@@ -147,7 +148,7 @@ def test_the_result_is_frozen():
         result.status = "fine"
     with pytest.raises((AttributeError, TypeError)):
         result.colour = "red"
-    for array in (result.conical_height, result.error_bound, result.shape, result.residual, *result.nodes):
+    for array in (result.number, result.conical_height, result.error_bound, result.shape, result.residual, *result.nodes):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0.0
 
@@ -266,7 +267,7 @@ def test_to_dict_is_ready_for_json():
     result = rc.modes(rc.Chain.uniform_rods(6, length=2.0, weight=3.0), count=2)
     data = result.to_dict(gravity=1.62)
     assert json.loads(json.dumps(data, allow_nan=False)) == data
-    assert list(data) == ["modes", "method", "status", "gravity", "chain"]
+    assert list(data) == ["modes", "method", "status", "precision", "gravity", "chain"]
     second = data["modes"][1]
     assert second["mode"] == 2
     assert second["conical_height"] == result.conical_height[1]
@@ -299,7 +300,7 @@ def test_python_runs_on_while_modes_are_computed():
 
     def work():
         try:
-            _core.modes(chain, 200, None, "auto", False, progress)
+            _core.modes(chain, 1, 200, None, None, None, False, False, "double", "auto", progress)
         except _core.Cancelled as error:
             raised.append(error)
 

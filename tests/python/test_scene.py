@@ -278,3 +278,72 @@ def test_the_schema_knows_every_key():
 def test_units_are_not_a_calculator(text):
     with pytest.raises(ValueError, match=r"links\[0\].length"):
         links({"mass": 1.0, "length": text}).chain()
+
+
+RODS = {"uniform_chain": {"kind": "rods", "count": 30, "length": 1, "mass": 1}}
+
+
+@pytest.mark.parametrize(
+    ("ask", "numbers"),
+    [
+        ({}, range(1, 11)),
+        ({"modes": 3}, range(1, 4)),
+        ({"modes": "all"}, range(1, 31)),
+        ({"first": 5}, range(5, 15)),
+        ({"first": 25}, range(25, 31)),
+        ({"first": 25, "modes": 2}, range(25, 27)),
+        ({"first": 12, "modes": "all"}, range(12, 31)),
+    ],
+)
+def test_which_modes_are_asked_for(ask, numbers):
+    scene = rc.Scene.from_dict({**RODS, "ask": ask})
+    assert scene.modes().number.tolist() == list(numbers)
+
+
+@pytest.mark.parametrize(
+    ("ask", "low", "high"),
+    [
+        ({"conical_height": [0, 0.01]}, 0, 0.01),
+        ({"conical_height": ["1 mm", "40 cm"]}, 0.001, 0.4),
+        ({"conical_height": [0.01, math.inf]}, 0.01, math.inf),
+        ({"conical_height": [0.8, "1 mile"]}, 0.8, 1609.344),
+        ({"angular_speed": [10, 40], "certify": True}, 9.80665 / 1600, 9.80665 / 100),
+        ({"angular_speed": [0, math.inf]}, 0, math.inf),
+    ],
+)
+def test_which_window_is_asked_for(ask, low, high):
+    scene = rc.Scene.from_dict({**RODS, "ask": ask})
+    every = rc.modes(scene.chain())
+    inside = (low < every.conical_height) & (every.conical_height <= high)
+    assert scene.modes().number.tolist() == every.number[inside].tolist()
+    assert rc.modes(scene.chain(), **scene.asked(scene.chain())) == scene.modes()
+
+
+@pytest.mark.parametrize(
+    ("ask", "key", "reason"),
+    [
+        ({"first": 31}, "ask.first", "at most 30, got 31"),
+        ({"first": 0}, "ask.first", "at least 1, got 0"),
+        ({"first": 30, "modes": 2}, "ask.modes", "at most 1 from number 30 on, got 2"),
+        ({"modes": 2, "conical_height": [1, 2]}, "ask.conical_height", "does not go with modes"),
+        ({"first": 2, "angular_speed": [1, 2]}, "ask.angular_speed", "does not go with first"),
+        ({"conical_height": [1, 2], "angular_speed": [1, 2]}, "ask.conical_height", "does not go with angular_speed"),
+        ({"conical_height": [2, 1]}, "ask.conical_height", "low end"),
+        ({"conical_height": ["2 cm", "2 mm"]}, "ask.conical_height", "low end"),
+        ({"conical_height": ["2 kg", "2 mm"]}, "ask.conical_height", "must be a length"),
+        ({"conical_height": [math.nan, 1]}, "ask.conical_height", "got nan"),
+        ({"angular_speed": [1, math.nan]}, "ask.angular_speed", "got nan"),
+        ({"precision": "half"}, "ask.precision", "single, double"),
+        ({"precision": "single", "method": "dense"}, "ask.precision", "dense"),
+        ({"certify": "yes"}, "ask.certify", "yes"),
+    ],
+)
+def test_asked_for_what_is_not_there(ask, key, reason):
+    with pytest.raises(rc.SceneError) as caught:
+        rc.Scene.from_dict({**RODS, "ask": ask})
+    assert key in str(caught.value) and reason in str(caught.value), str(caught.value)
+
+
+def test_certify_and_precision_of_a_scene():
+    result = rc.Scene.from_dict({**RODS, "ask": {"modes": 2, "certify": True, "precision": "extended"}}).modes()
+    assert result.precision == "extended" and result.certificate.above_lower.tolist() == [1, 2]

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From the table [ask] of a scene to the arguments of `revchain.modes`, and errors with the key."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from msgspec import UNSET
+
+from ._chain import Chain
+from ._scene_chain import Numbers
+from ._scene_error import SceneError
+from ._scene_tables import Ask
+
+DEFAULT_MODES = 10
+
+
+def asked(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str, Any]:
+    """What differs from the defaults of `revchain.modes`, checked; `source` is what errors name."""
+    arguments = _selection(ask, chain, gravity, source)
+    if ask.rtol is not UNSET:
+        if not math.isfinite(ask.rtol):
+            raise SceneError(source, "ask.rtol", f"must be finite, got {ask.rtol}")
+        arguments["rtol"] = ask.rtol
+    if ask.certify:
+        arguments["certify"] = True
+    for name, default in (("precision", "double"), ("method", "auto")):
+        if (word := getattr(ask, name)) != default:
+            arguments[name] = word
+    if ask.precision != "double" and ask.method not in ("auto", "bisection"):
+        raise SceneError(source, "ask.precision", f'method = "{ask.method}" goes with "double" only')
+    return arguments
+
+
+def _selection(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str, Any]:
+    """Which modes."""
+    windows = [name for name in ("conical_height", "angular_speed") if getattr(ask, name) is not UNSET]
+    numbers = [name for name in ("modes", "first") if getattr(ask, name) is not UNSET]
+    if len(windows) > 1 or (windows and numbers):
+        raise SceneError(source, f"ask.{windows[0]}", f"does not go with {[*numbers, *windows[1:]][0]}")
+    if windows:
+        name = windows[0]
+        given = getattr(ask, name)
+        if name == "conical_height":
+            numbers_of = Numbers(source, "ask")
+            low, high = (numbers_of.value(name, end, "length", "not negative", finite=False) for end in given)
+        else:
+            low, high = given
+        if not low < high:
+            raise SceneError(source, f"ask.{name}", f"its low end must lie below its high end, got {list(given)}")
+        return {name: (low, high), "gravity": gravity} if name == "angular_speed" else {name: (low, high)}
+    available = chain.mode_count
+    if ask.first is UNSET:
+        if ask.modes == "all":
+            return {}
+        if ask.modes is UNSET:
+            return {"count": min(DEFAULT_MODES, available)}
+        if ask.modes > available:
+            raise SceneError(source, "ask.modes", f"must be at most {available}, got {ask.modes}")
+        return {"count": ask.modes}
+    left = available - ask.first + 1
+    if left < 1:
+        raise SceneError(source, "ask.first", f"must be at most {available}, got {ask.first}")
+    count = left if ask.modes == "all" else min(DEFAULT_MODES, left) if ask.modes is UNSET else ask.modes
+    if count > left:
+        raise SceneError(source, "ask.modes", f"must be at most {left} from number {ask.first} on, got {count}")
+    return {"modes": range(ask.first, ask.first + count)}

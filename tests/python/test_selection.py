@@ -1,0 +1,357 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which modes: numbers and windows; certificates; precisions. Checked against all modes and against mpmath."""
+
+import copy
+import json
+import math
+import pickle
+import re
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import revchain as rc
+from revchain import _core
+
+ULP = 2.0**-52
+NAN, INF = math.nan, math.inf
+RODS = rc.Chain.uniform_rods(40, length=0.36)
+
+
+@st.composite
+def chains(draw, most=8):
+    n = draw(st.integers(1, most))
+    column = lambda low, high: np.array(draw(st.lists(st.floats(low, high), min_size=n, max_size=n)))  # noqa: E731
+    weight, length = np.exp2(column(-20, 20)), np.exp2(column(-5, 5))
+    if draw(st.booleans()):
+        return rc.Chain(weight=weight, length=length)
+    centroid, radius = length * column(0.01, 1.5), length * column(0.01, 1.5)
+    return rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
+
+
+def same_modes(part, every):
+    """The same numbers give the same modes, to a last digit of the heights."""
+    index = part.number - every.number[0]
+    np.testing.assert_allclose(part.conical_height, every.conical_height[index], rtol=ULP)
+    if part.shape is not None:
+        np.testing.assert_allclose(part.shape, every.shape[index], rtol=0, atol=1e-12)
+        assert [nodes.size for nodes in part.nodes] == [every.nodes[i].size for i in index]
+
+
+@given(chains(), st.data())
+def test_any_range_of_numbers(chain, data):
+    first = data.draw(st.integers(1, chain.mode_count))
+    last = data.draw(st.integers(first, chain.mode_count))
+    every = rc.modes(chain)
+    part = rc.modes(chain, modes=range(first, last + 1))
+    assert part.number.tolist() == list(range(first, last + 1))
+    assert part.status == "success"
+    same_modes(part, every)
+
+
+@given(chains(), st.floats(-12, 12), st.floats(0.001, 8))
+def test_random_windows(chain, low, width):
+    low, high = 2.0**low, 2.0 ** (low + width)
+    every = rc.modes(chain, shapes=False)
+    part = rc.modes(chain, conical_height=(low, high), shapes=False)
+    inside = np.arange(rc.count_modes(chain, conical_height=high), rc.count_modes(chain, conical_height=low))
+    assert part.number.tolist() == (inside + 1).tolist()
+    away = np.abs(every.conical_height / np.array([[low], [high]]) - 1).min() > 4 * ULP
+    if away:
+        by_height = (every.conical_height > low) & (every.conical_height <= high)
+        assert part.number.tolist() == every.number[by_height].tolist()
+    same_modes(part, every)
+
+
+@given(chains(), st.lists(st.floats(0.01, 100), min_size=1, max_size=4, unique=True), st.floats(0.1, 10))
+def test_windows_of_speeds_that_meet_lose_nothing(chain, ends, gravity):
+    ends = [0.0, *sorted(ends), INF]
+    found = [
+        rc.modes(chain, angular_speed=window, gravity=gravity, shapes=False).number
+        for window in zip(ends[:-1], ends[1:], strict=True)
+    ]
+    assert np.concatenate(found).tolist() == list(range(1, chain.mode_count + 1))
+    for numbers, low, high in zip(found, ends[:-1], ends[1:], strict=True):
+        below = rc.count_modes(chain, angular_speed=low, gravity=gravity) if low > 0 else 0
+        assert numbers.size == 0 or numbers[0] == below + 1
+        if high < INF:
+            assert below + numbers.size == rc.count_modes(chain, angular_speed=high, gravity=gravity)
+
+
+def test_a_height_at_the_end_of_a_window():
+    chain = rc.Chain(weight=[1.0, 3.0], length=1.0)  # heights 3/2 and 1/2: Greenhill section 2
+    number = lambda **window: rc.modes(chain, **window).number.tolist()  # noqa: E731
+    assert number(conical_height=(0.5, 1.5)) == [1]
+    assert number(conical_height=(1.5, 2.0)) == []
+    assert number(conical_height=(0.25, 0.5)) == [2]
+    assert number(conical_height=(0, INF)) == [1, 2]
+    assert number(conical_height=(np.nextafter(0.5, 0), np.nextafter(1.5, 0))) == [2]
+    assert number(angular_speed=(2, 3), gravity=6) == [1]
+    assert number(angular_speed=(1, 2), gravity=6) == []
+    assert number(angular_speed=(4, INF), gravity=8) == [2]
+    assert number(angular_speed=(3, 4), gravity=8) == []
+
+
+def test_the_middle_of_two_thousand():
+    chain = rc.Chain(weight=np.exp(np.sin(np.arange(2000.0))), length=1.0 + 0.3 * np.cos(np.arange(2000.0)))
+    result = rc.modes(chain, modes=range(1000, 1010), certify=True)
+    assert result.number.tolist() == list(range(1000, 1010))
+    assert result.error_bound.max() <= 2.001 * ULP
+    proof = result.certificate
+    assert proof.above_lower.tolist() == result.number.tolist()
+    assert proof.above_upper.tolist() == (result.number - 1).tolist()
+    assert np.array_equal(rc.count_modes(chain, conical_height=proof.lower), proof.above_lower)
+    assert np.array_equal(rc.count_modes(chain, conical_height=proof.upper), proof.above_upper)
+    assert [nodes.size for nodes in result.nodes] == list(range(999, 1009))
+
+
+@pytest.mark.parametrize("shapes", [True, False])
+@pytest.mark.parametrize("certify", [True, False])
+def test_an_empty_window(tmp_path, shapes, certify):
+    result = rc.modes(RODS, conical_height=(10, 20), shapes=shapes, certify=certify)
+    assert len(result) == 0 and result.status == "success"
+    assert result.number.dtype == np.int64 and result.angular_speed().shape == (0,)
+    assert "0 of 40 modes" in repr(result) and "<table>" in result._repr_html_()
+    assert result.to_dict()["modes"] == []
+    assert (result.certificate is not None) == certify
+    if shapes:
+        assert result.shape.shape == (0, 41) and result.nodes == []
+    with pytest.raises(ValueError, match=r"no modes|no shapes"):
+        result.plot()
+    for ending in (".npz", ".nc"):
+        result.save(tmp_path / f"empty{ending}")
+        assert rc.load(tmp_path / f"empty{ending}") == result
+    assert pickle.loads(pickle.dumps(result)) == result
+
+
+SELECTORS = {"count": 3, "modes": range(1, 4), "conical_height": (0.1, 1.0), "angular_speed": (1.0, 2.0)}
+
+
+@pytest.mark.parametrize("one", SELECTORS)
+@pytest.mark.parametrize("other", SELECTORS)
+def test_one_selector_alone(one, other):
+    if one == other:
+        rc.modes(RODS, **{one: SELECTORS[one]})
+        return
+    with pytest.raises(ValueError, match=r"revchain\.modes: give only one of") as caught:
+        rc.modes(RODS, **{one: SELECTORS[one], other: SELECTORS[other]})
+    assert re.search(rf"got .*\b{one}\b", str(caught.value)) and re.search(rf"got .*\b{other}\b", str(caught.value))
+
+
+@pytest.mark.parametrize("modes", [range(3, 6), [3, 4, 5], (3, 4, 5), np.arange(3, 6), iter([3, 4, 5])])
+def test_ways_to_say_numbers(modes):
+    assert rc.modes(RODS, modes=modes).number.tolist() == [3, 4, 5]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"modes": range(0, 3)}, "at least 1, got 0"),
+        ({"modes": range(-3, 3)}, "at least 1, got -3"),
+        ({"modes": range(39, 42)}, "the 2 from number 39 on of the 40 modes.*got 3"),
+        ({"modes": range(41, 42)}, "the 40 modes of this chain, got 41"),
+        ({"modes": range(1, 9, 2)}, r"without gaps.*range\(1, 9, 2\)"),
+        ({"modes": range(9, 1, -1)}, "ascending"),
+        ({"modes": [1, 3]}, r"without gaps.*\[1, 3\]"),
+        ({"modes": [1, 1]}, "without gaps"),
+        ({"modes": range(5, 5)}, "names no mode"),
+        ({"modes": []}, "names no mode"),
+        ({"modes": 5}, r"range\(1000, 1010\), got 5"),
+        ({"modes": "all"}, "whole number"),
+        ({"modes": [1.0, 2.0]}, "whole number, got 1.0"),
+        ({"modes": range(10**30, 10**30 + 1)}, "too large"),
+        ({"modes": range(1, 10**30)}, "modes"),
+        ({"conical_height": (2.0, 1.0)}, "exceed its low end 2, got 1"),
+        ({"conical_height": (1.0, 1.0)}, "exceed its low end 1, got 1"),
+        ({"conical_height": (-1.0, 1.0)}, "not negative, got -1"),
+        ({"conical_height": (NAN, 1.0)}, "nan"),
+        ({"conical_height": (1.0, NAN)}, "nan"),
+        ({"conical_height": (INF, INF)}, "inf"),
+        ({"conical_height": 1.0}, "pair"),
+        ({"conical_height": (1.0,)}, "pair"),
+        ({"conical_height": (1.0, 2.0, 3.0)}, "pair"),
+        ({"conical_height": "12"}, "pair"),
+        ({"conical_height": ("1", "2")}, "real number"),
+        ({"angular_speed": (2.0, 1.0)}, "angular speed"),
+        ({"angular_speed": (1.0, 2.0), "gravity": 0.0}, "gravity"),
+        ({"angular_speed": (1.0, 2.0), "gravity": [1.0, 2.0]}, "gravity must be a single number"),
+        ({"precision": "half"}, "precision must be one of single, double, extended, double-double, got 'half'"),
+        ({"precision": None}, "precision.*None"),
+        ({"precision": "single", "method": "dense"}, "double only"),
+    ],
+)
+def test_refused(arguments, message):
+    with pytest.raises(ValueError, match=f"revchain.*modes: .*{message}"):
+        rc.modes(RODS, **arguments)
+
+
+def tridiagonal(links):
+    """K and M of the assembled pencil, in the digits of mpmath."""
+    n = len(links)
+    k, kb, m, mb = ([mp.mpf(0)] * (n + 1) for _ in range(4))
+    below = mp.mpf(0)
+    for i, (w, a, h, rho2) in enumerate(links):
+        stiffness, p, q = (w * h + a * below) / a**2, h / a, (h**2 + rho2) / a**2
+        k[i] += stiffness
+        k[i + 1] += stiffness
+        kb[i] = -stiffness
+        m[i] += w * q
+        m[i + 1] += w * (1 - 2 * p + q)
+        mb[i] = w * (p - q)
+        below += w
+    return k[:n], kb, m[:n], mb
+
+
+def count_above(pencil, height):
+    """How many conical heights exceed `height`: negative pivots, 60 digits."""
+    k, kb, m, mb = pencil
+    pivot, count = mp.mpf(0), 0
+    for i in range(len(k)):
+        off = height * kb[i - 1] - mb[i - 1] if i else mp.mpf(0)
+        pivot = height * k[i] - m[i] - (off * off / pivot if i else 0)
+        count += pivot < 0
+    return count
+
+
+@given(chains(6), st.sampled_from([None, 1e-12, 1e-3, 0.7]))
+def test_certificates_hold_in_sixty_digits(stored_links, exact_heights, chain, rtol):
+    result = rc.modes(chain, rtol=rtol, certify=True, shapes=False)
+    proof = result.certificate
+    with mp.workdps(60):
+        pencil = tridiagonal(stored_links(chain))
+        for end, counts in ((proof.lower, proof.above_lower), (proof.upper, proof.above_upper)):
+            assert [count_above(pencil, mp.mpf(x)) for x in end.tolist()] == counts.tolist()
+        for lower, height, upper in zip(proof.lower.tolist(), exact_heights(chain), proof.upper.tolist(), strict=True):
+            assert lower < height <= upper
+    assert (proof.above_lower >= result.number).all() and (proof.above_upper < result.number).all()
+    assert np.array_equal(rc.count_modes(chain, conical_height=proof.lower), proof.above_lower)
+    assert np.array_equal(rc.count_modes(chain, conical_height=proof.upper), proof.above_upper)
+    said = 2.001 * result.error_bound / (1 - result.error_bound) * result.conical_height
+    assert (proof.upper - proof.lower <= said + ULP * proof.upper).all()  # the ends are rounded
+
+
+def test_no_certificate_unless_asked():
+    assert rc.modes(RODS, count=2).certificate is None
+    proof = rc.modes(RODS, count=2, certify=True).certificate
+    assert isinstance(proof, rc.Certificate)
+    for array in (proof.lower, proof.upper, proof.above_lower, proof.above_upper):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+    assert proof == copy.deepcopy(proof) == pickle.loads(pickle.dumps(proof))
+    assert proof != rc.modes(RODS, count=3, certify=True).certificate and proof != 3
+
+
+@pytest.mark.parametrize("method", ["dense", "recurrence"])
+def test_dense_methods_take_selections_too(method):
+    every = rc.modes(RODS)
+    part = rc.modes(RODS, modes=range(5, 8), method=method, certify=True)
+    assert part.method == method and part.number.tolist() == [5, 6, 7]
+    np.testing.assert_allclose(part.conical_height, every.conical_height[4:7], rtol=1e-9)
+    assert part.certificate.above_lower.tolist() == [5, 6, 7]
+    assert rc.modes(RODS, conical_height=(0.01, 0.1), method=method).number.tolist() == (
+        rc.modes(RODS, conical_height=(0.01, 0.1)).number.tolist()
+    )
+
+
+TYPES = {"single": np.float32, "double": np.float64, "extended": np.longdouble, "double-double": np.float64}
+
+
+@pytest.mark.parametrize("precision", _core.PRECISIONS)
+def test_precisions(tmp_path, precision):
+    kind = TYPES[precision]
+    result = rc.modes(RODS, modes=range(3, 9), precision=precision, certify=True)
+    assert result.precision == precision and result.status == "success"
+    for array in (result.conical_height, result.error_bound, result.shape, result.residual, *result.nodes):
+        assert array.dtype == kind and not array.flags.writeable
+    assert result.certificate.lower.dtype == kind
+    assert (result.conical_height_low is not None) == (precision == "double-double")
+    assert (result.certificate.upper_low is not None) == (precision == "double-double")
+    speeds = (result.angular_speed(), result.period(), result.revolutions_per_second())
+    assert all(speed.dtype == (np.longdouble if precision == "extended" else np.float64) for speed in speeds)
+    np.testing.assert_allclose(result.angular_speed(), rc.modes(RODS, modes=range(3, 9)).angular_speed(), rtol=2e-7)
+    assert json.loads(json.dumps(result.to_dict(), allow_nan=False))["precision"] == precision
+    assert "modes 3 to 8 of 40" in repr(result)
+    for twin in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
+        assert twin == result
+    result.save(tmp_path / "result.npz")
+    assert rc.load(tmp_path / "result.npz") == result
+    data = result.to_xarray()
+    assert data.mode.values.tolist() == [3, 4, 5, 6, 7, 8] and data.conical_height.dtype == kind
+    assert data.attrs["precision"] == precision
+
+
+def exactly(value):
+    """A number of any precision in mpmath."""
+    high = float(value)
+    return mp.mpf(high) + mp.mpf(float(value - type(value)(high)))
+
+
+@given(chains(6))
+def test_every_precision_is_within_its_bound(exact_heights, chain):
+    exact = exact_heights(chain)
+    with mp.workdps(50):
+        for precision, limit in (("extended", 2.2e-19), ("double-double", 1e-26)):
+            result = rc.modes(chain, precision=precision, certify=True, shapes=False)
+            low = [0.0] * len(result) if result.conical_height_low is None else result.conical_height_low.tolist()
+            heights = [exactly(height) + rest for height, rest in zip(result.conical_height, low, strict=True)]
+            proof = result.certificate
+            ends = (proof.lower, proof.upper), (proof.lower_low, proof.upper_low)
+            for j, (height, truth) in enumerate(zip(heights, exact, strict=True)):
+                assert abs(height / truth - 1) <= mp.mpf(float(result.error_bound[j]))
+                assert result.error_bound[j] <= limit
+                lower, upper = (
+                    exactly(end[j]) + (0 if rest is None else rest[j]) for end, rest in zip(*ends, strict=True)
+                )
+                assert lower < truth <= upper
+
+
+@given(chains(6))
+def test_single_precision_is_that_of_the_rounded_numbers(exact_heights, chain):
+    names = ("weight", "length", "centroid", "radius_of_gyration")
+    rounded = rc.Chain(**{name: getattr(chain, name).astype(np.float32) for name in names})
+    result = rc.modes(chain, precision="single", shapes=False)
+    # weights and lengths are those of `rounded`; radii of gyration keep their digits
+    tolerance = 8 * 2.0**-24 * 6
+    for height, bound, truth in zip(result.conical_height, result.error_bound, exact_heights(rounded), strict=True):
+        assert abs(float(height) / float(truth) - 1) <= float(bound) + tolerance
+        assert bound <= 2.001 * 2.0**-23
+
+
+def test_single_precision_refuses_what_does_not_fit():
+    with pytest.raises(ValueError, match="length"):
+        rc.modes(rc.Chain(weight=1.0, length=1e-300), precision="single")
+    with pytest.raises(ValueError, match="window"):
+        rc.modes(RODS, conical_height=(0.1, 0.1 + 1e-12), precision="single")
+
+
+def test_plots_and_tables_say_the_numbers():
+    result = rc.modes(rc.Chain.uniform_plummets(300), modes=range(100, 130))
+    lines = repr(result).splitlines()
+    assert "modes 100 to 129 of 300" in lines[0]
+    assert [line.split()[0] for line in lines[2:22]] == [str(number) for number in range(100, 120)]
+    assert "<td>119</td>" in result._repr_html_()
+    axes = result.plot()
+    labels = [label.get_text().splitlines()[0] for label in axes.get_xticklabels()]
+    assert labels == [f"mode {k}" for k in range(100, 106)]
+    curve = next(line for line in result.plot(modes=[129]).lines if line.get_label() == "mode 129")
+    np.testing.assert_array_equal(curve.get_xdata(), result.shape[29])
+    for wrong in (99, 130, 1):
+        with pytest.raises(ValueError, match=f"from 100 to 129, got {wrong}"):
+            result.plot(modes=[wrong])
+    assert [mode["mode"] for mode in result.to_dict()["modes"]] == list(range(100, 130))
+    assert float(result.to_xarray().conical_height.sel(mode=129)) == result.conical_height[-1]
+
+
+@pytest.mark.parametrize("ending", [".npz", ".nc"])
+@pytest.mark.parametrize("shapes", [True, False])
+@pytest.mark.parametrize("precision", _core.PRECISIONS)
+def test_files_keep_numbers_and_certificates(tmp_path, ending, shapes, precision):
+    result = rc.modes(RODS, modes=range(20, 31), certify=True, shapes=shapes, precision=precision)
+    result.save(tmp_path / f"result{ending}")
+    loaded = rc.load(tmp_path / f"result{ending}")
+    assert loaded == result
+    assert loaded.number.tolist() == list(range(20, 31)) and loaded.certificate == result.certificate
+    assert loaded.conical_height.dtype == result.conical_height.dtype
