@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Work-precision diagrams of what bench/run measured: python bench/plot_work_precision.py FOLDER/measurements.csv
+
+Writes, beside the file, one picture for each number of links (a panel for each kind of chain) and one of cost against
+the number of links. Needs matplotlib.
+"""
+
+import csv
+import sys
+from collections import defaultdict
+from math import isfinite
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import matplotlib.ticker
+
+from plan import KINDS
+
+ULP = 2.0**-52
+FLOOR = 1e-34  # of the error axis: exact results are drawn here
+# Colours that colour-blind readers tell apart (Okabe and Ito): black and blues for this library, one hue a family.
+STYLE = {
+    "modes": ("#000000", "o"),
+    "modes, float": ("#000000", "v"),
+    "modes, long double": ("#000000", "s"),
+    "modes, double-double": ("#000000", "D"),
+    "modes, __float128": ("#000000", "*"),
+    "modes, from Python": ("#777777", "o"),
+    "modes_dense": ("#777777", "P"),
+    "modes_recurrence": ("#777777", "X"),
+    "direct Newton": ("#D55E00", "o"),
+    "direct, two points": ("#D55E00", "^"),
+    "dstebz": ("#0072B2", "o"),
+    "dstebz, abstol = 2 safmin": ("#0072B2", "^"),
+    "dstemr": ("#0072B2", "s"),
+    "dsterf": ("#0072B2", "D"),
+    "dlasq1": ("#0072B2", "P"),
+    "dsbgv": ("#0072B2", "X"),
+    "dsbgv, M first": ("#0072B2", "v"),
+    "Eigen SelfAdjoint, dense": ("#009E73", "o"),
+    "Eigen computeFromTridiagonal": ("#009E73", "^"),
+    "Eigen GeneralizedSelfAdjoint": ("#009E73", "s"),
+    "Spectra shift-invert": ("#CC79A7", "o"),
+    "Spectra shift-invert, pencil": ("#CC79A7", "s"),
+    "scipy eigh_tridiagonal": ("#B8860B", "o"),
+    "scipy eigsh": ("#B8860B", "^"),
+    "scipy eigsh, factored inverse": ("#B8860B", "s"),
+    "scipy roots_laguerre": ("#B8860B", "D"),
+}
+plt.rcParams.update({"font.size": 10, "axes.titlesize": 10.5, "axes.spines.top": False, "axes.spines.right": False,
+                     "legend.frameon": False, "savefig.dpi": 130, "axes.axisbelow": True})
+
+
+def read(path):
+    with path.open(encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    for row in rows:
+        row["links"], row["modes"] = int(row["links"]), int(row["modes"])
+        row["ms"], row["error"] = float(row["cpu_seconds"]) * 1e3, float(row["error"])
+        row["rtol"] = float(row["rtol"] or 0)
+    comments = [line[2:] for line in lines if line.startswith("# ") and "SPDX" not in line]
+    return [row for row in rows if row["build"] != "portable" and isfinite(row["ms"])], comments
+
+
+def curves(rows):
+    """Points by method, from no tolerance asked to the loosest."""
+    found = defaultdict(list)
+    for row in sorted(rows, key=lambda row: row["rtol"]):
+        found[row["method"]].append(row)
+    return dict(sorted(found.items(), key=lambda item: list(STYLE).index(item[0]) if item[0] in STYLE else 99))
+
+
+def style(name):
+    return STYLE.get(name, ("#56B4E9", "h"))
+
+
+def marks(points):
+    """Filled for this library, hollow for the others."""
+    colour, marker = style(points[0]["method"])
+    ours = points[0]["family"] == "revchain"
+    return {"color": colour, "marker": marker, "markersize": 5.5, "linewidth": 1, "markeredgewidth": 1.2,
+            "markerfacecolor": colour if ours else "white"}
+
+
+def finish(figure, drawn, title, source):
+    order = [*STYLE, *sorted(set(drawn) - set(STYLE))]
+    handles = [plt.Line2D([], [], label=name, **drawn[name]) for name in order if name in drawn]
+    figure.legend(handles=handles, loc="outside right upper")
+    figure.suptitle(title, fontsize=11)
+    figure.get_layout_engine().set(rect=(0, 0.025, 1, 0.975))
+    figure.text(0.995, 0.005, source, ha="right", fontsize=6.5, color="0.5")
+    return figure
+
+
+def work_precision(rows, links, which, source):
+    kinds = [kind for kind in KINDS if any(row["kind"] == kind for row in rows)]
+    columns = min(3, len(kinds))
+    lines = -(-len(kinds) // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(3.6 * columns + 3.2, 3.5 * lines + 1.1), sharex=True, sharey=True,
+                                layout="constrained", squeeze=False)
+    drawn = {}
+    for axis in axes.flat[len(kinds):]:
+        axis.remove()
+    for number, (kind, axis) in enumerate(zip(kinds, axes.flat)):
+        for name, points in curves([row for row in rows if row["kind"] == kind]).items():
+            good = [(max(p["error"], FLOOR), p["ms"]) for p in points if isfinite(p["error"])]
+            if good:
+                drawn[name] = marks(points)
+                axis.loglog(*zip(*good), **drawn[name])
+        axis.axvline(ULP, color="0.6", linewidth=0.8, linestyle=":", zorder=0)
+        axis.grid(True, which="major", color="0.93")
+        axis.set_title(KINDS[kind])
+        axis.set_xticks([10.0**-e for e in range(0, 36, 8)])
+        axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+        axis.tick_params(labelbottom=True)
+        if number + columns >= len(kinds):
+            axis.set_xlabel("worst relative error of a conical height")
+        if number % columns == 0:
+            axis.set_ylabel("CPU time of one chain, ms")
+    axes[0, 0].set_xlim(10, FLOOR / 10)
+    title = (f"Work and precision: {which} of {links:,} links\n(right is more accurate, down is faster; filled: this library, "
+             "lines join its tolerances; dotted: one ulp of double)")
+    return finish(figure, drawn, title, source)
+
+
+def cost(rows, source):
+    """CPU time against the number of links, random plummets and rods, no tolerance asked."""
+    shown = [row for row in rows if not row["rtol"] and row["links"] >= 10 and row["modes"] == 10]
+    figure, axes = plt.subplots(1, 2, figsize=(13, 5.6), sharex=True, sharey=True, layout="constrained")
+    drawn = {}
+    for kind, axis in zip("CR", axes):
+        for name, points in curves([row for row in shown if row["kind"] == kind]).items():
+            points = sorted(points, key=lambda p: p["links"])
+            drawn[name] = marks(points)
+            axis.loglog([p["links"] for p in points], [p["ms"] for p in points], **drawn[name])
+        axis.set_title(KINDS[kind])
+        axis.set_xlabel("number of links $N$")
+        axis.grid(True, which="major", color="0.93")
+    axes[0].set_ylabel("CPU time of one chain, ms")
+    title = "The ten slowest modes: cost against size, no tolerance asked (filled: this library)"
+    return finish(figure, drawn, title, source)
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    path = Path(sys.argv[1])
+    rows, comments = read(path)
+    source = "; ".join(comments[:3])
+    for links in sorted({row["links"] for row in rows}):
+        for of_all in (False, True):
+            here = [r for r in rows if r["links"] == links and (r["modes"] == links) == of_all]
+            if here and links >= 10:
+                which = "all modes" if of_all else f"the {here[0]['modes']} slowest modes"
+                name = f"work-precision-{links}{'-all' if of_all and links > 10 else ''}.png"
+                figure = work_precision(here, links, which, source)
+                figure.savefig(path.with_name(name))
+                plt.close(figure)
+    figure = cost(rows, source)
+    figure.savefig(path.with_name("cost.png"))
+
+
+if __name__ == "__main__":
+    main()
