@@ -18,7 +18,7 @@ struct CondensedRun {
     S weight{}, flexibility{}, moment{};  ///< c0, b1, a1
     Index links = 0;
     T stiffness_error{}, mass_error{};  ///< relative, of its spring and of its masses
-    T cross{};                          ///< a link left alone: see Block
+    S cross{};                          ///< a link left alone: see Block
     bool alone = false;                 ///< not to be merged
 };
 

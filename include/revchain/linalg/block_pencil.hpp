@@ -23,7 +23,7 @@ template <Real T>
 struct Block {
     static constexpr std::size_t degree = 6;
     Wide<T> stiffness{}, lower{}, upper{};
-    T cross{};  ///< off-diagonal mass of a link that stands alone
+    Wide<T> cross{};  ///< off-diagonal mass of a link that stands alone; its spring may be negative
     std::array<T, degree> b{};
     std::array<T, degree - 1> a{}, d{};
 };
@@ -80,7 +80,7 @@ template <class S, Real T>
     const S stiffness = shift * detail::spread<S>(block.stiffness);
     const S lower = detail::spread<S>(block.lower) + S(detail::horner(block.a, z));
     const S upper = detail::spread<S>(block.upper) + S(detail::horner(block.d, z));
-    return {stiffness + stiffness * change + detail::spread<S>(Wide<T>(block.cross)), lower + lower * change,
+    return {stiffness + stiffness * change + detail::spread<S>(block.cross), lower + lower * change,
             upper + upper * change};
 }
 
@@ -100,7 +100,7 @@ REVCHAIN_SIMD std::array<Index, L> count_above(const BlockPencil<T>& pencil, con
             const V sum = e.spring + hung;
             const V pivot = if_equal(sum, V{}, e.spring * (epsilon<T>() * epsilon<T>()), sum);
             negative[i] += if_less(pivot, V{}, V(T(1)), V{});
-            below[i] = e.spring * hung / pivot - e.upper;
+            below[i] = e.spring * (hung / pivot) - e.upper;
         }
     std::array<Index, L> result;
     for (std::size_t i = 0; i < L; ++i) result[i] = static_cast<Index>(negative[i / pack_size][i % pack_size]);
@@ -130,11 +130,11 @@ REVCHAIN_SIMD CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pen
         const LumpedElement<S> e = element_at<S>(block, shift);
         const S hung = below - e.lower;
         const S pivot = hung + e.spring;
-        const V spring = e.spring.high, size = abs(pivot.high);
+        const V spring = abs(e.spring.high), size = abs(pivot.high);
         const V hung_error = (error + unit * abs(hung.high)) * inflate + underflow;
         const V least = size * (T(1) - T(4) * epsilon<T>());
         const V least_with_below = least - hung_error;
-        result.proved = if_less(zero, spring, if_less(zero, least_with_below, result.proved, zero), zero);
+        result.proved = if_less(zero, least_with_below, result.proved, zero);
         result.above += if_less(pivot.high, zero, one, zero);
         const S carried = e.spring * (hung / pivot);  // a pivot of 0 leaves the count unproved
         below = carried - e.upper;

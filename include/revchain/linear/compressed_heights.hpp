@@ -20,7 +20,7 @@ template <Real T>
 T estimated_height(const Chain<T>& chain, Index number) {
     using std::sqrt;
     const Index pieces = std::clamp<Index>(chain.size() / segment_size, 32, 512);
-    const T length = chain.total_length() / T(pieces);
+    const T length = chain.total_length() / LinkColumns<T>(chain).unit_length / static_cast<T>(pieces);
     T phase(0), below(0);
     for (Index i = 1; i <= pieces; ++i) {
         const Index end = i == pieces ? chain.size() : i * chain.size() / pieces / runs_at_once * runs_at_once;
@@ -32,71 +32,85 @@ T estimated_height(const Chain<T>& chain, Index number) {
     return per_phase * per_phase / T(9.8696);
 }
 
+/// Eigenvalues of up to four neighbouring brackets, number `first` on (from 0), proved by two counts each to within
+/// `margin` of what is returned; nothing where a proof fails.
+template <class T>
+std::optional<DoubleWord<Pack<T>>> refined(const linalg::BlockPencil<T>& pencil, Index first,
+                                           const std::vector<linalg::Bracket<T>>& brackets, std::size_t from,
+                                           const T& margin) {
+    using V = Pack<T>;
+    using P = DoubleWord<V>;
+    V start, number;
+    for (std::size_t lane = 0; lane < pack_size; ++lane) {
+        const std::size_t j = std::min(from + lane, brackets.size() - 1);  // the last one fills the pack
+        start.set(lane, linalg::between(brackets[j].lower, brackets[j].upper));
+        number.set(lane, static_cast<T>(first + 1 + static_cast<Index>(j)));
+    }
+    P height(linalg::improved<V>(pencil, start).shift);
+    for (int round = 0; round < 3; ++round) {
+        height = linalg::improved<P>(pencil, height).shift;
+        const P reach = height * P(V(margin));
+        const auto below = linalg::certified_count(pencil, height - reach);
+        const auto above = linalg::certified_count(pencil, height + reach);
+        bool proved = true;
+        for (std::size_t lane = 0; lane < pack_size; ++lane)
+            proved = proved && below.proved[lane] == T(1) && above.proved[lane] == T(1) &&
+                     below.above[lane] >= number[lane] && above.above[lane] < number[lane];
+        if (proved) return height;
+    }
+    return std::nullopt;
+}
+
 /// Stage 1 of `modes` for `compression_pays`; nothing where the bound would miss the tolerance asked or a mode could not
 /// be proved, so that the sure way is left.
 ///
-/// Blocks, their modes bracketed by counts in T, one or two Newton steps (the last in `Wide<T>`), two proved counts on
-/// the blocks. The bound adds what condensing has changed, 1.8 ulp: docs/accuracy.md, "Blocks".
-/// Cost: `compress`, and 40 microseconds a mode.
+/// Blocks, their modes bracketed by counts in T, two Newton steps (the last in `Wide<T>`), two proved counts on the
+/// blocks. The bound adds what condensing has changed, 1.8 ulp: docs/accuracy.md, "Blocks".
+/// Cost: `compress`, and 20 microseconds a mode.
 template <std::floating_point T>
 std::optional<Heights<T>> heights_by_compression(const Chain<T>& chain, const ModeRange& range,
                                                  const ModesOptions<T>& options, double share) {
-    using std::abs;
     using std::ldexp;
     using S = Wide<T>;
     if (options.rtol && *options.rtol < T(4) * epsilon<T>()) return std::nullopt;
     const ChainUnits units = chain.units();
-    constexpr int range_limit = std::numeric_limits<T>::max_exponent / 3;  // products of the recursions stay inside
-    if (std::abs(units.length_exponent) > range_limit || std::abs(units.weight_exponent) > range_limit)
-        return std::nullopt;
+    if (std::abs(units.weight_exponent) > std::numeric_limits<T>::max_exponent / 2) return std::nullopt;
 
-    const Index last = range.first - 1 + range.count;
-    T least = estimated_height(chain, last) * T(0.9);
+    const Index first = range.first - 1, last = first + range.count;
+    T least = T(0.9) * estimated_height(chain, last);
     CompressedChain<T> compressed;
     for (int attempt = 0;; ++attempt) {
         compressed = compress(chain, least);
-        const T end = compressed.pencil.least_shift;
-        if (linalg::count_above(compressed.pencil, std::array<T, 1>{end})[0] >= last) break;
+        if (linalg::count_above(compressed.pencil, std::array<T, 1>{least})[0] >= last) break;
         if (attempt == 20) return std::nullopt;
         least = least * (attempt < 2 ? T(0.7) : T(0.25));
     }
     const linalg::BlockPencil<T>& pencil = compressed.pencil;
-    const S unit(compressed.unit_length);
-    const auto brackets =
-        linalg::bisect(pencil, range.first - 1, range.count, T(1e-3), pencil.least_shift, [](Index) {});
-    Heights<T> result{{}, "block compression"};
-    result.height.reserve(brackets.size());
     const T margin = epsilon<T>() / T(8);
-    const T bound = linalg::bound_of_margin<S>(margin + pencil.error) + epsilon<T>() * T(0.51);
+    const T bound = linalg::bound_of_margin<S>(margin + pencil.error) + T(0.51) * epsilon<T>();
     if (!(bound <= options.rtol.value_or(T(4) * epsilon<T>()))) return std::nullopt;
-    using V = Pack<T>;
-    using P = DoubleWord<V>;
-    for (Index done = 0; done < range.count; done += pack_size) {
-        V start, number;  // of four modes at a time; the last one repeated
-        for (std::size_t lane = 0; lane < pack_size; ++lane) {
-            const Index j = std::min(done + static_cast<Index>(lane), range.count - 1);
-            const auto& bracket = brackets[static_cast<std::size_t>(j)];
-            start.set(lane, linalg::between(bracket.lower, bracket.upper));
-            number.set(lane, static_cast<T>(range.first + j));
+
+    const auto brackets = [&](Index number, Index count, const T& tolerance) {
+        return linalg::bisect(pencil, number, count, tolerance, pencil.least_shift, [](Index) {});
+    };
+    const auto rough = brackets(first, range.count, T(1e-3));
+    Heights<T> result{{}, "block compression"};
+    result.height.reserve(rough.size());
+    while (result.height.size() < rough.size()) {
+        const std::size_t done = result.height.size();
+        const std::size_t count = std::min(pack_size, rough.size() - done);
+        auto found = refined(pencil, first, rough, done, margin);
+        if (!found) {  // neighbours so close that a step from 1e-3 may end at the wrong one
+            const Index number = first + static_cast<Index>(done);
+            found = refined(pencil, number, brackets(number, static_cast<Index>(count), T(0)), 0, margin);
         }
-        P height(linalg::improved<V>(pencil, start).shift);
-        bool proved = false;
-        for (int round = 0; round < 3 && !proved; ++round) {
-            height = linalg::improved<P>(pencil, height).shift;
-            const P reach = height * P(V(margin));
-            const auto below = linalg::certified_count(pencil, height - reach);
-            const auto above = linalg::certified_count(pencil, height + reach);
-            proved = true;
-            for (std::size_t lane = 0; lane < pack_size; ++lane)
-                proved = proved && below.proved[lane] == T(1) && above.proved[lane] == T(1) &&
-                         below.above[lane] >= number[lane] && above.above[lane] < number[lane];
-        }
-        if (!proved) return std::nullopt;
-        for (std::size_t lane = 0; lane < pack_size && done + static_cast<Index>(lane) < range.count; ++lane) {
-            const S scaled = ldexp(S(height.high[lane], height.low[lane]) * unit, -units.length_exponent);
+        if (!found) return std::nullopt;
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const S height = S(found->high[lane], found->low[lane]) * S(compressed.unit_length);
+            const S scaled = ldexp(height, -units.length_exponent);
             result.height.push_back({static_cast<T>(scaled), bound, scaled});
         }
-        advance(options.progress, share * static_cast<double>(result.height.size()) / static_cast<double>(range.count));
+        advance(options.progress, share * static_cast<double>(done + count) / static_cast<double>(rough.size()));
     }
     restore_order(result.height);
     return result;

@@ -24,9 +24,9 @@ linalg::CondensedRun<T> single_link(const linalg::BlockBuilder<T>& builder, cons
     const S weight(static_cast<E>(link.weight)), a = S(static_cast<E>(link.length));
     const S p = S(static_cast<E>(link.centroid)) / a;
     const S lower = weight * p;
-    const S spring = (lower + below) / a * S(static_cast<E>(unit_length));
+    const S stiffness = (lower + below) / a * S(static_cast<E>(unit_length));
     const S cross = weight * (p * (S(E(1)) - p) - link.gyration_ratio);
-    run.flexibility = S(E(1)) / spring;
+    run.flexibility = S(E(1)) / stiffness;
     run.weight = weight;
     run.moment = run.flexibility * lower;
     const T f = static_cast<T>(run.flexibility), x = static_cast<T>(cross);
@@ -41,7 +41,7 @@ linalg::CondensedRun<T> single_link(const linalg::BlockBuilder<T>& builder, cons
         run.alone = true;
     }
     if (run.alone) {
-        run.cross = x;
+        run.cross = cross;
     } else {
         const auto [spring, mass] = builder.second_terms(run);
         builder.note_roundings(run, T(9), spring, mass);
@@ -77,15 +77,15 @@ LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, co
         return length < 64 ? condense<kind, 4, T, V>(links, first, length, below)
                            : condense<kind, 3, T, V>(links, first, length, below);
     };
-    if (links.plummets()) return of.template operator()<LinkKind::equal_plummets>();
-    if (links.equal_but_for_weights()) return of.template operator()<LinkKind::equal_links>();
+    if (links.kind == LinkKind::equal_plummets) return of.template operator()<LinkKind::equal_plummets>();
+    if (links.kind == LinkKind::equal_links) return of.template operator()<LinkKind::equal_links>();
     return of.template operator()<LinkKind::any_links>();
 }
 
 }  // namespace detail
 
-/// A chain condensed into blocks that hold for every conical height above `least_height`, in the unit of length
-/// `unit_length`; heights of the pencil are in that unit.
+/// A chain condensed into blocks that hold for every conical height above `least_height`, in units of
+/// `unit_length` as all heights of the pencil are.
 template <Real T>
 struct CompressedChain {
     linalg::BlockPencil<T> pencil;
@@ -100,8 +100,8 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
     using namespace detail;
     using V = Pack<T>;
     const LinkColumns<T> links(chain);
-    const T unit_length = links.unit_length();
-    linalg::BlockBuilder<T> builder(least_height / unit_length);
+    const T unit_length = links.unit_length;
+    linalg::BlockBuilder<T> builder(least_height);
     const T leaf_reach(1.6e-3);  // the phase up to which degree 4 is complete for a uniform run
     Wide<T> below(Narrow<Wide<T>>(0));
     const auto add_singles = [&](Index first, Index last) {
@@ -133,14 +133,14 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
                    builder.template is_complete<leaf_degree>(one);
             if (!fits) break;
             const T leaf = runs.leaf_phase[lane] / builder.least_shift();
-            const T links_of_leaf(leaf_links(length));
+            const auto links_of_leaf = static_cast<T>(leaf_links(length));
             const T half = epsilon<T>() / T(2);
             builder.note_roundings(one, T(4) * links_of_leaf, leaf / T(4), leaf / T(2));
             builder.note_moved_mass(one, T(2) * links_of_leaf * half, runs.leaf_moment[lane]);
             if (length > leaf_links(length)) {
                 const T moment = static_cast<T>(one.moment);
                 const auto [spring, mass] = builder.second_terms(one);
-                builder.note_roundings(one, T(5) * T(length) / links_of_leaf, spring, mass);
+                builder.note_roundings(one, T(5) * static_cast<T>(length) / links_of_leaf, spring, mass);
                 builder.note_moved_mass(
                     one, T(2) * half, moment * moment / (static_cast<T>(one.weight) * static_cast<T>(one.flexibility)));
                 builder.template note_truncation<leaf_degree>(one);

@@ -54,44 +54,47 @@ struct LaneRuns {
         ///< all below it, a leaf too light to be told from what it carries, a lowest link too long for its spring)
 };
 
-/// What the condensation reads of a chain: pointers and strides (0 where one number serves all links).
-template <class T>
-struct LinkColumns {
-    const T* weight;
-    Index weight_stride;
-    const T* length;
-    Index length_stride;
-    const T* centroid;
-    Index centroid_stride;
-    const Wide<T>* gyration_ratio;
-    Index gyration_stride;
+/// A column to be read at every link: where one number serves all, again and again.
+template <class From>
+struct ColumnReader {
+    const From* data;
+    Index stride;
 
-    explicit LinkColumns(const Chain<T>& chain)
-        : weight(chain.weight().data()),
-          weight_stride(chain.weight().is_scalar() ? 0 : 1),
-          length(chain.length().data()),
-          length_stride(chain.length().is_scalar() ? 0 : 1),
-          centroid(chain.centroid().data()),
-          centroid_stride(chain.centroid().is_scalar() ? 0 : 1),
-          gyration_ratio(chain.gyration_ratio().data()),
-          gyration_stride(chain.gyration_ratio().is_scalar() ? 0 : 1) {}
-
-    /// Nothing but the weights differs from link to link: lengths are then counted in that of a link.
-    bool equal_but_for_weights() const { return length_stride == 0 && centroid_stride == 0 && gyration_stride == 0; }
-    bool plummets() const {
-        return equal_but_for_weights() && *centroid == *length && *gyration_ratio == Wide<T>(T(0));
+    explicit ColumnReader(const Column<From>& column) : data(column.data()), stride(column.is_scalar() ? 0 : 1) {}
+    bool is_scalar() const { return stride == 0; }
+    /// One number for each lane, from links that are `apart` links from one another.
+    template <class V>
+    [[gnu::always_inline]] V lanes(Index link, Index apart) const {
+        using T = Lane<V>;
+        const From* first = data + link * stride;
+        const Index step = apart * stride;
+        return V(static_cast<T>(first[0]), static_cast<T>(first[step]), static_cast<T>(first[2 * step]),
+                 static_cast<T>(first[3 * step]));
     }
-    T unit_length() const { return equal_but_for_weights() ? *length : T(1); }
 };
 
-/// One number for each lane, `apart` from one another.
-template <class V, class T, class From>
-[[gnu::always_inline]] inline V gathered(const From* first, Index apart) {
-    return V(static_cast<T>(first[0]), static_cast<T>(first[apart]), static_cast<T>(first[2 * apart]),
-             static_cast<T>(first[3 * apart]));
-}
-
 enum class LinkKind { equal_plummets, equal_links, any_links };  // equal but for their weights
+
+/// What the condensation reads of a chain.
+template <class T>
+struct LinkColumns {
+    ColumnReader<T> weight, length, centroid;
+    ColumnReader<Wide<T>> gyration_ratio;
+    LinkKind kind = LinkKind::any_links;
+    T unit_length;  ///< lengths are counted in that of a link if it serves all, else in a power of two
+
+    explicit LinkColumns(const Chain<T>& chain)
+        : weight(chain.weight()),
+          length(chain.length()),
+          centroid(chain.centroid()),
+          gyration_ratio(chain.gyration_ratio()),
+          unit_length(std::ldexp(T(1), chain.units().length_exponent)) {
+        if (!length.is_scalar() || !centroid.is_scalar() || !gyration_ratio.is_scalar()) return;
+        unit_length = *length.data;
+        const bool plummets = *centroid.data == *length.data && *gyration_ratio.data == Wide<T>(T(0));
+        kind = plummets ? LinkKind::equal_plummets : LinkKind::equal_links;
+    }
+};
 
 /// Four neighbouring runs of `length` links from link `first` on; `below` is the weight hung below each.
 /// A link is a mass p W at its lower pin, p = h/a, a spring 1/f = (S + p W)/a + mu X and a mass (1 - p) W at its upper
@@ -104,18 +107,18 @@ REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Ind
     LaneRuns<V> runs;
     CompensatedSum<V> hung = below;
     V p = V(T(1)), coefficient{}, a = V(T(1));
+    const T per_unit = T(1) / links.unit_length;
     const auto set_link = [&](Index m) __attribute__((always_inline)) {
-        a = gathered<V, T>(links.length + m * links.length_stride, length * links.length_stride);
-        const V inverse = T(1) / a;
-        p = inverse * gathered<V, T>(links.centroid + m * links.centroid_stride, length * links.centroid_stride);
-        const V square =
-            gathered<V, T>(links.gyration_ratio + m * links.gyration_stride, length * links.gyration_stride);
-        coefficient = p * (T(1) - p) - square;
-        if constexpr (Kind == LinkKind::equal_links) a = V(T(1));
+        a = links.length.template lanes<V>(m, length) * per_unit;
+        p = links.centroid.template lanes<V>(m, length) * per_unit / a;
+        coefficient = p * (T(1) - p) - links.gyration_ratio.template lanes<V>(m, length);
         runs.worst = max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
         coefficient = max(coefficient, V{});
     };
-    if constexpr (Kind == LinkKind::equal_links) set_link(first);
+    if constexpr (Kind == LinkKind::equal_links) {
+        set_link(first);
+        a = V(T(1));
+    }
     const Index step = leaf_links(length);
     // hung.low is rounded `step` times at `step` half units of hung.high: that much of the mass of a leaf is lost.
     const T lost = T(16 * step * step) * epsilon<T>();
@@ -127,7 +130,7 @@ REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Ind
         V carry{};  // mass at the upper pin of the link before
         for (Index m = start; m < start + step; ++m) {
             if constexpr (Kind == LinkKind::any_links) set_link(first + m);
-            const V w = gathered<V, T>(links.weight + (first + m) * links.weight_stride, length * links.weight_stride);
+            const V w = links.weight.template lanes<V>(first + m, length);
             runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
             if constexpr (Kind == LinkKind::equal_plummets) {
                 linalg::append_mass(leaf, w);
@@ -175,8 +178,7 @@ CompensatedSum<V> weights_below(const Chain<T>& chain, const LinkColumns<T>& lin
     CompensatedSum<V> sum, result;
     const bool in_segments = first % segment_size == 0 && length % segment_size == 0;
     if (!in_segments)
-        for (Index m = first; m < first + length; ++m)
-            sum.add(gathered<V, T>(links.weight + m * links.weight_stride, length * links.weight_stride));
+        for (Index m = first; m < first + length; ++m) sum.add(links.weight.template lanes<V>(m, length));
     for (Index lane = 0; lane < runs_at_once; ++lane) {
         const auto i = static_cast<std::size_t>(lane);
         result.high.set(i, static_cast<T>(below));

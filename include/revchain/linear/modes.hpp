@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/linear/compressed_heights.hpp"
 #include "revchain/linear/heights.hpp"
 
 namespace revchain {
@@ -111,6 +112,16 @@ Modes<T> chosen_among_slowest(const Chain<T>& chain, const ModesOptions<T>& opti
     return result;
 }
 
+/// Stage 1 of `modes` by the way that costs least.
+template <Real T>
+Heights<T> heights(const Chain<T>& chain, OnDemand<T>& assembled, const ModeRange& range,
+                   const ModesOptions<T>& options, double share) {
+    if constexpr (std::is_same_v<T, double>)
+        if (!options.shapes && compression_pays(chain, range))
+            if (auto found = heights_by_compression(chain, range, options, share)) return *found;
+    return heights_by_bisection(chain, assembled, range, options, share);
+}
+
 }  // namespace detail
 
 template <Real T>
@@ -126,7 +137,7 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
     if (range.count == 0) return result;
 
     const double to_heights = options.shapes ? 0.6 : options.certify ? 0.8 : 1.0;
-    const auto found = detail::heights_by_bisection(chain, assembled, range, options, to_heights);
+    const auto found = detail::heights(chain, assembled, range, options, to_heights);
     result.method = found.method;
     for (Index j = 0; j < range.count; ++j) {
         const auto& height = found.height[static_cast<std::size_t>(j)];
