@@ -23,16 +23,15 @@ AssembledPencil<T> assembled(const ElementPencil<T>& pencil) {
     for (Index m = 0; m < n; ++m) {
         Element<T> e = pencil.elements[static_cast<std::size_t>(m)];
         if (!pencil.units.empty())
-            for (T* entry : {&e.stiffness, &e.lower, &e.upper, &e.weight})
+            for (T* entry : {&e.stiffness, &e.lower, &e.upper, &e.cross})
                 *entry = ldexp(*entry, pencil.units[static_cast<std::size_t>(m)]);
-        const T cross = cross_mass(e);
         result.K(m, m) += e.stiffness;
         result.K(m, m + 1) -= e.stiffness;
         result.K(m + 1, m) -= e.stiffness;
         result.K(m + 1, m + 1) += e.stiffness;
         result.M(m, m) += e.lower;
-        result.M(m, m + 1) += cross;
-        result.M(m + 1, m) += cross;
+        result.M(m, m + 1) += e.cross;
+        result.M(m + 1, m) += e.cross;
         result.M(m + 1, m + 1) += e.upper;
     }
     result.K.conservativeResize(n, n);

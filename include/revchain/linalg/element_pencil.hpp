@@ -11,21 +11,21 @@ namespace revchain::linalg {
 ///
 ///     K = k [ 1 -1 ; -1 1 ],     M = [ A  X ; X  B ],     A + 2 X + B = W,     A B - X^2 = c W.
 ///
-/// W and c are data of their own, never differences: that is what keeps the counts accurate. All are linear in the
-/// weights: no square of a small one underflows.
+/// All are data of their own, never differences of one another: that is what keeps the counts accurate. All are linear in
+/// the weights: no square of a small one underflows.
 template <Real S>
 struct Element {
     S stiffness{};       ///< k > 0
     S lower{};           ///< A >= 0
     S upper{};           ///< B >= 0
+    S cross{};           ///< X, of any sign
     S turning{};         ///< c >= 0, what the element resists turning with
     Narrow<S> weight{};  ///< W >= 0
 };
 
-/// X = (W - A - B) / 2, off the diagonal of the mass matrix.
 template <Real S>
-S cross_mass(const Element<S>& e) {
-    return ((S(e.weight) - e.lower) - e.upper) * S(Narrow<S>(0.5));
+const S& cross_mass(const Element<S>& e) {
+    return e.cross;
 }
 
 /// Dynamic stiffness carried across an element, equation (1) of docs/accuracy.md: from `near` at the pin where it is
@@ -41,12 +41,20 @@ S carried_by_coupling(const S& stiffness, const S& far, const S& coupling, const
     return (stiffness - far) - coupling * (coupling * inverse);
 }
 
+/// The least size of a pivot: its reciprocal can still be split into two halves for a product of double words.
+template <Real M>
+M least_pivot() {
+    using std::ldexp;
+    using limits = std::numeric_limits<M>;
+    return ldexp(M(1), limits::min_exponent + (limits::digits + 1) / 2 + 3);
+}
+
 /// The pivot, or where it is 0 or too small to divide by something positive and tiny: an eigenvalue at the shift is not
 /// above it.
 template <Real S>
 S not_zero(const S& pivot, const S& stiffness) {
     using std::abs;
-    const S least(std::numeric_limits<Narrow<S>>::min() * Narrow<S>(4));
+    const S least(least_pivot<Narrow<S>>());
     return abs(pivot) < least ? stiffness * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
@@ -58,23 +66,22 @@ struct ElementPencil {
     /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents that never fall on
     /// the way up and end at 0. Else empty.
     std::vector<int> units;
-    /// Bound on the relative error of every number in `elements`, besides what underflows: the least normal number in
-    /// masses, `stiffness_underflow` in stiffnesses.
+    /// Bound on the error of every number in `elements`, relative to it and, of the cross mass, to |X| + 2 c; besides what
+    /// underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
     Narrow<S> entry_error{};
+    Narrow<S> stiffness_underflow = largest_underflow();
 
     Index size() const { return static_cast<Index>(elements.size()); }
+    /// 4/a times the least positive number, a the shortest length there can be beside one of 1.
+    static Narrow<S> largest_underflow() {
+        using std::ldexp;
+        using limits = std::numeric_limits<Narrow<S>>;
+        return ldexp(limits::min() * limits::epsilon(), limits::max_exponent / 4 + 2);
+    }
     /// The exponent by which what is carried across pin m from below grows less: in the unit of element m from that of
     /// m - 1.
     int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
 };
-
-/// 4 / a times the least positive number, a the shortest length there can be beside one of 1.
-template <Real M>
-M stiffness_underflow() {
-    using std::ldexp;
-    return ldexp(std::numeric_limits<M>::min() * std::numeric_limits<M>::epsilon(),
-                 std::numeric_limits<M>::max_exponent / 4 + 2);
-}
 
 /// The same pencil in a narrower scalar; one more rounding in each entry.
 template <Real T, Real S>
@@ -86,9 +93,11 @@ ElementPencil<T> rounded(const ElementPencil<S>& wide) {
         pencil.elements.reserve(wide.elements.size());
         for (const Element<S>& e : wide.elements)
             pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.lower), static_cast<T>(e.upper),
-                                       static_cast<T>(e.turning), static_cast<T>(e.weight)});
+                                       static_cast<T>(e.cross), static_cast<T>(e.turning), static_cast<T>(e.weight)});
         pencil.units = wide.units;
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
+        if constexpr (std::numeric_limits<T>::min_exponent == std::numeric_limits<Narrow<S>>::min_exponent)
+            pencil.stiffness_underflow = static_cast<T>(wide.stiffness_underflow);
         return pencil;
     }
 }

@@ -57,10 +57,10 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
     const M local = M(2) * pencil.entry_error + M(6) * unit;  // stiffness times weight has both their errors
     const M slack = M(1) + M(4) * epsilon<M>();               // of magnitudes taken from rounded numbers
     const M inflate = M(1) + M(24) * epsilon<M>();            // the bound's own rounding
-    const M tiny = std::numeric_limits<M>::min() * M(4);
+    const M tiny = M(2) * least_pivot<M>();
     std::array<M, L> underflow;  // of a pivot
     for (std::size_t i = 0; i < L; ++i)
-        underflow[i] = tiny + abs(static_cast<M>(shifts[i])) * (M(2) * stiffness_underflow<M>());
+        underflow[i] = tiny + abs(static_cast<M>(shifts[i])) * (M(2) * pencil.stiffness_underflow);
 
     std::array<S, L> below{};
     std::array<M, L> error{};
@@ -74,7 +74,7 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
                 error[i] = ldexp(error[i], step) + tiny;
             }
         const M lower(static_cast<M>(e.lower)), upper(static_cast<M>(e.upper)), turning(static_cast<M>(e.turning));
-        const S cross = cross_mass(e);  // X
+        const M cross_size = abs(static_cast<M>(e.cross)) + M(2) * turning;
         for (std::size_t i = 0; i < L; ++i) {
             const S stiffness = shifts[i] * e.stiffness;
             const S pivot = below[i] + (stiffness - e.lower);
@@ -87,8 +87,8 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
             result[i].proved = result[i].proved && least_with_below > M(0);
             result[i].above += pivot < S(M(0)) ? 1 : 0;
 
-            const S coupling = stiffness + cross;
-            const M coupling_error = local * (k + e.weight + lower + upper) + underflow[i];
+            const S coupling = stiffness + e.cross;
+            const M coupling_error = local * (k + cross_size) + underflow[i];
             const M gain = abs(static_cast<M>(coupling)) * slack + coupling_error;
             const M inverse = M(1) / least;
             const M push = gain * inverse;

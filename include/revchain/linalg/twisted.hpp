@@ -32,7 +32,7 @@ template <Real S>
 Across<S> across(const Element<S>& e, const S& stiffness, const S& near, const S& near_mass, const S& far_mass) {
     using std::abs;
     using T = Narrow<S>;
-    const S coupling = stiffness + cross_mass(e);
+    const S coupling = stiffness + e.cross;
     const S pivot = not_zero(near + (stiffness - near_mass), stiffness);
     const S inverse = S(T(1)) / pivot;
     const T k = static_cast<T>(stiffness), far = static_cast<T>(far_mass), p = abs(static_cast<T>(pivot));
@@ -224,7 +224,7 @@ S rayleigh_quotient(const ElementPencil<S>& pencil, const Vector<T>& offset) {
         const Element<S>& e = pencil.elements[m];
         const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
         const S difference = lower - upper;
-        const S twice_cross = cross_mass(e) * S(Narrow<S>(2));
+        const S twice_cross = e.cross * S(Narrow<S>(2));
         inertia = inertia + (lower * (e.lower * lower + twice_cross * upper) + e.upper * upper * upper);
         stiffness = stiffness + e.stiffness * difference * difference;
     }
@@ -245,7 +245,7 @@ T relative_residual(const ElementPencil<S>& pencil, const T& eigenvalue, const V
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const Element<S>& e = pencil.elements[m];
         const S k = e.stiffness * S(static_cast<M>(eigenvalue));
-        const S cross = cross_mass(e);
+        const S cross = e.cross;
         const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
         const S spring = k * (lower - upper);
         const M spring_size = size_of(k) * (size_of(lower) + size_of(upper));

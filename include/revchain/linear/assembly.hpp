@@ -15,7 +15,7 @@ struct AssembledChain {
 };
 
 /// Chain -> link elements, Greenhill (1908) §8 with sec delta = 1: with p = h/a, q = (a - h)/a and r = rho^2/a^2, the
-/// stiffness k = (W p + S)/a and the mass of a rigid body about its two pins, A = W (p^2 + r), B = W (q^2 + r), c = W r.
+/// stiffness k = (W p + S)/a and the mass of a rigid body about its two pins, A = W (p^2 + r), B = W (q^2 + r), X = W (p q - r), c = W r.
 /// Every entry is within `entry_error` (relative) of the exact function of the chain's stored numbers: 3e-29 in double,
 /// less for fewer than 256 links, more only where a centroid above the pin makes W h + a S cancel. Where weights span more
 /// than one unit can serve, an element's is that of the weight at its upper pin, to a factor of 2^(max_exponent/8).
@@ -34,6 +34,7 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
     result.pencil.elements.reserve(static_cast<std::size_t>(chain.size()));
     const int to_length = -result.units.length_exponent;
     S below(T(0));   // S_m, in the unit of the chain
+    E shortest(1);   // length, in the unit of the chain
     E cancelled(1);  // worst (|W h| + a S) / (W h + a S)
     for (Index m = 0; m < chain.size(); ++m) {
         if (m % segment_size == 0) below = chain.weight_below(m);
@@ -55,8 +56,9 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
         const S& r = link.gyration_ratio;
         const S moment = p * S(weight);
         const S carried = moment + hung;
-        result.pencil.elements.push_back(
-            {carried / a, (p * p + r) * S(weight), (q * q + r) * S(weight), r * S(weight), weight});
+        result.pencil.elements.push_back({carried / a, (p * p + r) * S(weight), (q * q + r) * S(weight),
+                                          (p * q - r) * S(weight), r * S(weight), weight});
+        shortest = std::min(shortest, static_cast<E>(a));
         const E amplification = (abs(static_cast<E>(moment)) + static_cast<E>(hung)) / static_cast<E>(carried);
         if (amplification > cancelled) cancelled = amplification;
         below = above;
@@ -65,6 +67,8 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
     const Index segments = (chain.size() - 1) / segment_size;
     const Index sums = segments == 0 ? chain.size() : segment_size + segments + 20;
     result.pencil.entry_error = operation_error<S>() * (E(sums + 4) * cancelled * E(1.01) + E(7));
+    result.pencil.stiffness_underflow =
+        std::numeric_limits<E>::min() * std::numeric_limits<E>::epsilon() * E(4) / shortest;
     return result;
 }
 
