@@ -17,6 +17,7 @@ struct Candidate {
     double residual = std::numeric_limits<double>::infinity();  ///< some eigenvalue lies within this, relative
     double bound = std::numeric_limits<double>::infinity();     ///< proved, relative to the exact eigenvalue
     double rounding = 0;                                        ///< what rounding has in `residual`
+    std::size_t place = 0;                                      ///< links below where it lives
     bool counted = false;                                       ///< proved by counts, its number with it
 };
 
@@ -28,10 +29,14 @@ inline double rounding_quotient(const PinnedChain& chain, double mu) {
 }
 
 /// Vectors and quotients at the candidates' shifts.
-inline void evaluate(const PinnedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which) {
+inline void evaluate(const PinnedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
+                     bool placed) {
     std::vector<double> shifts;
+    std::vector<std::size_t> places;
     for (const std::size_t i : which) shifts.push_back(all[i].shift);
-    const auto quotients = quotients_all(chain, shifts);
+    if (placed)
+        for (const std::size_t i : which) places.push_back(all[i].place);
+    const auto quotients = quotients_all(chain, shifts, places);
     for (std::size_t j = 0; j < which.size(); ++j) {
         Candidate& c = all[which[j]];
         const Quotient& q = quotients[j];
@@ -40,6 +45,7 @@ inline void evaluate(const PinnedChain& chain, std::vector<Candidate>& all, cons
         // the residual is least at the quotient; 2^-40 covers its own rounding and the change of scale, |ratio - 1|
         c.residual = q.residual / std::min(q.ratio, 1.0) * (1 + 0x1p-40);
         c.rounding = q.rounding;
+        c.place = q.twist;
     }
 }
 
@@ -65,7 +71,7 @@ Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pen
     }
     if (!std::isfinite(sure.error_bound))
         sure = bisect_certified<S>(wide, j, between(bracket.lower, bracket.upper));
-    return {1 / sure.eigenvalue, sure.eigenvalue, sure.error_bound, sure.error_bound, 0, true};
+    return {1 / sure.eigenvalue, sure.eigenvalue, sure.error_bound, sure.error_bound, 0, 0, true};
 }
 
 }  // namespace spectrum
@@ -111,6 +117,8 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Ind
 
         // Rounds of quotients until their error, the square of the vector's, is below rounding.
         std::vector<std::size_t> which(all.size());
+        std::vector<double> starts(all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) starts[i] = all[i].shift;
         for (std::size_t i = 0; i < all.size(); ++i) which[i] = i;
         const auto distance = [&](std::size_t i) {
             const Candidate& c = all[i];
@@ -119,15 +127,27 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Ind
                 i + 1 < all.size() ? gap(c, all[i + 1]) : (c.eigenvalue - bottom) / c.eigenvalue * (1 - 0x1p-50);
             return std::min(above, below);
         };
-        for (int round = 0; round < 4 && !which.empty(); ++round) {
-            if (round > 0)
-                for (const std::size_t i : which) all[i].shift = 1 / all[i].eigenvalue;
-            evaluate(chain, all, which);
+        const auto room = [&](std::size_t i) {  // to the next start
+            const double below = i > 0 ? starts[i] - starts[i - 1] : starts[i];
+            const double above = i + 1 < all.size() ? starts[i + 1] - starts[i] : starts[i];
+            return std::min(below, above);
+        };
+        std::vector<std::size_t> astray;
+        for (int round = 0; round < 4 && !(which.empty() && astray.empty()); ++round) {
+            evaluate(chain, all, which, true);
+            evaluate(chain, all, astray, false);
+            which.insert(which.end(), astray.begin(), astray.end());
+            astray.clear();
             std::vector<std::size_t> again;
             for (const std::size_t i : which) {
-                const Candidate& c = all[i];
+                Candidate& c = all[i];
+                const double next = 1 / c.eigenvalue, apart = room(i);
                 const bool rough = c.residual > 4 * c.rounding;
-                if (std::isfinite(c.residual) && rough && !(temple(c, distance(i)) < 0x1p-56)) again.push_back(i);
+                if (!rough || temple(c, 0.5 * apart / starts[i]) < 0x1p-56) continue;
+                // On to the quotient, unless a vector joined at a bad place led astray.
+                const bool near = std::isfinite(c.residual) && std::abs(next - starts[i]) < 0.4 * apart;
+                c.shift = near ? next : starts[i];
+                (near && (round > 0 || c.residual * starts[i] < 0.01 * apart) ? again : astray).push_back(i);
             }
             which = std::move(again);
         }

@@ -10,6 +10,7 @@ struct Quotient {
     double ratio = 0;     ///< Rayleigh quotient times mu: 1 at an eigenvalue
     double residual = 0;  ///< bound on |(mu M - K) y| in the norm of K^-1 over |y| in that of K, rounding and all
     double rounding = 0;  ///< what rounding has in it
+    std::size_t twist = 0;  ///< links below the pin where the walks were joined
 };
 
 inline constexpr std::size_t quotient_packs = 4;
@@ -101,17 +102,19 @@ struct AtPin {
 };
 
 /// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin (of those
-/// at the ends of stretches) where the residual is least. Its error is the square of the vector's.
+/// between `lowest` and `highest` where sizes are looked at) where the residual is least. Its error is the square of the vector's.
 /// Cost per shift and link (AVX-512): 0.45 ns without swings, 0.86 with.
 template <bool swings>
-void quotients(const PinnedChain& chain, const double* shifts, Quotient* result, std::vector<AtPin>& scratch) {
+void quotients(const PinnedChain& chain, const double* shifts, std::size_t lowest, std::size_t highest, Quotient* result,
+               std::vector<AtPin>& scratch) {
     constexpr std::size_t P = quotient_packs;
     const std::size_t n = chain.size();
     double largest = 0;
     for (std::size_t i = 0; i < quotient_lanes; ++i) largest = std::max(largest, shifts[i]);
     const std::size_t leg = stretch_length(chain, largest, longest_leg);  // links between two looks at sizes and sums
     const std::size_t legs = (n - 1) / leg;  // twists: pins 0, leg, 2 leg, ... legs * leg < n
-    scratch.resize((legs + 1) * P);
+    const std::size_t low = std::min(lowest / leg, legs), high = std::min(highest / leg, legs);
+    scratch.resize((high - low + 1) * P);
 
     Walk walk[P];
     for (std::size_t p = 0; p < P; ++p) {
@@ -119,13 +122,14 @@ void quotients(const PinnedChain& chain, const double* shifts, Quotient* result,
         walk[p].offset = filled(1.0);
         walk[p].force = chain.tip_mass * walk[p].mu;
         if (!swings) walk[p].inertia.high = walk[p].force;
-        scratch[p] = AtPin(walk[p]);
     }
-    for (std::size_t at = 1; at <= legs; ++at) {
-        carry<swings, true>(chain, (at - 1) * leg, at * leg, walk);
-        for (std::size_t p = 0; p < P; ++p) scratch[at * P + p] = AtPin(walk[p]);
+    for (std::size_t at = 0; at <= high; ++at) {
+        if (at > 0) carry<swings, true>(chain, (at - 1) * leg, at * leg, walk);
+        if (at < low) continue;
+        for (std::size_t p = 0; p < P; ++p) scratch[(at - low) * P + p] = AtPin(walk[p]);
     }
 
+    Mask twist[P]{};
     Pack least[P], inertia[P], stiffness[P], forces[P], offsets[P];
     for (std::size_t p = 0; p < P; ++p) {
         const Pack mu = walk[p].mu;
@@ -133,13 +137,14 @@ void quotients(const PinnedChain& chain, const double* shifts, Quotient* result,
         least[p] = filled(std::numeric_limits<double>::infinity());
         inertia[p] = stiffness[p] = forces[p] = offsets[p] = filled(1.0);
     }
-    for (std::size_t at = legs + 1, end = n; at-- > 0;) {
+    for (std::size_t at = legs + 1, end = n; at-- > low;) {
         const std::size_t begin = at * leg;
         carry<swings, false>(chain, begin, end, walk);
         end = begin;
+        if (at > high) continue;
         const double above = chain.flexibility_above[begin];
         for (std::size_t p = 0; p < P; ++p) {
-            const AtPin& up = scratch[at * P + p];
+            const AtPin& up = scratch[(at - low) * P + p];
             const AtPin down(walk[p]);
             // each scaled by the other's offset, so that they meet
             const Pack gap = up.force * down.offset - down.force * up.offset;
@@ -150,6 +155,7 @@ void quotients(const PinnedChain& chain, const double* shifts, Quotient* result,
             least[p] = better ? square : least[p];
             inertia[p] = better ? up.inertia * scale_up + down.inertia * scale_down : inertia[p];
             stiffness[p] = better ? energy : stiffness[p];
+            twist[p] = better ? Mask{} + static_cast<long long>(begin) : twist[p];
             if constexpr (swings) {
                 forces[p] = better ? up.forces * scale_up + down.forces * scale_down : forces[p];
                 offsets[p] = better ? up.offsets * scale_up + down.offsets * scale_down : offsets[p];
@@ -164,22 +170,32 @@ void quotients(const PinnedChain& chain, const double* shifts, Quotient* result,
             const double offset_part = swings ? std::sqrt(offsets[p][i] / energy) : chain.rounding_root;
             const double unit = epsilon<double>() / 2;
             const double rounding = unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
-            result[p * width + i] = {ratio[i], std::sqrt(least[p][i]) * (1 + 0x1p-40) + rounding, rounding};
+            result[p * width + i] = {ratio[i], std::sqrt(least[p][i]) * (1 + 0x1p-40) + rounding, rounding,
+                                     static_cast<std::size_t>(twist[p][i])};
         }
     }
 }
 
-inline std::vector<Quotient> quotients_all(const PinnedChain& chain, const std::vector<double>& shifts) {
+/// The same for any number of shifts, each joined near its `place`, or with no places given anywhere. Those that live
+/// together go together: what lies between the places is walked twice.
+inline std::vector<Quotient> quotients_all(const PinnedChain& chain, const std::vector<double>& shifts,
+                                           const std::vector<std::size_t>& places = {}) {
+    std::vector<std::size_t> order(shifts.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    if (!places.empty())
+        std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
     std::vector<Quotient> result(shifts.size());
     std::vector<AtPin> scratch;
     Quotient last[quotient_lanes];
     double padded[quotient_lanes];
     for (std::size_t i = 0; i < shifts.size(); i += quotient_lanes) {
         const std::size_t taken = std::min(quotient_lanes, shifts.size() - i);
-        std::copy_n(shifts.begin() + static_cast<std::ptrdiff_t>(i), taken, padded);
-        std::fill(padded + taken, padded + quotient_lanes, padded[0]);
-        chain.swings ? quotients<true>(chain, padded, last, scratch) : quotients<false>(chain, padded, last, scratch);
-        std::copy_n(last, taken, result.begin() + static_cast<std::ptrdiff_t>(i));
+        for (std::size_t j = 0; j < quotient_lanes; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
+        constexpr std::size_t slack = 4 * longest_leg;
+        const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
+        const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
+        (chain.swings ? quotients<true> : quotients<false>)(chain, padded, lowest, highest, last, scratch);
+        for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = last[j];
     }
     return result;
 }

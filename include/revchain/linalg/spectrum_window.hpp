@@ -139,6 +139,8 @@ class Chebyshev {
         return x * b1 - b2 + coefficient_[0];
     }
 
+    const std::vector<double>& coefficients() const { return coefficient_; }
+
    private:
     std::vector<double> coefficient_;
 };
@@ -250,26 +252,43 @@ inline std::size_t node_count(Index modes) {
 }
 
 
-/// Approximate eigenvalues of a window from samples of the characteristic polynomial at its Chebyshev nodes, from the
-/// last node to the first (ascending shifts): the zeros of the interpolant of f exp(-trend), where the trend, quadratic
-/// in the shift, takes the exponential growth out of f and leaves its zeros where they are.
-inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n) {
-    std::vector<double> values(n), size(n);
+/// Approximate eigenvalues of a window from samples of the characteristic polynomial at its Chebyshev nodes, ascending:
+/// the zeros of the interpolant of f exp(-trend), where the trend, quadratic in the shift, takes the exponential growth
+/// out of f and leaves its zeros where they are. Empty where their number is not that of the counts, or where one is
+/// less certain than 1/1000 of its distance to the next: then `sure` windows have to be smaller.
+inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n, bool sure) {
+    std::vector<double> values(n), nodes(n);
+    std::vector<int> exponents(n);
     double t0 = 0, t1 = 0, t2 = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        int exponent = 0;
-        const double mantissa = std::frexp(samples[i].value, &exponent);
-        size[i] = std::log2(std::abs(mantissa) + 1e-30) + exponent + samples[i].exponent;
-        const double x = Chebyshev::node(i, n);
-        t0 += size[i], t1 += size[i] * x, t2 += size[i] * (2 * x * x - 1);
+        values[i] = std::frexp(samples[i].value, &exponents[i]);
+        exponents[i] += samples[i].exponent;
+        const double size = std::log2(std::abs(values[i]) + 1e-30) + exponents[i], x = nodes[i] = Chebyshev::node(i, n);
+        t0 += size, t1 += size * x, t2 += size * (2 * x * x - 1);
     }
     const double count = static_cast<double>(n);
-    t0 /= count, t1 *= 2 / count, t2 *= 2 / count;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double x = Chebyshev::node(i, n);
-        values[i] = std::copysign(std::exp2(size[i] - t0 - t1 * x - t2 * (2 * x * x - 1)), samples[i].value);
+    const int level = static_cast<int>(t0 / count);
+    t1 *= 2 / count, t2 *= 2 / count;
+    for (std::size_t i = 0; i < n; ++i)  // the large exponents cancel before anything is rounded
+        values[i] *= std::exp2((exponents[i] - level) - (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
+    const Chebyshev p(values);
+    std::vector<double> roots = zeros(p, window.size());
+    if (static_cast<Index>(roots.size()) != window.size()) return {};
+    if (sure) {
+        double noise = 0;
+        for (const double c : p.coefficients()) noise = std::max(noise, 1e-14 * std::abs(c));
+        for (std::size_t k = n - 4; k < n; ++k) noise = std::max(noise, std::abs(p.coefficients()[k]));
+        for (std::size_t i = 0; i < roots.size(); i += width) {
+            Pack at{}, value, slope;
+            for (std::size_t j = 0; j < width; ++j) at[j] = roots[std::min(i + j, roots.size() - 1)];
+            p.at(at, value, slope);
+            for (std::size_t j = 0; j < width && i + j < roots.size(); ++j) {
+                const double below = i + j > 0 ? roots[i + j] - roots[i + j - 1] : 1.0;
+                const double above = i + j + 1 < roots.size() ? roots[i + j + 1] - roots[i + j] : 1.0;
+                if (!(noise < 1e-3 * std::min(below, above) * std::abs(slope[j]))) return {};
+            }
+        }
     }
-    std::vector<double> roots = zeros(Chebyshev(values), window.size());
     for (double& x : roots) x = window.lower + (window.upper - window.lower) * 0.5 * (1 + x);
     return roots;
 }
@@ -294,12 +313,12 @@ inline std::vector<Window> quartered(const PinnedChain& chain, const std::vector
 }
 
 /// Approximate shifts of the eigenvalues `first` ... `last - 1` and those that share their windows, into
-/// `candidates[.].shift`, ascending. Windows whose interpolant has not as many zeros as counts say are cut up; false if
+/// `candidates[.].shift`, ascending, and the links below where they live into `.place`. Windows whose interpolant has not as many zeros as counts say are cut up; false if
 /// that does not end.
 template <class Candidate>
 bool isolate(const PinnedChain& chain, Index first, Index last, std::vector<Window>& found,
              std::vector<Candidate>& candidates) {
-    found = windows(chain, first, last, 64);
+    found = windows(chain, first, last, 40);
     if (found.empty() || found.front().first > first || found.back().last < last) return false;
     const Index begin = found.front().first;
     candidates.assign(static_cast<std::size_t>(found.back().last - begin), {});
@@ -312,20 +331,44 @@ bool isolate(const PinnedChain& chain, Index first, Index last, std::vector<Wind
             for (std::size_t i = 0; i < n; ++i)
                 shifts.push_back(w.lower + (w.upper - w.lower) * 0.5 * (1 + Chebyshev::node(i, n)));
         }
-        const auto samples = sample_all(chain, shifts);
+        std::vector<std::uint64_t> history;
+        const auto samples = sample_all(chain, shifts, &history);
+        const std::size_t words = history_words(chain.size());
         std::vector<Window> failed;
+        struct Neighbours {
+            std::size_t number, below, above;  // of the candidate, and of samples with no other zero between
+        };
+        std::vector<Neighbours> placed;
+        std::vector<double> between_roots;
         std::size_t at = 0;
         for (const Window& w : work) {
             const std::size_t n = node_count(w.size());
-            const auto roots = interpolated(w, &samples[at], n);
-            at += n;
+            const auto roots = interpolated(w, &samples[at], n, round < 3);
             if (static_cast<Index>(roots.size()) != w.size()) {
                 failed.push_back(w);
             } else {
-                for (std::size_t i = 0; i < roots.size(); ++i)
-                    candidates[static_cast<std::size_t>(w.first - begin) + i].shift = roots[i];
+                std::size_t cell = n - 1;  // nodes descend
+                for (std::size_t i = 0; i < roots.size(); ++i) {
+                    const std::size_t before = cell;
+                    while (cell > 1 && shifts[at + cell - 1] < roots[i]) --cell;
+                    const std::size_t number = static_cast<std::size_t>(w.first - begin) + i;
+                    candidates[number].shift = roots[i];
+                    Neighbours around{number, at + cell, at + cell - 1};
+                    if (i > 0 && before == cell) {  // two between the same nodes: another sample between them
+                        placed.back().above = around.below = samples.size() + between_roots.size();
+                        between_roots.push_back(roots[i - 1] + 0.5 * (roots[i] - roots[i - 1]));
+                    }
+                    placed.push_back(around);
+                }
             }
+            at += n;
         }
+        std::vector<std::uint64_t> more;
+        sample_all(chain, between_roots, &more);
+        history.resize(samples.size() * words);
+        history.insert(history.end(), more.begin(), more.end());
+        for (const Neighbours& i : placed)
+            candidates[i.number].place = place(&history[i.below * words], &history[i.above * words], chain.size());
         work = std::move(failed);
     }
     // What is left has a bracket too narrow for the interpolant to tell its zeros apart: counts will have to.
