@@ -49,7 +49,7 @@ concept Compensated = Real<T> && std::floating_point<T> && !std::floating_point<
 /// Of a full segment. For double words the lanes, and the tree that joins them, carry the rounding errors of their 20
 /// sums along; what is rounded there is 19 u of 20 u of the sum of sizes at most.
 template <Real T>
-Summary<T> summary_of_segment(const T* x) {
+REVCHAIN_SIMD Summary<T> summary_of_segment(const T* x) {
     using S = std::conditional_t<Compensated<T>, T, Wide<T>>;
     S sum[sum_lanes]{}, error[sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
     T least[sum_lanes];

@@ -49,14 +49,14 @@ class BlockBuilder {
     void note_truncation(Run& run) const {
         const Error cut = truncation<Kept>(run);
         run.stiffness_error += cut.stiffness;
-        run.mass_error += cut.mass;
+        run.mass_error += T(2) * cut.mass;  // may all be at the pin that has little
     }
 
     /// Adds those of `roundings` in the coefficients beyond the first: `spring` and `mass` are the second coefficients
     /// of the series, times mu, relative to the first.
     void note_roundings(Run& run, const T& roundings, const T& spring, const T& mass) const {
         run.stiffness_error += roundings * epsilon<T>() / T(2) * spring / (T(1) - spring);
-        run.mass_error += roundings * epsilon<T>() / T(2) * mass / (T(1) - spring);
+        run.mass_error += roundings * epsilon<T>() * mass / (T(1) - spring);  // twice: see note_truncation
     }
 
     /// Adds those of a mass moved from pin to pin by a relative error of a1, `square` being a1^2 / (b1 c0). With e its
@@ -108,7 +108,7 @@ class BlockBuilder {
                 const auto [spring, mass] = second_terms(run);
                 if (spring > T(0)) largest = std::max(largest, phase(run));
                 // `element_at` rounds its corrections seven times
-                evaluation = std::max(evaluation, (T(2) * spring + mass) * T(3.5) * epsilon<T>());
+                evaluation = std::max(evaluation, (spring + mass) * T(7) * epsilon<T>());
             }
             pencil.blocks.push_back(block);
             stiffness_error = std::max(stiffness_error, run.stiffness_error);
@@ -128,7 +128,7 @@ class BlockBuilder {
     static T tail(const T& last, const T& before) {
         if (!(last > T(0))) return T(0);
         const T ratio = last / before;
-        return ratio < T(0.5) ? last * ratio / (T(1) - ratio) : std::numeric_limits<T>::infinity();
+        return ratio < T(0.5) ? T(1.1) * last * ratio / (T(1) - ratio) : std::numeric_limits<T>::infinity();
     }
 
     template <std::size_t Kept>

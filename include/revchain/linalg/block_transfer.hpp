@@ -56,35 +56,42 @@ inline void append_spring(Transfer<V, Degree>& run, const V& flexibility, const 
     }
 }
 
-/// The transfer of `lower` followed by `upper`: the product of the two matrices, cut off at their degree.
-template <class V, std::size_t Degree>
-inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower, const Transfer<V, Degree>& upper) {
-    Transfer<V, Degree> run;
+/// The transfer of `lower` followed by `upper`: the product of the two matrices, cut off at the degree of `lower`.
+/// What `upper` does not have counts as 0.
+template <class V, std::size_t Degree, std::size_t Upper>
+inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower, const Transfer<V, Upper>& upper) {
+    static_assert(Upper <= Degree);
+    Transfer<V, Degree> run = lower;
+#pragma GCC unroll 8
     for (std::size_t i = 0; i < Degree; ++i) {  // a(i+1), c(i), d(i+1)
-        V a = lower.a[i] + upper.a[i];
-        V c = lower.c[i] + upper.c[i];
-        V d = lower.d[i] + upper.d[i];
-        for (std::size_t j = 0; j < i; ++j) {
+        V& a = run.a[i];
+        V& c = run.c[i];
+        V& d = run.d[i];
+        if (i < Upper) {
+            a += upper.a[i];
+            c += upper.c[i];
+            d += upper.d[i];
+        }
+#pragma GCC unroll 8
+        for (std::size_t j = 0; j < i && j < Upper; ++j) {
             a += upper.a[j] * lower.a[i - 1 - j];
             c += upper.c[j] * lower.a[i - 1 - j];
             c += upper.d[j] * lower.c[i - 1 - j];
             d += upper.d[j] * lower.d[i - 1 - j];
         }
-        for (std::size_t j = 0; j <= i; ++j) {
-            a += upper.b[j] * lower.c[i - j];
-            d += upper.c[j] * lower.b[i - j];
-        }
-        run.a[i] = a;
-        run.c[i] = c;
-        run.d[i] = d;
+#pragma GCC unroll 8
+        for (std::size_t j = 0; j <= i && j <= Upper; ++j) a += upper.b[j] * lower.c[i - j];
+#pragma GCC unroll 8
+        for (std::size_t j = 0; j <= i && j < Upper; ++j) d += upper.c[j] * lower.b[i - j];
     }
+#pragma GCC unroll 8
     for (std::size_t i = 0; i <= Degree; ++i) {  // b(i+1)
-        V b = lower.b[i] + upper.b[i];
-        for (std::size_t j = 0; j < i; ++j) {
-            b += upper.b[j] * lower.d[i - 1 - j];
-            b += upper.a[j] * lower.b[i - 1 - j];
-        }
-        run.b[i] = b;
+        V& b = run.b[i];
+        if (i <= Upper) b += upper.b[i];
+#pragma GCC unroll 8
+        for (std::size_t j = 0; j < i && j <= Upper; ++j) b += upper.b[j] * lower.d[i - 1 - j];
+#pragma GCC unroll 8
+        for (std::size_t j = 0; j < i && j < Upper; ++j) b += upper.a[j] * lower.b[i - 1 - j];
     }
     return run;
 }

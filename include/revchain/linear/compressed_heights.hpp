@@ -55,7 +55,8 @@ std::optional<DoubleWord<Pack<T>>> refined(const linalg::BlockPencil<T>& pencil,
         bool proved = true;
         for (std::size_t lane = 0; lane < pack_size; ++lane)
             proved = proved && below.proved[lane] == T(1) && above.proved[lane] == T(1) &&
-                     below.above[lane] >= number[lane] && above.above[lane] < number[lane];
+                     below.above[lane] >= number[lane] && above.above[lane] < number[lane] &&
+                     height.high[lane] * (T(1) - T(2) * margin) > pencil.least_shift;
         if (proved) return height;
     }
     return std::nullopt;

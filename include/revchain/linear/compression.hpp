@@ -64,6 +64,9 @@ linalg::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index
     run.weight = S(runs.weight.high[lane]) + S(runs.weight.low[lane]);
     run.flexibility = S(runs.flexibility.high[lane]) + S(runs.flexibility.low[lane]);
     run.moment = S(runs.moment.high[lane]) + S(runs.moment.low[lane]);
+    run.transfer.a[0] = static_cast<T>(run.moment);
+    run.transfer.b[0] = static_cast<T>(run.flexibility);
+    run.transfer.c[0] = static_cast<T>(run.weight);
     run.links = links;
     run.stiffness_error = T(2.3) * epsilon<T>() / T(2);
     return run;
@@ -140,7 +143,8 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
             if (length > leaf_links(length)) {
                 const T moment = static_cast<T>(one.moment);
                 const auto [spring, mass] = builder.second_terms(one);
-                builder.note_roundings(one, T(5) * static_cast<T>(length) / links_of_leaf, spring, mass);
+                builder.note_roundings(one, T(4) * links_of_leaf + T(5) * static_cast<T>(length) / links_of_leaf,
+                                       spring, mass);
                 builder.note_moved_mass(
                     one, T(2) * half, moment * moment / (static_cast<T>(one.weight) * static_cast<T>(one.flexibility)));
                 builder.template note_truncation<leaf_degree>(one);

@@ -120,6 +120,8 @@ REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Ind
         a = V(T(1));
     }
     const Index step = leaf_links(length);
+    // Sums are exact where no link outweighs all below it: asked of each link, or where leaves are light, of each leaf.
+    constexpr bool light_leaves = Degree < leaf_degree;
     // hung.low is rounded `step` times at `step` half units of hung.high: that much of the mass of a leaf is lost.
     const T lost = T(16 * step * step) * epsilon<T>();
     for (Index start = 0; start < length; start += step) {
@@ -131,7 +133,7 @@ REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Ind
         for (Index m = start; m < start + step; ++m) {
             if constexpr (Kind == LinkKind::any_links) set_link(first + m);
             const V w = links.weight.template lanes<V>(first + m, length);
-            runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
+            if constexpr (!light_leaves) runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
             if constexpr (Kind == LinkKind::equal_plummets) {
                 linalg::append_mass(leaf, w);
                 hung.add_smaller(w);
@@ -150,7 +152,7 @@ REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Ind
                     flexibility.add_smaller(f);
                 else
                     flexibility.add(f);
-                runs.worst = max(runs.worst, (T(1) - p) * at_lower - T(0.125) * s);
+                runs.worst = max(runs.worst, at_lower - T(0.125) * s);  // its roundings count in s
             }
         }
         if constexpr (Kind != LinkKind::equal_plummets) linalg::append_mass(leaf, carry);
@@ -158,13 +160,15 @@ REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Ind
         mass.add(-at_start.high);
         mass.add(hung.low - at_start.low);
         runs.worst = max(runs.worst, hung.high * lost - mass.high);
+        if constexpr (light_leaves) runs.worst = max(runs.worst, mass.high - at_start.high);
+        flexibility.normalise();
         const V phase = mass.high * flexibility.high;
         runs.leaf_phase = max(runs.leaf_phase, phase);
         runs.leaf_moment = max(runs.leaf_moment, leaf.a[0] * leaf.a[0] / phase);
         runs.moment.add(leaf.a[0] + flexibility.high * runs.weight.high);
-        const auto larger_leaf = linalg::extended<leaf_degree>(leaf);
-        runs.transfer = start == 0 ? larger_leaf : linalg::merged(runs.transfer, larger_leaf);
+        runs.transfer = start == 0 ? linalg::extended<leaf_degree>(leaf) : linalg::merged(runs.transfer, leaf);
         runs.weight.add(mass);
+        runs.weight.normalise();
         runs.flexibility.add(flexibility);
     }
     return runs;
