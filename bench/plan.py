@@ -68,7 +68,8 @@ class Plan:
     tolerances: tuple[float, ...]  # 0: none asked
     rounds: int  # at most
     slice: float  # CPU seconds of one measurement, where a call is shorter
-    budget: float  # CPU seconds after which a method is not called again in a task; a quarter where no target is set
+    # CPU seconds after which a method is not called again in a task; a quarter of it where no target is set
+    budget: float
     patience: float  # seconds after which a call is given up
     truths: int  # heights compared with the truth in a task
     convergence: int  # largest N
@@ -117,7 +118,8 @@ def error_limit(links):
 
 QUICK_TARGETS = targets(slowest=30_000, all_modes=300)
 FULL_TARGETS = targets(slowest=1_000_000, all_modes=10_000)
-QUICK = Plan("quick", tasks((10, 300), (), QUICK_TARGETS), QUICK_TARGETS, tolerances=(0.0, 1e-8, 1e-4), rounds=3, slice=0.002, budget=0.15,
-             patience=20, truths=40, convergence=1000, final=False)
+QUICK = Plan("quick", tasks((10, 300), (), QUICK_TARGETS), QUICK_TARGETS, tolerances=(0.0, 1e-8, 1e-4), rounds=3,
+             slice=0.002, budget=0.15, patience=20, truths=40, convergence=1000, final=False)
 FULL = Plan("full", tasks((10, 100, 1000, 10_000, 100_000, 1_000_000), (100, 1000), FULL_TARGETS), FULL_TARGETS,
-            tolerances=(0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2), rounds=9, slice=0.02, budget=12, patience=900, truths=10_000, convergence=100_000, final=True)
+            tolerances=(0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2), rounds=9,
+            slice=0.02, budget=12, patience=900, truths=10_000, convergence=100_000, final=True)

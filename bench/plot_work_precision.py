@@ -100,8 +100,8 @@ def work_precision(rows, links, which, source):
     kinds = [kind for kind in KINDS if any(row["kind"] == kind for row in rows)]
     columns = min(3, len(kinds))
     lines = -(-len(kinds) // columns)
-    figure, axes = plt.subplots(lines, columns, figsize=(3.6 * columns + 3.2, 3.5 * lines + 1.1), sharex=True, sharey=True,
-                                layout="constrained", squeeze=False)
+    figure, axes = plt.subplots(lines, columns, figsize=(3.6 * columns + 3.2, 3.5 * lines + 1.1), sharex=True,
+                                sharey=True, layout="constrained", squeeze=False)
     drawn = {}
     for axis in axes.flat[len(kinds):]:
         axis.remove()
@@ -122,8 +122,8 @@ def work_precision(rows, links, which, source):
         if number % columns == 0:
             axis.set_ylabel("CPU time of one chain, ms")
     axes[0, 0].set_xlim(10, FLOOR / 10)
-    title = (f"Work and precision: {which} of {links:,} links\n(right is more accurate, down is faster; filled: this library, "
-             "lines join its tolerances; dotted: one ulp of double)")
+    title = (f"Work and precision: {which} of {links:,} links\n(right is more accurate, down is faster; "
+             "filled: this library, lines join its tolerances; dotted: one ulp of double)")
     return finish(figure, drawn, title, source)
 
 

@@ -224,7 +224,10 @@ std::string check() {
             }
         }
     std::ostringstream out;
-    out << "{\"pair\":" << worst_pair << ",\"quad\":" << worst_quad << ",\"direct_ulp\":" << worst_direct << '}';
+    // Measured: 5e-19 (the secant's own error, of a bracket of 1e-10), 3e-25 (the reference's), 3.4 ulp.
+    const bool good = worst_pair < 1e-18 && worst_quad < 1e-24 && worst_direct < 6;
+    out << "{\"good\":" << (good ? "true" : "false") << ",\"pair\":" << worst_pair << ",\"quad\":" << worst_quad
+        << ",\"direct_ulp\":" << worst_direct << '}';
     return out.str();
 }
 

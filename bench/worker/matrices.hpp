@@ -38,8 +38,8 @@ inline Tridiagonal standard_form(const RawChain& chain) {
     return t;
 }
 
-/// Plummets: the exact Cholesky factor of T. K is the sum of k (e_m - e_{m+1})(e_m - e_{m+1})^T (a Stieltjes string), so
-/// T = B B^T with B bidiagonal: sqrt(k_m / W_m) on the diagonal and -sqrt(k_m / W_{m+1}) below it; no entry is a
+/// Plummets: the exact Cholesky factor of T. K is the sum of k (e_m - e_{m+1})(e_m - e_{m+1})^T (a Stieltjes string),
+/// so T = B B^T with B bidiagonal: sqrt(k_m / W_m) on the diagonal and -sqrt(k_m / W_{m+1}) below it; no entry is a
 /// difference. Singular values are 1/sqrt(lambda).
 inline Tridiagonal cholesky_factor(const RawChain& chain) {
     const std::vector<double> k = stiffness(chain);

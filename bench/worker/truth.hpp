@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-// What errors are measured against. From the free end up, offset y and force F of every pin, with 1/k of each link known
-// beforehand and the denominators k + mu X (positive) multiplied away:
+// What errors are measured against. From the free end up, offset y and force F of every pin, with 1/k of each link
+// known beforehand and the denominators k + mu X (positive) multiplied away:
 //
 //     y' = (1 - mu A/k) y - (mu/k) F,      F' = (1 - mu B/k) F + (W - mu C/k) y,       F = 0 at the free end;
 //
