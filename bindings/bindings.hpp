@@ -35,4 +35,5 @@ inline py::array to_numpy(const revchain::Matrix<double>& values) { return to_nu
 void bind_core(py::module_& module);
 void bind_chain(py::module_& module);
 void bind_linear(py::module_& module);
+void bind_batch(py::module_& module);
 void bind_analytic(py::module_& module);

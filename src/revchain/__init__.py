@@ -24,6 +24,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 from . import conical_pendulum, heavy_chain
+from ._batch import conical_heights
 from ._chain import Chain
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
@@ -41,6 +42,7 @@ __all__ = [
     "Modes",
     "SceneError",
     "__version__",
+    "conical_heights",
     "conical_pendulum",
     "count_modes",
     "heavy_chain",
