@@ -12,8 +12,8 @@ namespace spectrum {
 
 /// An eigenvalue with what is known of it before its neighbours are.
 struct Candidate {
-    double shift = 0;       ///< mu the vector was computed at
-    double eigenvalue = 0;  ///< Rayleigh quotient
+    double shift = 0;                                           ///< mu the vector was computed at
+    double eigenvalue = 0;                                      ///< Rayleigh quotient
     double residual = std::numeric_limits<double>::infinity();  ///< some eigenvalue lies within this, relative
     double bound = std::numeric_limits<double>::infinity();     ///< proved, relative to the exact eigenvalue
     double rounding = 0;                                        ///< what rounding has in `residual`
@@ -25,7 +25,7 @@ struct Candidate {
 inline double rounding_quotient(const PinnedChain& chain, double mu) {
     const double skewed = std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
     const double terms = static_cast<double>(longest_leg) * (chain.swings ? 3 : 2) + 24;
-    return (epsilon<double>() / 2) * terms * (1 + 4 * skewed);
+    return (epsilon<double>() / 2) * terms * (1 + 4 * skewed) + chain.data_error;
 }
 
 /// Vectors and quotients at the candidates' shifts.
@@ -44,6 +44,8 @@ inline void evaluate(const PinnedChain& chain, std::vector<Candidate>& all, cons
         c.eigenvalue = q.ratio / c.shift;
         // the residual is least at the quotient; 2^-40 covers its own rounding and the change of scale, |ratio - 1|
         c.residual = q.residual / std::min(q.ratio, 1.0) * (1 + 0x1p-40);
+        if (!std::isfinite(c.residual))
+            c.residual = std::numeric_limits<double>::infinity();  // no NaN among neighbours
         c.rounding = q.rounding;
         c.place = q.twist;
     }
@@ -69,8 +71,7 @@ Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pen
         eigenvalue = static_cast<double>(rayleigh_quotient<S>(wide, eigenvector(pencil, eigenvalue).offset));
         if (lies_within<S>(wide, j, eigenvalue, margin)) sure = {eigenvalue, bound_of_margin<S>(margin)};
     }
-    if (!std::isfinite(sure.error_bound))
-        sure = bisect_certified<S>(wide, j, between(bracket.lower, bracket.upper));
+    if (!std::isfinite(sure.error_bound)) sure = bisect_certified<S>(wide, j, between(bracket.lower, bracket.upper));
     return {1 / sure.eigenvalue, sure.eigenvalue, sure.error_bound, sure.error_bound, 0, 0, true};
 }
 
@@ -159,8 +160,9 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Ind
                 if (c.counted) continue;
                 const double apart = distance(i) - c.residual * (1 + 0x1p-50);
                 if (apart > 0) {
-                    c.bound = (temple(c, distance(i)) + rounding_quotient(chain, c.shift)) * (1 + 0x1p-30);
-                    if (c.bound <= tolerance) continue;
+                    const double rounding = rounding_quotient(chain, c.shift);
+                    c.bound = (temple(c, distance(i)) + rounding) * (1 + 0x1p-30);
+                    if (c.bound <= tolerance && rounding <= 64 * epsilon<double>()) continue;
                 }
                 const Index j = begin + static_cast<Index>(i);
                 if (j < first || j >= last) {

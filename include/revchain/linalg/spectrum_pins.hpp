@@ -44,7 +44,7 @@ struct PinnedLink {
     double swing;           ///< X/k
     double quarter_weight;  ///< W/4
     double skew;            ///< (A - B)/W = 2 h/a - 1
-    double turn;            ///< C/W = W rho^2/a^2
+    double turn;            ///< the element's c = W rho^2/a^2
 };
 
 /// Links between two looks at sizes and sums, at most.
@@ -66,6 +66,7 @@ struct PinnedChain {
     double liveliest = 0;                   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
     double skew_against_turn = 0;           ///< max |skew| (W/4 / turn)^(1/2): how much a link's two squares can cancel
     double skew_against_stiffness = 0;      ///< max |skew| (W/4 / k)^(1/2)
+    double data_error = 0;                  ///< what the wide entries' own error may come to
     bool swings = false;                    ///< some X is not 0
     bool fit = true;                        ///< masses >= 0 and all numbers in a range whose squares are normal
 
@@ -77,6 +78,8 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
     PinnedChain chain;
     const std::size_t n = wide.elements.size();
     chain.links.reserve(n);
+    chain.fit = wide.units.empty();
+    chain.data_error = 0x1p34 * static_cast<double>(wide.entry_error);  // sums that cancel to 2^-30 included
     const S zero(0.0);
     const auto in_range = [](double x) { return x > 0x1p-300 && x < 0x1p300; };
     S carried = zero;  // B + X of the link below
@@ -109,7 +112,7 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
         const bool massless = e.weight == 0;
         chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, swing, e.weight / 4,
                                massless ? 0.0 : static_cast<double>((e.lower - e.upper) / weight),
-                               massless ? 0.0 : static_cast<double>(e.coupling / weight)});
+                               static_cast<double>(e.turning)});
         const PinnedLink& last = chain.links.back();
         if (last.skew != 0 && last.swing != 0) {
             const double skewed = std::abs(last.skew) * std::sqrt(last.quarter_weight);
@@ -117,9 +120,9 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
             chain.skew_against_stiffness = std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
         }
         chain.swings = chain.swings || static_cast<double>(cross) != 0;
-        chain.fit = chain.fit && in_range(k) && 
-                    (cross == zero || (in_range(static_cast<double>(cross)) &&
-                                       carried_size < 0x1p30 * static_cast<double>(cross)));
+        chain.fit = chain.fit && in_range(k) &&
+                    (cross == zero ||
+                     (in_range(static_cast<double>(cross)) && carried_size < 0x1p30 * static_cast<double>(cross)));
     }
     chain.bounds.assign((n - 1) / longest_leg + 1, {});
     for (std::size_t m = 0; m < n; ++m) {

@@ -7,9 +7,9 @@ namespace revchain::linalg::spectrum {
 
 /// What a twisted vector at a shift mu = 1/lambda gives.
 struct Quotient {
-    double ratio = 0;     ///< Rayleigh quotient times mu: 1 at an eigenvalue
-    double residual = 0;  ///< bound on |(mu M - K) y| in the norm of K^-1 over |y| in that of K, rounding and all
-    double rounding = 0;  ///< what rounding has in it
+    double ratio = 0;       ///< Rayleigh quotient times mu: 1 at an eigenvalue
+    double residual = 0;    ///< bound on |(mu M - K) y| in the norm of K^-1 over |y| in that of K, rounding and all
+    double rounding = 0;    ///< what rounding has in it
     std::size_t twist = 0;  ///< links below the pin where the walks were joined
 };
 
@@ -97,16 +97,20 @@ struct AtPin {
     Pack offset, force, inertia, stiffness, forces, offsets;
     AtPin() = default;
     explicit AtPin(const Walk& w)
-        : offset(w.offset), force(w.force), inertia(w.inertia.value()), stiffness(w.stiffness.value()),
-          forces(w.forces), offsets(w.offsets) {}
+        : offset(w.offset),
+          force(w.force),
+          inertia(w.inertia.value()),
+          stiffness(w.stiffness.value()),
+          forces(w.forces),
+          offsets(w.offsets) {}
 };
 
 /// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin (of those
 /// between `lowest` and `highest` where sizes are looked at) where the residual is least. Its error is the square of the vector's.
 /// Cost per shift and link (AVX-512): 0.45 ns without swings, 0.86 with.
 template <bool swings>
-void quotients(const PinnedChain& chain, const double* shifts, std::size_t lowest, std::size_t highest, Quotient* result,
-               std::vector<AtPin>& scratch) {
+void quotients(const PinnedChain& chain, const double* shifts, std::size_t lowest, std::size_t highest,
+               Quotient* result, std::vector<AtPin>& scratch) {
     constexpr std::size_t P = quotient_packs;
     const std::size_t n = chain.size();
     double largest = 0;
@@ -169,7 +173,8 @@ void quotients(const PinnedChain& chain, const double* shifts, std::size_t lowes
             const double force_part = swings ? std::sqrt(forces[p][i] / energy) : 1.0;
             const double offset_part = swings ? std::sqrt(offsets[p][i] / energy) : chain.rounding_root;
             const double unit = epsilon<double>() / 2;
-            const double rounding = unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
+            const double rounding =
+                unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01 + chain.data_error;
             result[p * width + i] = {ratio[i], std::sqrt(least[p][i]) * (1 + 0x1p-40) + rounding, rounding,
                                      static_cast<std::size_t>(twist[p][i])};
         }

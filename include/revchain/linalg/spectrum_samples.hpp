@@ -81,7 +81,8 @@ void sample(const PinnedChain& chain, const double* shifts, Sample* samples, std
     }
     for (std::size_t p = 0; p < sample_packs; ++p)
         for (std::size_t i = 0; i < width; ++i)
-            samples[p * width + i] = {offset[p][i], static_cast<int>(exponent[p][i]), static_cast<Index>(changes[p][i])};
+            samples[p * width + i] = {offset[p][i], static_cast<int>(exponent[p][i]),
+                                      static_cast<Index>(changes[p][i])};
 }
 
 /// The same for any number of shifts. Without `history`, counts; with it, histories, `history_words` for each shift.

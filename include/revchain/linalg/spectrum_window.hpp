@@ -44,8 +44,8 @@ inline std::vector<Window> windows(const PinnedChain& chain, Index first, Index 
         std::vector<std::size_t> pieces;
         shifts.clear();
         for (const Window& w : work) {
-            const std::size_t cuts = static_cast<std::size_t>(
-                std::clamp<Index>((w.size() + piece - 1) / piece - 1, 1, 31));
+            const std::size_t cuts =
+                static_cast<std::size_t>(std::clamp<Index>((w.size() + piece - 1) / piece - 1, 1, 31));
             pieces.push_back(cuts);
             const bool wide = w.upper > 4 * w.lower && w.lower > 0;
             for (std::size_t c = 1; c <= cuts; ++c) {
@@ -146,7 +146,8 @@ class Chebyshev {
 };
 
 /// Zeros between `low` and `high`, where `p` has different signs: Newton's steps, halves where they leave the bracket.
-inline std::vector<double> refined(const Chebyshev& p, const std::vector<double>& low, const std::vector<double>& high) {
+inline std::vector<double> refined(const Chebyshev& p, const std::vector<double>& low,
+                                   const std::vector<double>& high) {
     std::vector<double> root(low.size());
     for (std::size_t begin = 0; begin < low.size(); begin += width) {
         Pack a{}, b{}, value, slope;
@@ -251,7 +252,6 @@ inline std::size_t node_count(Index modes) {
     return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + width - 1) / width * width;
 }
 
-
 /// Approximate eigenvalues of a window from samples of the characteristic polynomial at its Chebyshev nodes, ascending:
 /// the zeros of the interpolant of f exp(-trend), where the trend, quadratic in the shift, takes the exponential growth
 /// out of f and leaves its zeros where they are. Empty where their number is not that of the counts, or where one is
@@ -318,7 +318,7 @@ inline std::vector<Window> quartered(const PinnedChain& chain, const std::vector
 template <class Candidate>
 bool isolate(const PinnedChain& chain, Index first, Index last, std::vector<Window>& found,
              std::vector<Candidate>& candidates) {
-    found = windows(chain, first, last, 40);
+    found = windows(chain, first, last, 48);
     if (found.empty() || found.front().first > first || found.back().last < last) return false;
     const Index begin = found.front().first;
     candidates.assign(static_cast<std::size_t>(found.back().last - begin), {});
