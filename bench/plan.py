@@ -76,6 +76,9 @@ class Plan:
     final: bool  # whether sizes are those of the targets
 
 
+BATCH_RATIO = 10  # wanted of 1e5 chains of 10 links (bench_batch)
+
+
 def few(links):
     return min(10, links)
 
