@@ -11,6 +11,30 @@ namespace revchain::linalg {
 /// fill that wait (measured: they cost what one costs at -O3, twice that at -O2).
 inline constexpr std::size_t lanes = 8;
 
+namespace detail {
+
+/// `count_above` where weights span more than one unit. A function of its own, so that the other keeps to registers.
+template <Real T, std::size_t L>
+std::array<Index, L> count_above_in_units(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
+    using std::ldexp;
+    std::array<T, L> below{};
+    std::array<Index, L> negative{};
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        const Element<T>& e = pencil.elements[m];
+        const int step = pencil.step_down(m);
+        for (std::size_t i = 0; i < L; ++i) {
+            const T hung = step == 0 ? below[i] : ldexp(below[i], step);
+            const T stiffness = shifts[i] * e.stiffness;
+            const T pivot = not_zero(hung + (stiffness - e.lower), stiffness);
+            negative[i] += pivot < T(0) ? 1 : 0;
+            below[i] = carried(e, stiffness, hung, e.upper, T(1) / pivot);
+        }
+    }
+    return negative;
+}
+
+}  // namespace detail
+
 /// For each shift h, the number of eigenvalues of the pencil above h: Sylvester's law of inertia on the dynamic
 /// stiffness D of everything below a pin, carried up the chain (equation (1) of docs/accuracy.md):
 ///
@@ -20,18 +44,15 @@ inline constexpr std::size_t lanes = 8;
 /// ulp and whose parts below a pin are scaled by a few ulp for each link above; for a proof see `certified_count`.
 template <Real T, std::size_t L>
 std::array<Index, L> count_above(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
-    using std::ldexp;
+    if (!pencil.units.empty()) return detail::count_above_in_units(pencil, shifts);
     std::array<T, L> below{};
     std::array<Index, L> negative{};
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const Element<T>& e = pencil.elements[m];
-        if (const int step = pencil.step_down(m); step != 0)
-            for (T& stiffness : below) stiffness = ldexp(stiffness, step);
+    for (const Element<T>& e : pencil.elements) {
         for (std::size_t i = 0; i < L; ++i) {  // compilers turn this loop into SIMD code
             const T stiffness = shifts[i] * e.stiffness;
             const T pivot = not_zero(below[i] + (stiffness - e.lower), stiffness);
             negative[i] += pivot < T(0) ? 1 : 0;
-            below[i] = carried(e, stiffness, below[i], e.upper, T(1) / pivot);
+            below[i] = carried_in_one_unit(e, stiffness, below[i], e.upper, pivot);
         }
     }
     return negative;
@@ -47,7 +68,7 @@ struct CertifiedCount {
 /// no pivot's sign is in doubt. The bound follows the exact derivative dD'/dD = ((lambda k + X)/p)^2, without which it
 /// would grow exponentially along the chain. D is carried by whichever of equations (1) and (2) has the smaller bound.
 /// S is usually wider than the scalar of the answer.
-/// Cost O(N): two shifts in double words of doubles take 120 ns a link, two in double 15 ns. Derivation: docs/accuracy.md.
+/// Cost O(N): two shifts in double words of doubles take 140 ns a link, two in double 20 ns. Derivation: docs/accuracy.md.
 template <Real S, std::size_t L>
 std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, const std::array<S, L>& shifts) {
     using std::abs;
