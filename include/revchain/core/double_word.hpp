@@ -176,6 +176,13 @@ inline DoubleWord<T> sqrt(const DoubleWord<T>& x) {
     return fast_two_sum(s, rest.high / (s + s));
 }
 
+/// a where x < y, else b, lane by lane.
+template <IsPack V>
+[[gnu::always_inline]] inline DoubleWord<V> if_less(const V& x, const V& y, const DoubleWord<V>& a,
+                                                    const DoubleWord<V>& b) {
+    return {if_less(x, y, a.high, b.high), if_less(x, y, a.low, b.low)};
+}
+
 namespace detail {
 template <class T>
 struct Wider {

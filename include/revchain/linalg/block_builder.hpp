@@ -37,6 +37,9 @@ class BlockBuilder {
     /// mu (mass) / (stiffness): about the square of the phase a mode goes through across the run.
     T phase(const Run& run) const { return mu_ * static_cast<T>(run.weight) * static_cast<T>(run.flexibility); }
 
+    /// Beyond this phase degree 6 leaves out more than rounding does (7th term: 2/14! phase^6), whatever the weights.
+    bool is_short(const Run& run) const { return phase(run) <= T(0.075); }
+
     /// Whether polynomials of `kept` terms leave nothing out that matters beside rounding.
     template <std::size_t Kept>
     bool is_complete(const Run& run) const {
@@ -98,6 +101,7 @@ class BlockBuilder {
             block.lower = run.moment * block.stiffness;
             block.upper = run.weight - block.lower;
             block.cross = run.cross;
+            block.links = run.links;
             const T f = static_cast<T>(run.flexibility);
             if (!run.alone) {
                 for (std::size_t i = 0; i < degree; ++i) block.b[i] = run.transfer.b[i + 1] / f;
@@ -149,7 +153,7 @@ class BlockBuilder {
         Run both;
         both.weight = lower.weight + upper.weight;
         both.flexibility = lower.flexibility + upper.flexibility;
-        if (phase(both) > largest_phase) return false;
+        if (!is_short(both)) return false;
         both.moment = lower.moment + upper.moment + upper.flexibility * lower.weight;
         both.transfer = linalg::merged(lower.transfer, upper.transfer);
         both.transfer.a[0] = static_cast<T>(both.moment);
@@ -165,10 +169,6 @@ class BlockBuilder {
         lower = both;
         return true;
     }
-
-    /// Beyond this degree 6 leaves out more than rounding does (7th term: 2/14! phase^6), whatever the weights.
-    static constexpr double largest_phase_in_double = 0.075;
-    inline static const T largest_phase = T(largest_phase_in_double);
 
     T least_shift_, mu_;
     std::vector<Run> runs_;

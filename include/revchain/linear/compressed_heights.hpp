@@ -62,6 +62,12 @@ std::optional<DoubleWord<Pack<T>>> refined(const linalg::BlockPencil<T>& pencil,
     return std::nullopt;
 }
 
+template <Real T>
+struct CompressedHeights {
+    Heights<T> found;
+    CompressedChain<T> compressed;
+};
+
 /// Stage 1 of `modes` for `compression_pays`; nothing where the bound would miss the tolerance asked or a mode could not
 /// be proved, so that the sure way is left.
 ///
@@ -69,11 +75,11 @@ std::optional<DoubleWord<Pack<T>>> refined(const linalg::BlockPencil<T>& pencil,
 /// blocks. The bound adds what condensing has changed, 1.8 ulp: docs/accuracy.md, "Blocks".
 /// Cost: `compress`, and 20 microseconds a mode.
 template <std::floating_point T>
-std::optional<Heights<T>> heights_by_compression(const Chain<T>& chain, const ModeRange& range,
-                                                 const ModesOptions<T>& options, double share) {
+std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain, const ModeRange& range,
+                                                           const ModesOptions<T>& options, double share) {
     using std::ldexp;
     using S = Wide<T>;
-    if (options.rtol && *options.rtol < T(4) * epsilon<T>()) return std::nullopt;
+    if (options.rtol && *options.rtol < T(2) * epsilon<T>()) return std::nullopt;
     const ChainUnits units = chain.units();
     if (std::abs(units.weight_exponent) > std::numeric_limits<T>::max_exponent / 2) return std::nullopt;
 
@@ -89,7 +95,7 @@ std::optional<Heights<T>> heights_by_compression(const Chain<T>& chain, const Mo
     const linalg::BlockPencil<T>& pencil = compressed.pencil;
     const T margin = epsilon<T>() / T(8);
     const T bound = linalg::bound_of_margin<S>(margin + pencil.error) + T(0.51) * epsilon<T>();
-    if (!(bound <= options.rtol.value_or(T(4) * epsilon<T>()))) return std::nullopt;
+    if (!(bound <= options.rtol.value_or(T(2) * epsilon<T>()))) return std::nullopt;
 
     const auto brackets = [&](Index number, Index count, const T& tolerance) {
         return linalg::bisect(pencil, number, count, tolerance, pencil.least_shift, [](Index) {});
@@ -114,7 +120,7 @@ std::optional<Heights<T>> heights_by_compression(const Chain<T>& chain, const Mo
         advance(options.progress, share * static_cast<double>(done + count) / static_cast<double>(rough.size()));
     }
     restore_order(result.height);
-    return result;
+    return CompressedHeights<T>{std::move(result), std::move(compressed)};
 }
 
 }  // namespace revchain::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linear/compressed_heights.hpp"
+#include "revchain/linear/compressed_shapes.hpp"
 #include "revchain/linear/heights.hpp"
 
 namespace revchain {
@@ -112,16 +112,6 @@ Modes<T> chosen_among_slowest(const Chain<T>& chain, const ModesOptions<T>& opti
     return result;
 }
 
-/// Stage 1 of `modes` by the way that costs least.
-template <Real T>
-Heights<T> heights(const Chain<T>& chain, OnDemand<T>& assembled, const ModeRange& range,
-                   const ModesOptions<T>& options, double share) {
-    if constexpr (std::is_same_v<T, double>)
-        if (!options.shapes && compression_pays(chain, range))
-            if (auto found = heights_by_compression(chain, range, options, share)) return *found;
-    return heights_by_bisection(chain, assembled, range, options, share);
-}
-
 }  // namespace detail
 
 template <Real T>
@@ -137,17 +127,35 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
     if (range.count == 0) return result;
 
     const double to_heights = options.shapes ? 0.6 : options.certify ? 0.8 : 1.0;
-    const auto found = detail::heights(chain, assembled, range, options, to_heights);
-    result.method = found.method;
-    for (Index j = 0; j < range.count; ++j) {
-        const auto& height = found.height[static_cast<std::size_t>(j)];
-        detail::set_height(result, j, height.value, height.error_bound, chain.units().length_exponent, options);
-        if (options.shapes)
-            detail::find_shape(result, j, chain, assembled.pencils(), height, detail::is_loose(chain, options));
-        if (options.certify) detail::certify(result, j, assembled.pencils(), chain.mode_count());
-        detail::advance(options.progress,
-                        to_heights + (1 - to_heights) * static_cast<double>(j + 1) / static_cast<double>(range.count));
+    const auto set_heights = [&](const detail::Heights<T>& found) {
+        result.method = found.method;
+        for (Index j = 0; j < range.count; ++j) {
+            const auto& height = found.height[static_cast<std::size_t>(j)];
+            detail::set_height(result, j, height.value, height.error_bound, chain.units().length_exponent, options);
+        }
+    };
+    bool done = false;
+    if constexpr (std::is_same_v<T, double>)
+        if (detail::compression_pays(chain, range))
+            if (const auto fast = detail::heights_by_compression(chain, range, options, to_heights)) {
+                set_heights(fast->found);
+                done =
+                    !options.shapes || detail::shapes_by_compression(result, chain, fast->compressed,
+                                                                     fast->found.height, options.progress, to_heights);
+            }
+    if (!done) {
+        result.status = Status::success;
+        const auto found = detail::heights_by_bisection(chain, assembled, range, options, to_heights);
+        set_heights(found);
+        for (Index j = 0; options.shapes && j < range.count; ++j) {
+            detail::find_shape(result, j, chain, assembled.pencils(), found.height[static_cast<std::size_t>(j)],
+                               detail::is_loose(chain, options));
+            detail::advance(options.progress, to_heights + (1 - to_heights) * static_cast<double>(j + 1) /
+                                                               static_cast<double>(range.count));
+        }
     }
+    for (Index j = 0; options.certify && j < range.count; ++j)
+        detail::certify(result, j, assembled.pencils(), chain.mode_count());
     return result;
 }
 
