@@ -122,8 +122,8 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
             const bool coupled = by_coupling < by_weight + quotient * (pivot_error * inverse);
             below[i] = coupled ? carried_by_coupling(stiffness, e.upper, coupling, one_over) : by_weight_value;
             const M own = coupled ? by_coupling : by_weight + quotient * (pivot_error * inverse);
-            const M rest =
-                underflow[i] * (M(1) + k + upper + turning + push + (k + turning + size + e.weight) * inverse);
+            const M rest = underflow[i] * (M(1) + (size + e.weight) * inverse) +
+                           tiny * (k + upper + turning + gain + (k + turning) * inverse);
             error[i] = inflate * (((push * error[i]) * gain) / least_with_below + own + rest +
                                   M(2) * unit * abs(static_cast<M>(below[i])));
         }
