@@ -19,7 +19,7 @@ using Chain = revchain::Chain<double>;
 using Pair = std::pair<double, double>;
 using Triple = std::tuple<double, double, double>;
 
-constexpr std::array<std::string_view, 4> methods{"auto", "bisection", "dense", "recurrence"};
+constexpr std::array<std::string_view, 6> methods{"auto", "bisection", "blocks", "spectrum", "dense", "recurrence"};
 constexpr std::array<std::string_view, 4> precisions{"single", "double", "extended", "double-double"};
 
 template <std::size_t N>
@@ -40,6 +40,7 @@ struct Asked {
     std::optional<Triple> angular_speed;
     std::optional<double> rtol;
     bool shapes, certify;
+    revchain::ModesMethod method;
 
     template <class T>
     revchain::ModesOptions<T> options(revchain::Progress* progress) const {
@@ -53,6 +54,7 @@ struct Asked {
         result.shapes = shapes;
         result.certify = certify;
         result.progress = progress;
+        result.method = method;
         return result;
     }
 };
@@ -147,7 +149,11 @@ py::tuple modes(const Chain& chain, Index first, std::optional<Index> count, std
                 const std::string& precision, const std::string& method, revchain::Progress* progress) {
     check_word("method", method, methods);
     check_word("precision", precision, precisions);
-    const Asked asked{first, count, conical_height, angular_speed, rtol, shapes, certify};
+    const auto way = method == "bisection"  ? revchain::ModesMethod::bisection
+                     : method == "blocks"   ? revchain::ModesMethod::blocks
+                     : method == "spectrum" ? revchain::ModesMethod::spectrum
+                                            : revchain::ModesMethod::automatic;
+    const Asked asked{first, count, conical_height, angular_speed, rtol, shapes, certify, way};
     if (precision == "single") return solved<float>(chain, asked, method, 1, progress);
     if (precision == "extended") return solved<long double>(chain, asked, method, 4, progress);
     if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, 50, progress);

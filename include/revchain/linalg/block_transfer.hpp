@@ -4,6 +4,13 @@
 #include <array>
 #include <cstddef>
 
+/// Loops of a fixed few turns that GCC leaves loops at -O3 (a factor of two). Without optimisation it warns instead.
+#if defined(__OPTIMIZE__)
+#define REVCHAIN_UNROLL _Pragma("GCC unroll 8")
+#else
+#define REVCHAIN_UNROLL
+#endif
+
 namespace revchain::linalg {
 
 /// Transfer of (offset y, force q/mu) across a run of links, from its lower to its upper pin, as polynomials in
@@ -62,7 +69,7 @@ template <class V, std::size_t Degree, std::size_t Upper>
 inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower, const Transfer<V, Upper>& upper) {
     static_assert(Upper <= Degree);
     Transfer<V, Degree> run = lower;
-#pragma GCC unroll 8
+    REVCHAIN_UNROLL
     for (std::size_t i = 0; i < Degree; ++i) {  // a(i+1), c(i), d(i+1)
         V& a = run.a[i];
         V& c = run.c[i];
@@ -72,25 +79,25 @@ inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower, const Transf
             c += upper.c[i];
             d += upper.d[i];
         }
-#pragma GCC unroll 8
+        REVCHAIN_UNROLL
         for (std::size_t j = 0; j < i && j < Upper; ++j) {
             a += upper.a[j] * lower.a[i - 1 - j];
             c += upper.c[j] * lower.a[i - 1 - j];
             c += upper.d[j] * lower.c[i - 1 - j];
             d += upper.d[j] * lower.d[i - 1 - j];
         }
-#pragma GCC unroll 8
+        REVCHAIN_UNROLL
         for (std::size_t j = 0; j <= i && j <= Upper; ++j) a += upper.b[j] * lower.c[i - j];
-#pragma GCC unroll 8
+        REVCHAIN_UNROLL
         for (std::size_t j = 0; j <= i && j < Upper; ++j) d += upper.c[j] * lower.b[i - j];
     }
-#pragma GCC unroll 8
+    REVCHAIN_UNROLL
     for (std::size_t i = 0; i <= Degree; ++i) {  // b(i+1)
         V& b = run.b[i];
         if (i <= Upper) b += upper.b[i];
-#pragma GCC unroll 8
+        REVCHAIN_UNROLL
         for (std::size_t j = 0; j < i && j <= Upper; ++j) b += upper.b[j] * lower.d[i - 1 - j];
-#pragma GCC unroll 8
+        REVCHAIN_UNROLL
         for (std::size_t j = 0; j < i && j < Upper; ++j) b += upper.a[j] * lower.b[i - 1 - j];
     }
     return run;

@@ -101,7 +101,7 @@ std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain
         return linalg::bisect(pencil, number, count, tolerance, pencil.least_shift, [](Index) {});
     };
     const auto rough = brackets(first, range.count, T(1e-3));
-    Heights<T> result{{}, "block compression"};
+    Heights<T> result{{}, "blocks"};
     result.height.reserve(rough.size());
     while (result.height.size() < rough.size()) {
         const std::size_t done = result.height.size();

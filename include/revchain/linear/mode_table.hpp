@@ -11,6 +11,14 @@
 
 namespace revchain {
 
+/// How heights are found. Bounds are proved whichever way.
+enum class ModesMethod {
+    automatic,  ///< the cheapest of those below that keeps the tolerance
+    bisection,  ///< counts, one by one: any chain, any modes, any tolerance
+    blocks,     ///< the chain condensed first: some of the slowest modes of a long chain, to 2 ulp
+    spectrum,   ///< the characteristic polynomial interpolated: many modes, to some 30 ulp
+};
+
 /// Which modes, and how. Which: numbers `first`, `first + 1`, ..., or those in one window, never both.
 template <Real T>
 struct ModesOptions {
@@ -22,6 +30,8 @@ struct ModesOptions {
     bool shapes = true;       ///< also shapes, residuals and nodes
     bool certify = false;     ///< also the intervals that are proved to hold the heights, and the counts that prove it
     Progress* progress = nullptr;  ///< watched and stopped from another thread
+    /// `blocks` and `spectrum` where they can: else bisection, and `Modes::method` says so.
+    ModesMethod method = ModesMethod::automatic;
 };
 
 /// Intervals lower < exact conical height <= upper, and why: of the exact heights of the stored numbers, mode k being

@@ -3,6 +3,7 @@
 
 #include "revchain/linear/compressed_shapes.hpp"
 #include "revchain/linear/heights.hpp"
+#include "revchain/linear/spectrum_heights.hpp"
 
 namespace revchain {
 
@@ -134,25 +135,40 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
             detail::set_height(result, j, height.value, height.error_bound, chain.units().length_exponent, options);
         }
     };
-    bool done = false;
-    if constexpr (std::is_same_v<T, double>)
-        if (detail::compression_pays(chain, range))
-            if (const auto fast = detail::heights_by_compression(chain, range, options, to_heights)) {
-                set_heights(fast->found);
-                done =
-                    !options.shapes || detail::shapes_by_compression(result, chain, fast->compressed,
-                                                                     fast->found.height, options.progress, to_heights);
-            }
-    if (!done) {
-        result.status = Status::success;
-        const auto found = detail::heights_by_bisection(chain, assembled, range, options, to_heights);
-        set_heights(found);
-        for (Index j = 0; options.shapes && j < range.count; ++j) {
-            detail::find_shape(result, j, chain, assembled.pencils(), found.height[static_cast<std::size_t>(j)],
-                               detail::is_loose(chain, options));
+    bool has_shapes = !options.shapes;
+    const auto set_shapes = [&](const detail::Heights<T>& found) {
+        const bool loose = detail::is_loose(chain, options);
+        for (Index j = 0; !has_shapes && j < range.count; ++j) {
+            detail::find_shape(result, j, chain, assembled.pencils(), found.height[static_cast<std::size_t>(j)], loose);
             detail::advance(options.progress, to_heights + (1 - to_heights) * static_cast<double>(j + 1) /
                                                                static_cast<double>(range.count));
         }
+        has_shapes = true;
+    };
+    bool found = false;
+    if constexpr (std::is_same_v<T, double>) {
+        const auto may = [&](ModesMethod method, bool pays) {
+            return !found && (options.method == method || (options.method == ModesMethod::automatic && pays));
+        };
+        if (may(ModesMethod::spectrum, detail::spectrum_pays(chain, range)))
+            if (const auto fast = detail::heights_by_spectrum(assembled, range, chain.mode_count(), options)) {
+                set_heights(*fast);
+                set_shapes(*fast);
+                found = true;
+            }
+        if (may(ModesMethod::blocks, detail::compression_pays(chain, range)))
+            if (const auto fast = detail::heights_by_compression(chain, range, options, to_heights)) {
+                set_heights(fast->found);
+                found = has_shapes =
+                    has_shapes || detail::shapes_by_compression(result, chain, fast->compressed, fast->found.height,
+                                                                options.progress, to_heights);
+            }
+    }
+    if (!found) {
+        result.status = Status::success;
+        const auto sure = detail::heights_by_bisection(chain, assembled, range, options, to_heights);
+        set_heights(sure);
+        set_shapes(sure);
     }
     for (Index j = 0; options.certify && j < range.count; ++j)
         detail::certify(result, j, assembled.pencils(), chain.mode_count());

@@ -115,7 +115,7 @@ TEST_CASE("A million links: counts on the whole chain prove what the blocks say"
     options.shapes = false;
     options.certify = true;
     const auto found = modes(chain, options);
-    CHECK(found.method == "block compression");
+    CHECK(found.method == "blocks");
     CHECK(found.status == Status::success);
     for (Index j = 0; j < 10; ++j) {
         INFO("mode " << j + 1 << ", bound " << found.error_bound[j] * 0x1p52 << " ulp");
@@ -148,7 +148,7 @@ TEST_CASE("Compressed heights scale exactly with units that are powers of two", 
         options.count = 8;
         options.shapes = false;
         const auto found = modes(Chain<double>(scaled), options);
-        CHECK(found.method == "block compression");
+        CHECK(found.method == "blocks");
         return Vector<double>(
             found.conical_height.unaryExpr([=](double x) { return std::ldexp(x, -length_exponent); }));
     };
@@ -180,7 +180,7 @@ TEST_CASE("Shapes of compressed chains are as good as their heights", "[compress
         options.rtol = 0;
         const auto sure = modes(chain, options);
         INFO(family.name << ", " << size << " links");
-        REQUIRE(fast.method == "block compression");
+        REQUIRE(fast.method == "blocks");
         REQUIRE(sure.method == "bisection");
         for (Index j = 0; j < fast.size(); ++j) {
             const auto gap_to = [&](Index i) {
