@@ -16,6 +16,8 @@ needs_table='
    gsl       libgsl-dev                gsl       gsl-devel           gsl
    catch2    catch2                    catch2    catch2-devel        catch2
    pkgconf   pkg-config                pkgconf   pkgconf-pkg-config  pkg-config
+   lapack    libopenblas-dev           openblas  openblas-devel      openblas
+   spectra   libspectra-dev            spectra   spectra-devel       spectralib
 '
 
 # package_names COLUMN NEED...
@@ -54,6 +56,9 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     gsl) compiles '#include <gsl/gsl_sf_bessel.h>' ;;
     catch2) compiles '#if !__has_include(<catch2/catch.hpp>) && !__has_include(<catch2/catch_all.hpp>)\n#error\n#endif' ;;
     pkgconf) command -v pkg-config ;;
+    lapack) printf 'extern "C" void dsterf_(); int main() { dsterf_(); }' |
+      ${CXX:-c++} -x c++ - -llapack -o /dev/null 2>/dev/null || [ -n "${OPENBLAS_HOME-}" ] ;;
+    spectra) compiles '#if !__has_include(<Spectra/SymEigsSolver.h>)\n#error\n#endif' ;;
   esac >/dev/null
 }
 
