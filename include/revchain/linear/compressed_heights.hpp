@@ -81,7 +81,9 @@ std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain
     using S = Wide<T>;
     if (options.rtol && *options.rtol < T(2) * epsilon<T>()) return std::nullopt;
     const ChainUnits units = chain.units();
-    if (std::abs(units.weight_exponent) > std::numeric_limits<T>::max_exponent / 2) return std::nullopt;
+    // Products of double words must stay in range.
+    if (std::abs(units.weight_exponent) > std::numeric_limits<T>::max_exponent / 2 || !chain.has_one_weight_unit())
+        return std::nullopt;
 
     const Index first = range.first - 1, last = first + range.count;
     T least = T(0.9) * estimated_height(chain, last);
