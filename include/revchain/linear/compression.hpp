@@ -165,7 +165,9 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
             below = above;
         }
         m += runs_at_once * length;
-        if (fits && largest < T(0.2) * reach(2 * length) && m % (2 * runs_at_once * length) == 0) length *= 2;
+        if (fits && length < longest_run && largest < T(0.2) * reach(2 * length) &&
+            m % (2 * runs_at_once * length) == 0)
+            length *= 2;
     }
     return {builder.finish(), unit_length};
 }

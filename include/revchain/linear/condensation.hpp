@@ -12,6 +12,9 @@ namespace revchain::detail {
 inline constexpr Index runs_at_once = pack_size;  ///< neighbouring runs, one in each SIMD lane
 inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials
 
+/// Beyond, the roundings of merging leaf after leaf would add up; merging such runs two by two costs nothing by then.
+inline constexpr Index longest_run = 2048;
+
 /// Links that are summed plainly; longer runs are merged from such leaves. A sixteenth of the run keeps what their
 /// roundings move from pin to pin below 1/4 unit; 32 make the merges cheap.
 constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<Index>(length / 16, 4, 64)); }

@@ -128,6 +128,27 @@ TEST_CASE("A million links: counts on the whole chain prove what the blocks say"
     }
 }
 
+TEST_CASE("Ten million plummets: Laguerre zeros by their asymptotics", "[compression]") {
+    // x_k = j^2/v (1 + (j^2 - 2)/(3 v^2) + O(v^-4)), v = 4 N + 2 (Tricomi); lambda = a / x_k.
+    const Index size = 10000000;
+    const double j[] = {2.4048255576957727686, 5.5200781102863106496, 8.6537279129110122170};
+    const auto chain = Chain<double>(size, 1.0, 1.0, 1.0, Wide<double>(0.0));
+    ModesOptions<double> options;
+    options.count = 3;
+    options.shapes = false;
+    const auto found = modes(chain, options);
+    CHECK(found.method == "blocks");
+    for (Index k = 0; k < 3; ++k) {
+        const long double zero = j[k], v = 4.0L * static_cast<long double>(size) + 2;
+        const long double height = v / (zero * zero) / (1 + (zero * zero - 2) / (3 * v * v));
+        const double error =
+            static_cast<double>(std::abs(static_cast<long double>(found.conical_height[k]) / height - 1));
+        INFO("mode " << k + 1 << ": " << error * 0x1p52 << " ulp, bound " << found.error_bound[k] * 0x1p52);
+        CHECK(error <= 1.5 * 0x1p-52);  // 1 of it from the zero, rounded to double
+        CHECK(found.error_bound[k] <= 0x1.0001p-51);
+    }
+}
+
 TEST_CASE("Compressed heights scale exactly with units that are powers of two", "[compression]") {
     Random random(22);
     const Index size = 3000;
