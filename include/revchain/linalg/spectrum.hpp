@@ -88,7 +88,7 @@ Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pen
 /// Accuracy as measured: within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the modes); random
 /// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods, more
 /// where neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.9 ns per mode and link for equal plummets, 1.5 for
-/// random ones, 1.6 and 2.1 for rods; two to three times that with SSE2 (bench_all_modes).
+/// random ones, 1.6 and 2.1 for rods (bench_all_modes).
 /// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
 std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,

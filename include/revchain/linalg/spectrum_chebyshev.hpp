@@ -1,166 +1,199 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linalg/spectrum_pins.hpp"
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "revchain/core/pack.hpp"
+#include "revchain/core/scalar.hpp"
 
 namespace revchain::linalg::spectrum {
 
 /// A polynomial on [-1, 1] by its Chebyshev coefficients.
-class Chebyshev {
-   public:
-    /// From values at node(i), whose number is a multiple of `width`.
-    explicit Chebyshev(const std::vector<double>& values) : coefficient_(values.size()) {
-        const std::size_t n = values.size();
-        std::vector<Pack> twice(n / width), now(n / width), before(n / width);  // value times T_k, T_{k-1}
-        for (std::size_t i = 0; i < n; ++i) {
-            const double x = node(i, n);
-            twice[i / width][i % width] = 2 * x;
-            now[i / width][i % width] = values[i];
-            before[i / width][i % width] = x * values[i];
-        }
-        for (std::size_t k = 0; k < n; ++k) {
-            Pack sum{};
-            for (std::size_t p = 0; p < n / width; ++p) {
-                sum += now[p];
-                const Pack next = twice[p] * now[p] - before[p];
-                before[p] = now[p], now[p] = next;
-            }
-            double total = 0;
-            for (std::size_t i = 0; i < width; ++i) total += sum[i];
-            coefficient_[k] = total * (k == 0 ? 1.0 : 2.0) / static_cast<double>(n);
-        }
-    }
+struct Chebyshev {
+    std::vector<double> coefficient;
+
     static double node(std::size_t i, std::size_t n) {
         return std::cos((static_cast<double>(i) + 0.5) * M_PI / static_cast<double>(n));
     }
     /// Value and derivative (Clenshaw).
-    void at(Pack x, Pack& value, Pack& slope) const {
-        const Pack twice = x + x;
-        Pack b1{}, b2{}, d1{}, d2{};
-        for (std::size_t k = coefficient_.size(); k-- > 1;) {
-            const Pack d = twice * d1 - d2 + 2.0 * b1;
+    template <class V>
+    [[gnu::always_inline]] void at(const V& x, V& value, V& slope) const {
+        const V twice = x + x;
+        V b1, b2, d1, d2;
+        for (std::size_t k = coefficient.size(); k-- > 1;) {
+            const V d = twice * d1 + ((b1 + b1) - d2);
             d2 = d1, d1 = d;
-            const Pack b = twice * b1 - b2 + coefficient_[k];
+            const V b = twice * b1 + (coefficient[k] - b2);
             b2 = b1, b1 = b;
         }
-        value = x * b1 - b2 + coefficient_[0];
-        slope = b1 + x * d1 - d2;
+        value = x * b1 + (coefficient[0] - b2);
+        slope = b1 + (x * d1 - d2);
     }
-    Pack at(Pack x) const {
-        const Pack twice = x + x;
-        Pack b1{}, b2{};
-        for (std::size_t k = coefficient_.size(); k-- > 1;) {
-            const Pack b = twice * b1 - b2 + coefficient_[k];
+    template <class V>
+    [[gnu::always_inline]] V at(const V& x) const {
+        const V twice = x + x;
+        V b1, b2;
+        for (std::size_t k = coefficient.size(); k-- > 1;) {
+            const V b = twice * b1 + (coefficient[k] - b2);
             b2 = b1, b1 = b;
         }
-        return x * b1 - b2 + coefficient_[0];
+        return x * b1 + (coefficient[0] - b2);
     }
-
-    const std::vector<double>& coefficients() const { return coefficient_; }
-
-   private:
-    std::vector<double> coefficient_;
 };
 
-/// Zeros between `low` and `high`, where `p` has different signs: Newton's steps, halves where they leave the bracket.
-inline std::vector<double> refined(const Chebyshev& p, const std::vector<double>& low,
-                                   const std::vector<double>& high) {
+/// `V::size` of the numbers x from `begin` on; beyond its end the last.
+template <class V>
+[[gnu::always_inline]] inline V part(const std::vector<double>& x, std::size_t begin) {
+    if (begin + V::size <= x.size()) return V::load(&x[begin]);
+    V r;
+    for (std::size_t i = 0; i < V::size; ++i) r.set(i, x[std::min(begin + i, x.size() - 1)]);
+    return r;
+}
+
+/// The polynomial of degree n - 1 with these n values at node(i, n).
+template <class V>
+[[gnu::always_inline]] inline Chebyshev interpolant(const std::vector<double>& values) {
+    const std::size_t n = values.size(), padded = (n + V::size - 1) / V::size * V::size;
+    std::vector<double> twice(padded), now(padded), before(padded);  // value times T_k, T_{k-1}
+    for (std::size_t i = 0; i < n; ++i) {
+        const double x = Chebyshev::node(i, n);
+        twice[i] = 2 * x;
+        now[i] = values[i];
+        before[i] = x * values[i];
+    }
+    Chebyshev p;
+    for (std::size_t k = 0; k < n; ++k) {
+        V sum;
+        for (std::size_t i = 0; i < padded; i += V::size) {
+            const V t = V::load(&now[i]);
+            sum += t;
+            (V::load(&twice[i]) * t - V::load(&before[i])).store(&now[i]);
+            t.store(&before[i]);
+        }
+        double total = 0;
+        for (std::size_t i = 0; i < V::size; ++i) total += sum[i];
+        p.coefficient.push_back(total * (k == 0 ? 1.0 : 2.0) / static_cast<double>(n));
+    }
+    return p;
+}
+
+/// Value and q'/q of q = p/product of (x - known), up to a positive factor in the value.
+template <class V>
+[[gnu::always_inline]] inline void deflated(const Chebyshev& p, const std::vector<double>& known, const V& x, V& value,
+                                            V& slope) {
+    p.at(x, value, slope);
+    slope = slope / value;
+    for (const double zero : known) {
+        const V distance = x - zero;
+        slope -= 1.0 / distance;
+        value = if_less(distance, V(0.0), -value, value);
+    }
+}
+
+/// Zeros of p besides `known` between `low` and `high`, where p over the product of (x - known) has different signs:
+/// Newton's steps, halves where they leave the bracket, until the next would be below `precision` if it were its square.
+template <class V>
+[[gnu::always_inline]] inline std::vector<double> refined(const Chebyshev& p, const std::vector<double>& known,
+                                                          const std::vector<double>& low,
+                                                          const std::vector<double>& high, double precision) {
     std::vector<double> root(low.size());
-    for (std::size_t begin = 0; begin < low.size(); begin += width) {
-        Pack a{}, b{}, value, slope;
-        for (std::size_t j = 0; j < width; ++j) {
-            const std::size_t i = std::min(begin + j, low.size() - 1);
-            a[j] = low[i], b[j] = high[i];
-        }
-        const Pack left = p.at(a), right = p.at(b);
-        Pack at = a + (b - a) * (left / (left - right));
+    for (std::size_t begin = 0; begin < low.size(); begin += V::size) {
+        V a = part<V>(low, begin), b = part<V>(high, begin), left, value, slope;
+        deflated(p, known, a, left, slope);
+        V x = 0.5 * (a + b);
+        if (known.empty()) x = a + (b - a) * (left / (left - p.at(b)));
         for (int step = 0; step < 60; ++step) {
-            p.at(at, value, slope);
-            const Mask same = ~((value < 0.0) ^ (left < 0.0));
-            a = same ? at : a;
-            b = same ? b : at;
-            const Pack newton = at - value / slope;
-            const Pack next = (newton >= a) & (newton <= b) ? newton : 0.5 * (a + b);
-            const Pack change = magnitude(next - at);
-            at = next;
-            if (!any(change > 1e-9)) break;  // the next would be its square
+            deflated(p, known, x, value, slope);
+            const auto same = differ_in_sign(value, left) == typename V::Mask(0);
+            a = select(same, x, a);
+            b = select(same, b, x);
+            const V newton = x - 1.0 / slope;
+            const V next = select((newton < a) | (newton > b) | ~equal(newton, newton), 0.5 * (a + b), newton);
+            const V change = abs(next - x);
+            x = next;
+            if (!any(change > precision)) break;
         }
-        for (std::size_t j = 0; j < width && begin + j < low.size(); ++j) root[begin + j] = at[j];
+        for (std::size_t j = 0; j < V::size && begin + j < low.size(); ++j) root[begin + j] = x[j];
     }
     return root;
 }
 
-/// The zeros of `p` besides `known` in (a, b), where |q|, q = p/product of (x - known), has a least value: a pair.
-inline void find_pair(const Chebyshev& p, double a, double b, std::vector<double>& known) {
-    const std::size_t count = known.size();
-    struct Point {
-        bool negative;
-        double slope;  // q'/q
-    };
-    const auto at = [&](double x) {
-        Pack value, derivative;
-        p.at(filled(x), value, derivative);
-        bool negative = value[0] < 0;
-        double slope = derivative[0] / value[0];
-        for (std::size_t i = 0; i < count; ++i) negative ^= x < known[i], slope -= 1 / (x - known[i]);
-        return Point{negative, slope};
-    };
-    const Point left = at(a), right = at(b);
-    if (left.negative != right.negative || !(left.slope < 0) || !(right.slope > 0)) return;
-    double low = a, high = b;
-    for (int step = 0; step < 50; ++step) {
-        const double middle = low + (high - low) / 2;
-        const Point q = at(middle);
-        if (q.negative == left.negative) {
-            (q.slope < 0 ? low : high) = middle;
-            continue;
-        }
-        for (const double end : {a, b}) {
-            double same = end, other = middle, x = (end + middle) / 2;
-            for (int newton = 0; newton < 60; ++newton) {
-                const Point here = at(x);
-                (here.negative == left.negative ? same : other) = x;
-                double next = x - 1 / here.slope;
-                if (!(next > std::min(same, other) && next < std::max(same, other))) next = (same + other) / 2;
-                const double change = std::abs(next - x);
-                x = next;
-                if (change < 1e-13) break;
-            }
-            known.push_back(x);
-        }
-        return;
+/// Where q = p/product of (x - known) has a least value of |q| in (a, b), a point where it has the other sign than at
+/// both ends: NaN if there is none. Intervals are cut into V::size + 1 at a time.
+template <class V>
+[[gnu::always_inline]] inline double between_pair(const Chebyshev& p, const std::vector<double>& known, double a,
+                                                  double b) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    V x, value, slope;
+    for (std::size_t i = 0; i < V::size; ++i) x.set(i, i == 0 ? a : b);
+    deflated(p, known, x, value, slope);
+    const bool sign = std::signbit(value[0]);
+    if (sign != std::signbit(value[1]) || !(slope[0] < 0) || !(slope[1] > 0)) return none;
+    while (b - a > 0x1p-50) {
+        const double step = (b - a) / static_cast<double>(V::size + 1);
+        for (std::size_t i = 0; i < V::size; ++i) x.set(i, a + step * static_cast<double>(i + 1));
+        deflated(p, known, x, value, slope);
+        for (std::size_t i = 0; i < V::size; ++i)
+            if (std::signbit(value[i]) != sign) return x[i];
+        std::size_t i = 0;
+        while (i < V::size && slope[i] < 0) ++i;
+        if (i > 0) a = x[i - 1];
+        if (i < V::size) b = x[i];
     }
+    return none;
 }
 
 /// All zeros of the polynomial on [-1, 1] if there are `count` of them, ascending; else what was found.
-inline std::vector<double> zeros(const Chebyshev& p, Index count) {
-    const std::size_t points = (static_cast<std::size_t>(8 * count + 8) + width - 1) / width * width;
+template <class V>
+[[gnu::always_inline]] inline std::vector<double> zeros(const Chebyshev& p, Index count) {
+    const std::size_t points = (static_cast<std::size_t>(8 * count + 8) + V::size - 1) / V::size * V::size;
     std::vector<double> x(points), f(points), low, high;
-    for (std::size_t i = 0; i < points; i += width) {
-        Pack at{};
-        for (std::size_t j = 0; j < width; ++j)
-            at[j] = x[i + j] = -std::cos(static_cast<double>(i + j) * M_PI / static_cast<double>(points - 1));
-        const Pack value = p.at(at);
-        for (std::size_t j = 0; j < width; ++j) f[i + j] = value[j];
-    }
+    for (std::size_t i = 0; i < points; ++i)
+        x[i] = -std::cos(static_cast<double>(i) * M_PI / static_cast<double>(points - 1));
+    for (std::size_t i = 0; i < points; i += V::size) p.at(V::load(&x[i])).store(&f[i]);
     for (std::size_t i = 1; i < points; ++i)
         if ((f[i - 1] < 0) != (f[i] < 0)) low.push_back(x[i - 1]), high.push_back(x[i]);
-    std::vector<double> root = refined(p, low, high);
-    for (std::size_t before = points; before != root.size() && static_cast<Index>(root.size()) < count;) {
-        before = root.size();
-        for (std::size_t i = 0; i < points; i += width) {  // the logarithmic slope, without the zeros known
-            Pack at, value, slope;
-            for (std::size_t j = 0; j < width; ++j) at[j] = x[i + j];
-            p.at(at, value, slope);
-            slope = slope / value;
-            for (const double known : root) slope -= 1.0 / (at - known);
-            for (std::size_t j = 0; j < width; ++j) f[i + j] = slope[j];
+    std::vector<double> root = refined<V>(p, {}, low, high, 1e-9);
+    for (bool more = true; more && static_cast<Index>(root.size()) < count;) {
+        for (std::size_t i = 0; i < points; i += V::size) {  // the logarithmic slope, without the zeros known
+            V value, slope;
+            deflated(p, root, V::load(&x[i]), value, slope);
+            slope.store(&f[i]);
         }
-        for (std::size_t i = 1; i < points && static_cast<Index>(root.size()) < count; ++i)
-            if (f[i - 1] < 0 && f[i] > 0) find_pair(p, x[i - 1], x[i], root);
+        low.clear(), high.clear();
+        for (std::size_t i = 1; i < points && static_cast<Index>(root.size() + low.size()) < count; ++i) {
+            if (!(f[i - 1] < 0 && f[i] > 0)) continue;
+            const double middle = between_pair<V>(p, root, x[i - 1], x[i]);
+            if (std::isnan(middle)) continue;
+            low.insert(low.end(), {x[i - 1], middle});
+            high.insert(high.end(), {middle, x[i]});
+        }
+        const auto pairs = refined<V>(p, root, low, high, 1e-13);
+        root.insert(root.end(), pairs.begin(), pairs.end());
+        more = !pairs.empty();
     }
     std::sort(root.begin(), root.end());
     return root;
+}
+
+/// Whether every root is known to 1/1000 of its distance to the next: as far as rounding in the values and the
+/// coefficients cut off tell.
+template <class V>
+[[gnu::always_inline]] inline bool certain(const Chebyshev& p, const std::vector<double>& root) {
+    double noise = 0;
+    for (const double c : p.coefficient) noise = std::max(noise, 1e-14 * std::abs(c));
+    for (std::size_t k = p.coefficient.size() - 4; k < p.coefficient.size(); ++k)
+        noise = std::max(noise, std::abs(p.coefficient[k]));
+    V value, slope;
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        if (i % V::size == 0) p.at(part<V>(root, i), value, slope);
+        const double below = i > 0 ? root[i] - root[i - 1] : 1.0;
+        const double above = i + 1 < root.size() ? root[i + 1] - root[i] : 1.0;
+        if (!(noise < 1e-3 * std::min(below, above) * std::abs(slope[i % V::size]))) return false;
+    }
+    return true;
 }
 
 }  // namespace revchain::linalg::spectrum

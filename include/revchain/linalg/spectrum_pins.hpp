@@ -9,28 +9,6 @@
 
 namespace revchain::linalg::spectrum {
 
-/// A few doubles that one instruction serves: as many as the registers of the target hold.
-#if defined(__AVX512F__)
-inline constexpr std::size_t width = 8;
-#elif defined(__AVX__)
-inline constexpr std::size_t width = 4;
-#else
-inline constexpr std::size_t width = 2;
-#endif
-typedef double Pack __attribute__((vector_size(width * sizeof(double))));
-typedef long long Mask __attribute__((vector_size(width * sizeof(double))));  ///< all bits set where true
-
-inline Pack filled(double x) { return Pack{} + x; }
-inline Pack magnitude(Pack x) { return (Pack)((Mask)x & 0x7fffffffffffffffLL); }
-/// The exponent e of 2^e <= x < 2^(e+1), and 2^-e. Preconditions: x positive and normal.
-inline Mask exponent_of(Pack x) { return ((Mask)x >> 52) - 1023; }
-inline Pack inverse_power(Pack x) { return (Pack)((2046LL << 52) - ((Mask)x & (0x7ffLL << 52))); }
-inline bool any(Mask m) {
-    long long some = 0;
-    for (std::size_t i = 0; i < width; ++i) some |= m[i];
-    return some != 0;
-}
-
 /// One link in the form the all-modes engine walks: an elastic, massless link between two pins that carry lumped mass,
 /// and the mass -X that only the difference of the two offsets feels. A link's own inertia is
 ///
@@ -151,6 +129,12 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
 inline std::size_t stretch_length(const PinnedChain& chain, double largest_shift, std::size_t longest) {
     const double growth = std::log2(4.0 + 2.0 * largest_shift * chain.liveliest);
     return std::bit_floor(std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
+}
+
+/// Whether some of the sizes between `least` and `most` are to be brought back near 1.
+template <class V>
+[[gnu::always_inline]] inline bool strays(const V& least, const V& most) {
+    return any((bits(least) - bits(V(0x1p-100))) | (bits(V(0x1p100)) - bits(most)));  // NaN included
 }
 
 }  // namespace revchain::linalg::spectrum

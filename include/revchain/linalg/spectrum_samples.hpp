@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "revchain/core/pack.hpp"
 #include "revchain/linalg/spectrum_pins.hpp"
 
 namespace revchain::linalg::spectrum {
@@ -18,7 +19,6 @@ inline constexpr std::size_t history_step = 32;
 inline std::size_t history_words(std::size_t links) { return links / history_step / 64 + 1; }
 
 inline constexpr std::size_t sample_packs = 6;
-inline constexpr std::size_t sample_lanes = sample_packs * width;
 
 /// Offset of the held pin over that of the free end, as a function of mu = 1/lambda, times the product of 1 + mu X/k over
 /// the links: a polynomial whose zeros are the eigenvalues. Division-free: with s = 1 + mu X/k,
@@ -29,17 +29,17 @@ inline constexpr std::size_t sample_lanes = sample_packs * width;
 ///
 /// With `count`, also the number of eigenvalues below the shift; else `history`, the sign of the offset after every
 /// `history_step` links from the free end, 64 signs to a word, the first in the highest bit used.
-template <bool swings, bool count>
-void sample(const PinnedChain& chain, const double* shifts, Sample* samples, std::uint64_t* history) {
-    Pack mu[sample_packs], offset[sample_packs], force[sample_packs];
-    Mask changes[sample_packs], exponent[sample_packs], signs[sample_packs];
+template <class V, bool swings, bool count>
+[[gnu::always_inline]] inline void sample(const PinnedChain& chain, const double* shifts, Sample* samples,
+                                          std::uint64_t* history) {
+    V mu[sample_packs], offset[sample_packs], force[sample_packs];
+    typename V::Mask changes[sample_packs], exponents[sample_packs], signs[sample_packs];
     double largest = 0;
     for (std::size_t p = 0; p < sample_packs; ++p) {
-        for (std::size_t i = 0; i < width; ++i) mu[p][i] = shifts[p * width + i];
-        for (std::size_t i = 0; i < width; ++i) largest = std::max(largest, shifts[p * width + i]);
-        offset[p] = filled(1.0);
+        mu[p] = V::load(shifts + p * V::size);
+        for (std::size_t i = 0; i < V::size; ++i) largest = std::max(largest, shifts[p * V::size + i]);
+        offset[p] = V(1.0);
         force[p] = mu[p] * chain.tip_mass;
-        changes[p] = exponent[p] = signs[p] = Mask{};
     }
     const std::size_t n = chain.size(), stretch = stretch_length(chain, largest, 16);
     [[maybe_unused]] const std::size_t words = history_words(n);
@@ -49,59 +49,71 @@ void sample(const PinnedChain& chain, const double* shifts, Sample* samples, std
             const PinnedLink link = chain.links[m];
 #pragma GCC unroll 8
             for (std::size_t p = 0; p < sample_packs; ++p) {
-                [[maybe_unused]] const Pack before = offset[p];
+                [[maybe_unused]] const V before = offset[p];
                 if constexpr (swings) {
-                    const Pack s = 1.0 + mu[p] * link.swing;
+                    const V s = 1.0 + mu[p] * link.swing;
                     offset[p] = s * offset[p] - link.flexibility * force[p];
                     force[p] = s * force[p] + link.mass * (mu[p] * offset[p]);
                 } else {
                     offset[p] = offset[p] - link.flexibility * force[p];
                     force[p] = force[p] + link.mass * (mu[p] * offset[p]);
                 }
-                if constexpr (count) changes[p] -= ((Mask)before ^ (Mask)offset[p]) >> 63;
+                if constexpr (count) changes[p] += differ_in_sign(before, offset[p]);
             }
         }
         if (!count && end % history_step == 0) {
-            for (std::size_t p = 0; p < sample_packs; ++p) signs[p] = (signs[p] << 1) - ((Mask)offset[p] >> 63);
+            for (std::size_t p = 0; p < sample_packs; ++p)
+                signs[p] = (signs[p] + signs[p]) + differ_in_sign(offset[p], V(0.0));
             if (end / history_step % 64 == 0 || end + history_step > n) {
                 for (std::size_t p = 0; p < sample_packs; ++p)
-                    for (std::size_t i = 0; i < width; ++i)
-                        history[(p * width + i) * words + (end / history_step - 1) / 64] =
+                    for (std::size_t i = 0; i < V::size; ++i)
+                        history[(p * V::size + i) * words + (end / history_step - 1) / 64] =
                             static_cast<std::uint64_t>(signs[p][i]);
             }
         }
+        V size[sample_packs], least = std::numeric_limits<double>::infinity(), most;
+        for (std::size_t p = 0; p < sample_packs; ++p) {
+            size[p] = max(abs(offset[p]), abs(force[p]));
+            least = min(least, size[p]), most = max(most, size[p]);
+        }
+        if (!strays(least, most)) continue;
         for (std::size_t p = 0; p < sample_packs; ++p) {  // powers of two: nothing is rounded
-            const Pack size = magnitude(offset[p]) > magnitude(force[p]) ? magnitude(offset[p]) : magnitude(force[p]);
-            if (!any((size > 0x1p100) | (size < 0x1p-100))) continue;
-            exponent[p] += exponent_of(size);
-            const Pack scale = inverse_power(size);
+            exponents[p] += exponent(size[p]);
+            const V scale = inverse_power(size[p]);
             offset[p] *= scale;
             force[p] *= scale;
         }
     }
     for (std::size_t p = 0; p < sample_packs; ++p)
-        for (std::size_t i = 0; i < width; ++i)
-            samples[p * width + i] = {offset[p][i], static_cast<int>(exponent[p][i]),
-                                      static_cast<Index>(changes[p][i])};
+        for (std::size_t i = 0; i < V::size; ++i)
+            samples[p * V::size + i] = {offset[p][i], static_cast<int>(exponents[p][i]),
+                                        static_cast<Index>(changes[p][i])};
 }
 
 /// The same for any number of shifts. Without `history`, counts; with it, histories, `history_words` for each shift.
 inline std::vector<Sample> sample_all(const PinnedChain& chain, const std::vector<double>& shifts,
                                       std::vector<std::uint64_t>* history = nullptr) {
-    std::vector<Sample> samples(shifts.size() + sample_lanes);
+    std::vector<Sample> samples(shifts.size());
     const std::size_t words = history_words(chain.size());
-    if (history != nullptr) history->assign(samples.size() * words, 0);
-    double padded[sample_lanes];
-    for (std::size_t i = 0; i < shifts.size(); i += sample_lanes) {
-        const std::size_t taken = std::min(sample_lanes, shifts.size() - i);
-        std::copy_n(shifts.begin() + static_cast<std::ptrdiff_t>(i), taken, padded);
-        std::fill(padded + taken, padded + sample_lanes, padded[0]);
-        std::uint64_t* signs = history == nullptr ? nullptr : history->data() + i * words;
-        const auto pass = history == nullptr ? (chain.swings ? sample<true, true> : sample<false, true>)
-                                             : (chain.swings ? sample<true, false> : sample<false, false>);
-        pass(chain, padded, &samples[i], signs);
-    }
-    samples.resize(shifts.size());
+    if (history != nullptr) history->assign(shifts.size() * words, 0);
+    simd([&](auto registers) __attribute__((always_inline)) {
+        using V = Pack<double, registers.doubles>;
+        constexpr std::size_t together = sample_packs * V::size;
+        double padded[together];
+        Sample found[together];
+        std::vector<std::uint64_t> signs(history == nullptr ? 0 : together * words);
+        for (std::size_t i = 0; i < shifts.size(); i += together) {
+            const std::size_t taken = std::min(together, shifts.size() - i);
+            for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[i + (j < taken ? j : 0)];
+            if (history == nullptr && chain.swings) sample<V, true, true>(chain, padded, found, nullptr);
+            if (history == nullptr && !chain.swings) sample<V, false, true>(chain, padded, found, nullptr);
+            if (history != nullptr && chain.swings) sample<V, true, false>(chain, padded, found, signs.data());
+            if (history != nullptr && !chain.swings) sample<V, false, false>(chain, padded, found, signs.data());
+            for (std::size_t j = 0; j < taken; ++j) samples[i + j] = found[j];
+            if (history != nullptr)
+                for (std::size_t j = 0; j < taken * words; ++j) (*history)[i * words + j] = signs[j];
+        }
+    });
     return samples;
 }
 

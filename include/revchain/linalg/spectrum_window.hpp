@@ -23,7 +23,7 @@ inline std::vector<Window> windows(const PinnedChain& chain, Index first, Index 
     double upper = 1;
     Window whole{0, 0, 0, 0};
     for (bool found = false; !found && upper < 0x1p900;) {
-        std::vector<double> shifts(sample_lanes);
+        std::vector<double> shifts(24);
         for (double& s : shifts) s = upper, upper *= 4;
         const auto counted = sample_all(chain, shifts);
         for (std::size_t i = 0; i < shifts.size() && !found; ++i) {
@@ -86,10 +86,10 @@ inline std::vector<Window> windows(const PinnedChain& chain, Index first, Index 
     return merged;
 }
 
-/// Nodes for a window: a sine with as many zeros needs pi/2 each and a margin that grows with the cube root.
+/// Nodes for a window, a multiple of 8: a sine with as many zeros needs pi/2 each and a margin that grows with the cube root.
 inline std::size_t node_count(Index modes) {
     const double c = 1.65 * static_cast<double>(modes);
-    return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + width - 1) / width * width;
+    return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + 7) / 8 * 8;
 }
 
 /// Approximate eigenvalues of a window from samples of the characteristic polynomial at its Chebyshev nodes, ascending:
@@ -111,24 +111,15 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     t1 *= 2 / count, t2 *= 2 / count;
     for (std::size_t i = 0; i < n; ++i)  // the large exponents cancel before anything is rounded
         values[i] *= std::exp2((exponents[i] - level) - (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
-    const Chebyshev p(values);
-    std::vector<double> roots = zeros(p, window.size());
+    std::vector<double> roots;
+    simd([&](auto registers) __attribute__((always_inline)) {
+        // As many at a time as the latency of one fused multiply-add has room for and registers can hold.
+        using V = Pack<double, registers.doubles, registers.bytes / 16>;
+        const Chebyshev p = interpolant<V>(values);
+        roots = zeros<V>(p, window.size());
+        if (sure && !certain<V>(p, roots)) roots.clear();
+    });
     if (static_cast<Index>(roots.size()) != window.size()) return {};
-    if (sure) {
-        double noise = 0;
-        for (const double c : p.coefficients()) noise = std::max(noise, 1e-14 * std::abs(c));
-        for (std::size_t k = n - 4; k < n; ++k) noise = std::max(noise, std::abs(p.coefficients()[k]));
-        for (std::size_t i = 0; i < roots.size(); i += width) {
-            Pack at{}, value, slope;
-            for (std::size_t j = 0; j < width; ++j) at[j] = roots[std::min(i + j, roots.size() - 1)];
-            p.at(at, value, slope);
-            for (std::size_t j = 0; j < width && i + j < roots.size(); ++j) {
-                const double below = i + j > 0 ? roots[i + j] - roots[i + j - 1] : 1.0;
-                const double above = i + j + 1 < roots.size() ? roots[i + j + 1] - roots[i + j] : 1.0;
-                if (!(noise < 1e-3 * std::min(below, above) * std::abs(slope[j]))) return {};
-            }
-        }
-    }
     for (double& x : roots) x = window.lower + (window.upper - window.lower) * 0.5 * (1 + x);
     return roots;
 }

@@ -174,7 +174,8 @@ TEST_CASE("zeros of an interpolant, close pairs among them", "[linalg]") {
         std::vector<double> values(n, 1.0);
         for (std::size_t i = 0; i < n; ++i)
             for (const double z : zeros) values[i] *= spectrum::Chebyshev::node(i, n) - z;
-        const auto found = spectrum::zeros(spectrum::Chebyshev(values), 5);
+        using V = revchain::Pack<double>;
+        const auto found = spectrum::zeros<V>(spectrum::interpolant<V>(values), 5);
         REQUIRE(found.size() == 5);
         auto expected = zeros;
         std::sort(expected.begin(), expected.end());
