@@ -47,6 +47,12 @@ class BlockBuilder {
         return cut.stiffness + cut.mass <= epsilon<T>() / T(64);
     }
 
+    /// Whether so many ulp cover what has been noted. Blocks keep to `most_ulp`: their heights are then proved to 2 ulp.
+    bool is_accurate(const Run& run, const T& ulp) const {
+        return run.stiffness_error + run.mass_error <= ulp * epsilon<T>();
+    }
+    static constexpr T most_ulp = T(1.1);
+
     /// Adds to the errors of `run` what polynomials of `kept` terms leave out.
     template <std::size_t Kept>
     void note_truncation(Run& run) const {
@@ -55,11 +61,24 @@ class BlockBuilder {
         run.mass_error += T(2) * cut.mass;  // may all be at the pin that has little
     }
 
-    /// Adds those of `roundings` in the coefficients beyond the first: `spring` and `mass` are the second coefficients
-    /// of the series, times mu, relative to the first.
-    void note_roundings(Run& run, const T& roundings, const T& spring, const T& mass) const {
-        run.stiffness_error += roundings * epsilon<T>() / T(2) * spring / (T(1) - spring);
-        run.mass_error += roundings * epsilon<T>() * mass / (T(1) - spring);  // twice: see note_truncation
+    /// The second coefficients of the series, times mu, relative to the first: how much spring and masses of the block
+    /// depend on mu, and the force on two free pins, which merging turns into mass.
+    struct SecondTerms {
+        T spring{}, mass{}, force{};  ///< b2 / b1, (a2 + d2) / (b1 c0), c1 / c0; each at most 1/4 of the phase
+    };
+
+    SecondTerms second_terms(const Run& run) const {
+        const auto& t = run.transfer;
+        const T by_flexibility = mu_ / static_cast<T>(run.flexibility), weight = static_cast<T>(run.weight);
+        if (weight == T(0)) return {};
+        return {by_flexibility * t.b[1], by_flexibility * (t.a[1] + t.d[1]) / weight, mu_ * t.c[1] / weight};
+    }
+
+    /// Adds those of `roundings` in the coefficients beyond the first.
+    void note_roundings(Run& run, const T& roundings, const SecondTerms& terms) const {
+        const T each = roundings * epsilon<T>() / T(2) / (T(1) - terms.spring);
+        run.stiffness_error += each * terms.spring;
+        run.mass_error += T(2) * each * (terms.mass + terms.force);  // twice: see note_truncation
     }
 
     /// Adds those of a mass moved from pin to pin by a relative error of a1, `square` being a1^2 / (b1 c0). With e its
@@ -70,13 +89,6 @@ class BlockBuilder {
         const T moved = error * sqrt(mu_ * square);
         run.stiffness_error += T(1.1) * moved;
         run.mass_error += T(2) * moved;
-    }
-
-    /// mu b2 / b1 and mu (a2 + d2) / (b1 c0): how much the block's spring and masses depend on mu.
-    std::pair<T, T> second_terms(const Run& run) const {
-        const T ratio = mu_ / static_cast<T>(run.flexibility);
-        return {ratio * run.transfer.b[1],
-                ratio * (run.transfer.a[1] + run.transfer.d[1]) / static_cast<T>(run.weight)};
     }
 
     /// The next run up the chain; merged with those below as long as the result is small enough.
@@ -109,10 +121,10 @@ class BlockBuilder {
                     block.a[i] = run.transfer.a[i + 1] / f;
                     block.d[i] = run.transfer.d[i + 1] / f;
                 }
-                const auto [spring, mass] = second_terms(run);
-                if (spring > T(0)) largest = std::max(largest, phase(run));
+                const SecondTerms terms = second_terms(run);
+                if (terms.spring > T(0)) largest = std::max(largest, phase(run));
                 // `element_at` rounds its corrections seven times
-                evaluation = std::max(evaluation, (spring + mass) * T(7) * epsilon<T>());
+                evaluation = std::max(evaluation, (terms.spring + terms.mass) * T(7) * epsilon<T>());
             }
             pencil.blocks.push_back(block);
             stiffness_error = std::max(stiffness_error, run.stiffness_error);
@@ -141,10 +153,10 @@ class BlockBuilder {
         T power(1);  // mu^(Kept - 2)
         for (std::size_t i = 2; i < Kept; ++i) power *= mu_;
         const T flexibility = static_cast<T>(run.flexibility), weight = static_cast<T>(run.weight);
+        const T moved = tail(t.a[Kept - 1] * power * mu_, t.a[Kept - 2] * power) +
+                        tail(t.d[Kept - 1] * power * mu_, t.d[Kept - 2] * power);
         return {tail(t.b[Kept] * power * mu_ * mu_, t.b[Kept - 1] * power * mu_) / flexibility,
-                (tail(t.a[Kept - 1] * power * mu_, t.a[Kept - 2] * power) +
-                 tail(t.d[Kept - 1] * power * mu_, t.d[Kept - 2] * power)) /
-                    (flexibility * weight)};
+                weight == T(0) ? T(0) : moved / (flexibility * weight)};  // a massless run leaves nothing out
     }
 
     /// `upper` on top of `lower`, if the result is still small enough.
@@ -164,8 +176,8 @@ class BlockBuilder {
         both.stiffness_error = std::max(lower.stiffness_error, upper.stiffness_error);
         both.mass_error = std::max(lower.mass_error, upper.mass_error);
         note_truncation<degree>(both);
-        const auto [spring, mass] = second_terms(both);
-        note_roundings(both, T(5), spring, mass);
+        note_roundings(both, T(5), second_terms(both));
+        if (!is_accurate(both, most_ulp)) return false;
         lower = both;
         return true;
     }

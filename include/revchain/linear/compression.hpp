@@ -13,18 +13,21 @@ namespace revchain {
 
 namespace detail {
 
-/// One link as a run, from the chain's numbers in `Wide<T>`. Alone where the polynomials do not hold.
+/// Link number `index` as a run, from the chain's numbers in `Wide<T>`. Alone where the polynomials do not hold.
 template <Real T>
-linalg::CondensedRun<T> single_link(const linalg::BlockBuilder<T>& builder, const Link<T>& link, const T& unit_length,
-                                    const Wide<T>& below) {
+linalg::CondensedRun<T> single_link(const linalg::BlockBuilder<T>& builder, const Link<T>& link, Index index,
+                                    const T& unit_length, const Wide<T>& below) {
+    using std::abs;
     using S = Wide<T>;
     using E = Narrow<S>;
     linalg::CondensedRun<T> run;
     run.links = 1;
-    const S weight(static_cast<E>(link.weight)), a = S(static_cast<E>(link.length));
-    const S p = S(static_cast<E>(link.centroid)) / a;
+    const int to_unit = -std::ilogb(unit_length);  // lengths first: weights over them may underflow
+    const auto scaled = [&](const T& x) { return S(static_cast<E>(std::ldexp(x, to_unit))); };
+    const S weight(static_cast<E>(link.weight)), a = scaled(link.length);
+    const S p = scaled(link.centroid) / a;
     const S lower = weight * p;
-    const S stiffness = (lower + below) / a * S(static_cast<E>(unit_length));
+    const S stiffness = (lower + below) / (a / scaled(unit_length));
     const S cross = weight * (p * (S(E(1)) - p) - link.gyration_ratio);
     run.flexibility = S(E(1)) / stiffness;
     run.weight = weight;
@@ -43,9 +46,16 @@ linalg::CondensedRun<T> single_link(const linalg::BlockBuilder<T>& builder, cons
     }
     if (run.alone) {
         run.cross = cross;
+        // What `Wide<T>` rounds, where W p + S cancels or lumped masses outweigh the link.
+        const T unit = T(4) * operation_error<S>(), reach = T(1) + abs(static_cast<T>(p));
+        const T amplified = (abs(at_lower) + static_cast<T>(below)) / static_cast<T>(lower + below);
+        const T stretch = T(5) * reach * reach * reach;  // of (y_l - y_u)^2: within either energy
+        run.stiffness_error += unit * T(index + 8) * amplified;
+        run.mass_error +=
+            unit * (T(4) * reach + stretch * std::min(builder.phase(run), T(1) / static_cast<T>(link.gyration_ratio)));
     } else {
-        const auto [spring, mass] = builder.second_terms(run);
-        builder.note_roundings(run, T(9), spring, mass);
+        // Longer ones are exact: X = 0. They are not merged.
+        if (builder.is_short(run)) builder.note_roundings(run, T(9), builder.second_terms(run));
         builder.template note_truncation<linalg::Block<T>::degree>(run);
     }
     return run;
@@ -77,9 +87,8 @@ linalg::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index
 template <class T, class V>
 LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
     const auto of = [&]<LinkKind kind>() {
-        // Leaves of up to 4 links are exact with 4 terms; those of longer runs are so short that 3 do.
-        return length < 64 ? condense<kind, 4, T, V>(links, first, length, below)
-                           : condense<kind, 3, T, V>(links, first, length, below);
+        return leaf_terms(length) == 4 ? condense<kind, 4, T, V>(links, first, length, below)
+                                       : condense<kind, 3, T, V>(links, first, length, below);
     };
     if (links.kind == LinkKind::equal_plummets) return of.template operator()<LinkKind::equal_plummets>();
     if (links.kind == LinkKind::equal_links) return of.template operator()<LinkKind::equal_links>();
@@ -112,7 +121,7 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
     Wide<T> below(Narrow<Wide<T>>(0));
     const auto add_singles = [&](Index first, Index last) {
         for (Index m = first; m < last; ++m) {
-            builder.add(single_link(builder, chain.link(m), unit_length, below));
+            builder.add(single_link(builder, chain.link(m), m, unit_length, below));
             below = below + Wide<T>(static_cast<Narrow<Wide<T>>>(chain.weight()[m]));
         }
     };
@@ -140,19 +149,27 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
                 !(runs.worst[lane] > T(0)) && phase < reach(length) && builder.template is_complete<leaf_degree>(one);
             if (!fits) break;
             const T leaf = runs.leaf_phase[lane] / builder.least_shift();
-            const auto links_of_leaf = static_cast<T>(leaf_links(length));
+            if (leaf_terms(length) < leaf_degree) {  // a4 + d4, b1 c3 <= leaf^4/64 at most; twice: see note_truncation
+                const T cut = leaf * leaf * leaf / T(31);
+                fits = cut <= epsilon<T>() / T(16);
+                if (!fits) break;
+                one.mass_error += cut;
+            }
+            const auto roundings = static_cast<T>(coefficient_roundings(leaf_links(length)));
             const T half = epsilon<T>() / T(2);
-            builder.note_roundings(one, T(4) * links_of_leaf, leaf / T(4), leaf / T(2));
-            builder.note_moved_mass(one, T(3) * links_of_leaf * half, runs.leaf_moment[lane]);
+            builder.note_roundings(one, roundings, {leaf / T(4), leaf / T(4), leaf / T(4)});
+            builder.note_moved_mass(one, static_cast<T>(moment_roundings(leaf_links(length))) * half,
+                                    runs.leaf_moment[lane]);
             if (length > leaf_links(length)) {
                 const T moment = static_cast<T>(one.moment);
-                const auto [spring, mass] = builder.second_terms(one);
-                builder.note_roundings(one, T(4) * links_of_leaf + T(5) * static_cast<T>(length) / links_of_leaf,
-                                       spring, mass);
+                const auto merges = static_cast<T>(length / leaf_links(length));
+                builder.note_roundings(one, roundings + T(5) * merges, builder.second_terms(one));
                 builder.note_moved_mass(
                     one, T(2) * half, moment * moment / (static_cast<T>(one.weight) * static_cast<T>(one.flexibility)));
                 builder.template note_truncation<leaf_degree>(one);
             }
+            fits = builder.is_accurate(one, T(1));  // leaves room for merging
+            if (!fits) break;
         }
         if (!fits && length > 1) {
             length /= 2;
@@ -165,9 +182,7 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
             below = above;
         }
         m += runs_at_once * length;
-        if (fits && length < longest_run && largest < T(0.2) * reach(2 * length) &&
-            m % (2 * runs_at_once * length) == 0)
-            length *= 2;
+        if (fits && largest < T(0.2) * reach(2 * length) && m % (2 * runs_at_once * length) == 0) length *= 2;
     }
     return {builder.finish(), unit_length};
 }

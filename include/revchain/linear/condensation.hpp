@@ -12,12 +12,18 @@ namespace revchain::detail {
 inline constexpr Index runs_at_once = pack_size;  ///< neighbouring runs, one in each SIMD lane
 inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials
 
-/// Beyond, the roundings of merging leaf after leaf would add up; merging such runs two by two costs nothing by then.
-inline constexpr Index longest_run = 2048;
-
 /// Links that are summed plainly; longer runs are merged from such leaves. A sixteenth of the run keeps what their
 /// roundings move from pin to pin below 1/4 unit; 32 make the merges cheap.
 constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<Index>(length / 16, 4, 64)); }
+
+/// Leaves of up to 4 links have all of their 4 terms; those of longer runs are so short that 3 nearly always do (what they
+/// leave out is asked: `compress`).
+constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degree : leaf_degree - 1; }
+
+/// Bounds on the roundings (half units, relative) behind the moment a1 of a leaf of so many links and behind its other
+/// coefficients: docs/accuracy.md, "Blocks".
+constexpr Index moment_roundings(Index links) { return 2 * links + 6; }
+constexpr Index coefficient_roundings(Index links) { return 3 * links + 13; }
 
 /// Sum of numbers, or of packs lane by lane: high + low.
 template <class V>
@@ -114,7 +120,10 @@ REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Ind
     const auto set_link = [&](Index m) __attribute__((always_inline)) {
         a = links.length.template lanes<V>(m, length) * per_unit;
         per_length = T(1) / a;
-        p = links.centroid.template lanes<V>(m, length) * per_unit * per_length;
+        if constexpr (Kind == LinkKind::equal_links)
+            p = links.centroid.template lanes<V>(m, length) / links.length.template lanes<V>(m, length);
+        else
+            p = links.centroid.template lanes<V>(m, length) * per_unit * per_length;
         coefficient = p * (T(1) - p) - links.gyration_ratio.template lanes<V>(m, length);
         runs.worst = max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
         coefficient = max(coefficient, V{});
@@ -171,8 +180,9 @@ REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Ind
         flexibility.normalise();
         const V phase = mass.high * flexibility.high;
         runs.leaf_phase = max(runs.leaf_phase, phase);
-        runs.leaf_moment = max(runs.leaf_moment, leaf.a[0] * leaf.a[0] / phase);
+        runs.leaf_moment = max(runs.leaf_moment, if_less(V{}, phase, leaf.a[0] * leaf.a[0] / phase, V{}));  // no 0/0
         runs.moment.add(leaf.a[0] + flexibility.high * runs.weight.high);
+        runs.moment.low += flexibility.high * runs.weight.low + flexibility.low * runs.weight.high;
         runs.transfer = start == 0 ? linalg::extended<leaf_degree>(leaf) : linalg::merged(runs.transfer, leaf);
         runs.weight.add(mass);
         runs.weight.normalise();
