@@ -200,8 +200,12 @@ struct Pack {
     template <class Result = Pack, class F>
     [[gnu::always_inline]] static Result each(const F& f) {
         Result r;
-        [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) { (f(r.part[i], i), ...); }
-        (std::make_index_sequence<Count>{});
+        if constexpr (Count == 1) {
+            f(r.part[0], 0);
+        } else {
+            [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) { (f(r.part[i], i), ...); }
+            (std::make_index_sequence<Count>{});
+        }
         return r;
     }
 };
