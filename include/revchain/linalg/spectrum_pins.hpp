@@ -12,17 +12,18 @@ namespace revchain::linalg::spectrum {
 /// One link in the form the all-modes engine walks: an elastic, massless link between two pins that carry lumped mass,
 /// and the mass -X that only the difference of the two offsets feels. A link's own inertia is
 ///
-///     A y_l^2 + 2 X y_l y_u + B y_u^2 = W/4 (y_l + y_u + skew (y_l - y_u))^2 + turn (y_l - y_u)^2,
+///     A y_l^2 + 2 X y_l y_u + B y_u^2 = W (p y_l + q y_u)^2 + turn (y_l - y_u)^2,    p = h/a, q = 1 - p,
 ///
 /// motion of the centroid and rotation about it: two squares, whatever the sign of X.
 struct PinnedLink {
-    double flexibility;     ///< 1/k
-    double stiffness;       ///< k
-    double mass;            ///< of the pin above: B + X of this link and A + X of the next
-    double swing;           ///< X/k
-    double quarter_weight;  ///< W/4
-    double skew;            ///< (A - B)/W = 2 h/a - 1
-    double turn;            ///< the element's c = W rho^2/a^2
+    double flexibility;  ///< 1/k
+    double stiffness;    ///< k
+    double mass;         ///< of the pin above: B + X of this link and A + X of the next
+    double swing;        ///< X/k
+    double weight;       ///< W
+    double lower_share;  ///< (A + X)/W = h/a
+    double upper_share;  ///< (B + X)/W = 1 - h/a
+    double turn;         ///< the element's c = W rho^2/a^2
 };
 
 /// Links between two looks at sizes and sums, at most.
@@ -41,9 +42,10 @@ struct PinnedChain {
     double tip_mass = 0;                    ///< of pin 0
     double rounding_root = 0;               ///< root of C of docs/accuracy.md: sum over j of k_j (sum of 1/k from j up)
     std::vector<Bounds> bounds;             ///< of each run of `longest_leg` links
+    double largest_swing = 0;               ///< max X/k
     double liveliest = 0;                   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
-    double skew_against_turn = 0;           ///< max |skew| (W/4 / turn)^(1/2): how much a link's two squares can cancel
-    double skew_against_stiffness = 0;      ///< max |skew| (W/4 / k)^(1/2)
+    double skew_against_turn = 0;           ///< max p q (W / turn)^(1/2): how much a link's two offsets can cancel
+    double skew_against_stiffness = 0;      ///< max p q (W / k)^(1/2)
     double data_error = 0;                  ///< what the wide entries' own error may come to
     bool swings = false;                    ///< some X is not 0
     bool fit = true;                        ///< masses >= 0 and all numbers in a range whose squares are normal
@@ -59,7 +61,7 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
     chain.fit = wide.units.empty();
     chain.data_error = 0x1p34 * static_cast<double>(wide.entry_error);  // sums that cancel to 2^-30 included
     const S zero(0.0);
-    const auto in_range = [](double x) { return x > 0x1p-300 && x < 0x1p300; };
+    const auto in_range = [](double x) { return x > 0x1p-150 && x < 0x1p150; };
     S carried = zero;  // B + X of the link below
     double carried_size = 0;
     for (std::size_t m = 0; m <= n; ++m) {
@@ -88,12 +90,14 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
         const double swing = static_cast<double>(cross / e.stiffness);
         const S weight(e.weight);
         const bool massless = e.weight == 0;
-        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, swing, e.weight / 4,
-                               massless ? 0.0 : static_cast<double>((e.lower - e.upper) / weight),
+        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, swing, e.weight,
+                               massless ? 0.0 : static_cast<double>((e.lower + cross) / weight),
+                               massless ? 0.0 : static_cast<double>((e.upper + cross) / weight),
                                static_cast<double>(e.turning)});
         const PinnedLink& last = chain.links.back();
-        if (last.skew != 0 && last.swing != 0) {
-            const double skewed = std::abs(last.skew) * std::sqrt(last.quarter_weight);
+        const double shares = last.lower_share * last.upper_share;
+        if (shares != 0 && last.lower_share != 0.5) {
+            const double skewed = shares * std::sqrt(e.weight);
             chain.skew_against_turn = std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
             chain.skew_against_stiffness = std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
         }
@@ -108,6 +112,7 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
         Bounds& b = chain.bounds[m / longest_leg];
         const double root = m + 1 < n ? std::sqrt(link.stiffness / link.mass) : 0;  // the held pin does not move
         b.swing = std::max(b.swing, link.swing);
+        chain.largest_swing = std::max(chain.largest_swing, link.swing);
         b.root = std::max(b.root, root);
         b.swing_root = std::max(b.swing_root, root * link.swing);
     }

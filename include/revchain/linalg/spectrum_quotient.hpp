@@ -55,8 +55,9 @@ template <bool swings, bool up, class V>
             const V square = d * d;
             stiffness[p] += e.stiffness * square;
             if constexpr (swings) {
-                const V centroid = (before + offset[p]) + e.skew * d;
-                inertia[p] += e.quarter_weight * (centroid * centroid);
+                const V centroid =
+                    e.lower_share * (up ? before : offset[p]) + e.upper_share * (up ? offset[p] : before);
+                inertia[p] += e.weight * (centroid * centroid);
                 inertia[p] += e.turn * square;
             }
             if (up) pass_pin();
@@ -164,12 +165,16 @@ template <bool swings, class V>
         for (std::size_t i = 0; i < V::size; ++i) {
             const double energy = stiffness[p][i];
             const double force_part = swings ? std::sqrt(forces[p][i] / energy) : 1.0;
-            const double offset_part = swings ? std::sqrt(offsets[p][i] / energy) : chain.rounding_root;
-            const double unit = epsilon<double>() / 2;
-            const double rounding =
-                unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01 + chain.data_error;
-            result[p * V::size + i] = {ratio[i], std::sqrt(least[p][i]) * (1 + 0x1p-40) + rounding, rounding,
-                                       static_cast<std::size_t>(twist[p][i])};
+            // where a pin has no mass, y_m^2 <= Phi_m |y|_K^2 serves
+            const double most = (1 + walk[p].mu[i] * chain.largest_swing) * chain.rounding_root;
+            const double offset_part =
+                swings ? std::fmin(std::sqrt(offsets[p][i] / energy), most) : chain.rounding_root;
+            const double unit = epsilon<double>() / 2 + chain.data_error;
+            const double rounding = unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
+            // Terms of second order are less than that 1.01 only where this is small.
+            const double residual = rounding < 0x1p-10 ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
+                                                       : std::numeric_limits<double>::infinity();
+            result[p * V::size + i] = {ratio[i], residual, rounding, static_cast<std::size_t>(twist[p][i])};
         }
     }
 }
