@@ -16,6 +16,7 @@ enum class ModesMethod {
     automatic,  ///< the cheapest of those below that keeps the tolerance
     bisection,  ///< counts, one by one: any chain, any modes, any tolerance
     blocks,     ///< the chain condensed first: some of the slowest modes of a long chain, to 2 ulp
+    together,   ///< of a small chain all modes at once: to some 20 ulp
     spectrum,   ///< the characteristic polynomial interpolated: many modes, to some 30 ulp
 };
 
@@ -30,7 +31,7 @@ struct ModesOptions {
     bool shapes = true;       ///< also shapes, residuals and nodes
     bool certify = false;     ///< also the intervals that are proved to hold the heights, and the counts that prove it
     Progress* progress = nullptr;  ///< watched and stopped from another thread
-    /// `blocks` and `spectrum` where they can: else bisection, and `Modes::method` says so.
+    /// `blocks`, `together` and `spectrum` where they can: else bisection, and `Modes::method` says so.
     ModesMethod method = ModesMethod::automatic;
 };
 

@@ -3,6 +3,7 @@
 
 #include "revchain/linear/compressed_shapes.hpp"
 #include "revchain/linear/heights.hpp"
+#include "revchain/linear/small_heights.hpp"
 #include "revchain/linear/spectrum_heights.hpp"
 
 namespace revchain {
@@ -150,6 +151,12 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
         const auto may = [&](ModesMethod method, bool pays) {
             return !found && (options.method == method || (options.method == ModesMethod::automatic && pays));
         };
+        if (may(ModesMethod::together, detail::all_together_pays(chain, range)))
+            if (const auto fast = detail::heights_all_together(chain, range, options)) {
+                set_heights(*fast);
+                set_shapes(*fast);
+                found = true;
+            }
         if (may(ModesMethod::spectrum, detail::spectrum_pays(chain, range)))
             if (const auto fast = detail::heights_by_spectrum(assembled, range, chain.mode_count(), options)) {
                 set_heights(*fast);
