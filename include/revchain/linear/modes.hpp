@@ -151,7 +151,8 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
         const auto may = [&](ModesMethod method, bool pays) {
             return !found && (options.method == method || (options.method == ModesMethod::automatic && pays));
         };
-        if (may(ModesMethod::together, detail::all_together_pays(chain, range)))
+        // Only where asked for by name, until the constants of its bound have been derived a second time.
+        if (may(ModesMethod::together, false))
             if (const auto fast = detail::heights_all_together(chain, range, options)) {
                 set_heights(*fast);
                 set_shapes(*fast);
