@@ -37,6 +37,7 @@ length = 1
 mass = 1
 [ask]
 modes = 100
+method = "bisection"
 """
 
 
