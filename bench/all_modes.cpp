@@ -6,20 +6,12 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "lapack_names.hpp"
 #include "revchain/linalg/spectrum.hpp"
 #include "revchain/linear/assembly.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"
-
-#if defined(BENCH_HAS_LAPACK)
-extern "C" {
-void dlasq1_(const int*, double*, double*, double*, int*);
-void dsterf_(const int*, double*, double*, int*);
-void dsbgv_(const char*, const char*, const int*, const int*, const int*, double*, const int*, double*, const int*,
-            double*, double*, const int*, double*, int*);
-}
-#endif
 
 namespace {
 
@@ -84,7 +76,7 @@ double dsbgv(const Pencil& p, std::vector<double>& heights) {
         a[2 * m + 1] += e.lower, b[2 * m + 1] += e.stiffness;
         if (m + 1 == size) break;
         a[2 * m + 3] += e.upper, b[2 * m + 3] += e.stiffness;
-        a[2 * m + 2] = cross_mass(e), b[2 * m + 2] = -e.stiffness;
+        a[2 * m + 2] = e.cross, b[2 * m + 2] = -e.stiffness;
     }
     int info = 0;
     dsbgv_("N", "U", &n, &one, &one, a.data(), &two, b.data(), &two, w.data(), z.data(), &one, work.data(), &info);

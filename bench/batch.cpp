@@ -8,18 +8,11 @@
 #include <ctime>
 #include <vector>
 
+#include "lapack_names.hpp"
 #include "revchain/linear/batch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"
-
-#ifdef BENCH_HAS_LAPACK
-extern "C" {
-void dsterf_(const int* n, double* d, double* e, int* info);
-void dsbgv_(const char* jobz, const char* uplo, const int* n, const int* ka, const int* kb, double* ab, const int* ldab,
-            double* bb, const int* ldbb, double* w, double* z, const int* ldz, double* work, int* info);
-}
-#endif
 
 namespace {
 

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "support/cuttings.hpp"
 #include "revchain/linear/modes.hpp"
+#include "support/cuttings.hpp"
 
 namespace {
 

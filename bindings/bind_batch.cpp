@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <chrono>
-#include <future>
 #include <memory>
 #include <numeric>
 #include <optional>
 
 #include "bindings.hpp"
 #include "revchain/linear/batch.hpp"
+#include "watched.hpp"
 
 namespace {
 
@@ -24,30 +23,14 @@ Column column(const Array& table, Index chains, Index size, const char* name) {
     return {table.data(), table.shape(0) == 1 ? 0 : table.shape(1), table.shape(1) == 1 ? 0 : 1};
 }
 
-/// With the GIL released; what may take more than a moment in a thread of its own while this one looks for Ctrl-C.
 Heights solve(const Batch& batch, BatchOptions options) {
-    constexpr double a_moment = 1e6;  // links times modes: about 0.1 s at worst
+    constexpr double a_moment = 1e6;  // links times modes, at worst
     const double work = static_cast<double>(batch.chains) * static_cast<double>(batch.size) *
                         static_cast<double>(options.count.value_or(batch.size));
-    if (work < a_moment) {
-        const py::gil_scoped_release release;
+    return watched<Heights>(work / a_moment, nullptr, [&](revchain::Progress* progress) {
+        options.progress = progress;
         return revchain::conical_heights(batch, options);
-    }
-    revchain::Progress progress;
-    options.progress = &progress;
-    auto result = std::async(std::launch::async, [&] { return revchain::conical_heights(batch, options); });
-    const py::gil_scoped_release release;
-    while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-        const py::gil_scoped_acquire acquire;
-        if (PyErr_CheckSignals() == 0) continue;
-        progress.cancel();
-        {
-            const py::gil_scoped_release while_waiting;
-            result.wait();
-        }
-        throw py::error_already_set();
-    }
-    return result.get();
+    });
 }
 
 /// (*shape, count) heights; `size` is the number of links. The tables as `column` takes them.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
-#include <chrono>
 #include <functional>
-#include <future>
 #include <optional>
 #include <tuple>
 
@@ -11,6 +9,7 @@
 #include "revchain/linear/modes.hpp"
 #include "revchain/linear/reference.hpp"
 #include "scalars.hpp"
+#include "watched.hpp"
 
 namespace {
 
@@ -80,29 +79,6 @@ Solver<T> solver(const std::string& method) {
     return &revchain::modes<T>;
 }
 
-/// Runs with the GIL released. What may take more than a moment runs in a thread of its own while this one looks for
-/// Ctrl-C: Python notes the signal, but hears it only when asked.
-template <class Result>
-Result watched(double work, revchain::Progress* progress, const std::function<Result(revchain::Progress*)>& solve) {
-    constexpr double a_moment = 2e5;  // links times modes in double: about 0.1 s
-    if (work < a_moment) return solve(progress);
-
-    revchain::Progress own;
-    revchain::Progress* watched = progress != nullptr ? progress : &own;
-    auto result = std::async(std::launch::async, [&] { return solve(watched); });
-    while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-        const py::gil_scoped_acquire acquire;
-        if (PyErr_CheckSignals() == 0) continue;
-        watched->cancel();
-        {
-            const py::gil_scoped_release release;
-            result.wait();
-        }
-        throw py::error_already_set();
-    }
-    return result.get();
-}
-
 template <class T>
 py::tuple as_tuple(const revchain::Modes<T>& m, bool shapes, bool certified) {
     py::array_t<std::int64_t> number(m.size());
@@ -129,19 +105,17 @@ template <class T>
 py::tuple solved(const Chain& chain, const Asked& asked, const std::string& method, double cost,
                  revchain::Progress* progress) {
     const Solver<T> solve = solver<T>(method);
-    const auto run = [&] {
-        const py::gil_scoped_release release;
-        const Index count = asked.count.value_or(chain.mode_count());
-        const double work = cost * static_cast<double>(chain.size()) * static_cast<double>(count);
-        return watched<revchain::Modes<T>>(work, progress, [&](revchain::Progress* seen) {
-            if constexpr (std::is_same_v<T, double>) {
-                return solve(chain, asked.options<double>(seen));
-            } else {
-                return solve(converted<T>(chain), asked.options<T>(seen));
-            }
-        });
-    };
-    return as_tuple(run(), asked.shapes, asked.certify);
+    const double work =
+        static_cast<double>(chain.size()) * static_cast<double>(asked.count.value_or(chain.mode_count()));
+    constexpr double a_moment = 2e5;  // links times modes in double
+    const auto found = watched<revchain::Modes<T>>(cost * work / a_moment, progress, [&](revchain::Progress* seen) {
+        if constexpr (std::is_same_v<T, double>) {
+            return solve(chain, asked.options<double>(seen));
+        } else {
+            return solve(converted<T>(chain), asked.options<T>(seen));
+        }
+    });
+    return as_tuple(found, asked.shapes, asked.certify);
 }
 
 py::tuple modes(const Chain& chain, Index first, std::optional<Index> count, std::optional<Pair> conical_height,

@@ -86,6 +86,17 @@ def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
         raise ValueError(f"{place}: these shapes do not go together: {shapes}") from None
 
 
+def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
+    """What `Chain` takes, as arrays by name: weight, length and, of links that are not plummets, what goes with them."""
+    bodies = [name for name in ("pendulum_length", "radius_of_gyration") if given[name] is not None]
+    if given["centroid"] is None and bodies:
+        raise ValueError(f"{place}: {bodies[-1]} needs centroid beside it")
+    if given["centroid"] is not None and len(bodies) != 1:
+        raise ValueError(f"{place}: centroid needs exactly one of pendulum_length and radius_of_gyration beside it")
+    required = ("weight", "length")
+    return {name: floats(place, name, value) for name, value in given.items() if value is not None or name in required}
+
+
 def shown(value: object, width: int = 60) -> str:
     """`value` as an error message shows it: its repr, cut where it is long."""
     text = repr(value)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, floats, real
+from ._arguments import Floats, link_arrays, real
 from ._arguments import count as checked_count
 
 if TYPE_CHECKING:
@@ -76,25 +76,14 @@ class Chain:
         pendulum_length: ArrayLike | None = None,
         radius_of_gyration: ArrayLike | None = None,
     ) -> None:
-        if centroid is None:
-            if pendulum_length is not None or radius_of_gyration is not None:
-                extra = "pendulum_length" if radius_of_gyration is None else "radius_of_gyration"
-                raise ValueError(f"revchain.Chain: {extra} needs centroid beside it")
-        elif (pendulum_length is None) == (radius_of_gyration is None):
-            raise ValueError(
-                "revchain.Chain: centroid needs exactly one of pendulum_length and radius_of_gyration beside it"
-            )
-        columns = {
-            name: floats("revchain.Chain", name, value)
-            for name, value in (
-                ("weight", weight),
-                ("length", length),
-                ("centroid", centroid),
-                ("pendulum_length", pendulum_length),
-                ("radius_of_gyration", radius_of_gyration),
-            )
-            if value is not None or name in ("weight", "length")
-        }
+        columns = link_arrays(
+            "revchain.Chain",
+            weight=weight,
+            length=length,
+            centroid=centroid,
+            pendulum_length=pendulum_length,
+            radius_of_gyration=radius_of_gyration,
+        )
         _check_shapes(columns)
         object.__setattr__(self, "_compiled", _core.Chain(**columns))
 

@@ -5,25 +5,38 @@
 
 namespace revchain {
 
-/// Sum of numbers, or of packs, in two words: what rounding takes from the first is added to the second. Relative error
-/// of n terms of one sign: u + (n u)^2, u = epsilon/2.
+/// Sum of numbers, or of packs lane by lane, in two words: what rounding takes from the first is added to the second.
+/// Relative error of n terms of one sign: u + (n u)^2, u = epsilon/2.
 template <Word V>
-class CompensatedSum {
-   public:
+struct CompensatedSum {
+    V high{}, low{};
+
     [[gnu::always_inline]] void add(const V& x) {
-        const DoubleWord<V> total = two_sum(sum_, x);
-        sum_ = total.high;
-        rest_ = rest_ + total.low;
+        const DoubleWord<V> total = two_sum(high, x);
+        high = total.high;
+        low += total.low;
+    }
+    /// The same where x is no larger than what there is, or the first.
+    [[gnu::always_inline]] void add_smaller(const V& x) {
+        const DoubleWord<V> total = fast_two_sum(high, x);
+        high = total.high;
+        low += total.low;
+    }
+    [[gnu::always_inline]] void add(const CompensatedSum& x) {
+        add(x.high);
+        low += x.low;
     }
     /// Exact for powers of two.
     [[gnu::always_inline]] void scale(const V& by) {
-        sum_ = sum_ * by;
-        rest_ = rest_ * by;
+        high *= by;
+        low *= by;
     }
-    [[gnu::always_inline]] V value() const { return sum_ + rest_; }
-
-   private:
-    V sum_{}, rest_{};
+    [[gnu::always_inline]] void normalise() {
+        const DoubleWord<V> total = fast_two_sum(high, low);
+        high = total.high;
+        low = total.low;
+    }
+    [[gnu::always_inline]] V value() const { return high + low; }
 };
 
 }  // namespace revchain

@@ -74,7 +74,7 @@ template <Word T>
     if constexpr (IsPack<T>) {
         if constexpr (detail::has_fast_fma<Lane<T>>) {
             T rest;
-            for (std::size_t i = 0; i < pack_size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
+            for (std::size_t i = 0; i < T::size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
             return {p, rest};
         } else {
             // Halves by cutting bits off: their products are exact, so that REVCHAIN_SIMD may fuse them with the sums;

@@ -23,11 +23,6 @@ struct Element {
     Narrow<S> weight{};  ///< W >= 0
 };
 
-template <Real S>
-const S& cross_mass(const Element<S>& e) {
-    return e.cross;
-}
-
 /// Dynamic stiffness carried across an element, equation (1) of docs/accuracy.md: from `near` at the pin where it is
 /// known to the other, whose own mass is `far`; `stiffness` is L = lambda k, `inverse` one over the pivot.
 template <Real S>

@@ -69,6 +69,35 @@ struct LaneUnits {
     }
 };
 
+/// What is kept of the links of the chains in one register's lanes: `Stored` numbers a link, in units near 1.
+template <class V, std::ptrdiff_t Stored>
+class LaneNumbers {
+   public:
+    static constexpr std::ptrdiff_t stored = Stored;
+
+    std::ptrdiff_t size() const { return size_; }
+    [[gnu::always_inline]] V per_length() const { return units_.per_length; }
+    [[gnu::always_inline]] typename V::Mask ordinary() const { return units_.ordinary; }
+
+   protected:
+    /// For lanes lane, lane + 1, ... of the block; `work` holds size * stored * block_lanes numbers.
+    [[gnu::always_inline]] LaneNumbers(const LaneBlock& block, std::ptrdiff_t lane, double* work)
+        : size_(block.size), work_(work + lane), units_(block, lane) {}
+
+    [[gnu::always_inline]] const LaneUnits<V>& units() const { return units_; }
+    [[gnu::always_inline]] V get(std::ptrdiff_t m, std::ptrdiff_t which) const {
+        return V::load(work_ + (m * stored + which) * block_lanes);
+    }
+    [[gnu::always_inline]] void put(std::ptrdiff_t m, std::ptrdiff_t which, const V& x) {
+        x.store(work_ + (m * stored + which) * block_lanes);
+    }
+
+   private:
+    std::ptrdiff_t size_;
+    double* work_;
+    LaneUnits<V> units_;
+};
+
 /// Recurrences are brought back near 1 after every so many links, so that they can neither overflow nor underflow.
 inline constexpr std::ptrdiff_t rescaled_every = 8;
 

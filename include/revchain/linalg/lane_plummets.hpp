@@ -11,43 +11,38 @@ namespace revchain::linalg {
 ///
 /// y at the support is a polynomial in mu whose zeros are the modes. All functions inlined, all sums of one sign but in y.
 template <class V>
-class PlummetLanes {
-   public:
-    static constexpr std::ptrdiff_t stored = 3;  // numbers a link
+class PlummetLanes : public detail::LaneNumbers<V, 3> {
+    using Numbers = detail::LaneNumbers<V, 3>;
+    using Numbers::get, Numbers::put, Numbers::units;
 
-    /// Reads lanes lane, lane + 1, ... of the block; `work` holds size * stored * block_lanes numbers.
+   public:
+    using Numbers::size;
+
     [[gnu::always_inline]] PlummetLanes(const LaneBlock& block, std::ptrdiff_t lane, double* work)
-        : size_(block.size), work_(work + lane) {
-        const detail::LaneUnits<V> units(block, lane);
+        : Numbers(block, lane, work) {
         CompensatedSum<V> hung;
-        for (std::ptrdiff_t m = 0; m < size_; ++m) {
-            const V weight = V::load(block.weight + m * block_lanes + lane) * units.per_weight;
-            const V length = V::load(block.length + m * block_lanes + lane) * units.per_length;
+        for (std::ptrdiff_t m = 0; m < size(); ++m) {
+            const V weight = V::load(block.weight + m * block_lanes + lane) * units().per_weight;
+            const V length = V::load(block.length + m * block_lanes + lane) * units().per_length;
             hung.add(weight);
             put(m, 0, weight);
             put(m, 1, hung.value() / length);
             put(m, 2, length / hung.value());
         }
-        per_length_ = units.per_length;
-        ordinary_ = units.ordinary;
     }
-
-    std::ptrdiff_t size() const { return size_; }
-    [[gnu::always_inline]] V per_length() const { return per_length_; }
-    [[gnu::always_inline]] typename V::Mask ordinary() const { return ordinary_; }
 
     /// Coefficients of y at the support, size() + 1 of them, lowest first. Cost N^2.
     [[gnu::always_inline]] void polynomial(V* y) const {
         V f[max_polynomial];  // F / (-mu)
         y[0] = V(1.0);
-        for (std::ptrdiff_t m = 0; m < size_; ++m) {
+        for (std::ptrdiff_t m = 0; m < size(); ++m) {
             const V weight = get(m, 0), flexibility = get(m, 2);
             for (std::ptrdiff_t j = 0; j < m; ++j) f[j] = f[j] + weight * y[j];
             f[m] = weight * y[m];
             for (std::ptrdiff_t j = 1; j <= m; ++j) y[j] = y[j] + flexibility * f[j - 1];
             y[m + 1] = flexibility * f[m];
         }
-        for (std::ptrdiff_t j = 1; j <= size_; j += 2) y[j] = -y[j];
+        for (std::ptrdiff_t j = 1; j <= size(); j += 2) y[j] = -y[j];
     }
 
     /// Offset y and force F, up one link, with derivatives.
@@ -97,17 +92,6 @@ class PlummetLanes {
         s.stiffness = s.stiffness + (get(m, 1) * stretched) * stretched;
         s.offset = next;
     }
-    [[gnu::always_inline]] V get(std::ptrdiff_t m, std::ptrdiff_t which) const {
-        return V::load(work_ + (m * stored + which) * block_lanes);
-    }
-    [[gnu::always_inline]] void put(std::ptrdiff_t m, std::ptrdiff_t which, const V& x) {
-        x.store(work_ + (m * stored + which) * block_lanes);
-    }
-
-    std::ptrdiff_t size_;
-    double* work_;
-    V per_length_;
-    typename V::Mask ordinary_;
 };
 
 }  // namespace revchain::linalg

@@ -13,21 +13,23 @@ namespace revchain::linalg {
 /// Times (k + mu X)/k, link by link, y becomes a polynomial in mu and needs no division (`polynomial`, `taylor`,
 /// `modes_below`), whose changes of sign are the negative pivots of K - mu M also where k + mu X is negative.
 template <class V>
-class RigidLanes {
+class RigidLanes : public detail::LaneNumbers<V, 12> {
+    using Numbers = detail::LaneNumbers<V, 12>;
+    using Numbers::get, Numbers::put, Numbers::units;
+
    public:
-    static constexpr std::ptrdiff_t stored = 12;
+    using Numbers::size;
     static constexpr std::ptrdiff_t max_polynomial = 16;
 
     [[gnu::always_inline]] RigidLanes(const LaneBlock& block, std::ptrdiff_t lane, double* work)
-        : size_(block.size), work_(work + lane) {
-        const detail::LaneUnits<V> units(block, lane);
+        : Numbers(block, lane, work) {
         CompensatedSum<V> hung;
-        for (std::ptrdiff_t m = 0; m < size_; ++m) {
+        for (std::ptrdiff_t m = 0; m < size(); ++m) {
             const std::ptrdiff_t at = m * block_lanes + lane;
-            const V weight = V::load(block.weight + at) * units.per_weight;
-            const V a = V::load(block.length + at) * units.per_length;
-            const V h = V::load(block.centroid + at) * units.per_length;
-            const V turning = V::load(block.turning + at) * units.per_length;
+            const V weight = V::load(block.weight + at) * units().per_weight;
+            const V a = V::load(block.length + at) * units().per_length;
+            const V h = V::load(block.centroid + at) * units().per_length;
+            const V turning = V::load(block.turning + at) * units().per_length;
             const V gyration = block.turning_is_radius ? turning * turning : h * (turning - h);
             const V kappa = weight * h + a * hung.value();
             const V square = a * a;
@@ -47,19 +49,13 @@ class RigidLanes {
             put(m, upper, weight * (q * q + t) * flexibility);
             put(m, coupling, weight * weight * t * flexibility);
         }
-        per_length_ = units.per_length;
-        ordinary_ = units.ordinary;
     }
-
-    std::ptrdiff_t size() const { return size_; }
-    [[gnu::always_inline]] V per_length() const { return per_length_; }
-    [[gnu::always_inline]] typename V::Mask ordinary() const { return ordinary_; }
 
     [[gnu::always_inline]] void polynomial(V* y) const {
         V f[max_polynomial + 1];  // F / (-mu)
         y[0] = V(1.0);
         f[0] = V(0.0);
-        for (std::ptrdiff_t m = 0; m < size_; ++m) {
+        for (std::ptrdiff_t m = 0; m < size(); ++m) {
             const V weight = get(m, weight_), a = get(m, lower), b = get(m, upper), c = get(m, coupling);
             const V flexibility = get(m, flexibility_);
             f[m + 1] = b * f[m] + c * y[m];
@@ -70,7 +66,7 @@ class RigidLanes {
             }
             f[0] = f[0] + weight * y[0];
         }
-        for (std::ptrdiff_t j = 1; j <= size_; j += 2) y[j] = -y[j];
+        for (std::ptrdiff_t j = 1; j <= size(); j += 2) y[j] = -y[j];
     }
 
     [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y, LaneTaylor<V>& f) const {
@@ -119,6 +115,7 @@ class RigidLanes {
         upper,
         coupling
     };
+
     /// From a pin at the distance `far` from the centre of gravity to one at `near`, a y_G = near y + far y'.
     [[gnu::always_inline]] void pass(std::ptrdiff_t m, const V& x, const V& near, const V& far, LaneShape<V>& s) const {
         const V pull = get(m, weight_a) * near, k = get(m, stiffness_);
@@ -130,17 +127,6 @@ class RigidLanes {
         s.force = s.force - x * (get(m, weight_a) * moment);
         s.offset = next;
     }
-    [[gnu::always_inline]] V get(std::ptrdiff_t m, std::ptrdiff_t which) const {
-        return V::load(work_ + (m * stored + which) * block_lanes);
-    }
-    [[gnu::always_inline]] void put(std::ptrdiff_t m, std::ptrdiff_t which, const V& x) {
-        x.store(work_ + (m * stored + which) * block_lanes);
-    }
-
-    std::ptrdiff_t size_;
-    double* work_;
-    V per_length_;
-    typename V::Mask ordinary_;
 };
 
 }  // namespace revchain::linalg

@@ -93,10 +93,10 @@ Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pen
 /// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods, more
 /// where neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.85 ns per mode and link for equal plummets, 1.3 for
 /// random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes).
-/// Preconditions: 0 <= first, last <= total <= size.
+/// Preconditions: 0 <= first, last <= total <= size; `chain` is `spectrum::pinned(wide)`.
 template <Real S>
-std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
-                                               double tolerance) {
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::PinnedChain& chain,
+                                               Index first, Index last, Index total, double tolerance) {
     using namespace spectrum;
     std::vector<Certified<double>> result;
     if (first >= last) return result;
@@ -105,7 +105,6 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Ind
     const auto by_counts = [&](Index j, double guess) {
         return counted(wide, pencil, j, bisect(pencil, j, Index(1), 2 * epsilon<double>(), guess, nothing).front());
     };
-    const PinnedChain chain = pinned(wide);
     std::vector<Candidate> all;
     Index begin = first;  // number of all.front()
 
@@ -197,6 +196,12 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Ind
         result.push_back({c.eigenvalue, c.bound});
     }
     return result;
+}
+
+template <Real S>
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
+                                               double tolerance) {
+    return all_eigenvalues(wide, spectrum::pinned(wide), first, last, total, tolerance);
 }
 
 }  // namespace revchain::linalg

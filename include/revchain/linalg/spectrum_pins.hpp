@@ -69,7 +69,7 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
         double size = carried_size;
         if (m < n) {
             const Element<S>& e = wide.elements[m];
-            const S cross = cross_mass(e);
+            const S cross = e.cross;
             mass = mass + (e.lower + cross);
             carried = e.upper + cross;
             carried_size = static_cast<double>(e.lower) + static_cast<double>(e.upper) + e.weight;
@@ -85,7 +85,7 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
         }
         if (m == n) break;
         const Element<S>& e = wide.elements[m];
-        const S cross = cross_mass(e);
+        const S cross = e.cross;
         const double k = static_cast<double>(e.stiffness);
         const double swing = static_cast<double>(cross / e.stiffness);
         const S weight(e.weight);

@@ -47,7 +47,7 @@ bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptio
 ///
 /// In float and double one chain to a SIMD lane (linalg/lane_spectrum.hpp); chains for which that proves nothing, those
 /// with massless links or centroids at or above the pin, and all chains in other scalars are done one by one by `modes`.
-/// Accuracy: 2.7 ulp for plummets and rods up to N = 100; in a million chains of all kinds of 1 to 6 links 29 heights were
+/// Accuracy: 2.8 ulp for plummets and rods up to N = 100; in a million chains of all kinds of 1 to 6 links 29 heights were
 /// off by more than 4 ulp, the worst by 4.8, all where weights span 1e12 or the mass of a link is one point between its
 /// pins. Verified by counts to 16 + N/4 ulp.
 /// Results are bitwise the same whatever the number of threads, the place of a chain in the batch and its neighbours

@@ -15,7 +15,6 @@ struct LinkChunk {
     std::array<T, most> stiffness, cross, at_lower, at_upper;
     Index count = 0;
 
-    /// Links first ... first + count - 1; lengths in `unit`.
     /// Links first ... first + links - 1; lengths in `unit`.
     LinkChunk(const Chain<T>& chain, Index first, Index links, const T& unit) : count(links) {
         const Wide<T> hung = chain.weight_below(first);
@@ -47,10 +46,10 @@ REVCHAIN_SIMD void descend(const LinkChunk<T>& links, const Pack<T>& lambda, Pin
     using V = Pack<T>;
     for (Index m = links.count; m-- > 0;) {
         const auto i = static_cast<std::size_t>(m);
-        state.force.add(-(V(links.at_upper[i]) * (state.offset.high + state.offset.low)));
+        state.force.add(-(V(links.at_upper[i]) * state.offset.value()));
         const V spring = lambda * links.stiffness[i] + V(links.cross[i]);
-        state.offset.add((state.force.high + state.force.low) / spring);
-        const V y = state.offset.high + state.offset.low;
+        state.offset.add(state.force.value() / spring);
+        const V y = state.offset.value();
         state.force.add(-(V(links.at_lower[i]) * y));
         offset[i] = y;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/chain/chain.hpp"
+#include "revchain/core/compensated_sum.hpp"
 #include "revchain/linalg/block_transfer.hpp"
 
 #pragma GCC diagnostic push
@@ -24,33 +25,6 @@ constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degre
 /// coefficients: docs/accuracy.md, "Blocks".
 constexpr Index moment_roundings(Index links) { return 2 * links + 6; }
 constexpr Index coefficient_roundings(Index links) { return 3 * links + 13; }
-
-/// Sum of numbers, or of packs lane by lane: high + low.
-template <class V>
-struct CompensatedSum {
-    V high{}, low{};
-    void add(const V& x) {
-        const V s = high + x;
-        const V v = s - high;
-        low += (high - (s - v)) + (x - v);
-        high = s;
-    }
-    /// The same where x is no larger than what there is, or the first.
-    void add_smaller(const V& x) {
-        const V s = high + x;
-        low += x - (s - high);
-        high = s;
-    }
-    void normalise() {
-        const V s = high + low;
-        low -= s - high;
-        high = s;
-    }
-    void add(const CompensatedSum& x) {
-        add(x.high);
-        low += x.low;
-    }
-};
 
 /// Neighbouring runs of links, condensed, one in each lane. Units of length: `unit_length` of the columns.
 template <class V>

@@ -136,47 +136,40 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
             detail::set_height(result, j, height.value, height.error_bound, chain.units().length_exponent, options);
         }
     };
-    bool has_shapes = !options.shapes;
     const auto set_shapes = [&](const detail::Heights<T>& found) {
         const bool loose = detail::is_loose(chain, options);
-        for (Index j = 0; !has_shapes && j < range.count; ++j) {
+        for (Index j = 0; options.shapes && j < range.count; ++j) {
             detail::find_shape(result, j, chain, assembled.pencils(), found.height[static_cast<std::size_t>(j)], loose);
             detail::advance(options.progress, to_heights + (1 - to_heights) * static_cast<double>(j + 1) /
                                                                static_cast<double>(range.count));
         }
-        has_shapes = true;
     };
     bool found = false;
+    const auto take = [&](const auto& heights) {  // those of a way that may have found none
+        if (!heights) return;
+        set_heights(*heights);
+        set_shapes(*heights);
+        found = true;
+    };
     if constexpr (std::is_same_v<T, double>) {
         const auto may = [&](ModesMethod method, bool pays) {
             return !found && (options.method == method || (options.method == ModesMethod::automatic && pays));
         };
         // Only where asked for by name, until the constants of its bound have been derived a second time.
-        if (may(ModesMethod::together, false))
-            if (const auto fast = detail::heights_all_together(chain, range, options)) {
-                set_heights(*fast);
-                set_shapes(*fast);
-                found = true;
-            }
+        if (options.method == ModesMethod::together) take(detail::heights_all_together(chain, range, options));
         if (may(ModesMethod::spectrum, detail::spectrum_pays(chain, range)))
-            if (const auto fast = detail::heights_by_spectrum(assembled, range, chain.mode_count(), options)) {
-                set_heights(*fast);
-                set_shapes(*fast);
-                found = true;
-            }
+            take(detail::heights_by_spectrum(assembled, range, chain.mode_count(), options));
         if (may(ModesMethod::blocks, detail::compression_pays(chain, range)))
             if (const auto fast = detail::heights_by_compression(chain, range, options, to_heights)) {
                 set_heights(fast->found);
-                found = has_shapes =
-                    has_shapes || detail::shapes_by_compression(result, chain, fast->compressed, fast->found.height,
-                                                                options.progress, to_heights);
+                found = !options.shapes || detail::shapes_by_compression(result, chain, fast->compressed,
+                                                                         fast->found.height, options.progress,
+                                                                         to_heights);
             }
     }
     if (!found) {
         result.status = Status::success;
-        const auto sure = detail::heights_by_bisection(chain, assembled, range, options, to_heights);
-        set_heights(sure);
-        set_shapes(sure);
+        take(std::optional(detail::heights_by_bisection(chain, assembled, range, options, to_heights)));
     }
     for (Index j = 0; options.certify && j < range.count; ++j)
         detail::certify(result, j, assembled.pencils(), chain.mode_count());

@@ -82,12 +82,6 @@ inline bool pin(PinnedChain& small, const Chain<double>& chain) {
            growth < std::exp2(300.0 / static_cast<double>(std::min(n, linalg::small::leg)));
 }
 
-/// Where finding all modes at once pays: always but for a few modes of the larger chains (measured).
-template <Real T>
-bool all_together_pays(const Chain<T>& chain, const ModeRange& range) {
-    return chain.size() <= static_cast<Index>(linalg::small::most_links) && 16 * range.count >= chain.size();
-}
-
 /// Stage 1 of `modes` for small chains where the tolerance leaves room for bounds of some 20 ulp; nothing where it does
 /// not, or for chains that `linalg::small_spectrum` does not serve. Cost: as there, and 10 ns a link.
 inline std::optional<Heights<double>> heights_all_together(const Chain<double>& chain, const ModeRange& range,

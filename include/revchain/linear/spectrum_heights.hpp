@@ -22,10 +22,12 @@ inline std::optional<Heights<double>> heights_by_spectrum(OnDemand<double>& asse
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);
     if (goal < 40 * epsilon<double>()) return std::nullopt;
     const auto& wide = assembled.pencils().wide();
-    if (wide.size() < 2 || !linalg::spectrum::pinned(wide).fit) return std::nullopt;
+    if (wide.size() < 2) return std::nullopt;
+    const auto pinned = linalg::spectrum::pinned(wide);
+    if (!pinned.fit) return std::nullopt;
     Heights<double> result{{}, "spectrum"};
     const Index first = range.first - 1;
-    for (const auto& sure : linalg::all_eigenvalues(wide, first, first + range.count, mode_count, goal))
+    for (const auto& sure : linalg::all_eigenvalues(wide, pinned, first, first + range.count, mode_count, goal))
         result.height.push_back({sure.eigenvalue, sure.error_bound, sure.eigenvalue});
     restore_order(result.height);
     return result;

@@ -142,7 +142,7 @@ TEST_CASE("a run that is not one says so", "[blocks]") {
 
 TEST_CASE("sums of two words are exact to the second", "[blocks]") {
     Random random(42);
-    revchain::detail::CompensatedSum<double> sum, falling;
+    revchain::CompensatedSum<double> sum, falling;
     Quad exact = 0, exact_falling = 0;
     double x = 1;
     for (int i = 0; i < 10000; ++i) {
