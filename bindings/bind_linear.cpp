@@ -64,15 +64,8 @@ using Solver = revchain::Modes<T> (*)(const revchain::Chain<T>&, const revchain:
 template <class T>
 Solver<T> solver(const std::string& method) {
     if constexpr (std::is_same_v<T, double>) {
-        using Options = revchain::ModesOptions<double>;
-        if (method == "dense")
-            return [](const Chain& chain, const Options& options) {
-                return revchain::detail::chosen_among_slowest(chain, options, &revchain::modes_dense<double>);
-            };
-        if (method == "recurrence")
-            return [](const Chain& chain, const Options& options) {
-                return revchain::detail::chosen_among_slowest(chain, options, &revchain::modes_recurrence<double>);
-            };
+        if (method == "dense") return &revchain::modes_dense<double>;
+        if (method == "recurrence") return &revchain::modes_recurrence<double>;
     } else if (method == "dense" || method == "recurrence") {
         revchain::detail::refuse("modes", "this method knows precision double only", method);
     }

@@ -49,38 +49,40 @@ concept Compensated = Real<T> && std::floating_point<T> && !std::floating_point<
 /// Of a full segment. For double words the lanes, and the tree that joins them, carry the rounding errors of their 20
 /// sums along; what is rounded there is 19 u of 20 u of the sum of sizes at most.
 template <Real T>
-REVCHAIN_SIMD Summary<T> summary_of_segment(const T* x) {
+Summary<T> summary_of_segment(const T* x) {
     using S = std::conditional_t<Compensated<T>, T, Wide<T>>;
-    S sum[sum_lanes]{}, error[sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
-    T least[sum_lanes];
-    std::copy_n(x, sum_lanes, least);
-    for (Index m = 0; m < segment_size; m += sum_lanes) {
-        for (std::size_t i = 0; i < sum_lanes; ++i) {
-            const T y = x[static_cast<std::size_t>(m) + i];
-            const S s = sum[i] + S(y);
-            if constexpr (Compensated<T>) {  // two_sum
-                const S v = s - sum[i];
-                error[i] += (sum[i] - (s - v)) + (y - v);
+    return simd([&](auto) __attribute__((always_inline)) {
+        S sum[sum_lanes]{}, error[sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
+        T least[sum_lanes];
+        std::copy_n(x, sum_lanes, least);
+        for (Index m = 0; m < segment_size; m += sum_lanes) {
+            for (std::size_t i = 0; i < sum_lanes; ++i) {
+                const T y = x[static_cast<std::size_t>(m) + i];
+                const S s = sum[i] + S(y);
+                if constexpr (Compensated<T>) {  // two_sum
+                    const S v = s - sum[i];
+                    error[i] += (sum[i] - (s - v)) + (y - v);
+                }
+                sum[i] = s;
+                least[i] = y < least[i] ? y : least[i];
             }
-            sum[i] = s;
-            least[i] = y < least[i] ? y : least[i];
         }
-    }
-    for (std::size_t half = sum_lanes / 2; half > 0; half /= 2)
-        for (std::size_t i = 0; i < half; ++i) {
-            const S s = sum[i] + sum[i + half];
-            if constexpr (Compensated<T>) {
-                const S v = s - sum[i];
-                error[i] += error[i + half] + ((sum[i] - (s - v)) + (sum[i + half] - v));
+        for (std::size_t half = sum_lanes / 2; half > 0; half /= 2)
+            for (std::size_t i = 0; i < half; ++i) {
+                const S s = sum[i] + sum[i + half];
+                if constexpr (Compensated<T>) {
+                    const S v = s - sum[i];
+                    error[i] += error[i + half] + ((sum[i] - (s - v)) + (sum[i + half] - v));
+                }
+                sum[i] = s;
             }
-            sum[i] = s;
-        }
-    Summary<T> result{{}, *std::min_element(least, least + sum_lanes)};
-    if constexpr (Compensated<T>)
-        result.sum = two_sum(sum[0], error[0]);
-    else
-        result.sum = sum[0];
-    return result;
+        Summary<T> result{{}, *std::min_element(least, least + sum_lanes)};
+        if constexpr (Compensated<T>)
+            result.sum = two_sum(sum[0], error[0]);
+        else
+            result.sum = sum[0];
+        return result;
+    });
 }
 
 /// Sum of non-negative numbers with one word more than they have: what is left over is about one rounding, however

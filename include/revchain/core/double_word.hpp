@@ -77,7 +77,7 @@ template <Word T>
             for (std::size_t i = 0; i < T::size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
             return {p, rest};
         } else {
-            // Halves by cutting bits off: their products are exact, so that REVCHAIN_SIMD may fuse them with the sums;
+            // Halves by cutting bits off: their products are exact, so that compilers may fuse them with the sums;
             // Veltkamp's split would not survive that. xl yl may be rounded, at u^2/4.
             const T xh = upper_half(x), yh = upper_half(y);
             const T xl = x - xh, yl = y - yh;

@@ -7,15 +7,6 @@
 #error "revchain: packs are compiler vectors, of GCC and Clang"
 #endif
 
-/// A function that is compiled for several kinds of processor, the best of which is taken when the program starts. GCC
-/// alone has this for templates; `simd` below has no such limit.
-#if !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__) && !defined(__AVX2__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define REVCHAIN_SIMD [[gnu::flatten, gnu::target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")]]
-#else
-#define REVCHAIN_SIMD
-#endif
-
 namespace revchain {
 
 /// How large the SIMD registers are that a piece of code is compiled for.
@@ -29,12 +20,12 @@ namespace detail {
 
 #if defined(__x86_64__) && !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
 template <class F>
-[[gnu::target("avx2,fma")]] void for_avx2(const F& f) {
-    f(Registers<32>{});
+[[gnu::flatten, gnu::target("avx2,fma")]] auto for_avx2(const F& f) {
+    return f(Registers<32>{});
 }
 template <class F>
-[[gnu::target("avx2,fma,avx512f,avx512dq,avx512vl")]] void for_avx512(const F& f) {
-    f(Registers<64>{});
+[[gnu::flatten, gnu::target("avx2,fma,avx512f,avx512dq,avx512vl")]] auto for_avx512(const F& f) {
+    return f(Registers<64>{});
 }
 enum class Processor { basic, avx2, avx512 };
 inline Processor processor() {
@@ -65,13 +56,13 @@ using OwnRegisters = Registers<16>;
 /// f and all it calls that handles packs have to be always_inline: what is not stays code for the oldest processor, and
 /// packs must not be handed across that border by value.
 template <class F>
-void simd(const F& f) {
+auto simd(const F& f) {
 #if defined(__x86_64__) && !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
     const detail::Processor processor = detail::processor();
     if (processor == detail::Processor::avx512) return detail::for_avx512(f);
     if (processor == detail::Processor::avx2) return detail::for_avx2(f);
 #endif
-    f(detail::OwnRegisters{});
+    return f(detail::OwnRegisters{});
 }
 
 }  // namespace revchain

@@ -150,74 +150,76 @@ template <bool rigid>
 /// See `small_spectrum`. The numbers in it count roundings: docs/accuracy.md, "All modes", 2, 4 and 5, with sums that are
 /// plain over a leg and over the legs.
 template <bool rigid>
-REVCHAIN_SIMD inline bool solve(const PinnedLinks& links, const SmallRoundings& roundings, double tolerance,
-                                SmallSpectrum& result) {
-    constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30;
-    const std::size_t n = links.size;
-    Roots roots;
-    roots.count = n;
-    double above[most_links], square = 0, sum = 0, swing = 0;
-    for (std::size_t m = n; m-- > 0;) {
-        sum += links.flexibility[m];
-        above[m] = sum;
-        square += links.stiffness[m] * sum;
-        if constexpr (rigid) swing = std::max(swing, links.swing[m]);
-    }
-    const double root = std::sqrt(square);
-    if (!first_roots<rigid>(links, roots)) return false;
-    improve<rigid>(links, roots);
-    if (!std::is_sorted(roots.shift, roots.shift + n)) std::sort(roots.shift, roots.shift + n);
-    roots.fill_up();
-
-    const double additions = static_cast<double>(std::min(n, leg) + n / leg + 2);
-    const double rounding = unit * (roundings.energies + (rigid ? 18 : 13) + 2 * additions + roundings.skew) * slack;
-    alignas(Four) double residual[Roots::room];
-    for (int round = 0; round < 2; ++round) {
-        bool sane = true;
-        for_packs(
-            n, [&]<std::size_t P>(std::integral_constant<std::size_t, P>, std::size_t first)
-                   __attribute__((always_inline)) {
-                       std::array<Four, P> mu;
-#pragma GCC unroll 3
-                       for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
-                       const auto all = n <= leg ? quotients<rigid, false, P>(links, above, mu)
-                                                 : quotients<rigid, true, P>(links, above, mu);
-#pragma GCC unroll 3
-                       for (std::size_t p = 0; p < P; ++p) {
-                           const Quotients& q = all[p];
-                           (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
-                           q.square.store(residual + first + 4 * p);
-                           const Four odd = if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
-                                            if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
-                                            if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
-                                            if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
-                           sane = sane && odd[0] + odd[1] + odd[2] + odd[3] == 0;
-                       }
-                   });
-        if (!sane) return false;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double stretch = rigid ? 1 + roots.shift[i] * swing : 1;
-            const double rounded = 1.01 * unit * stretch * ((18.1 + 2 * roundings.mass) * root + roundings.drop);
-            residual[i] = 2 * (std::sqrt(residual[i]) * slack + rounded);  // 2 > 1 / ratio
+inline bool solve(const PinnedLinks& links, const SmallRoundings& roundings, double tolerance, SmallSpectrum& result) {
+    return simd([&](auto) __attribute__((always_inline)) {
+        constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30;
+        const std::size_t n = links.size;
+        Roots roots;
+        roots.count = n;
+        double above[most_links], square = 0, sum = 0, swing = 0;
+        for (std::size_t m = n; m-- > 0;) {
+            sum += links.flexibility[m];
+            above[m] = sum;
+            square += links.stiffness[m] * sum;
+            if constexpr (rigid) swing = std::max(swing, links.swing[m]);
         }
-        // Disjoint intervals, as many as eigenvalues: one in each. Then Kato and Temple. `blurred`: what is stored is the
-        // vector's quotient but for rounding.
-        const auto& value = result.eigenvalue;
-        const double blurred = rounding + 0x1p-50;
-        double upper_end = std::numeric_limits<double>::infinity();  // of the room eigenvalue i has for itself
-        bool good = true;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double lower_end = i + 1 < n ? value[i + 1] + (residual[i + 1] + blurred) * value[i + 1] : 0.0;
-            const double room = std::min(upper_end - value[i], value[i] - lower_end) - blurred * value[i];
-            result.bound[i] = (residual[i] * (residual[i] * value[i]) / room + rounding) * slack;
-            good = good && room > residual[i] * value[i] && result.bound[i] <= tolerance;
-            upper_end = value[i] - (residual[i] + blurred) * value[i];
-        }
-        if (good) return true;
-        for (std::size_t i = 0; i < n; ++i) roots.shift[i] = 1 / result.eigenvalue[i];
+        const double root = std::sqrt(square);
+        if (!first_roots<rigid>(links, roots)) return false;
+        improve<rigid>(links, roots);
+        if (!std::is_sorted(roots.shift, roots.shift + n)) std::sort(roots.shift, roots.shift + n);
         roots.fill_up();
-    }
-    return false;
+
+        const double additions = static_cast<double>(std::min(n, leg) + n / leg + 2);
+        const double rounding =
+            unit * (roundings.energies + (rigid ? 18 : 13) + 2 * additions + roundings.skew) * slack;
+        alignas(Four) double residual[Roots::room];
+        for (int round = 0; round < 2; ++round) {
+            bool sane = true;
+            for_packs(
+                n, [&]<std::size_t P>(std::integral_constant<std::size_t, P>, std::size_t first)
+                       __attribute__((always_inline)) {
+                           std::array<Four, P> mu;
+#pragma GCC unroll 3
+                           for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
+                           const auto all = n <= leg ? quotients<rigid, false, P>(links, above, mu)
+                                                     : quotients<rigid, true, P>(links, above, mu);
+#pragma GCC unroll 3
+                           for (std::size_t p = 0; p < P; ++p) {
+                               const Quotients& q = all[p];
+                               (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
+                               q.square.store(residual + first + 4 * p);
+                               const Four odd = if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
+                                                if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
+                                                if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
+                                                if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
+                               sane = sane && odd[0] + odd[1] + odd[2] + odd[3] == 0;
+                           }
+                       });
+            if (!sane) return false;
+            for (std::size_t i = 0; i < n; ++i) {
+                const double stretch = rigid ? 1 + roots.shift[i] * swing : 1;
+                const double rounded = 1.01 * unit * stretch * ((18.1 + 2 * roundings.mass) * root + roundings.drop);
+                residual[i] = 2 * (std::sqrt(residual[i]) * slack + rounded);  // 2 > 1 / ratio
+            }
+            // Disjoint intervals, as many as eigenvalues: one in each. Then Kato and Temple. `blurred`: what is stored is the
+            // vector's quotient but for rounding.
+            const auto& value = result.eigenvalue;
+            const double blurred = rounding + 0x1p-50;
+            double upper_end = std::numeric_limits<double>::infinity();  // of the room eigenvalue i has for itself
+            bool good = true;
+            for (std::size_t i = 0; i < n; ++i) {
+                const double lower_end = i + 1 < n ? value[i + 1] + (residual[i + 1] + blurred) * value[i + 1] : 0.0;
+                const double room = std::min(upper_end - value[i], value[i] - lower_end) - blurred * value[i];
+                result.bound[i] = (residual[i] * (residual[i] * value[i]) / room + rounding) * slack;
+                good = good && room > residual[i] * value[i] && result.bound[i] <= tolerance;
+                upper_end = value[i] - (residual[i] + blurred) * value[i];
+            }
+            if (good) return true;
+            for (std::size_t i = 0; i < n; ++i) roots.shift[i] = 1 / result.eigenvalue[i];
+            roots.fill_up();
+        }
+        return false;
+    });
 }
 
 }  // namespace small

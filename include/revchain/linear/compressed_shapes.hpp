@@ -41,18 +41,19 @@ struct PinState {
 
 /// Goes down the chunk from the state at its top; `offset[i]` becomes that of the lower pin of link i.
 template <class T>
-REVCHAIN_SIMD void descend(const LinkChunk<T>& links, const Pack<T>& lambda, PinState<Pack<T>>& state,
-                           Pack<T>* offset) {
+void descend(const LinkChunk<T>& links, const Pack<T>& lambda, PinState<Pack<T>>& state, Pack<T>* offset) {
     using V = Pack<T>;
-    for (Index m = links.count; m-- > 0;) {
-        const auto i = static_cast<std::size_t>(m);
-        state.force.add(-(V(links.at_upper[i]) * state.offset.value()));
-        const V spring = lambda * links.stiffness[i] + V(links.cross[i]);
-        state.offset.add(state.force.value() / spring);
-        const V y = state.offset.value();
-        state.force.add(-(V(links.at_lower[i]) * y));
-        offset[i] = y;
-    }
+    simd([&](auto) __attribute__((always_inline)) {
+        for (Index m = links.count; m-- > 0;) {
+            const auto i = static_cast<std::size_t>(m);
+            state.force.add(-(V(links.at_upper[i]) * state.offset.value()));
+            const V spring = lambda * links.stiffness[i] + V(links.cross[i]);
+            state.offset.add(state.force.value() / spring);
+            const V y = state.offset.value();
+            state.force.add(-(V(links.at_lower[i]) * y));
+            offset[i] = y;
+        }
+    });
 }
 
 /// Forces that are left at the pins but the held one, and the largest sum of sizes that meet at one; from the top down.
@@ -63,23 +64,25 @@ struct Balance {
 };
 
 template <class T>
-REVCHAIN_SIMD void weigh(const LinkChunk<T>& links, const Pack<T>& lambda, const Pack<T>& top, bool held,
-                         const Pack<T>* offset, Balance<Pack<T>>& balance) {
+void weigh(const LinkChunk<T>& links, const Pack<T>& lambda, const Pack<T>& top, bool held, const Pack<T>* offset,
+           Balance<Pack<T>>& balance) {
     using V = Pack<T>;
-    for (Index m = links.count; m-- > 0;) {
-        const auto i = static_cast<std::size_t>(m);
-        const V lower = offset[i], upper = m + 1 < links.count ? offset[i + 1] : top;
-        const V stiffness = lambda * links.stiffness[i] + V(links.cross[i]);
-        const V pull = stiffness * (lower - upper);
-        const V at_upper = V(links.at_upper[i]) * upper, at_lower = V(links.at_lower[i]) * lower;
-        const V size = abs(stiffness) * (abs(lower) + abs(upper));
-        if (!held || m + 1 < links.count) {
-            balance.worst = max(balance.worst, abs(balance.force - (pull + at_upper)));
-            balance.largest = max(balance.largest, balance.size + size + abs(at_upper));
+    simd([&](auto) __attribute__((always_inline)) {
+        for (Index m = links.count; m-- > 0;) {
+            const auto i = static_cast<std::size_t>(m);
+            const V lower = offset[i], upper = m + 1 < links.count ? offset[i + 1] : top;
+            const V stiffness = lambda * links.stiffness[i] + V(links.cross[i]);
+            const V pull = stiffness * (lower - upper);
+            const V at_upper = V(links.at_upper[i]) * upper, at_lower = V(links.at_lower[i]) * lower;
+            const V size = abs(stiffness) * (abs(lower) + abs(upper));
+            if (!held || m + 1 < links.count) {
+                balance.worst = max(balance.worst, abs(balance.force - (pull + at_upper)));
+                balance.largest = max(balance.largest, balance.size + size + abs(at_upper));
+            }
+            balance.force = pull - at_lower;
+            balance.size = size + abs(at_lower);
         }
-        balance.force = pull - at_lower;
-        balance.size = size + abs(at_lower);
-    }
+    });
 }
 
 /// Four modes on their way down the chain.

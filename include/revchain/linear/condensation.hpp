@@ -85,84 +85,86 @@ struct LinkColumns {
 /// that of a division, all else less than 0.1; moment of a leaf three times its links, other coefficients four times.
 /// Cost: 0.9 ns a plummet, 1.5 ns a link in double with AVX-512, twice and three times that with AVX2 and SSE2.
 template <LinkKind Kind, std::size_t Degree, class T, class V = Pack<T>>
-REVCHAIN_SIMD LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length,
-                                   const CompensatedSum<V>& below) {
-    LaneRuns<V> runs;
-    CompensatedSum<V> hung = below;
-    V p(T(1)), coefficient{}, a(T(1)), per_length(T(1));
-    const T per_unit = T(1) / links.unit_length;
-    const auto set_link = [&](Index m) __attribute__((always_inline)) {
-        a = links.length.template lanes<V>(m, length) * per_unit;
-        per_length = T(1) / a;
-        if constexpr (Kind == LinkKind::equal_links)
-            p = links.centroid.template lanes<V>(m, length) / links.length.template lanes<V>(m, length);
-        else
-            p = links.centroid.template lanes<V>(m, length) * per_unit * per_length;
-        coefficient = p * (T(1) - p) - links.gyration_ratio.template lanes<V>(m, length);
-        runs.worst = max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
-        coefficient = max(coefficient, V{});
-    };
-    if constexpr (Kind == LinkKind::equal_links) {
-        set_link(first);
-        a = per_length = V(T(1));
-    }
-    const Index step = leaf_links(length);
-    // Sums are exact where no link outweighs all below it: asked of each link, or where leaves are light, of each leaf.
-    constexpr bool light_leaves = Degree < leaf_degree;
-    // hung.low is rounded `step` times at `step` half units of hung.high: that much of the mass of a leaf is lost.
-    const T lost = T(16 * step * step) * epsilon<T>();
-    for (Index start = 0; start < length; start += step) {
-        linalg::Transfer<V, Degree> leaf;
-        CompensatedSum<V> flexibility;
-        hung.normalise();
-        const CompensatedSum<V> at_start = hung;
-        V carry{};  // mass at the upper pin of the link before
-        for (Index m = start; m < start + step; ++m) {
-            if constexpr (Kind == LinkKind::any_links) set_link(first + m);
-            const V w = links.weight.template lanes<V>(first + m, length);
-            if constexpr (!light_leaves) runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
-            if constexpr (Kind == LinkKind::equal_plummets) {
-                linalg::append_mass(leaf, w);
-                hung.add_smaller(w);
-                const V f = T(1) / hung.high;
-                linalg::append_spring(leaf, f);
-                flexibility.add_smaller(f);  // the weight at a spring grows upwards
-                flexibility.low -= f * f * hung.low;
-            } else {
-                const V at_lower = p * w;
-                linalg::append_mass(leaf, carry + at_lower);
-                carry = w - at_lower;
-                CompensatedSum<V> s = hung;
-                s.add_smaller(at_lower);
-                hung.add_smaller(w);
-                const V f = a / s.high;
-                linalg::append_spring(leaf, f, coefficient * w * f);
-                if constexpr (Kind == LinkKind::equal_links)
-                    flexibility.add_smaller(f);
-                else
-                    flexibility.add(f);
-                flexibility.low -= f * f * per_length * s.low;
-                runs.worst = max(runs.worst, at_lower - T(0x1p-5) * s.high);  // it is rounded
-            }
+LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
+    return simd([&](auto) __attribute__((always_inline)) {
+        LaneRuns<V> runs;
+        CompensatedSum<V> hung = below;
+        V p(T(1)), coefficient{}, a(T(1)), per_length(T(1));
+        const T per_unit = T(1) / links.unit_length;
+        const auto set_link = [&](Index m) __attribute__((always_inline)) {
+            a = links.length.template lanes<V>(m, length) * per_unit;
+            per_length = T(1) / a;
+            if constexpr (Kind == LinkKind::equal_links)
+                p = links.centroid.template lanes<V>(m, length) / links.length.template lanes<V>(m, length);
+            else
+                p = links.centroid.template lanes<V>(m, length) * per_unit * per_length;
+            coefficient = p * (T(1) - p) - links.gyration_ratio.template lanes<V>(m, length);
+            runs.worst = max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
+            coefficient = max(coefficient, V{});
+        };
+        if constexpr (Kind == LinkKind::equal_links) {
+            set_link(first);
+            a = per_length = V(T(1));
         }
-        if constexpr (Kind != LinkKind::equal_plummets) linalg::append_mass(leaf, carry);
-        CompensatedSum<V> mass{hung.high, V{}};
-        mass.add(-at_start.high);
-        mass.add(hung.low - at_start.low);
-        runs.worst = max(runs.worst, hung.high * lost - mass.high);
-        if constexpr (light_leaves) runs.worst = max(runs.worst, mass.high - at_start.high);
-        flexibility.normalise();
-        const V phase = mass.high * flexibility.high;
-        runs.leaf_phase = max(runs.leaf_phase, phase);
-        runs.leaf_moment = max(runs.leaf_moment, if_less(V{}, phase, leaf.a[0] * leaf.a[0] / phase, V{}));  // no 0/0
-        runs.moment.add(leaf.a[0] + flexibility.high * runs.weight.high);
-        runs.moment.low += flexibility.high * runs.weight.low + flexibility.low * runs.weight.high;
-        runs.transfer = start == 0 ? linalg::extended<leaf_degree>(leaf) : linalg::merged(runs.transfer, leaf);
-        runs.weight.add(mass);
-        runs.weight.normalise();
-        runs.flexibility.add(flexibility);
-    }
-    return runs;
+        const Index step = leaf_links(length);
+        // Sums are exact where no link outweighs all below it: asked of each link, or where leaves are light, of each leaf.
+        constexpr bool light_leaves = Degree < leaf_degree;
+        // hung.low is rounded `step` times at `step` half units of hung.high: that much of the mass of a leaf is lost.
+        const T lost = T(16 * step * step) * epsilon<T>();
+        for (Index start = 0; start < length; start += step) {
+            linalg::Transfer<V, Degree> leaf;
+            CompensatedSum<V> flexibility;
+            hung.normalise();
+            const CompensatedSum<V> at_start = hung;
+            V carry{};  // mass at the upper pin of the link before
+            for (Index m = start; m < start + step; ++m) {
+                if constexpr (Kind == LinkKind::any_links) set_link(first + m);
+                const V w = links.weight.template lanes<V>(first + m, length);
+                if constexpr (!light_leaves) runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
+                if constexpr (Kind == LinkKind::equal_plummets) {
+                    linalg::append_mass(leaf, w);
+                    hung.add_smaller(w);
+                    const V f = T(1) / hung.high;
+                    linalg::append_spring(leaf, f);
+                    flexibility.add_smaller(f);  // the weight at a spring grows upwards
+                    flexibility.low -= f * f * hung.low;
+                } else {
+                    const V at_lower = p * w;
+                    linalg::append_mass(leaf, carry + at_lower);
+                    carry = w - at_lower;
+                    CompensatedSum<V> s = hung;
+                    s.add_smaller(at_lower);
+                    hung.add_smaller(w);
+                    const V f = a / s.high;
+                    linalg::append_spring(leaf, f, coefficient * w * f);
+                    if constexpr (Kind == LinkKind::equal_links)
+                        flexibility.add_smaller(f);
+                    else
+                        flexibility.add(f);
+                    flexibility.low -= f * f * per_length * s.low;
+                    runs.worst = max(runs.worst, at_lower - T(0x1p-5) * s.high);  // it is rounded
+                }
+            }
+            if constexpr (Kind != LinkKind::equal_plummets) linalg::append_mass(leaf, carry);
+            CompensatedSum<V> mass{hung.high, V{}};
+            mass.add(-at_start.high);
+            mass.add(hung.low - at_start.low);
+            runs.worst = max(runs.worst, hung.high * lost - mass.high);
+            if constexpr (light_leaves) runs.worst = max(runs.worst, mass.high - at_start.high);
+            flexibility.normalise();
+            const V phase = mass.high * flexibility.high;
+            runs.leaf_phase = max(runs.leaf_phase, phase);
+            runs.leaf_moment =
+                max(runs.leaf_moment, if_less(V{}, phase, leaf.a[0] * leaf.a[0] / phase, V{}));  // no 0/0
+            runs.moment.add(leaf.a[0] + flexibility.high * runs.weight.high);
+            runs.moment.low += flexibility.high * runs.weight.low + flexibility.low * runs.weight.high;
+            runs.transfer = start == 0 ? linalg::extended<leaf_degree>(leaf) : linalg::merged(runs.transfer, leaf);
+            runs.weight.add(mass);
+            runs.weight.normalise();
+            runs.flexibility.add(flexibility);
+        }
+        return runs;
+    });
 }
 
 /// The weight hung below each of four neighbouring runs of `length` links, the first one hung by `below`.

@@ -127,16 +127,6 @@ ModeRange chosen(const Chain<T>& chain, OnDemand<T>& assembled, const ModesOptio
     return {options.first, count};
 }
 
-/// For solvers that find the slowest modes only.
-template <Real T>
-void check(const Chain<T>& chain, const ModesOptions<T>& options) {
-    check(options);
-    if (options.first != 1 || options.conical_height || options.angular_speed || options.certify)
-        refuse("modes", "this method takes neither first nor a window, and certifies nothing");
-    OnDemand<T> unused(chain);
-    chosen(chain, unused, options);
-}
-
 /// Room for what the options ask of these modes, nothing computed yet.
 template <Real T>
 Modes<T> room_for_modes(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
@@ -151,14 +141,6 @@ Modes<T> room_for_modes(const Chain<T>& chain, const ModeRange& range, const Mod
     result.shape.resize(range.count, chain.size() + 1);
     result.residual.resize(range.count);
     result.nodes.resize(static_cast<std::size_t>(range.count));
-    return result;
-}
-
-/// The same for the slowest.
-template <Real T>
-Modes<T> room_for_modes(const Chain<T>& chain, const ModesOptions<T>& options, const char* method) {
-    Modes<T> result = room_for_modes(chain, ModeRange{1, options.count.value_or(chain.mode_count())}, options);
-    result.method = method;
     return result;
 }
 

@@ -86,34 +86,6 @@ void certify(Modes<T>& modes, Index j, const Pencils<T>& pencils, Index mode_cou
     }
 }
 
-/// The modes asked for, from a solver that finds the slowest ones only.
-template <Real T>
-Modes<T> chosen_among_slowest(const Chain<T>& chain, const ModesOptions<T>& options,
-                              Modes<T> (*solve)(const Chain<T>&, const ModesOptions<T>&)) {
-    check(options);
-    OnDemand<T> assembled(chain);
-    const ModeRange range = chosen(chain, assembled, options);
-    Modes<T> result = room_for_modes(chain, range, options);
-    if (range.count == 0) return result;
-    Modes<T> slowest = solve(chain, {.count = range.first - 1 + range.count,
-                                     .rtol = options.rtol,
-                                     .shapes = options.shapes,
-                                     .progress = options.progress});
-    result.method = slowest.method;
-    result.conical_height = slowest.conical_height.tail(range.count);
-    result.error_bound = slowest.error_bound.tail(range.count);
-    if (!(result.error_bound.array() <= options.rtol.value_or(std::numeric_limits<T>::max())).all())
-        result.status = Status::tolerance_not_met;
-    if (options.shapes) {
-        result.shape = slowest.shape.bottomRows(range.count);
-        result.residual = slowest.residual.tail(range.count);
-        result.nodes.assign(slowest.nodes.end() - range.count, slowest.nodes.end());
-    }
-    if (options.certify)
-        for (Index j = 0; j < range.count; ++j) certify(result, j, assembled.pencils(), chain.mode_count());
-    return result;
-}
-
 }  // namespace detail
 
 template <Real T>
@@ -162,9 +134,9 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
         if (may(ModesMethod::blocks, detail::compression_pays(chain, range)))
             if (const auto fast = detail::heights_by_compression(chain, range, options, to_heights)) {
                 set_heights(fast->found);
-                found = !options.shapes || detail::shapes_by_compression(result, chain, fast->compressed,
-                                                                         fast->found.height, options.progress,
-                                                                         to_heights);
+                found =
+                    !options.shapes || detail::shapes_by_compression(result, chain, fast->compressed,
+                                                                     fast->found.height, options.progress, to_heights);
             }
     }
     if (!found) {

@@ -14,29 +14,37 @@ namespace detail {
 /// The proved relative error of `height` as the eigenvalue number j: the least power of two times an ulp that two
 /// counts confirm, infinite if none up to 1/2 does.
 template <Real T>
-T proved_error(const AssembledChain<T>& assembled, Index j, const T& height) {
+T proved_error(const linalg::ElementPencil<Wide<T>>& pencil, Index j, const T& height) {
     if (!(height > T(0))) return std::numeric_limits<T>::infinity();
     for (T margin = T(2) * epsilon<T>(); margin <= T(0.5); margin = margin * T(2))
-        if (linalg::lies_within<Wide<T>>(assembled.pencil, j, height, static_cast<Narrow<Wide<T>>>(margin)))
+        if (linalg::lies_within<Wide<T>>(pencil, j, height, static_cast<Narrow<Wide<T>>>(margin)))
             return linalg::bound_of_margin<Wide<T>>(margin);
     return std::numeric_limits<T>::infinity();
 }
 
-template <Real T>
-Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const linalg::Eigensystem<T>& system,
-                  const char* method) {
-    using std::ldexp;
-    const AssembledChain<T> assembled = assemble(chain);
-    Modes<T> result = room_for_modes(chain, options, method);
-    for (Index j = 0; j < result.size(); ++j) {
-        const T height = system.values[j];
-        set_height(result, j, height, proved_error(assembled, j, height), assembled.units.length_exponent, options);
+/// The modes asked for of all that `solve()` finds, in the units of the chain's pencils.
+template <Real T, class Solve>
+Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const char* method, const Solve& solve) {
+    check(options);
+    OnDemand<T> assembled(chain);
+    const ModeRange range = chosen(chain, assembled, options);
+    Modes<T> result = room_for_modes(chain, range, options);
+    result.method = method;
+    if (range.count == 0) return result;
+    const Pencils<T>& pencils = assembled.pencils();
+    const linalg::Eigensystem<T> system = solve(pencils);
+    for (Index j = 0; j < range.count; ++j) {
+        const Index before = range.first - 1 + j;
+        const T height = system.values[before];
+        set_height(result, j, height, proved_error(pencils.wide(), before, height), chain.units().length_exponent,
+                   options);
         if (options.shapes) {
             Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
-            offset.head(chain.size()) = system.vectors.col(j);
-            set_shape(result, j, chain, assembled.pencil, height, linalg::normalised(std::move(offset)));
+            offset.head(chain.size()) = system.vectors.col(before);
+            set_shape(result, j, chain, pencils.wide(), height, linalg::normalised(std::move(offset)));
         }
-        advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(result.size()));
+        if (options.certify) certify(result, j, pencils, chain.mode_count());
+        advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
     return result;
 }
@@ -46,20 +54,22 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const l
 /// By the assembled symmetric-definite pencil, a dense O(N^3) solver. Arguments and errors as for `modes`.
 template <Real T>
 Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
-    detail::check(chain, options);
-    const auto matrices = linalg::assembled(linalg::rounded<T>(assemble(chain).pencil));
-    return detail::modes_of(chain, options, linalg::solve_symmetric_definite(matrices.K, matrices.M), "dense");
+    return detail::modes_of(chain, options, "dense", [](const detail::Pencils<T>& pencils) {
+        const auto matrices = linalg::assembled(pencils.rounded());
+        return linalg::solve_symmetric_definite(matrices.K, matrices.M);
+    });
 }
 
 /// By relation (21) as a dense pencil and the QZ algorithm, O(N^3). Arguments and errors as for `modes`.
 template <Real T>
 Modes<T> modes_recurrence(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
-    using std::ldexp;
-    detail::check(chain, options);
-    const RecurrencePencil<T> pencil = recurrence_matrices(chain);
-    auto system = linalg::solve_general(pencil.A, pencil.B);
-    for (T& value : system.values) value = ldexp(value, -chain.units().length_exponent);
-    return detail::modes_of(chain, options, system, "recurrence");
+    return detail::modes_of(chain, options, "recurrence", [&chain](const detail::Pencils<T>&) {
+        using std::ldexp;
+        const RecurrencePencil<T> pencil = recurrence_matrices(chain);
+        auto system = linalg::solve_general(pencil.A, pencil.B);
+        for (T& value : system.values) value = ldexp(value, -chain.units().length_exponent);
+        return system;
+    });
 }
 
 }  // namespace revchain

@@ -49,3 +49,30 @@ TEST_CASE("a dense solver that cannot keep the tolerance says so", "[linear]") {
     CHECK(revchain::modes(chain, {.rtol = 1e-14}).status == revchain::Status::success);
     CHECK(revchain::modes_dense(chain, {.rtol = 1e-14}).status == revchain::Status::tolerance_not_met);
 }
+
+TEST_CASE("any modes by the dense solvers", "[linear]") {
+    using Options = revchain::ModesOptions<double>;
+    const auto chain = support::families()[3].make(9);
+    const auto all = revchain::modes(chain, {});
+    for (const auto solve : {&revchain::modes_dense<double>, &revchain::modes_recurrence<double>}) {
+        const auto part = solve(chain, Options{.first = 3, .count = 4, .certify = true});
+        CHECK(part.first == 3);
+        REQUIRE(part.size() == 4);
+        CHECK((part.conical_height - all.conical_height.segment(2, 4)).cwiseAbs().maxCoeff() <= 1e-12);
+        CHECK((part.shape - all.shape.middleRows(2, 4)).cwiseAbs().maxCoeff() <= 1e-10);
+        CHECK(part.nodes[3].size() == 5);
+        CHECK(part.residual.size() == 4);
+        for (Index j = 0; j < 4; ++j) {
+            CHECK(part.certificate.lower[j] < part.conical_height[j]);
+            CHECK(part.conical_height[j] < part.certificate.upper[j]);
+            CHECK(part.certificate.above_lower[j] == 3 + j);
+            CHECK(part.certificate.above_upper[j] == 2 + j);
+        }
+        const double low = all.conical_height[5] * 0.999, high = all.conical_height[3] * 1.001;
+        const auto window = solve(chain, Options{.conical_height = revchain::HeightWindow<double>{low, high}});
+        CHECK(window.range() == revchain::ModeRange{4, 3});
+        CHECK(solve(chain, Options{.conical_height = revchain::HeightWindow<double>{1e3, 1e4}}).size() == 0);
+        CHECK(solve(chain, Options{.first = 2, .rtol = 1e-300}).status == revchain::Status::tolerance_not_met);
+        CHECK_THROWS_AS(solve(chain, Options{.first = 10}), revchain::InvalidArgument);
+    }
+}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // Which modes: ranges of numbers, windows of heights and speeds; and the certificates that go with them.
-#include "revchain/linear/reference.hpp"
+#include "revchain/linear/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"
@@ -245,30 +245,6 @@ TEST_CASE("coincident heights are certified together", "[linear]") {
         CHECK(m.certificate.above_upper[j] == 1);
         CHECK(m.certificate.lower[j] < 1);
         CHECK(m.certificate.upper[j] > 1);
-    }
-}
-
-TEST_CASE("solvers of the slowest modes, for any modes", "[linear]") {
-    const auto chain = support::families()[3].make(9);
-    const auto all = modes(chain, {});
-    for (const auto solve : {&revchain::modes_dense<double>, &revchain::modes_recurrence<double>}) {
-        const auto pick = [&](const revchain::ModesOptions<double>& options) {
-            return revchain::detail::chosen_among_slowest<double>(chain, options, solve);
-        };
-        const auto part = pick({.first = 3, .count = 4, .certify = true});
-        CHECK(part.first == 3);
-        REQUIRE(part.size() == 4);
-        CHECK((part.conical_height - all.conical_height.segment(2, 4)).cwiseAbs().maxCoeff() <= 1e-12);
-        CHECK((part.shape - all.shape.middleRows(2, 4)).cwiseAbs().maxCoeff() <= 1e-10);
-        CHECK(part.nodes[3].size() == 5);
-        CHECK(part.residual.size() == 4);
-        require_certificate(chain, part);
-        const double low = all.conical_height[5] * 0.999, high = all.conical_height[3] * 1.001;
-        const auto window = pick({.conical_height = HeightWindow<double>{low, high}});
-        CHECK(window.range() == revchain::ModeRange{4, 3});
-        CHECK(pick({.conical_height = HeightWindow<double>{1e3, 1e4}}).size() == 0);
-        CHECK(pick({.first = 2, .rtol = 1e-300}).status == revchain::Status::tolerance_not_met);
-        CHECK_THROWS_AS(solve(chain, {.first = 2}), revchain::InvalidArgument);
     }
 }
 
