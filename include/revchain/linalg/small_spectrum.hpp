@@ -33,6 +33,12 @@ struct Roots {
     void fill_up() {
         for (std::size_t i = count; i < 4 * packs(); ++i) shift[i] = shift[count - 1];
     }
+    /// No NaN is among them then.
+    bool lie_between(double lower, double upper) const {
+        bool all = true;
+        for (std::size_t i = 0; i < count; ++i) all = all && shift[i] >= lower && shift[i] <= upper;
+        return all;
+    }
 };
 
 /// First approximations: the polynomial at 2 or 3 N points between the bounds, evenly in a root of mu, and its changes of
@@ -147,31 +153,36 @@ template <bool rigid>
     }
 }
 
-/// See `small_spectrum`. The numbers in it count roundings: docs/accuracy.md, "All modes", 2, 4 and 5, with sums that are
-/// plain over a leg and over the legs.
+/// See `small_spectrum`. What its constants count: docs/accuracy.md, "All modes of small chains".
 template <bool rigid>
 inline bool solve(const PinnedLinks& links, const SmallRoundings& roundings, double tolerance, SmallSpectrum& result) {
     return simd([&](auto) __attribute__((always_inline)) {
-        constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30;
+        constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30, largest = 0x1p64;  // and 1 / largest the least
         const std::size_t n = links.size;
+        const double lowest = 0.5 * links.least_shift, highest = 2 * links.greatest_shift;
         Roots roots;
         roots.count = n;
         double above[most_links], square = 0, sum = 0, swing = 0;
+        bool fit = lowest > 1 / largest && highest < largest;
         for (std::size_t m = n; m-- > 0;) {
-            sum += links.flexibility[m];
+            const double mass = links.mass[m], k = links.stiffness[m], flexibility = links.flexibility[m];
+            sum += flexibility;
             above[m] = sum;
-            square += links.stiffness[m] * sum;
+            square += k * sum;
+            fit = fit && std::min({mass, k, flexibility}) > 1 / largest && std::max({mass, k, flexibility}) < largest;
             if constexpr (rigid) swing = std::max(swing, links.swing[m]);
         }
         const double root = std::sqrt(square);
-        if (!first_roots<rigid>(links, roots)) return false;
+        if (!fit || !first_roots<rigid>(links, roots)) return false;
         improve<rigid>(links, roots);
+        if (!roots.lie_between(lowest, highest)) return false;
         if (!std::is_sorted(roots.shift, roots.shift + n)) std::sort(roots.shift, roots.shift + n);
         roots.fill_up();
 
-        const double additions = static_cast<double>(std::min(n, leg) + n / leg + 2);
+        const double additions = static_cast<double>(std::min(n, leg) + (n - 1) / leg - 1);
         const double rounding =
-            unit * (roundings.energies + (rigid ? 18 : 13) + 2 * additions + roundings.skew) * slack;
+            unit * (roundings.energies + (rigid ? 18 : 15) + 2 * additions + roundings.skew) * slack;
+        const double goal = std::min(tolerance, 0x1p-32);  // above, squares of bounds would count
         alignas(Four) double residual[Roots::room];
         for (int round = 0; round < 2; ++round) {
             bool sane = true;
@@ -188,7 +199,8 @@ inline bool solve(const PinnedLinks& links, const SmallRoundings& roundings, dou
                                const Quotients& q = all[p];
                                (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
                                q.square.store(residual + first + 4 * p);
-                               const Four odd = if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
+                               const Four odd = if_less(Four(0x1p-960), q.scale, Four(0.0), Four(1.0)) +
+                                                if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
                                                 if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
                                                 if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
                                                 if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
@@ -198,24 +210,25 @@ inline bool solve(const PinnedLinks& links, const SmallRoundings& roundings, dou
             if (!sane) return false;
             for (std::size_t i = 0; i < n; ++i) {
                 const double stretch = rigid ? 1 + roots.shift[i] * swing : 1;
-                const double rounded = 1.01 * unit * stretch * ((18.1 + 2 * roundings.mass) * root + roundings.drop);
+                const double rounded = 1.01 * unit * stretch * ((10 + 2 * roundings.mass) * root + roundings.drop);
                 residual[i] = 2 * (std::sqrt(residual[i]) * slack + rounded);  // 2 > 1 / ratio
             }
             // Disjoint intervals, as many as eigenvalues: one in each. Then Kato and Temple. `blurred`: what is stored is the
             // vector's quotient but for rounding.
             const auto& value = result.eigenvalue;
-            const double blurred = rounding + 0x1p-50;
+            const double blurred = 1.01 * rounding + 0x1p-50;
             double upper_end = std::numeric_limits<double>::infinity();  // of the room eigenvalue i has for itself
             bool good = true;
             for (std::size_t i = 0; i < n; ++i) {
                 const double lower_end = i + 1 < n ? value[i + 1] + (residual[i + 1] + blurred) * value[i + 1] : 0.0;
                 const double room = std::min(upper_end - value[i], value[i] - lower_end) - blurred * value[i];
                 result.bound[i] = (residual[i] * (residual[i] * value[i]) / room + rounding) * slack;
-                good = good && room > residual[i] * value[i] && result.bound[i] <= tolerance;
+                good = good && room > residual[i] * value[i] && result.bound[i] <= goal;
                 upper_end = value[i] - (residual[i] + blurred) * value[i];
             }
             if (good) return true;
             for (std::size_t i = 0; i < n; ++i) roots.shift[i] = 1 / result.eigenvalue[i];
+            if (!roots.lie_between(lowest, highest)) return false;
             roots.fill_up();
         }
         return false;
@@ -225,16 +238,16 @@ inline bool solve(const PinnedLinks& links, const SmallRoundings& roundings, dou
 }  // namespace small
 
 /// All eigenvalues lambda of lambda K y = M y for a small chain, each with a bound that is proved, no larger than
-/// `tolerance`; false where that fails (then what is in `result` means nothing): neighbours too close, numbers that leave
-/// the range of double on the way.
+/// `tolerance` and 2^-32; false where that fails (then what is in `result` means nothing): neighbours too close, numbers
+/// that leave the range of double on the way.
 ///
 /// Method: the characteristic polynomial, without division, at 2 or 3 points an eigenvalue; all its zeros at once by
 /// Ehrlich's and Aberth's iteration, mostly three rounds; the Rayleigh quotients of twisted vectors, whose error is the
 /// square of the vectors'; residuals that give as many disjoint intervals as there are eigenvalues, and so number them.
 /// Accuracy as measured: 4 ulp. Proved: some 20 ulp for 10 links, 35 for 100.
 /// Cost (AVX-512): 0.6 microseconds for 10 plummets, 0.8 for 10 rods, 50 and 80 for 100 (bench_small).
-/// Preconditions: 1 <= size <= most_links; masses, stiffnesses and flexibilities positive, between 2^-100 and 2^100;
-/// X >= 0; M positive definite; (4 + 2 mu (m + X)/k)^(links in a leg) < 2^300 at the greatest shift.
+/// Preconditions: 1 <= size <= most_links; X >= 0, M positive definite. Refused besides: masses, stiffnesses, flexibilities
+/// and shifts beyond 2^-64 ... 2^64.
 inline bool small_spectrum(const small::PinnedLinks& links, const SmallRoundings& roundings, double tolerance,
                            SmallSpectrum& result) {
     return links.rigid ? small::solve<true>(links, roundings, tolerance, result)

@@ -100,19 +100,16 @@ struct Walk {
             inertia += Four(links.quarter_weight[m]) * (centroid * centroid) + Four(links.turn[m]) * square;
         }
     }
-    /// Puts the sums of a leg away and brings the numbers near 1.
+    /// Puts the sums of a leg away and brings the larger number to 1 ... 2, by a power of two for each lane.
     [[gnu::always_inline]] void tidy() {
         earlier_inertia += inertia;
         earlier_stiffness += stiffness;
         inertia = stiffness = Four(0.0);
-        const Four size = max(abs(offset), abs(force));
-        Four by(1.0);  // a power of two for each lane, to within 2^100
-        for (const double power : {0x1p100, 0x1p200, 0x1p300})
-            by = if_less(Four(power), size, Four(1 / power), if_less(size, Four(1 / power), Four(power), by));
+        const Four by = inverse_power(max(abs(offset), abs(force)));
         offset = offset * by;
         force = force * by;
-        earlier_inertia = earlier_inertia * (by * by);
-        earlier_stiffness = earlier_stiffness * (by * by);
+        earlier_inertia = (earlier_inertia * by) * by;  // by * by may leave the range
+        earlier_stiffness = (earlier_stiffness * by) * by;
     }
 };
 
@@ -121,6 +118,7 @@ struct Quotients {
     Four ratio;   ///< Rayleigh quotient times mu: 1 at an eigenvalue
     Four square;  ///< squared residual, in the norm of K^-1 over that of K, but for rounding
     Four energy;  ///< y^T K y
+    Four scale;   ///< the lesser of the two factors that joined the energies of the walks
 };
 
 /// For `P` packs of shifts the quotients of vectors carried from both ends and joined at the pin where the residual is
@@ -156,7 +154,7 @@ template <bool rigid, bool tall, std::size_t P>
     for (std::size_t p = 0; p < P; ++p) {
         walk[p] = {};
         walk[p].force = Four(1.0);
-        best[p] = {Four(0.0), Four(1.0), Four(0.0)};
+        best[p] = {Four(0.0), Four(1.0), Four(0.0), Four(0.0)};
     }
     for (std::size_t m = links.size; m-- > 0;) {
 #pragma GCC unroll 3
@@ -175,6 +173,7 @@ template <bool rigid, bool tall, std::size_t P>
             joined.ratio = if_less(own, other, inertia, joined.ratio);
             joined.square = if_less(own, other, square, joined.square);
             joined.energy = if_less(own, other, energy, joined.energy);
+            joined.scale = if_less(own, other, min(scale_up, scale_down), joined.scale);
             down.pass_pin(links, m, mu[p], false);
             if (tall && m % leg == 0) down.tidy();
         }
@@ -182,7 +181,7 @@ template <bool rigid, bool tall, std::size_t P>
 #pragma GCC unroll 3
     for (std::size_t p = 0; p < P; ++p) {
         const Four inertia = rigid ? mu[p] * best[p].ratio : best[p].ratio;
-        best[p] = {inertia / best[p].energy, best[p].square / best[p].energy, best[p].energy};
+        best[p] = {inertia / best[p].energy, best[p].square / best[p].energy, best[p].energy, best[p].scale};
     }
     return best;
 }

@@ -86,6 +86,37 @@ TEST_CASE("heights all together: random chains", "[linear]") {
     }
 }
 
+TEST_CASE("heights all together: graded and scattered chains, any tolerance", "[linear]") {
+    support::Random random(2028);
+    for (const int kind : {0, 1, 2}) {
+        int served = 0;
+        for (int i = 0; i < 600; ++i) {
+            const Index n = 1 + static_cast<Index>(random() * 10);
+            const double weights = random.log_between(1, 0x1p20), lengths = random.log_between(0x1p-20, 1);
+            const double rtol = i % 3 == 0 ? 4e-14 : i % 3 == 1 ? 1e-9 : 0.5;
+            CAPTURE(kind, i, n, rtol);
+            const Chain<double> chain = support::chain_of(n, [&](Index m) {
+                const Index at = i % 2 == 0 ? m : n - 1 - m;
+                const double w = i % 5 == 0 ? random.log_between(1, weights) : support::graded(at, n, weights);
+                const double a = support::graded(at, n, lengths), p = random.between(0.02, 0.98);
+                if (kind == 0) return revchain::plummet<double>(w, a);
+                if (kind == 1) return revchain::uniform_rod<double>(w, a);
+                return revchain::compound_pendulum<double>(
+                    {.weight = w,
+                     .length = a,
+                     .centroid = a * p,
+                     .radius_of_gyration = a * std::sqrt(p * (1 - p)) * random.between(0.1, 0.99)});
+            });
+            const Found found = all_heights(chain, rtol);
+            if (!found) continue;
+            ++served;
+            CHECK(worst_error(chain, found, std::min(rtol, 0x1p-32)) <= (kind == 2 ? 10 : 5));
+        }
+        CAPTURE(kind);
+        CHECK(served >= (kind == 0 ? 590 : 300));
+    }
+}
+
 TEST_CASE("heights all together: the unit does not matter", "[linear]") {
     support::Random random(5);
     for (const int kind : {0, 1, 2}) {
