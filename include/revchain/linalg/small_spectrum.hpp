@@ -244,8 +244,8 @@ inline bool solve(const PinnedLinks& links, const SmallRoundings& roundings, dou
 /// Method: the characteristic polynomial, without division, at 2 or 3 points an eigenvalue; all its zeros at once by
 /// Ehrlich's and Aberth's iteration, mostly three rounds; the Rayleigh quotients of twisted vectors, whose error is the
 /// square of the vectors'; residuals that give as many disjoint intervals as there are eigenvalues, and so number them.
-/// Accuracy as measured: 4 ulp. Proved: some 20 ulp for 10 links, 35 for 100.
-/// Cost (AVX-512): 0.6 microseconds for 10 plummets, 0.8 for 10 rods, 50 and 80 for 100 (bench_small).
+/// Accuracy as measured: 4 ulp. Proved: some 20 ulp for 10 links, 33 for 100.
+/// Cost (AVX-512): 0.7 microseconds for 10 plummets, 0.9 for 10 rods, 54 and 80 for 100 (bench_small).
 /// Preconditions: 1 <= size <= most_links; X >= 0, M positive definite. Refused besides: masses, stiffnesses, flexibilities
 /// and shifts beyond 2^-64 ... 2^64.
 inline bool small_spectrum(const small::PinnedLinks& links, const SmallRoundings& roundings, double tolerance,
