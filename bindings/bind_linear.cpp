@@ -18,7 +18,8 @@ using Chain = revchain::Chain<double>;
 using Pair = std::pair<double, double>;
 using Triple = std::tuple<double, double, double>;
 
-constexpr std::array<std::string_view, 6> methods{"auto", "bisection", "blocks", "spectrum", "dense", "recurrence"};
+constexpr std::array<std::string_view, 7> methods{"auto",     "bisection", "blocks",    "together",
+                                                  "spectrum", "dense",     "recurrence"};
 constexpr std::array<std::string_view, 4> precisions{"single", "double", "extended", "double-double"};
 
 template <std::size_t N>
@@ -118,6 +119,7 @@ py::tuple modes(const Chain& chain, Index first, std::optional<Index> count, std
     check_word("precision", precision, precisions);
     const auto way = method == "bisection"  ? revchain::ModesMethod::bisection
                      : method == "blocks"   ? revchain::ModesMethod::blocks
+                     : method == "together" ? revchain::ModesMethod::together
                      : method == "spectrum" ? revchain::ModesMethod::spectrum
                                             : revchain::ModesMethod::automatic;
     const Asked asked{first, count, conical_height, angular_speed, rtol, shapes, certify, way};

@@ -123,4 +123,4 @@ class Ask(Table, frozen=True):
     precision: Annotated[
         Literal["single", "double", "extended", "double-double"], Meta(description="The arithmetic of the result.")
     ] = "double"
-    method: Annotated[Literal["auto", "bisection", "blocks", "spectrum", "dense", "recurrence"], Meta(description="How to compute.")] = "auto"
+    method: Annotated[Literal["auto", "bisection", "blocks", "together", "spectrum", "dense", "recurrence"], Meta(description="How to compute.")] = "auto"

@@ -61,7 +61,7 @@ def modes(
         has 64 bits on x86-64 and on some platforms is no more than double. ``"double-double"``: about 31
         digits; ``conical_height + conical_height_low``, two float64 arrays, is the height that
         `error_bound` (1e-28 to 1e-24, it grows with N) is of, and shapes are rounded to float64.
-    method : {"auto", "bisection", "blocks", "spectrum", "dense", "recurrence"}
+    method : {"auto", "bisection", "blocks", "together", "spectrum", "dense", "recurrence"}
         ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain,
         to 2 ulp. ``"blocks"`` condenses a long chain first: some of its slowest modes, to 2 ulp.
         ``"spectrum"`` interpolates the characteristic polynomial: many modes, to some 30 ulp, about

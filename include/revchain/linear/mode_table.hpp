@@ -13,10 +13,10 @@ namespace revchain {
 
 /// How heights are found. Bounds are proved whichever way.
 enum class ModesMethod {
-    automatic,  ///< the cheapest of those below that keeps the tolerance, `together` left out
+    automatic,  ///< the cheapest of those below that keeps the tolerance
     bisection,  ///< counts, one by one: any chain, any modes, any tolerance
     blocks,     ///< the chain condensed first: some of the slowest modes of a long chain, to 2 ulp
-    together,   ///< of a small chain all modes at once: to some 20 ulp, by a bound derived only once
+    together,   ///< of a small chain all modes at once: to some 20 ulp
     spectrum,   ///< the characteristic polynomial interpolated: many modes, to some 30 ulp
 };
 

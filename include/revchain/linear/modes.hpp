@@ -127,8 +127,8 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
         const auto may = [&](ModesMethod method, bool pays) {
             return !found && (options.method == method || (options.method == ModesMethod::automatic && pays));
         };
-        // Only where asked for by name, until the constants of its bound have been derived a second time.
-        if (options.method == ModesMethod::together) take(detail::heights_all_together(chain, range, options));
+        if (may(ModesMethod::together, detail::all_together_pays(chain, range, options)))
+            take(detail::heights_all_together(chain, range, options));
         if (may(ModesMethod::spectrum, detail::spectrum_pays(chain, range)))
             take(detail::heights_by_spectrum(assembled, range, chain.mode_count(), options));
         if (may(ModesMethod::blocks, detail::compression_pays(chain, range)))

@@ -162,6 +162,8 @@ TEST_CASE("modes() takes them all together and falls back", "[linear]") {
         const auto fast = revchain::modes(chain, {.rtol = 1e-14, .method = revchain::ModesMethod::together});
         const auto best = revchain::modes(chain);
         CHECK(fast.method == "together");
+        CHECK(revchain::modes(chain, {.rtol = 1e-14}).method == "together");
+        CHECK(revchain::modes(chain, {.count = 1, .rtol = 1e-8}).method == "together");
         CHECK(best.method == "bisection");
         for (Index j = 0; j < 10; ++j) {
             CHECK(std::abs(fast.conical_height[j] / best.conical_height[j] - 1) <= fast.error_bound[j]);
