@@ -233,18 +233,19 @@ def target_rows(bench):
 
     rows = []
     for target in bench.plan.targets:
-        ours, peer = bench.find(target.task, target.ours), bench.find(target.baseline_task, target.baseline)
+        ours = bench.find(target.task, target.ours, rtol=target.rtol)
+        peer = bench.find(target.baseline_task, target.baseline)
         if ours is None:
             continue  # --only
-        note = f" (on {plans.KINDS[target.baseline_kind]})" if target.baseline_kind else ""
+        names = {"ours": target.ours + (f", rtol {target.rtol:g}" if target.rtol else ""),
+                 "baseline": target.baseline + (f" (on {plans.KINDS[target.baseline_kind]})" if target.baseline_kind else "")}
         if peer is None or not peer.seconds or not ours.seconds:
             why = "baseline missing" if peer is None else peer.status if ours.seconds else ours.status
-            rows.append(compared(str(target.task), ours, peer, "", "", why, {"baseline": target.baseline + note}))
+            rows.append(compared(str(target.task), ours, peer, "", "", why, names))
             continue
         ratio = peer.time / ours.time
         asked = (f"{target.ratio} x", verdict(ratio >= target.ratio)) if target.ratio else ("", "")
-        rows.append(compared(str(target.task), ours, peer, f"{ratio:.3g} x", *asked,
-                             {"baseline": target.baseline + note}))
+        rows.append(compared(str(target.task), ours, peer, f"{ratio:.3g} x", *asked, names))
     for task in dict.fromkeys(target.task for target in bench.plan.targets):
         ours, portable = bench.find(task, "modes"), bench.find(task, "modes", "portable")
         if task.links > 10 and ours and portable and ours.seconds and portable.seconds:
