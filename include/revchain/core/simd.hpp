@@ -9,9 +9,10 @@
 
 namespace revchain {
 
-/// How large the SIMD registers are that a piece of code is compiled for.
-template <std::size_t Bytes>
+/// How large the SIMD registers are that a piece of code is compiled for, and whether it may fuse products with sums.
+template <std::size_t Bytes, bool Fused>
 struct Registers {
+    static constexpr bool fused = Fused;
     static constexpr std::size_t bytes = Bytes;
     static constexpr std::size_t doubles = Bytes / sizeof(double);
 };
@@ -21,11 +22,11 @@ namespace detail {
 #if defined(__x86_64__) && !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
 template <class F>
 [[gnu::flatten, gnu::target("avx2,fma")]] auto for_avx2(const F& f) {
-    return f(Registers<32>{});
+    return f(Registers<32, true>{});
 }
 template <class F>
 [[gnu::flatten, gnu::target("avx2,fma,avx512f,avx512dq,avx512vl")]] auto for_avx512(const F& f) {
-    return f(Registers<64>{});
+    return f(Registers<64, true>{});
 }
 enum class Processor { basic, avx2, avx512 };
 inline Processor processor() {
@@ -39,12 +40,17 @@ inline Processor processor() {
 }
 #endif
 
-#if defined(__AVX512F__)
-using OwnRegisters = Registers<64>;
-#elif defined(__AVX__)
-using OwnRegisters = Registers<32>;
+#if defined(__FP_FAST_FMA) || defined(__FMA__)
+inline constexpr bool own_fused = true;
 #else
-using OwnRegisters = Registers<16>;
+inline constexpr bool own_fused = false;
+#endif
+#if defined(__AVX512F__)
+using OwnRegisters = Registers<64, own_fused>;
+#elif defined(__AVX__)
+using OwnRegisters = Registers<32, own_fused>;
+#else
+using OwnRegisters = Registers<16, own_fused>;
 #endif
 
 }  // namespace detail

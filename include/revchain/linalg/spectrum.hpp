@@ -2,7 +2,7 @@
 #pragma once
 
 #include "revchain/linalg/certificate.hpp"
-#include "revchain/linalg/spectrum_quotient.hpp"
+#include "revchain/linalg/spectrum_refinement.hpp"
 #include "revchain/linalg/spectrum_window.hpp"
 #include "revchain/linalg/twisted.hpp"
 
@@ -13,10 +13,12 @@ namespace spectrum {
 /// An eigenvalue with what is known of it before its neighbours are.
 struct Candidate {
     double shift = 0;                                           ///< mu the vector was computed at
-    double eigenvalue = 0;                                      ///< Rayleigh quotient
+    double eigenvalue = 0;                                      ///< Rayleigh quotient, rounded
+    double rest = 0;                                            ///< and what rounding left
     double residual = std::numeric_limits<double>::infinity();  ///< some eigenvalue lies within this, relative
     double bound = std::numeric_limits<double>::infinity();     ///< proved, relative to the exact eigenvalue
     double rounding = 0;                                        ///< what rounding has in `residual`
+    double error = std::numeric_limits<double>::infinity();     ///< of the quotient, besides the vector's, relative
     double reach = std::numeric_limits<double>::infinity();     ///< residual and rounding of the quotient
     std::size_t place = 0;                                      ///< links below where it lives
     bool counted = false;                                       ///< proved by counts, its number with it
@@ -29,15 +31,15 @@ inline double rounding_quotient(const PinnedChain& chain, double mu) {
     return (epsilon<double>() / 2 + chain.data_error) * (terms + 8 * skewed);
 }
 
-/// Vectors and quotients at the candidates' shifts.
+/// Vectors and quotients at the candidates' shifts; walks joined at a pin that `longest` divides.
 inline void evaluate(const PinnedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
-                     bool placed) {
+                     bool placed, std::size_t longest) {
     std::vector<double> shifts;
     std::vector<std::size_t> places;
     for (const std::size_t i : which) shifts.push_back(all[i].shift);
     if (placed)
         for (const std::size_t i : which) places.push_back(all[i].place);
-    const auto quotients = quotients_all(chain, shifts, places);
+    const auto quotients = quotients_all(chain, shifts, places, longest);
     for (std::size_t j = 0; j < which.size(); ++j) {
         Candidate& c = all[which[j]];
         const Quotient& q = quotients[j];
@@ -48,7 +50,37 @@ inline void evaluate(const PinnedChain& chain, std::vector<Candidate>& all, cons
         if (!std::isfinite(c.residual))
             c.residual = std::numeric_limits<double>::infinity();  // no NaN among neighbours
         c.rounding = q.rounding;
-        c.reach = c.residual * (1 + 0x1p-50) + 2 * rounding_quotient(chain, c.shift) + 0x1p-50;
+        c.error = rounding_quotient(chain, c.shift);
+        c.reach = c.residual * (1 + 0x1p-50) + 2 * c.error + 0x1p-50;
+        c.place = q.twist;
+    }
+}
+
+/// The same to twice the digits, at the quotients found; walks joined at every pin that `longest` divides.
+inline void refine(const PinnedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
+                   std::size_t longest) {
+    std::vector<double> shifts;
+    std::vector<std::size_t> places;
+    for (const std::size_t i : which) {
+        shifts.push_back(1 / all[i].eigenvalue);
+        places.push_back(all[i].place);
+    }
+    const auto quotients = fine_quotients_all(chain, shifts, places, longest);
+    for (std::size_t j = 0; j < which.size(); ++j) {
+        Candidate& c = all[which[j]];
+        const FineQuotient& q = quotients[j];
+        if (!(std::abs(q.excess) < 0x1p-10 && q.residual < 0x1p-10)) continue;
+        // 1/mu = high (1 + left) but for squares of roundings
+        const double high = 1 / shifts[j];
+        const DoubleWord<double> product = two_product(high, shifts[j]);
+        const double left = (1 - product.high) - product.low;
+        const DoubleWord<double> value = fast_two_sum(high, high * (left + q.excess));
+        c.shift = shifts[j];
+        c.eigenvalue = value.high;
+        c.rest = value.low;
+        c.residual = q.residual / std::min(1 + q.excess, 1.0) * (1 + 0x1p-40);
+        c.error = (epsilon<double>() / 2 + q.error) * (1 + 0x1p-30);
+        c.reach = c.residual * (1 + 0x1p-50) + 2 * c.error + 0x1p-50;
         c.place = q.twist;
     }
 }
@@ -68,18 +100,36 @@ template <Real S>
 Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pencil, Index j,
                   const Bracket<double>& bracket) {
     const double margin = 2 * epsilon<double>();
-    double eigenvalue = between(bracket.lower, bracket.upper);
+    double eigenvalue = between(bracket.lower, bracket.upper), rest = 0;
     Certified<double> sure;
     for (int round = 0; round < 2 && !std::isfinite(sure.error_bound); ++round) {
-        eigenvalue = static_cast<double>(rayleigh_quotient<S>(wide, eigenvector(pencil, eigenvalue).offset));
+        const S quotient = rayleigh_quotient<S>(wide, eigenvector(pencil, eigenvalue).offset);
+        eigenvalue = static_cast<double>(quotient);
+        rest = static_cast<double>(quotient - S(eigenvalue));
         if (lies_within<S>(wide, j, eigenvalue, margin)) sure = {eigenvalue, bound_of_margin<S>(margin)};
     }
-    if (!std::isfinite(sure.error_bound)) sure = bisect_certified<S>(wide, j, between(bracket.lower, bracket.upper));
-    const double reach = sure.error_bound * (1 + 0x1p-50) + 0x1p-50;
-    return {1 / sure.eigenvalue, sure.eigenvalue, sure.error_bound, sure.error_bound, 0, reach, 0, true};
+    if (!std::isfinite(sure.error_bound)) {
+        sure = bisect_certified<S>(wide, j, between(bracket.lower, bracket.upper));
+        rest = 0;
+    }
+    Candidate c;
+    c.shift = 1 / sure.eigenvalue;
+    c.eigenvalue = sure.eigenvalue, c.rest = rest;
+    c.residual = c.bound = sure.error_bound;
+    c.reach = sure.error_bound * (1 + 0x1p-50) + 0x1p-50;
+    c.counted = true;
+    return c;
 }
 
+/// Below this tolerance quotients in double do not suffice.
+inline constexpr double loosest_fine = 40 * 0x1p-52;
+
 }  // namespace spectrum
+
+/// An eigenvalue, its bound, and what it was before it was rounded.
+struct FineCertified : Certified<double> {
+    DoubleWord<double> unrounded;
+};
 
 /// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with a
 /// bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` or what
@@ -93,12 +143,12 @@ Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pen
 /// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods, more
 /// where neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.85 ns per mode and link for equal plummets, 1.3 for
 /// random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes).
-/// Preconditions: 0 <= first, last <= total <= size; `chain` is `spectrum::pinned(wide)`.
+/// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
-std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::PinnedChain& chain,
-                                               Index first, Index last, Index total, double tolerance) {
+std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::PinnedChain& chain,
+                                           Index first, Index last, Index total, double tolerance) {
     using namespace spectrum;
-    std::vector<Certified<double>> result;
+    std::vector<FineCertified> result;
     if (first >= last) return result;
     const ElementPencil<double> pencil = rounded<double>(wide);
     const auto nothing = [](Index) {};
@@ -142,14 +192,16 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, con
             return std::min(below, above);
         };
         std::vector<std::size_t> astray;
+        const std::size_t leg = std::bit_floor(std::clamp(chain.size() / 8, std::size_t(1), longest_leg));
         for (int round = 0; round < 4 && !(which.empty() && astray.empty()); ++round) {
-            evaluate(chain, all, which, true);
-            evaluate(chain, all, astray, false);
+            evaluate(chain, all, which, true, leg);
+            evaluate(chain, all, astray, false, chain.size() < 4096 ? 1 : leg);
             which.insert(which.end(), astray.begin(), astray.end());
             astray.clear();
             std::vector<std::size_t> again;
             for (const std::size_t i : which) {
                 Candidate& c = all[i];
+                if (!(c.rounding < 0x1p-10)) continue;  // double has no more to say
                 const double next = 1 / c.eigenvalue, apart = room(i);
                 const bool rough = c.residual > 4 * c.rounding;
                 if (!rough || temple(c, 0.5 * apart / starts[i]) < 0x1p-56) continue;
@@ -160,23 +212,30 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, con
             }
             which = std::move(again);
         }
+        const auto set_bound = [&](std::size_t i) {
+            Candidate& c = all[i];
+            const double apart = distance(i) - c.reach;
+            const double b = apart > 0 ? temple(c, apart) + c.error : std::numeric_limits<double>::infinity();
+            c.bound = b < 0.5 ? b / (1 - b) * (1 + 0x1p-30) : std::numeric_limits<double>::infinity();
+            return c.bound <= tolerance && c.error <= 64 * epsilon<double>();
+        };
+        const auto refine_all = [&](bool settled_too, std::size_t longest) {
+            std::vector<std::size_t> some;
+            for (std::size_t i = 0; i < all.size(); ++i)
+                if (std::abs(1 / all[i].eigenvalue - starts[i]) < 0.4 * room(i) && (settled_too || !set_bound(i)))
+                    some.push_back(i);
+            refine(chain, all, some, longest);
+        };
+        refine_all(tolerance < loosest_fine, leg);
+        refine_all(false, 1);  // where every such pin is near a node
         // What is not apart from its neighbours is left to counts, and what then is not apart from those.
         for (bool changed = true; changed;) {
             changed = false;
             for (std::size_t i = 0; i < all.size(); ++i) {
                 Candidate& c = all[i];
-                if (c.counted) continue;
-                const double apart = distance(i) - c.reach;
-                if (apart > 0) {
-                    const double rounding = rounding_quotient(chain, c.shift);
-                    c.bound = temple(c, apart) + rounding;
-                    c.bound = c.bound < 0.5 ? c.bound / (1 - c.bound) * (1 + 0x1p-30) : c.bound + 1;
-                    if (c.bound <= tolerance && rounding <= 64 * epsilon<double>()) continue;
-                }
+                if (c.counted || set_bound(i)) continue;
                 const Index j = begin + static_cast<Index>(i);
-                if (j < first || j >= last) {
-                    if (apart > 0) continue;  // a neighbour only
-                }
+                if ((j < first || j >= last) && distance(i) - c.reach > 0) continue;  // a neighbour only
                 c = by_counts(j, std::isfinite(c.residual) ? c.eigenvalue : 1 / c.shift);
                 changed = true;
                 if (!std::isfinite(c.bound)) return false;
@@ -193,14 +252,14 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, con
     }
     for (Index j = first; j < last; ++j) {
         const Candidate& c = all[static_cast<std::size_t>(j - begin)];
-        result.push_back({c.eigenvalue, c.bound});
+        result.push_back({{c.eigenvalue, c.bound}, {c.eigenvalue, c.rest}});
     }
     return result;
 }
 
 template <Real S>
-std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
-                                               double tolerance) {
+std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
+                                           double tolerance) {
     return all_eigenvalues(wide, spectrum::pinned(wide), first, last, total, tolerance);
 }
 

@@ -26,6 +26,11 @@ struct PinnedLink {
     double turn;         ///< the element's c = W rho^2/a^2
 };
 
+/// What of the pencil's numbers is left when they are rounded to those of `PinnedLink`; and the cross mass X.
+struct PinnedRest {
+    double stiffness, mass, cross, cross_rest;
+};
+
 /// Links between two looks at sizes and sums, at most.
 inline constexpr std::size_t longest_leg = 16;
 
@@ -38,15 +43,17 @@ struct Bounds {
 /// The pencil as lumped pins and links, every number within `data_error` (relative) of the exact one.
 struct PinnedChain {
     std::vector<PinnedLink> links;
+    std::vector<PinnedRest> rests;          ///< of each link
     std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
     double tip_mass = 0;                    ///< of pin 0
+    double tip_mass_rest = 0;
     double rounding_root = 0;               ///< root of C of docs/accuracy.md: sum over j of k_j (sum of 1/k from j up)
     std::vector<Bounds> bounds;             ///< of each run of `longest_leg` links
     double largest_swing = 0;               ///< max X/k
     double liveliest = 0;                   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
     double skew_against_turn = 0;           ///< max p q (W / turn)^(1/2): how much a link's two offsets can cancel
     double skew_against_stiffness = 0;      ///< max p q (W / k)^(1/2)
-    double data_error = 0;                  ///< what the wide entries' own error may come to
+    double data_error = 0;                  ///< what the wide entries' own error may come to, of any number
     bool swings = false;                    ///< some X is not 0
     bool fit = true;                        ///< masses >= 0 and all numbers in a range whose squares are normal
 
@@ -58,34 +65,26 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
     PinnedChain chain;
     const std::size_t n = wide.elements.size();
     chain.links.reserve(n);
+    chain.rests.reserve(n);
     chain.fit = wide.units.empty();
-    chain.data_error = 0x1p34 * static_cast<double>(wide.entry_error);  // sums that cancel to 2^-30 included
+    double cancelled = 1;
     const S zero(0.0);
     const auto in_range = [](double x) { return x > 0x1p-150 && x < 0x1p150; };
     S carried = zero;  // B + X of the link below
     double carried_size = 0;
-    for (std::size_t m = 0; m <= n; ++m) {
-        S mass = carried;
-        double size = carried_size;
-        if (m < n) {
-            const Element<S>& e = wide.elements[m];
-            const S cross = e.cross;
-            mass = mass + (e.lower + cross);
-            carried = e.upper + cross;
-            carried_size = static_cast<double>(e.lower) + static_cast<double>(e.upper) + e.weight;
-            size += carried_size;
-        }
-        const double pin = static_cast<double>(mass);
-        // negative masses are not served, nor sums that cancel to less than a 2^-30th
-        chain.fit = chain.fit && (m == n || pin == 0 || (in_range(pin) && size < 0x1p30 * pin));
-        if (m == 0) {
-            chain.tip_mass = pin;
-        } else {
-            chain.links[m - 1].mass = m < n ? pin : 0.0;
-        }
-        if (m == n) break;
+    for (std::size_t m = 0; m < n; ++m) {
         const Element<S>& e = wide.elements[m];
-        const S cross = e.cross;
+        const S cross = e.cross, mass = carried + (e.lower + cross);
+        const double element_size = static_cast<double>(e.lower) + static_cast<double>(e.upper) + e.weight;
+        const double size = carried_size + element_size;
+        carried = e.upper + cross;
+        carried_size = element_size;
+        const double pin = static_cast<double>(mass), rest = static_cast<double>(mass - S(pin));
+        // negative masses are not served, nor sums that cancel to less than a 2^-30th
+        chain.fit = chain.fit && (pin == 0 || in_range(pin));
+        if (pin != 0) cancelled = std::max(cancelled, size / pin);
+        (m == 0 ? chain.tip_mass : chain.links[m - 1].mass) = pin;
+        (m == 0 ? chain.tip_mass_rest : chain.rests[m - 1].mass) = rest;
         const double k = static_cast<double>(e.stiffness);
         const double swing = static_cast<double>(cross / e.stiffness);
         const S weight(e.weight);
@@ -94,6 +93,9 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
                                massless ? 0.0 : static_cast<double>((e.lower + cross) / weight),
                                massless ? 0.0 : static_cast<double>((e.upper + cross) / weight),
                                static_cast<double>(e.turning)});
+        const double x = static_cast<double>(cross);
+        chain.rests.push_back(
+            {static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
         const PinnedLink& last = chain.links.back();
         const double shares = last.lower_share * last.upper_share;
         if (shares != 0 && last.lower_share != 0.5) {
@@ -101,11 +103,12 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
             chain.skew_against_turn = std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
             chain.skew_against_stiffness = std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
         }
-        chain.swings = chain.swings || static_cast<double>(cross) != 0;
-        chain.fit = chain.fit && in_range(k) &&
-                    (cross == zero ||
-                     (in_range(static_cast<double>(cross)) && carried_size < 0x1p30 * static_cast<double>(cross)));
+        chain.swings = chain.swings || x != 0;
+        chain.fit = chain.fit && in_range(k) && (cross == zero || in_range(x));
+        if (cross != zero) cancelled = std::max(cancelled, element_size / x);
     }
+    chain.fit = chain.fit && cancelled < 0x1p30;
+    chain.data_error = 16 * cancelled * static_cast<double>(wide.entry_error);
     chain.bounds.assign((n - 1) / longest_leg + 1, {});
     for (std::size_t m = 0; m < n; ++m) {
         const PinnedLink& link = chain.links[m];

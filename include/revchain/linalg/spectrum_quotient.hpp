@@ -101,18 +101,32 @@ struct AtPin {
           offsets(w.offsets) {}
 };
 
-/// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin (of those
-/// between `lowest` and `highest` where sizes are looked at) where the residual is least. Its error is the square of the vector's.
+/// What rounding of a twisted vector, and the pencil's own error, put into its residual; of its sums `forces` and `offsets`
+/// over |y|^2.
+template <bool swings>
+double vector_rounding(const PinnedChain& chain, double mu, double forces, double offsets) {
+    // where a pin has no mass, y_m^2 <= Phi_m |y|_K^2 serves
+    const double most = (1 + mu * chain.largest_swing) * chain.rounding_root;
+    const double force_part = swings ? std::sqrt(forces) : 1.0;
+    const double offset_part = swings ? std::fmin(std::sqrt(offsets), most) : chain.rounding_root;
+    const double unit = epsilon<double>() / 2 + chain.data_error;
+    return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
+}
+
+/// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin where the
+/// residual is least, of those between `lowest` and `highest` whose number `longest`, a power of 2, divides. Its error is
+/// the square of the vector's.
 /// Cost per shift and link (AVX-512): 0.45 ns without swings, 0.86 with.
 template <bool swings, class V>
 [[gnu::always_inline]] inline void quotients(const PinnedChain& chain, const double* shifts, std::size_t lowest,
-                                             std::size_t highest, Quotient* result, std::vector<AtPin<V>>& scratch) {
+                                             std::size_t highest, std::size_t longest, Quotient* result,
+                                             std::vector<AtPin<V>>& scratch) {
     constexpr std::size_t P = quotient_packs;
     const std::size_t n = chain.size();
     double largest = 0;
     for (std::size_t i = 0; i < P * V::size; ++i) largest = std::max(largest, shifts[i]);
-    const std::size_t leg = stretch_length(chain, largest, longest_leg);  // links between two looks at sizes and sums
-    const std::size_t legs = (n - 1) / leg;  // twists: pins 0, leg, 2 leg, ... legs * leg < n
+    const std::size_t leg = stretch_length(chain, largest, longest);  // links between two looks at sizes and sums
+    const std::size_t legs = (n - 1) / leg;                           // twists: pins 0, leg, 2 leg, ... legs * leg < n
     const std::size_t low = std::min(lowest / leg, legs), high = std::min(highest / leg, legs);
     scratch.resize((high - low + 1) * P);
 
@@ -164,13 +178,8 @@ template <bool swings, class V>
         const V ratio = (swings ? walk[p].mu * inertia[p] : inertia[p]) / stiffness[p];
         for (std::size_t i = 0; i < V::size; ++i) {
             const double energy = stiffness[p][i];
-            const double force_part = swings ? std::sqrt(forces[p][i] / energy) : 1.0;
-            // where a pin has no mass, y_m^2 <= Phi_m |y|_K^2 serves
-            const double most = (1 + walk[p].mu[i] * chain.largest_swing) * chain.rounding_root;
-            const double offset_part =
-                swings ? std::fmin(std::sqrt(offsets[p][i] / energy), most) : chain.rounding_root;
-            const double unit = epsilon<double>() / 2 + chain.data_error;
-            const double rounding = unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
+            const double rounding =
+                vector_rounding<swings>(chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
             // Terms of second order are less than that 1.01 only where this is small.
             const double residual = rounding < 0x1p-10 ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
                                                        : std::numeric_limits<double>::infinity();
@@ -179,20 +188,20 @@ template <bool swings, class V>
     }
 }
 
-/// The same for any number of shifts, each joined near its `place`, or with no places given anywhere. Those that live
-/// together go together: what lies between the places is walked twice.
-inline std::vector<Quotient> quotients_all(const PinnedChain& chain, const std::vector<double>& shifts,
-                                           const std::vector<std::size_t>& places = {}) {
+/// For any number of shifts what `solve(registers, swings, shifts, lowest, highest, results)` gives for `packs` packs of them,
+/// each joined near its `place`, or with no places given anywhere. Those that live together go together: what lies
+/// between the places is walked twice.
+template <class Result, std::size_t packs, class Solve>
+std::vector<Result> in_packs(const PinnedChain& chain, const std::vector<double>& shifts,
+                             const std::vector<std::size_t>& places, const Solve& solve) {
     std::vector<std::size_t> order(shifts.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     if (!places.empty())
         std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
-    std::vector<Quotient> result(shifts.size());
+    std::vector<Result> result(shifts.size());
     simd([&](auto registers) __attribute__((always_inline)) {
-        using V = Pack<double, registers.doubles>;
-        constexpr std::size_t together = quotient_packs * V::size, slack = 4 * longest_leg;
-        std::vector<AtPin<V>> scratch;
-        Quotient found[together];
+        constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
+        Result found[together];
         double padded[together];
         for (std::size_t i = 0; i < shifts.size(); i += together) {
             const std::size_t taken = std::min(together, shifts.size() - i);
@@ -200,14 +209,26 @@ inline std::vector<Quotient> quotients_all(const PinnedChain& chain, const std::
             const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
             const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
             if (chain.swings) {
-                quotients<true>(chain, padded, lowest, highest, found, scratch);
+                solve(registers, std::true_type(), padded, lowest, highest, found);
             } else {
-                quotients<false>(chain, padded, lowest, highest, found, scratch);
+                solve(registers, std::false_type(), padded, lowest, highest, found);
             }
             for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
         }
     });
     return result;
+}
+
+inline std::vector<Quotient> quotients_all(const PinnedChain& chain, const std::vector<double>& shifts,
+                                           const std::vector<std::size_t>& places = {},
+                                           std::size_t longest = longest_leg) {
+    return in_packs<Quotient, quotient_packs>(
+        chain, shifts, places,
+        [&](auto registers, auto swings, const double* some, std::size_t lowest, std::size_t highest, Quotient* found)
+            __attribute__((always_inline)) {
+                std::vector<AtPin<Pack<double, registers.doubles>>> scratch;
+                quotients<swings.value>(chain, some, lowest, highest, longest, found, scratch);
+            });
 }
 
 }  // namespace revchain::linalg::spectrum

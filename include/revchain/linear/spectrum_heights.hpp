@@ -19,8 +19,7 @@ bool spectrum_pays(const Chain<T>& chain, const ModeRange& range) {
 /// that `linalg::all_eigenvalues` has no fast way for. Cost: 1 to 2 ns per link and mode.
 inline std::optional<Heights<double>> heights_by_spectrum(OnDemand<double>& assembled, const ModeRange& range,
                                                           Index mode_count, const ModesOptions<double>& options) {
-    const double goal = std::min(options.rtol.value_or(0.0), 0.5);
-    if (goal < 40 * epsilon<double>()) return std::nullopt;
+    const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();
     if (wide.size() < 2) return std::nullopt;
     const auto pinned = linalg::spectrum::pinned(wide);
@@ -28,7 +27,7 @@ inline std::optional<Heights<double>> heights_by_spectrum(OnDemand<double>& asse
     Heights<double> result{{}, "spectrum"};
     const Index first = range.first - 1;
     for (const auto& sure : linalg::all_eigenvalues(wide, pinned, first, first + range.count, mode_count, goal))
-        result.height.push_back({sure.eigenvalue, sure.error_bound, sure.eigenvalue});
+        result.height.push_back({sure.eigenvalue, sure.error_bound, sure.unrounded});
     restore_order(result.height);
     return result;
 }
