@@ -219,15 +219,16 @@ std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const s
             c.bound = b < 0.5 ? b / (1 - b) * (1 + 0x1p-30) : std::numeric_limits<double>::infinity();
             return c.bound <= tolerance && c.error <= 64 * epsilon<double>();
         };
-        const auto refine_all = [&](bool settled_too, std::size_t longest) {
+        // Once, and where that leaves the vector's error in sight once more, at the better shift and joined at any pin.
+        const bool fine = tolerance < loosest_fine;
+        for (const bool again : {false, true}) {
             std::vector<std::size_t> some;
-            for (std::size_t i = 0; i < all.size(); ++i)
-                if (std::abs(1 / all[i].eigenvalue - starts[i]) < 0.4 * room(i) && (settled_too || !set_bound(i)))
-                    some.push_back(i);
-            refine(chain, all, some, longest);
-        };
-        refine_all(tolerance < loosest_fine, leg);
-        refine_all(false, 1);  // where every such pin is near a node
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                const bool settled = set_bound(i) && (!fine || (again && all[i].bound < 0.51 * epsilon<double>()));
+                if (!settled && std::abs(1 / all[i].eigenvalue - starts[i]) < 0.4 * room(i)) some.push_back(i);
+            }
+            refine(chain, all, some, again ? 1 : leg);
+        }
         // What is not apart from its neighbours is left to counts, and what then is not apart from those.
         for (bool changed = true; changed;) {
             changed = false;

@@ -47,15 +47,15 @@ struct PinnedChain {
     std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
     double tip_mass = 0;                    ///< of pin 0
     double tip_mass_rest = 0;
-    double rounding_root = 0;               ///< root of C of docs/accuracy.md: sum over j of k_j (sum of 1/k from j up)
-    std::vector<Bounds> bounds;             ///< of each run of `longest_leg` links
-    double largest_swing = 0;               ///< max X/k
-    double liveliest = 0;                   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
-    double skew_against_turn = 0;           ///< max p q (W / turn)^(1/2): how much a link's two offsets can cancel
-    double skew_against_stiffness = 0;      ///< max p q (W / k)^(1/2)
-    double data_error = 0;                  ///< what the wide entries' own error may come to, of any number
-    bool swings = false;                    ///< some X is not 0
-    bool fit = true;                        ///< masses >= 0 and all numbers in a range whose squares are normal
+    double rounding_root = 0;           ///< root of C of docs/accuracy.md: sum over j of k_j (sum of 1/k from j up)
+    std::vector<Bounds> bounds;         ///< of each run of `longest_leg` links
+    double largest_swing = 0;           ///< max X/k
+    double liveliest = 0;               ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
+    double skew_against_turn = 0;       ///< max p q (W / turn)^(1/2): how much a link's two offsets can cancel
+    double skew_against_stiffness = 0;  ///< max p q (W / k)^(1/2)
+    double data_error = 0;              ///< what the wide entries' own error may come to, of any number
+    bool swings = false;                ///< some X is not 0
+    bool fit = true;                    ///< masses >= 0 and all numbers in a range whose squares are normal
 
     std::size_t size() const { return links.size(); }
 };
@@ -94,8 +94,7 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
                                massless ? 0.0 : static_cast<double>((e.upper + cross) / weight),
                                static_cast<double>(e.turning)});
         const double x = static_cast<double>(cross);
-        chain.rests.push_back(
-            {static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
+        chain.rests.push_back({static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
         const PinnedLink& last = chain.links.back();
         const double shares = last.lower_share * last.upper_share;
         if (shares != 0 && last.lower_share != 0.5) {

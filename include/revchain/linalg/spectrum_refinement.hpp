@@ -156,13 +156,13 @@ template <bool swings, bool fused, class V>
             // each scaled by the other's offset, so that they meet
             const DoubleWord<V> up = exact_product<fused>(a.sum, b.offset);
             const DoubleWord<V> down = exact_product<fused>(b.sum, a.offset);
-            const V gap = b.mu * ((up.high - down.high) +
-                                  ((up.low - down.low) + (a.rest * b.offset - b.rest * a.offset)));
+            const V gap =
+                b.mu * ((up.high - down.high) + ((up.low - down.low) + (a.rest * b.offset - b.rest * a.offset)));
             const V scale_up = b.offset * b.offset, scale_down = a.offset * a.offset;
             const V energy = a.stiffness * scale_up + b.stiffness * scale_down;
             const V square = gap * gap * above / energy;
             const auto better = square < least[p];  // false for a NaN: no twist at a node
-            const auto take = [&](V& to, const V& from_up, const V& from_down) __attribute__((always_inline)) {
+            const auto take = [&](V & to, const V& from_up, const V& from_down) __attribute__((always_inline)) {
                 to = select(better, from_up * scale_up + from_down * scale_down, to);
             };
             least[p] = select(better, square, least[p]);
@@ -180,16 +180,15 @@ template <bool swings, bool fused, class V>
     for (std::size_t p = 0; p < P; ++p)
         for (std::size_t i = 0; i < V::size; ++i) {
             const double mu = shifts[p * V::size + i], energy = joined[p].stiffness[i];
-            const double rounding = vector_rounding<swings>(chain, mu, joined[p].forces[i] / energy,
-                                                            joined[p].offsets[i] / energy);
-            const double second =
-                rounding * (8 * epsilon<double>() * (static_cast<double>(n) + 16) + 2 * chain.data_error / epsilon<double>());
+            const double rounding =
+                vector_rounding<swings>(chain, mu, joined[p].forces[i] / energy, joined[p].offsets[i] / energy);
+            const double second = rounding * (8 * epsilon<double>() * (static_cast<double>(n) + 16) +
+                                              2 * chain.data_error / epsilon<double>());
             const double residual =
                 (std::sqrt(joined[p].squares[i] / energy) + std::sqrt(least[p][i])) * (1 + 0x1p-20) + second;
             const double swung = swings ? joined[p].forces[i] / energy : 1.0;  // at least mu X d^2 over |y|^2
             const double data = chain.data_error * (3 + 3 * swung);
-            const double error =
-                second + 8 * epsilon<double>() * (static_cast<double>(n) + 16) * residual + data;
+            const double error = second + 8 * epsilon<double>() * (static_cast<double>(n) + 16) * residual + data;
             const bool good = rounding < 0x1p-10 && residual < 0x1p-10;
             result[p * V::size + i] = {joined[p].excess[i] / energy, error,
                                        good ? residual : std::numeric_limits<double>::infinity(),

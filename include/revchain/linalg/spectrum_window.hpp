@@ -19,8 +19,9 @@ struct Window {
 /// first and the last may hold more than was asked. Ascending. Cost: about 2 (last - first)/most counts.
 inline std::vector<Window> windows(const PinnedChain& chain, Index first, Index last, Index most) {
     const Index piece = std::max<Index>(most / 5, 1);  // merged at the end: windows are then nearly full
-    // all of them: mu from 0 up, by powers of 4 until the count suffices
-    double upper = 1;
+    // all of them: mu from 0 up, by powers of 4 until the count suffices. Not by round numbers: at those a part of a chain of
+    // equal links may have an eigenvalue, and no count is proved.
+    double upper = 1 + 0x1.b7p-7;
     Window whole{0, 0, 0, 0};
     for (bool found = false; !found && upper < 0x1p900;) {
         std::vector<double> shifts(24);

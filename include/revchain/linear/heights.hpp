@@ -37,23 +37,21 @@ Height<T> refined(const Pencils<T>& pencils, Index j, const linalg::Bracket<T>& 
     const T start = linalg::between(bracket.lower, bracket.upper);
     if (loose && linalg::lies_within<T>(pencils.rounded(), j, start, goal / T(2)))
         return {start, linalg::bound_of_margin<T>(goal / T(2)), S(start)};
-    const auto quotient = [&](const auto& pencil, const auto& height) {
-        return linalg::rayleigh_quotient<S>(pencils.wide(), linalg::eigenvector(pencil, height).offset);
-    };
     // One round nearly always, two at most: the quotient's error is the square of the vector's. Where no arithmetic is
     // wider than T, rounding in T limits what two counts can prove: then as many ulp as it takes, within a factor of 2.
     T margin = T(2) * epsilon<T>();
     T height = start;
     S fine(start);
     for (int round = 0; round < (std::is_same_v<S, T> ? 24 : 2); ++round) {
-        if (round < 2) fine = quotient(pencils.rounded(), height);
+        if (round < 2)
+            fine = linalg::rayleigh_quotient<S>(pencils.wide(), linalg::eigenvector(pencils.rounded(), height).offset);
         height = static_cast<T>(fine);
         if (linalg::lies_within<S>(pencils.wide(), j, height, static_cast<M>(margin)))
             return {height, linalg::bound_of_margin<S>(margin), fine};
         if constexpr (std::is_same_v<S, T>) margin = margin * T(2);
     }
     const auto sure = linalg::bisect_certified<S>(pencils.wide(), j, start);
-    return {sure.eigenvalue, sure.error_bound, quotient(pencils.wide(), S(static_cast<M>(sure.eigenvalue)))};
+    return {sure.eigenvalue, sure.error_bound, S(static_cast<M>(sure.eigenvalue))};
 }
 
 /// Heights closer together than their bounds may come out in the wrong order; exchanged, the larger bound holds for both.

@@ -17,7 +17,7 @@ enum class ModesMethod {
     bisection,  ///< counts, one by one: any chain, any modes, any tolerance
     blocks,     ///< the chain condensed first: some of the slowest modes of a long chain, to 2 ulp
     together,   ///< of a small chain all modes at once: to some 20 ulp
-    spectrum,   ///< the characteristic polynomial interpolated: many modes, to some 30 ulp
+    spectrum,   ///< the characteristic polynomial interpolated: many modes
 };
 
 /// Which modes, and how. Which: numbers `first`, `first + 1`, ..., or those in one window, never both.

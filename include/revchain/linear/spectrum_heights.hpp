@@ -4,30 +4,43 @@
 #include <optional>
 
 #include "revchain/linalg/spectrum.hpp"
-#include "revchain/linear/heights.hpp"
+#include "revchain/linear/compressed_heights.hpp"
 
 namespace revchain::detail {
 
-/// Where interpolating the characteristic polynomial pays: several modes, and more of them than blocks do well with
-/// (measured at N = 1000 and 10,000 with plummets and rods; flat within a factor of 2 in the second number).
-template <Real T>
-bool spectrum_pays(const Chain<T>& chain, const ModeRange& range) {
-    return range.count >= 8 && range.first - 1 + range.count >= chain.size() / 256;
+/// Whether quotients in double are not enough.
+inline bool is_fine(const ModesOptions<double>& options) {
+    return options.rtol.value_or(0.0) < linalg::spectrum::loosest_fine;
 }
 
-/// Stage 1 of `modes` where the tolerance leaves room for bounds of some 30 ulp; nothing where it does not, or for chains
-/// that `linalg::all_eigenvalues` has no fast way for. Cost: 1 to 2 ns per link and mode.
+/// Where interpolating the characteristic polynomial pays: several modes, and more of them than blocks do well with, who
+/// are also faster with shapes to the last digit (measured with plummets and rods, N = 4 ... 10,000; flat within a factor
+/// of 2 in the last number).
+inline bool spectrum_pays(const Chain<double>& chain, const ModeRange& range, const ModesOptions<double>& options) {
+    const Index last = range.first - 1 + range.count;
+    const bool blocks_pay = compression_pays(chain, range) && options.shapes && is_fine(options);
+    return range.count >= 8 && chain.size() >= 12 && last >= chain.size() / (blocks_pay ? 16 : 256);
+}
+
+/// Stage 1 of `modes` for many modes; nothing for chains that `linalg::all_eigenvalues` has no fast way for. Reports
+/// progress up to `share`. Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
 inline std::optional<Heights<double>> heights_by_spectrum(OnDemand<double>& assembled, const ModeRange& range,
-                                                          Index mode_count, const ModesOptions<double>& options) {
+                                                          Index mode_count, const ModesOptions<double>& options,
+                                                          double share) {
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();
     if (wide.size() < 2) return std::nullopt;
     const auto pinned = linalg::spectrum::pinned(wide);
     if (!pinned.fit) return std::nullopt;
     Heights<double> result{{}, "spectrum"};
-    const Index first = range.first - 1;
-    for (const auto& sure : linalg::all_eigenvalues(wide, pinned, first, first + range.count, mode_count, goal))
-        result.height.push_back({sure.eigenvalue, sure.error_bound, sure.unrounded});
+    constexpr Index together = 2048;  // modes between two reports
+    for (Index done = 0; done < range.count;) {
+        const Index first = range.first - 1 + done, count = std::min(range.count - done, together);
+        for (const auto& sure : linalg::all_eigenvalues(wide, pinned, first, first + count, mode_count, goal))
+            result.height.push_back({sure.eigenvalue, sure.error_bound, sure.unrounded});
+        done += count;
+        advance(options.progress, share * static_cast<double>(done) / static_cast<double>(range.count));
+    }
     restore_order(result.height);
     return result;
 }
