@@ -58,12 +58,12 @@ inline void evaluate(const PinnedChain& chain, std::vector<Candidate>& all, cons
 
 /// The same to twice the digits, at the quotients found; walks joined at every pin that `longest` divides.
 inline void refine(const PinnedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
-                   std::size_t longest) {
+                   bool placed, std::size_t longest) {
     std::vector<double> shifts;
     std::vector<std::size_t> places;
     for (const std::size_t i : which) {
         shifts.push_back(1 / all[i].eigenvalue);
-        places.push_back(all[i].place);
+        if (placed) places.push_back(all[i].place);
     }
     const auto quotients = fine_quotients_all(chain, shifts, places, longest);
     for (std::size_t j = 0; j < which.size(); ++j) {
@@ -132,17 +132,17 @@ struct FineCertified : Certified<double> {
 };
 
 /// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with a
-/// bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` or what
-/// two words can prove. For long ranges; below some 50 eigenvalues bisection is as fast.
+/// bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` (2 ulp or
+/// more) or what two words can prove. For several eigenvalues of a dozen links or more.
 ///
 /// Method: windows of some 60 eigenvalues by counts; the characteristic polynomial, without division, at 2.4 shifts per
 /// eigenvalue and its Chebyshev interpolant's zeros; at each the Rayleigh quotient of a twisted vector, its residual and
 /// those of its neighbours. All in SIMD lanes, one shift to a lane. What cannot be proved this way (clusters, negative
 /// cross masses) is left to bisection and counts in two words.
-/// Accuracy as measured: within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the modes); random
+/// Accuracy as measured: with a tolerance below 40 ulp the nearest double, bound 0.51 ulp, unrounded 1e-20; else within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the modes); random
 /// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods, more
 /// where neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.85 ns per mode and link for equal plummets, 1.3 for
-/// random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes).
+/// random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
 /// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
 std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::PinnedChain& chain,
@@ -219,15 +219,22 @@ std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const s
             c.bound = b < 0.5 ? b / (1 - b) * (1 + 0x1p-30) : std::numeric_limits<double>::infinity();
             return c.bound <= tolerance && c.error <= 64 * epsilon<double>();
         };
-        // Once, and where that leaves the vector's error in sight once more, at the better shift and joined at any pin.
+        // Once, and where that leaves the vector's error in sight again: at the better shift, or where that went astray at
+        // the first one, joined at any pin near where the mode seems to live, at last anywhere.
         const bool fine = tolerance < loosest_fine;
-        for (const bool again : {false, true}) {
+        for (int round = 0; round < 3; ++round) {
             std::vector<std::size_t> some;
             for (std::size_t i = 0; i < all.size(); ++i) {
-                const bool settled = set_bound(i) && (!fine || (again && all[i].bound < 0.51 * epsilon<double>()));
-                if (!settled && std::abs(1 / all[i].eigenvalue - starts[i]) < 0.4 * room(i)) some.push_back(i);
+                Candidate& c = all[i];
+                if (set_bound(i) && (!fine || (round > 0 && c.bound < 0.51 * epsilon<double>()))) continue;
+                if (!(std::abs(1 / c.eigenvalue - starts[i]) < 0.4 * room(i))) {
+                    if (round == 0) continue;
+                    c.eigenvalue = 1 / starts[i];
+                    c.residual = c.reach = std::numeric_limits<double>::infinity();  // of this nothing is known
+                }
+                some.push_back(i);
             }
-            refine(chain, all, some, again ? 1 : leg);
+            refine(chain, all, some, round < 2, round == 1 || (round == 2 && chain.size() < 4096) ? 1 : leg);
         }
         // What is not apart from its neighbours is left to counts, and what then is not apart from those.
         for (bool changed = true; changed;) {

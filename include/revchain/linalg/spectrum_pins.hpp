@@ -75,10 +75,11 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
     for (std::size_t m = 0; m < n; ++m) {
         const Element<S>& e = wide.elements[m];
         const S cross = e.cross, mass = carried + (e.lower + cross);
-        const double element_size = static_cast<double>(e.lower) + static_cast<double>(e.upper) + e.weight;
-        const double size = carried_size + element_size;
+        const double x = static_cast<double>(cross);
+        const double cross_size = std::abs(x) + 2 * static_cast<double>(e.turning);  // what its error is relative to
+        const double size = carried_size + (static_cast<double>(e.lower) + cross_size);
         carried = e.upper + cross;
-        carried_size = element_size;
+        carried_size = static_cast<double>(e.upper) + cross_size;
         const double pin = static_cast<double>(mass), rest = static_cast<double>(mass - S(pin));
         // negative masses are not served, nor sums that cancel to less than a 2^-30th
         chain.fit = chain.fit && (pin == 0 || in_range(pin));
@@ -93,7 +94,6 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
                                massless ? 0.0 : static_cast<double>((e.lower + cross) / weight),
                                massless ? 0.0 : static_cast<double>((e.upper + cross) / weight),
                                static_cast<double>(e.turning)});
-        const double x = static_cast<double>(cross);
         chain.rests.push_back({static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
         const PinnedLink& last = chain.links.back();
         const double shares = last.lower_share * last.upper_share;
@@ -104,7 +104,7 @@ PinnedChain pinned(const ElementPencil<S>& wide) {
         }
         chain.swings = chain.swings || x != 0;
         chain.fit = chain.fit && in_range(k) && (cross == zero || in_range(x));
-        if (cross != zero) cancelled = std::max(cancelled, element_size / x);
+        if (cross != zero) cancelled = std::max(cancelled, cross_size / x);
     }
     chain.fit = chain.fit && cancelled < 0x1p30;
     chain.data_error = 16 * cancelled * static_cast<double>(wide.entry_error);

@@ -186,7 +186,8 @@ template <bool swings, bool fused, class V>
                                               2 * chain.data_error / epsilon<double>());
             const double residual =
                 (std::sqrt(joined[p].squares[i] / energy) + std::sqrt(least[p][i])) * (1 + 0x1p-20) + second;
-            const double swung = swings ? joined[p].forces[i] / energy : 1.0;  // at least mu X d^2 over |y|^2
+            const double swung =
+                swings ? std::sqrt(joined[p].forces[i] / energy) : 1.0;  // no less than mu X d^2 over |y|^2
             const double data = chain.data_error * (3 + 3 * swung);
             const double error = second + 8 * epsilon<double>() * (static_cast<double>(n) + 16) * residual + data;
             const bool good = rounding < 0x1p-10 && residual < 0x1p-10;

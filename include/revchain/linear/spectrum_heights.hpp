@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "revchain/core/alarms.hpp"
 #include "revchain/linalg/spectrum.hpp"
 #include "revchain/linear/compressed_heights.hpp"
 
@@ -30,6 +31,7 @@ inline std::optional<Heights<double>> heights_by_spectrum(OnDemand<double>& asse
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();
     if (wide.size() < 2) return std::nullopt;
+    const NoAlarms quiet;
     const auto pinned = linalg::spectrum::pinned(wide);
     if (!pinned.fit) return std::nullopt;
     Heights<double> result{{}, "spectrum"};
