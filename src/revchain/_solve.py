@@ -64,11 +64,12 @@ def modes(
     method : {"auto", "bisection", "blocks", "together", "spectrum", "dense", "recurrence"}
         ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain,
         to 2 ulp. ``"blocks"`` condenses a long chain first: some of its slowest modes, to 2 ulp.
-        ``"spectrum"`` interpolates the characteristic polynomial: many modes, to the last digit some 60
-        times faster than one by one, 100 times with ``rtol=1e-14``. Where they cannot, bisection is used;
-        the result's ``method`` says so. ``"dense"`` solves the assembled pencil and ``"recurrence"``
+        ``"together"`` finds all modes of a small chain at once, to some 20 ulp. ``"spectrum"``
+        interpolates the characteristic polynomial: many modes, to the last digit some 60 times faster
+        than one by one, 100 times with ``rtol=1e-14``. Where they cannot, bisection is used; the
+        result's ``method`` says so. ``"dense"`` solves the assembled pencil and ``"recurrence"``
         relation (21) as printed: references for small chains. ``"auto"`` takes the cheapest of the
-        first three that keeps `rtol`. In precisions other than double there is bisection alone.
+        first four that keeps `rtol`. In precisions other than double there is bisection alone.
 
     Returns
     -------
