@@ -139,10 +139,11 @@ struct FineCertified : Certified<double> {
 /// eigenvalue and its Chebyshev interpolant's zeros; at each the Rayleigh quotient of a twisted vector, its residual and
 /// those of its neighbours. All in SIMD lanes, one shift to a lane. What cannot be proved this way (clusters, negative
 /// cross masses) is left to bisection and counts in two words.
-/// Accuracy as measured: with a tolerance below 40 ulp the nearest double, bound 0.51 ulp, unrounded 1e-20 (2e-18 proved); else within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the modes); random
-/// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods, more
-/// where neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.85 ns per mode and link for equal plummets, 1.3 for
-/// random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
+/// Accuracy as measured: with a tolerance below 40 ulp the nearest double, bound 0.51 ulp, unrounded mostly 1e-20 (2e-18
+/// proved); else within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the modes); random compound
+/// pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods, more where
+/// neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.85 ns per mode and link for equal plummets, 1.3 for random
+/// ones, 1.5 and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
 /// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
 std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::PinnedChain& chain,
@@ -184,7 +185,7 @@ std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const s
             const double above = i > 0 ? gap(all[i - 1], c, c) : (top * (1 - 0x1p-50) - c.eigenvalue) / c.eigenvalue;
             const double below =
                 i + 1 < all.size() ? gap(c, all[i + 1], c) : (c.eigenvalue - bottom * (1 + 0x1p-50)) / c.eigenvalue;
-            return std::min(above, below);
+            return std::isnan(above) ? above : std::min(below, above);  // NaN of a neighbour not known: then a NaN
         };
         const auto room = [&](std::size_t i) {  // to the next start
             const double below = i > 0 ? starts[i] - starts[i - 1] : starts[i];

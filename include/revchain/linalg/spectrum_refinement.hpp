@@ -190,7 +190,7 @@ template <bool swings, bool fused, class V>
                 swings ? std::sqrt(joined[p].forces[i] / energy) : 1.0;  // no less than mu X d^2 over |y|^2
             const double data = chain.data_error * (3 + 3 * swung);
             const double error = second + 8 * epsilon<double>() * (static_cast<double>(n) + 16) * residual + data;
-            const bool good = rounding < 0x1p-10 && residual < 0x1p-10;
+            const bool good = rounding < 0x1p-10 && residual < 0x1p-10 && energy > 0x1p-900 && energy < 0x1p1000;
             result[p * V::size + i] = {joined[p].excess[i] / energy, error,
                                        good ? residual : std::numeric_limits<double>::infinity(),
                                        static_cast<std::size_t>(twist[p][i])};

@@ -55,7 +55,9 @@ Worst worst_of(const revchain::Chain<double>& chain, Index step = 1) {
         REQUIRE(error <= c.error_bound);
         worst.error = std::max(worst.error, error / ulp);
         worst.bound = std::max(worst.bound, c.error_bound / ulp);
-        worst.unrounded = std::max(worst.unrounded, static_cast<double>(fabsq(support::quad(c.unrounded) / value - 1)));
+        const double unrounded = static_cast<double>(fabsq(support::quad(c.unrounded) / value - 1));
+        REQUIRE(unrounded <= c.error_bound - 0.4999999 * ulp);  // what the bound says beyond rounding
+        worst.unrounded = std::max(worst.unrounded, unrounded);
     }
     return worst;
 }
