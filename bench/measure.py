@@ -115,6 +115,8 @@ class Bench:
                     continue
                 if method["which"] == "all" and not task.all and task.links > 1000:
                     continue  # the same time as for all, which has tasks of its own
+                if method["family"] == "revchain" and method["scalar"] != "double" and task.all and task.links > 1000:
+                    continue  # one by one, minutes to hours
                 sweep = method["has_tolerance"] and worker.name != "portable"
                 for rtol in self.plan.tolerances if sweep else (0.0,):
                     yield Entry(task, worker, method, rtol)
