@@ -13,16 +13,19 @@ namespace bench {
 template <class T>
 revchain::Chain<T> library_chain(const RawChain& raw) {
     const auto n = static_cast<revchain::Index>(raw.size());
-    std::vector<T> weight;
-    if constexpr (std::is_same_v<T, double>) {
-        weight = raw.weight;
-    } else {
-        weight.reserve(raw.size());
-        for (const double w : raw.weight) weight.push_back(static_cast<T>(w));
-    }
+    const auto weights = [&]() -> revchain::Column<T> {
+        if constexpr (std::is_same_v<T, double>) {
+            return revchain::Column<T>::borrowed(raw.weight.data(), raw.size());
+        } else {
+            std::vector<T> weight;
+            weight.reserve(raw.size());
+            for (const double w : raw.weight) weight.push_back(static_cast<T>(w));
+            return weight;
+        }
+    };
     const auto [rod_weight, rod_length, rod_centroid, rod_gyration] = revchain::uniform_rod<T>(T(1), T(1));
-    return raw.rods ? revchain::Chain<T>(n, std::move(weight), T(1), rod_centroid, rod_gyration)
-                    : revchain::Chain<T>(n, std::move(weight), T(1), T(1), revchain::Wide<T>(T(0)));
+    return raw.rods ? revchain::Chain<T>(n, weights(), T(1), rod_centroid, rod_gyration)
+                    : revchain::Chain<T>(n, weights(), T(1), T(1), revchain::Wide<T>(T(0)));
 }
 
 /// `solve(chain, options)` -> Modes<T>, heights alone.

@@ -69,67 +69,69 @@ struct Pack {
 
     /// From and to `size` numbers in memory.
     [[gnu::always_inline]] static Pack load(const T* from) {
-        return each([&](auto& r, std::size_t i) { r = reinterpret_cast<const InMemory*>(from)[i]; });
+        return each([&](auto& r, std::size_t i)
+                        __attribute__((always_inline)) { r = reinterpret_cast<const InMemory*>(from)[i]; });
     }
     [[gnu::always_inline]] void store(T* to) const {
-        each([&](auto&, std::size_t i) { reinterpret_cast<InMemory*>(to)[i] = part[i]; });
+        each([&](auto&, std::size_t i)
+                 __attribute__((always_inline)) { reinterpret_cast<InMemory*>(to)[i] = part[i]; });
     }
 
     [[gnu::always_inline]] T operator[](std::size_t lane) const { return part[lane / Width][lane % Width]; }
     [[gnu::always_inline]] void set(std::size_t lane, const T& x) { part[lane / Width][lane % Width] = x; }
 
     [[gnu::always_inline]] friend Pack operator+(const Pack& x, const Pack& y) {
-        return each([&](auto& r, std::size_t i) { r = x.part[i] + y.part[i]; });
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] + y.part[i]; });
     }
     [[gnu::always_inline]] friend Pack operator-(const Pack& x, const Pack& y) {
-        return each([&](auto& r, std::size_t i) { r = x.part[i] - y.part[i]; });
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] - y.part[i]; });
     }
     [[gnu::always_inline]] friend Pack operator*(const Pack& x, const Pack& y) {
-        return each([&](auto& r, std::size_t i) { r = x.part[i] * y.part[i]; });
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] * y.part[i]; });
     }
     [[gnu::always_inline]] friend Pack operator/(const Pack& x, const Pack& y) {
-        return each([&](auto& r, std::size_t i) { r = x.part[i] / y.part[i]; });
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] / y.part[i]; });
     }
     [[gnu::always_inline]] friend Pack operator-(const Pack& x) {
-        return each([&](auto& r, std::size_t i) { r = -x.part[i]; });
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = -x.part[i]; });
     }
     [[gnu::always_inline]] Pack& operator+=(const Pack& x) { return *this = *this + x; }
     [[gnu::always_inline]] Pack& operator-=(const Pack& x) { return *this = *this - x; }
     [[gnu::always_inline]] Pack& operator*=(const Pack& x) { return *this = *this * x; }
 
     [[gnu::always_inline]] friend Mask operator<(const Pack& x, const Pack& y) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = x.part[i] < y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] < y.part[i]; });
     }
     [[gnu::always_inline]] friend Mask equal(const Pack& x, const Pack& y) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = x.part[i] == y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] == y.part[i]; });
     }
     [[gnu::always_inline]] friend Mask operator>(const Pack& x, const Pack& y) { return y < x; }
 
     [[gnu::always_inline]] friend Mask operator+(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = x.part[i] + y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] + y.part[i]; });
     }
     [[gnu::always_inline]] friend Mask operator-(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = x.part[i] - y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] - y.part[i]; });
     }
     [[gnu::always_inline]] friend Mask operator&(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = x.part[i] & y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] & y.part[i]; });
     }
     [[gnu::always_inline]] friend Mask operator|(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = x.part[i] | y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] | y.part[i]; });
     }
     [[gnu::always_inline]] friend Mask operator~(const Mask& x) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = ~x.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = ~x.part[i]; });
     }
     [[gnu::always_inline]] friend Mask operator==(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = x.part[i] == y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] == y.part[i]; });
     }
     [[gnu::always_inline]] friend Mask operator>(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = x.part[i] > y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] > y.part[i]; });
     }
     /// Whether some answer is yes; of whole numbers, whether one is negative.
     [[gnu::always_inline]] friend bool any(const Mask& x) {
         Integers together = x.part[0];
-        each<Mask>([&](auto&, std::size_t i) { together |= x.part[i]; });
+        each<Mask>([&](auto&, std::size_t i) __attribute__((always_inline)) { together |= x.part[i]; });
         Integer found = 0;
         for (std::size_t i = 0; i < Width; ++i) found |= together[i];
         return found < 0;
@@ -137,7 +139,8 @@ struct Pack {
 
     /// a where the answer is yes, else b.
     [[gnu::always_inline]] friend Pack select(const Mask& yes, const Pack& a, const Pack& b) {
-        return each([&](auto& r, std::size_t i) { r = yes.part[i] ? a.part[i] : b.part[i]; });
+        return each([&](auto& r, std::size_t i)
+                        __attribute__((always_inline)) { r = yes.part[i] ? a.part[i] : b.part[i]; });
     }
     /// a where x < y, else b (where one is NaN, too).
     [[gnu::always_inline]] friend Pack if_less(const Pack& x, const Pack& y, const Pack& a, const Pack& b) {
@@ -150,20 +153,20 @@ struct Pack {
     [[gnu::always_inline]] friend Pack min(const Pack& x, const Pack& y) { return select(x < y, x, y); }
 
     [[gnu::always_inline]] friend Pack abs(const Pack& x) {
-        return each([&](auto& r, std::size_t i) {
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             r = reinterpret_cast<Register>(reinterpret_cast<Integers>(x.part[i]) & std::numeric_limits<Integer>::max());
         });
     }
     /// Its leading bits, towards 0: half of them.
     [[gnu::always_inline]] friend Pack upper_half(const Pack& x) {
-        return each([&](auto& r, std::size_t i) {
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             constexpr Integer keep = ~Integer(0) << ((std::numeric_limits<T>::digits + 1) / 2);
             r = reinterpret_cast<Register>(reinterpret_cast<Integers>(x.part[i]) & keep);
         });
     }
     /// 1 where the signs differ (a zero has one), else 0.
     [[gnu::always_inline]] friend Mask differ_in_sign(const Pack& x, const Pack& y) {
-        return each<Mask>([&](auto& r, std::size_t i) {
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             const auto differ = reinterpret_cast<Naturals>(x.part[i]) ^ reinterpret_cast<Naturals>(y.part[i]);
             r = reinterpret_cast<Integers>(differ >> (8 * sizeof(T) - 1));
         });
@@ -171,23 +174,24 @@ struct Pack {
     /// The bits as a whole number: positive numbers are in the same order. Where an answer is no choice but a number of
     /// its own, whole numbers are the faster way: GCC 12 compares packs of 64 bytes number by number.
     [[gnu::always_inline]] friend Mask bits(const Pack& x) {
-        return each<Mask>([&](auto& r, std::size_t i) { r = reinterpret_cast<Integers>(x.part[i]); });
+        return each<Mask>([&](auto& r, std::size_t i)
+                              __attribute__((always_inline)) { r = reinterpret_cast<Integers>(x.part[i]); });
     }
     /// e and 2^-e, both exact, for 2^e <= x < 2^(e+1). Precondition: x is positive and normal, and so is 2^-e.
     [[gnu::always_inline]] friend Mask exponent(const Pack& x) {
-        return each<Mask>([&](auto& r, std::size_t i) {
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             r = reinterpret_cast<Integers>(reinterpret_cast<Naturals>(x.part[i]) >> fraction_bits) - bias;
         });
     }
     [[gnu::always_inline]] friend Pack inverse_power(const Pack& x) {
-        return each([&](auto& r, std::size_t i) {
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             const auto power = reinterpret_cast<Integers>(x.part[i]) & ((2 * bias + 1) << fraction_bits);
             r = reinterpret_cast<Register>(((2 * bias) << fraction_bits) - power);
         });
     }
     /// About 1/sqrt(x), within 4 per cent: half the exponent, and the rest as it comes. Precondition: x >= 0.
     [[gnu::always_inline]] friend Pack rough_inverse_root(const Pack& x) requires(sizeof(T) == 8) {
-        return each([&](auto& r, std::size_t i) {
+        return each([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             r = reinterpret_cast<Register>(0x5fe6eb50c7b537a9ULL - (reinterpret_cast<Naturals>(x.part[i]) >> 1));
         });
     }

@@ -53,6 +53,11 @@ using OwnRegisters = Registers<32, own_fused>;
 using OwnRegisters = Registers<16, own_fused>;
 #endif
 
+template <class F>
+[[gnu::flatten]] auto for_own(const F& f) {
+    return f(OwnRegisters{});
+}
+
 }  // namespace detail
 
 /// f(Registers<...>{}), compiled for several kinds of x86-64 processor, in the form that is best for the one at hand: a
@@ -68,7 +73,7 @@ auto simd(const F& f) {
     if (processor == detail::Processor::avx512) return detail::for_avx512(f);
     if (processor == detail::Processor::avx2) return detail::for_avx2(f);
 #endif
-    return f(detail::OwnRegisters{});
+    return detail::for_own(f);
 }
 
 }  // namespace revchain

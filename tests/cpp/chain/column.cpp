@@ -114,3 +114,21 @@ TEST_CASE("a summary says what the numbers are", "[chain]") {
             }
     }
 }
+
+TEST_CASE("a chain of borrowed numbers is the same chain", "[chain]") {
+    const std::vector<double> weight{1, 0.1, 3e-7, 2}, length{0.5, 2, 1, 0.25};
+    using Column = revchain::Column<double>;
+    const auto borrowed = Column::borrowed(weight.data(), weight.size());
+    CHECK(borrowed == Column(weight));
+    CHECK(borrowed.data() == weight.data());
+    CHECK(borrowed.stored() == 4);
+    CHECK_FALSE(borrowed.is_scalar());
+    CHECK_FALSE(borrowed == Column(1.0));
+    const auto copy = borrowed;
+    CHECK(copy[2] == 3e-7);
+    const revchain::Wide<double> none(0.0);
+    const revchain::Chain<double> lent(4, borrowed, length, length, none), own(4, weight, length, length, none);
+    CHECK(lent == own);
+    CHECK(lent.total_weight() == own.total_weight());
+    CHECK_THROWS_AS(revchain::Chain<double>(5, borrowed, 1.0, 1.0, none), revchain::InvalidArgument);
+}
