@@ -7,6 +7,7 @@ the number of links. Needs matplotlib.
 
 import csv
 import sys
+import textwrap
 from collections import defaultdict
 from math import isfinite
 from pathlib import Path
@@ -89,10 +90,11 @@ def marks(points):
 def finish(figure, drawn, title, source):
     order = [*STYLE, *sorted(set(drawn) - set(STYLE))]
     handles = [plt.Line2D([], [], label=name, **drawn[name]) for name in order if name in drawn]
-    figure.legend(handles=handles, loc="outside right upper")
-    figure.suptitle(title, fontsize=11)
-    figure.get_layout_engine().set(rect=(0, 0.025, 1, 0.975))
-    figure.text(0.995, 0.005, source, ha="right", fontsize=6.5, color="0.5")
+    figure.legend(handles=handles, loc="outside right center")
+    figure.suptitle(title, fontsize=11, x=0.01, ha="left")
+    figure.get_layout_engine().set(rect=(0, 0.045, 1, 0.955))
+    lines = textwrap.wrap(source, int(18 * figure.get_figwidth()))
+    figure.text(0.01, 0.005, "\n".join(lines), ha="left", va="bottom", fontsize=6.5, color="0.5")
     return figure
 
 
@@ -103,6 +105,7 @@ def work_precision(rows, links, which, source):
     figure, axes = plt.subplots(lines, columns, figsize=(3.6 * columns + 3.2, 3.5 * lines + 1.1), sharex=True,
                                 sharey=True, layout="constrained", squeeze=False)
     drawn = {}
+    least = max(FLOOR, min(row["error"] for row in rows if isfinite(row["error"])))
     for axis in axes.flat[len(kinds):]:
         axis.remove()
     for number, (kind, axis) in enumerate(zip(kinds, axes.flat)):
@@ -114,16 +117,16 @@ def work_precision(rows, links, which, source):
         axis.axvline(ULP, color="0.6", linewidth=0.8, linestyle=":", zorder=0)
         axis.grid(True, which="major", color="0.93")
         axis.set_title(KINDS[kind])
-        axis.set_xticks([10.0**-e for e in range(0, 36, 8)])
+        axis.set_xticks([10.0**-e for e in range(0, 36, 4 if least > 1e-20 else 8)])
         axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
         axis.tick_params(labelbottom=True)
         if number + columns >= len(kinds):
             axis.set_xlabel("worst relative error of a conical height")
         if number % columns == 0:
             axis.set_ylabel("CPU time of one chain, ms")
-    axes[0, 0].set_xlim(10, FLOOR / 10)
-    title = (f"Work and precision: {which} of {links:,} links\n(right is more accurate, down is faster; "
-             "filled: this library, lines join its tolerances; dotted: one ulp of double)")
+    axes[0, 0].set_xlim(10, min(least, ULP) / 30)
+    title = (f"Work and precision: {which} of {links:,} links\nright is more accurate, down is faster; "
+             "filled: this library;\nlines join its tolerances; dotted: one ulp of double")
     return finish(figure, drawn, title, source)
 
 
