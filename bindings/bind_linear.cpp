@@ -106,7 +106,7 @@ py::tuple solved(const Chain& chain, const Asked& asked, const std::string& meth
         if constexpr (std::is_same_v<T, double>) {
             return solve(chain, asked.options<double>(seen));
         } else {
-            return solve(converted<T>(chain), asked.options<T>(seen));
+            return solve(revchain::converted<T>(chain), asked.options<T>(seen));
         }
     });
     return as_tuple(found, asked.shapes, asked.certify);

@@ -6,37 +6,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "revchain/chain/chain.hpp"
+#include "revchain/chain/converted.hpp"
 #include "revchain/core/double_double.hpp"
-
-/// Two doubles as another scalar: rounded, or exact where there is room.
-template <class T>
-T from_words(const revchain::DoubleWord<double>& x) {
-    if constexpr (std::is_same_v<T, revchain::DoubleDouble>) {
-        return T(x);
-    } else if constexpr (std::is_same_v<T, revchain::DoubleWord<long double>>) {
-        return revchain::two_sum(static_cast<long double>(x.high), static_cast<long double>(x.low));
-    } else {
-        return static_cast<T>(x.high);
-    }
-}
-
-template <class To, class From, class Convert>
-revchain::Column<To> converted(const revchain::Column<From>& column, Convert convert) {
-    if (column.is_scalar()) return revchain::Column<To>(convert(column[0]));
-    std::vector<To> values(column.stored());
-    for (std::size_t m = 0; m < values.size(); ++m) values[m] = convert(column.data()[m]);
-    return values;
-}
-
-/// The chain whose numbers are those of `chain` in T: rounded where T is narrower, else the same.
-template <class T>
-revchain::Chain<T> converted(const revchain::Chain<double>& chain) {
-    const auto number = [](double x) { return static_cast<T>(x); };
-    return revchain::Chain<T>(chain.size(), converted<T>(chain.weight(), number), converted<T>(chain.length(), number),
-                              converted<T>(chain.centroid(), number),
-                              converted<revchain::Wide<T>>(chain.gyration_ratio(), &from_words<revchain::Wide<T>>));
-}
 
 /// numpy's type for the leading part of a T.
 template <class T>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/chain/converted.hpp"
 #include "revchain/linear/compressed_shapes.hpp"
 #include "revchain/linear/heights.hpp"
 #include "revchain/linear/small_heights.hpp"
@@ -14,7 +15,8 @@ namespace revchain {
 ///
 /// Method: bisection on counts in T, eight shifts to a pass; a twisted shape and its Rayleigh quotient in `Wide<T>`; two
 /// proved counts for every mode; and the shape in `Wide<T>`. With a loose `rtol` the quotient is left out and the rest
-/// done in T. In double faster ways to the same heights where they pay: `ModesMethod`.
+/// done in T. In double faster ways to the same heights where they pay: `ModesMethod`; a chain of floats is solved in
+/// double and the result rounded, its bound half an ulp of float.
 /// Accuracy: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up to 1e5, ten kinds
 /// of chain: tests/cpp/linear/modes.cpp), error bound 2 ulp and proved; a loose `rtol` is kept by the bound. Shapes
 /// 3.5e-16 of the largest offset; with a loose `rtol` as good as their height, rtol / (gap to the next height). Where
@@ -57,8 +59,8 @@ void find_shape(Modes<T>& modes, Index j, const Chain<T>& chain, const Pencils<T
 
 /// Stage 3 of `modes`: proved counts at other numbers of T on either side of height `j`, as far away as its error bound
 /// says, and where rounding to T leaves that in doubt a little farther.
-template <Real T>
-void certify(Modes<T>& modes, Index j, const Pencils<T>& pencils, Index mode_count) {
+template <Real T, Real P>
+void certify(Modes<T>& modes, Index j, const Pencils<P>& pencils, Index mode_count) {
     using std::isfinite;
     const T height = modes.conical_height[j], bound = modes.error_bound[j];
     const Index before = modes.first - 1 + j;
@@ -73,7 +75,7 @@ void certify(Modes<T>& modes, Index j, const Pencils<T>& pencils, Index mode_cou
         const T lower = height - reach, upper = height + reach;
         if (!(lower > T(0)) || !isfinite(upper)) return;
         const auto count =
-            pencils.template certified_count<2>({pencils.scaled(Wide<T>(lower)), pencils.scaled(Wide<T>(upper))});
+            pencils.template certified_count<2>({pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
         if (!below && count[0].proved && count[0].above > before) {
             modes.certificate.lower[j] = lower;
             modes.certificate.above_lower[j] = count[0].above;
@@ -146,6 +148,47 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
     }
     for (Index j = 0; options.certify && j < range.count; ++j)
         detail::certify(result, j, assembled.pencils(), chain.mode_count());
+    return result;
+}
+
+/// All in double, where every way is open and a million links lose nothing, and rounded: half an ulp of float beside.
+template <>
+inline Modes<float> modes(const Chain<float>& chain, const ModesOptions<float>& options) {
+    detail::check(options);
+    const double half_ulp = 0.50001 * static_cast<double>(epsilon<float>());
+    const Chain<double> wide = converted<double>(chain);
+    ModesOptions<double> asked{.first = options.first, .count = options.count};
+    if (options.conical_height) asked.conical_height = {options.conical_height->low, options.conical_height->high};
+    if (options.angular_speed)
+        asked.angular_speed = {options.angular_speed->low, options.angular_speed->high, options.angular_speed->gravity};
+    if (options.rtol && *options.rtol > 4 * half_ulp) asked.rtol = *options.rtol - half_ulp;
+    asked.shapes = options.shapes;
+    asked.progress = options.progress;
+    asked.method = options.method;
+    const Modes<double> fine = modes(wide, asked);
+
+    Modes<float> result = detail::room_for_modes(chain, fine.range(), options);
+    result.method = fine.method;
+    std::optional<detail::Pencils<double>> pencils;
+    if (fine.size() > 0 && (options.shapes || options.certify)) pencils.emplace(wide);
+    for (Index j = 0; j < fine.size(); ++j) {
+        const float height = static_cast<float>(fine.conical_height[j]);
+        const double off = std::abs(static_cast<double>(height) / fine.conical_height[j] - 1);
+        const double bound = height > 0 && std::isfinite(height) ? (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15)
+                                                                 : std::numeric_limits<double>::infinity();
+        result.conical_height[j] = height;
+        result.error_bound[j] = std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity());
+        if (!(result.error_bound[j] <= options.rtol.value_or(std::numeric_limits<float>::max())))
+            result.status = Status::tolerance_not_met;
+        if (options.shapes) {
+            result.shape.row(j) = fine.shape.row(j).cast<float>();
+            const Vector<double> offset = result.shape.row(j).transpose().cast<double>();
+            result.residual[j] = static_cast<float>(
+                linalg::relative_residual(pencils->rounded(), pencils->scaled(static_cast<double>(height)), offset));
+            result.nodes[static_cast<std::size_t>(j)] = fine.nodes[static_cast<std::size_t>(j)].cast<float>();
+        }
+        if (options.certify) detail::certify(result, j, *pencils, chain.mode_count());
+    }
     return result;
 }
 

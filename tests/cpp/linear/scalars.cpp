@@ -7,6 +7,7 @@
 #include "revchain/core/double_double.hpp"
 #include "revchain/linear/modes.hpp"
 #include "support/catch.hpp"
+#include "support/chains.hpp"
 #include "support/quad_scalar.hpp"
 #include "support/truth.hpp"
 
@@ -124,5 +125,21 @@ TEST_CASE("a thousand links in two doubles", "[linear]") {
         CAPTURE(j, static_cast<double>(m.error_bound[j]));
         CHECK(static_cast<double>(m.error_bound[j]) <= 2e-24);
         CHECK(static_cast<double>(fabsq(quad(m.conical_height[j]) / quad(wider.conical_height[j]) - 1)) <= 1e-30);
+    }
+}
+
+// Counts in float would lose a million links altogether: float chains are solved in double.
+TEST_CASE("a million links in float: the nearest floats", "[linear]") {
+    support::Random random(32);
+    const Index n = 1'000'000;
+    std::vector<float> weight(static_cast<std::size_t>(n));
+    for (float& w : weight) w = static_cast<float>(random.between(0.5, 2));
+    const revchain::Chain<float> chain(n, std::move(weight), 1.0F, 1.0F, 0.0);
+    const auto m = revchain::modes(chain, {.count = 5, .shapes = false});
+    const auto exact = revchain::modes(revchain::converted<double>(chain), {.count = 5, .shapes = false});
+    CHECK(m.status == revchain::Status::success);
+    for (Index j = 0; j < 5; ++j) {
+        CHECK(m.conical_height[j] == static_cast<float>(exact.conical_height[j]));
+        CHECK(m.error_bound[j] <= 0.50001F * revchain::epsilon<float>());
     }
 }
