@@ -5,8 +5,6 @@
 
 #include "revchain/linear/modes.hpp"
 
-extern template revchain::Modes<float> revchain::modes(const revchain::Chain<float>&,
-                                                       const revchain::ModesOptions<float>&);
 extern template revchain::Modes<double> revchain::modes(const revchain::Chain<double>&,
                                                         const revchain::ModesOptions<double>&);
 extern template revchain::Modes<long double> revchain::modes(const revchain::Chain<long double>&,
