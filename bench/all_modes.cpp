@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 
 #include "lapack_names.hpp"
 #include "revchain/linalg/spectrum.hpp"
@@ -12,22 +11,15 @@
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"
+#include "timing.hpp"
 
 namespace {
 
+using bench::median;
 using revchain::Index;
 using support::Quad;
 
-double cpu_ms() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> x) {
-    std::sort(x.begin(), x.end());
-    return x[x.size() / 2];
-}
+double cpu_ms() { return 1e3 * bench::cpu_seconds(); }
 
 using Pencil = revchain::linalg::ElementPencil<double>;
 

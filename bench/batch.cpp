@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
 #include "lapack_names.hpp"
@@ -13,9 +12,12 @@
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"
+#include "timing.hpp"
 
 namespace {
 
+using bench::cpu_seconds;
+using bench::median;
 using revchain::BatchColumn;
 using revchain::Index;
 using Heights = revchain::Table<double>;
@@ -94,17 +96,6 @@ void lapack_rods(const Chains& all, Heights& heights) {
     }
 }
 #endif
-
-double cpu_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> x) {
-    std::sort(x.begin(), x.end());
-    return x[x.size() / 2];
-}
 
 double worst_error(const Chains& all, const Heights& heights) {
     double worst = 0;

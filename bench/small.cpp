@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
 #include "lapack_names.hpp"
@@ -15,9 +14,12 @@
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"
+#include "timing.hpp"
 
 namespace {
 
+using bench::cpu_seconds;
+using bench::median;
 using revchain::Chain;
 using revchain::Index;
 using revchain::Link;
@@ -68,17 +70,6 @@ void lapack([[maybe_unused]] bool rods, [[maybe_unused]] const Links& links, [[m
     }
     for (int j = 0; j < n; ++j) height[j] = 1 / mu[j];
 #endif
-}
-
-double cpu_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> x) {
-    std::sort(x.begin(), x.end());
-    return x[x.size() / 2];
 }
 
 double error_in_ulp(const support::Truth& truth, Index j, double height) {

@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "support/truth.hpp"
+#include "timing.hpp"
 #include "worker/direct.hpp"
 #include "worker/eigen.hpp"
 #include "worker/lapack.hpp"
@@ -23,19 +24,13 @@
 
 namespace {
 
+using bench::cpu_seconds;
 using bench::Heights;
 using bench::Method;
 using bench::RawChain;
 using bench::Registry;
 using DoubleWord = revchain::DoubleWord<double>;
 using Words = std::vector<std::string>;
-
-/// CPU time of all threads of this process.
-double cpu_seconds() {
-    timespec t{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 /// Nanoseconds of a cycle, from a chain of dependent additions of integers, one cycle each.
 double nanoseconds_per_cycle() {

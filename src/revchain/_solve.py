@@ -69,7 +69,8 @@ def modes(
         than one by one, 100 times with ``rtol=1e-14``. Where they cannot, bisection is used; the
         result's ``method`` says so. ``"dense"`` solves the assembled pencil and ``"recurrence"``
         relation (21) as printed: references for small chains. ``"auto"`` takes the cheapest of the
-        first four that keeps `rtol`. In precisions other than double there is bisection alone.
+        first four that keeps `rtol`. In extended and double-double there is bisection alone; single is
+        computed in double and rounded.
 
     Returns
     -------

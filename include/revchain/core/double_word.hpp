@@ -66,25 +66,23 @@ inline constexpr bool has_fast_fma =
 #endif
 }  // namespace detail
 
-/// x y = high + low exactly: one fused multiply-add where the machine has it, else Veltkamp's split and Dekker's
-/// product (a library call of fma costs more, and on old machines is emulated).
-template <Word T>
+/// x y = high + low exactly: one fused multiply-add, else Veltkamp's split and Dekker's product (a library call of fma
+/// costs more, and on old machines is emulated). Code that is compiled for several processors says which.
+template <bool fused, Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     const T p = x * y;
-    if constexpr (IsPack<T>) {
-        if constexpr (detail::has_fast_fma<Lane<T>>) {
-            T rest;
-            for (std::size_t i = 0; i < T::size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
-            return {p, rest};
-        } else {
-            // Halves by cutting bits off: their products are exact, so that compilers may fuse them with the sums;
-            // Veltkamp's split would not survive that. xl yl may be rounded, at u^2/4.
-            const T xh = upper_half(x), yh = upper_half(y);
-            const T xl = x - xh, yl = y - yh;
-            return {p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl};
-        }
-    } else if constexpr (detail::has_fast_fma<T>) {
+    if constexpr (fused && IsPack<T>) {
+        T rest;
+        for (std::size_t i = 0; i < T::size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
+        return {p, rest};
+    } else if constexpr (fused) {
         return {p, std::fma(x, y, -p)};
+    } else if constexpr (IsPack<T>) {
+        // Halves by cutting bits off: their products are exact, so that compilers may fuse them with the sums;
+        // Veltkamp's split would not survive that. xl yl may be rounded, by 4 u^2 of x y.
+        const T xh = upper_half(x), yh = upper_half(y);
+        const T xl = x - xh, yl = y - yh;
+        return {p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl};
     } else {
         constexpr T splitter = static_cast<T>((1ULL << ((std::numeric_limits<T>::digits + 1) / 2)) + 1);
         const T cx = splitter * x;
@@ -95,6 +93,12 @@ template <Word T>
         const T yl = y - yh;
         return {p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl};
     }
+}
+
+/// The same, fused where the whole program is compiled for a machine that has it.
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
+    return two_product<detail::has_fast_fma<Lane<T>>, T>(x, y);
 }
 
 template <Word T>

@@ -113,6 +113,20 @@ double vector_rounding(const PinnedChain& chain, double mu, double forces, doubl
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
 
+/// How walks along the chain are cut: `leg` links between two looks at sizes and sums; twists at pins 0, leg, 2 leg, ...
+/// `last` leg < n, tried from number `low` to `high`.
+struct Legs {
+    std::size_t leg, last, low, high;
+};
+
+inline Legs legs_of(const PinnedChain& chain, const double* shifts, std::size_t count, std::size_t lowest,
+                    std::size_t highest, std::size_t longest) {
+    double largest = 0;
+    for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, shifts[i]);
+    const std::size_t leg = stretch_length(chain, largest, longest), last = (chain.size() - 1) / leg;
+    return {leg, last, std::min(lowest / leg, last), std::min(highest / leg, last)};
+}
+
 /// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin where the
 /// residual is least, of those between `lowest` and `highest` whose number `longest`, a power of 2, divides. Its error is
 /// the square of the vector's.
@@ -123,11 +137,7 @@ template <bool swings, class V>
                                              std::vector<AtPin<V>>& scratch) {
     constexpr std::size_t P = quotient_packs;
     const std::size_t n = chain.size();
-    double largest = 0;
-    for (std::size_t i = 0; i < P * V::size; ++i) largest = std::max(largest, shifts[i]);
-    const std::size_t leg = stretch_length(chain, largest, longest);  // links between two looks at sizes and sums
-    const std::size_t legs = (n - 1) / leg;                           // twists: pins 0, leg, 2 leg, ... legs * leg < n
-    const std::size_t low = std::min(lowest / leg, legs), high = std::min(highest / leg, legs);
+    const auto [leg, legs, low, high] = legs_of(chain, shifts, P * V::size, lowest, highest, longest);
     scratch.resize((high - low + 1) * P);
 
     Walk<V> walk[P];

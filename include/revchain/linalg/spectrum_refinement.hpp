@@ -15,19 +15,6 @@ struct FineQuotient {
 
 inline constexpr std::size_t fine_packs = 2;
 
-/// x y = high + low exactly, for packs compiled for registers that may fuse.
-template <bool fused, class V>
-[[gnu::always_inline]] inline DoubleWord<V> exact_product(const V& x, const V& y) {
-    if constexpr (fused) {
-        const V p = x * y;
-        V rest;
-        for (std::size_t i = 0; i < V::size; ++i) rest.set(i, __builtin_fma(x[i], y[i], -p[i]));
-        return {p, rest};
-    } else {
-        return two_product(x, y);
-    }
-}
-
 /// A vector built as that of `Walk`: offset y, and the sum of m y over the pins passed in two words. What rounding leaves
 /// in doubt is evaluated: f = mu (sum of m y) - (k + mu X) d of each link, d the difference of the offsets as stored, is
 /// the residual summed over the pins below, and y^T (mu M - K) y = sum of f d.
@@ -52,14 +39,14 @@ template <bool swings, bool up, bool fused, class V>
         for (std::size_t p = 0; p < P; ++p) {
             FineWalk<V>& w = at[p];
             const auto pass_pin = [&]() __attribute__((always_inline)) {
-                const DoubleWord<V> q = exact_product<fused>(V(e.mass), w.offset);
+                const DoubleWord<V> q = two_product<fused>(V(e.mass), w.offset);
                 const DoubleWord<V> total = two_sum(w.sum, up ? q.high : -q.high);
                 const V left = q.low + rest.mass * w.offset;
                 w.sum = total.high;
                 w.rest += up ? total.low + left : total.low - left;
             };
             if (!up) pass_pin();
-            const DoubleWord<V> force = exact_product<fused>(w.mu, w.sum);
+            const DoubleWord<V> force = two_product<fused>(w.mu, w.sum);
             V stretch = e.flexibility * force.high;
             const V before = w.offset;
             if constexpr (swings) {
@@ -73,11 +60,11 @@ template <bool swings, bool up, bool fused, class V>
                 w.offset = up ? before - stretch : before + stretch;
             }
             const DoubleWord<V> d = up ? two_sum(before, -w.offset) : two_sum(w.offset, -before);
-            const DoubleWord<V> spring = exact_product<fused>(V(e.stiffness), d.high);
+            const DoubleWord<V> spring = two_product<fused>(V(e.stiffness), d.high);
             V f = w.mu * w.rest;
             if constexpr (swings) {
-                const DoubleWord<V> swung = exact_product<fused>(w.mu, d.high);
-                const DoubleWord<V> inertia = exact_product<fused>(V(rest.cross), swung.high);
+                const DoubleWord<V> swung = two_product<fused>(w.mu, d.high);
+                const DoubleWord<V> inertia = two_product<fused>(V(rest.cross), swung.high);
                 const DoubleWord<V> remains = two_sum(force.high, -spring.high);
                 f = (remains.high - inertia.high) + ((remains.low + (force.low - spring.low)) - inertia.low) +
                     (f - ((rest.stiffness * d.high + rest.cross_rest * swung.high) +
@@ -118,10 +105,7 @@ template <bool swings, bool fused, class V>
                                                   std::vector<FineWalk<V>>& scratch) {
     constexpr std::size_t P = fine_packs;
     const std::size_t n = chain.size();
-    double largest = 0;
-    for (std::size_t i = 0; i < P * V::size; ++i) largest = std::max(largest, shifts[i]);
-    const std::size_t leg = stretch_length(chain, largest, longest), legs = (n - 1) / leg;
-    const std::size_t low = std::min(lowest / leg, legs), high = std::min(highest / leg, legs);
+    const auto [leg, legs, low, high] = legs_of(chain, shifts, P * V::size, lowest, highest, longest);
     scratch.resize((high - low + 1) * P);
 
     FineWalk<V> walk[P];
@@ -154,8 +138,8 @@ template <bool swings, bool fused, class V>
             const FineWalk<V>&a = scratch[(at - low) * P + p], &b = walk[p];
             FineWalk<V>& j = joined[p];
             // each scaled by the other's offset, so that they meet
-            const DoubleWord<V> up = exact_product<fused>(a.sum, b.offset);
-            const DoubleWord<V> down = exact_product<fused>(b.sum, a.offset);
+            const DoubleWord<V> up = two_product<fused>(a.sum, b.offset);
+            const DoubleWord<V> down = two_product<fused>(b.sum, a.offset);
             const V gap =
                 b.mu * ((up.high - down.high) + ((up.low - down.low) + (a.rest * b.offset - b.rest * a.offset)));
             const V scale_up = b.offset * b.offset, scale_down = a.offset * a.offset;

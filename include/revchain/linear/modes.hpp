@@ -176,10 +176,9 @@ inline Modes<float> modes(const Chain<float>& chain, const ModesOptions<float>& 
         const double off = std::abs(static_cast<double>(height) / fine.conical_height[j] - 1);
         const double bound = height > 0 && std::isfinite(height) ? (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15)
                                                                  : std::numeric_limits<double>::infinity();
-        result.conical_height[j] = height;
-        result.error_bound[j] = std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity());
-        if (!(result.error_bound[j] <= options.rtol.value_or(std::numeric_limits<float>::max())))
-            result.status = Status::tolerance_not_met;
+        detail::set_height(result, j, height,
+                           std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity()), 0,
+                           options);
         if (options.shapes) {
             result.shape.row(j) = fine.shape.row(j).cast<float>();
             const Vector<double> offset = result.shape.row(j).transpose().cast<double>();

@@ -277,8 +277,8 @@ TEST_CASE("small spectra: roundings of quotients and residuals against what is a
             for (std::size_t j = 0; j < 2; ++j) worst[j] = std::max(worst[j], some[j]);
         }
         CAPTURE(rigid, worst[0], worst[1]);
-        CHECK(worst[0] <= 0.5);  // as measured; 1 is what is proved
-        CHECK(worst[1] <= 0.5);
+        CHECK(worst[0] <= 0.3);  // as measured; 1 is what is proved
+        CHECK(worst[1] <= 0.3);
         CHECK(worst[0] >= 0.05);  // it measures something
     }
 }
