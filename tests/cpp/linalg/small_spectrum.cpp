@@ -278,7 +278,7 @@ TEST_CASE("small spectra: roundings of quotients and residuals against what is a
         }
         CAPTURE(rigid, worst[0], worst[1]);
         CHECK(worst[0] <= 0.3);  // as measured; 1 is what is proved
-        CHECK(worst[1] <= 0.3);
+        CHECK(worst[1] <= 0.35);
         CHECK(worst[0] >= 0.05);  // it measures something
     }
 }
