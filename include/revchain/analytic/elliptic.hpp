@@ -27,10 +27,9 @@ class EllipticModulus {
     static EllipticModulus of_ratio(double opposite, double adjacent) {
         const double whole = std::hypot(opposite, adjacent);
         if (!(opposite >= 0 && adjacent >= 0 && whole > 0 && whole <= std::numeric_limits<double>::max()))
-            revchain::detail::refuse("analytic::EllipticModulus",
-                                     "the sides must not be negative, infinite or both 0",
-                                     opposite >= 0 && opposite <= std::numeric_limits<double>::max() ? adjacent
-                                                                                                     : opposite);
+            revchain::detail::refuse(
+                "analytic::EllipticModulus", "the sides must not be negative, infinite or both 0",
+                opposite >= 0 && opposite <= std::numeric_limits<double>::max() ? adjacent : opposite);
         return {opposite / whole, adjacent / whole};
     }
     double modulus() const { return modulus_; }

@@ -92,7 +92,8 @@ class JacobiFunctions {
         const double square = q > 0 ? q / (secant * secant) : 0;  // q cosh^2 x
         const Theta t = theta(4 * square - 2 * q);
         const double q3 = q * q * q, sine = 2 * square * tangent;  // q sinh 2x
-        const double slope = 4 * q * sine * (1 + q3 * (2 * t.w - q) + q3 * q3 * q * q * (3 * t.w * t.w - 2 * q * (t.w + q)));
+        const double slope =
+            4 * q * sine * (1 + q3 * (2 * t.w - q) + q3 * q3 * q * q * (3 * t.w * t.w - 2 * q * (t.w + q)));
         return {0, sn_scale_ * tangent * t.first / t.second, cn_scale_ * secant * t.fourth / t.second,
                 dn_scale_ * secant * t.third / t.second, drift_ * u + rate_ * (tangent + slope / t.second)};
     }
