@@ -69,9 +69,13 @@ struct Amplitude {
         sine = std::sin(within), cosine = std::cos(within);
         delta = std::hypot(cosine, modulus.complementary_modulus() * sine);
     }
+    /// Next to a quarter turn the amplitude, rounded, does not say on which side of it: cn does.
     explicit Amplitude(const JacobiValues& f) : half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
         const bool odd = std::fmod(half_turns, 2.0) != 0;
         sine = odd ? -f.sn : f.sn, cosine = odd ? -f.cn : f.cn, delta = f.dn;
+        if (cosine >= 0) return;
+        half_turns += f.amplitude / std::numbers::pi > half_turns ? 1 : -1;
+        sine = -sine, cosine = -cosine;
     }
 };
 
