@@ -130,6 +130,18 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
     if (has_speed) conical_height_ = conical_pendulum::height(*given.angular_speed, gravity_);
     if (has_both) strength = std::sqrt(*conical_height_) * std::sqrt(*given.tension);
 
+    const auto require_less = [&](const std::optional<double>& a, const std::optional<double>& b, double factor,
+                                  std::string_view sentence) {
+        if (a && b && !(*a < factor * *b)) revchain::detail::refuse(place, sentence, *a);
+    };
+    require_less(given.sag, length, 0.5 / waves(), "sag must be less than half the length of a half wave");
+    require_less(slack, given.sag, 2 * waves(), "slack must be less than twice the sag of every half wave");
+    require_less(span, strength, std::numbers::pi * waves(),
+                 "too slow or too tight to bend: span must be less than pi sqrt(tension g) / n for each half wave");
+    require_less(
+        strength, length, 1 / (std::numbers::pi * waves()),
+        "too slow or too tight to bend: length must be greater than pi sqrt(tension g) / n for each half wave");
+
     // Two equations  given = a * ratio(kappa): their quotient for kappa.
     struct Equation {
         double value;
@@ -153,10 +165,7 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
     };
     constexpr double farthest = 340;  // kappa or kappa' = 1e-148
     const auto logarithm = detail::root_between(off, -farthest, farthest);
-    if (!logarithm)
-        revchain::detail::refuse(place, has_sag && given.length ? "sag must be less than half the length of a half wave"
-                                        : has_both              ? "no rope bends so: too slow or too tight"
-                                                                : "no rope has this form");
+    if (!logarithm) revchain::detail::refuse(place, "no rope that double can hold has this form");
     functions_ = JacobiFunctions(detail::RopeRatios::modulus(*logarithm));
     const detail::RopeRatios r(modulus());
     sag_ratio_ = r.sag, slack_ratio_ = r.slack;
