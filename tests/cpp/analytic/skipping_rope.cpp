@@ -110,7 +110,7 @@ TEST_CASE("§5: the rope drawn out keeps its angular momentum", "[analytic]") {
     for (const auto& [span, speed] : expected) {
         const SkippingRope drawn = first.drawn_to(span);
         CAPTURE(span);
-        CHECK(relative(drawn.angular_speed(), speed) <= 5e-5)  // as printed: five digits;
+        CHECK(relative(drawn.angular_speed(), speed) <= 5e-5);  // as printed: five digits
         CHECK(relative(drawn.length(), 2.0) <= 1e-15);
         CHECK(relative(drawn.moment_of_inertia() * drawn.angular_speed(), first.moment_of_inertia()) <= 1e-14);
         // Work: d(J^2 / 2 I) / d span = h g, with mass for weight.
