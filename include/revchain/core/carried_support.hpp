@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "revchain/core/status.hpp"
+
+/// A plummet whose support is carried round a circle (or to and fro) at the speed of conical height lambda.
+/// Greenhill (1908) §1 (9).
+namespace revchain {
+
+/// Offset of the plummet over that of its support while the thread is nearly vertical: lambda / (lambda - l), of one sign
+/// with it where lambda > l and against it where lambda < l; infinite at resonance. Accuracy: 2 ulp, in lambda and l as
+/// given. Throws InvalidArgument unless both are positive and finite.
+template <Real T>
+T carried_response(const T& length, const T& height) {
+    detail::require_positive("carried_response", "length", length);
+    detail::require_positive("carried_response", "height", height);
+    return height / (height - length);
+}
+
+/// Steady inclinations of the thread, ascending, outwards positive: `count` of the three places hold one.
+template <Real T>
+struct CarriedInclinations {
+    std::array<T, 3> inclination{};
+    int count = 0;
+};
+
+namespace detail {
+
+/// The zero of an increasing function between two places where it does not have the same sign: Newton's method, kept
+/// within the bracket by halving.
+template <Real T, class F>
+T zero_between(T low, T high, const F& value_and_slope) {
+    const T tiny = std::numeric_limits<T>::min();
+    T x = low + (high - low) / T(2);
+    for (int round = 0; round < 400; ++round) {
+        const auto [value, slope] = value_and_slope(x);
+        (value < T(0) ? low : high) = x;
+        T next = x - value / slope;
+        if (!(next > low && next < high)) next = low + (high - low) / T(2);
+        const T step = next > x ? next - x : x - next, size = x > T(0) ? x : -x;
+        x = next;
+        if (step <= epsilon<T>() / T(2) * size || step < tiny || !(low < high)) break;
+    }
+    return x;
+}
+
+}  // namespace detail
+
+/// All steady inclinations between -pi/2 and pi/2 of a plummet whose support runs in a circle of `radius` (b > 0):
+/// lambda tan d = b + l sin d. One always, outwards; two more, inwards, where lambda < l and
+/// b^(2/3) <= l^(2/3) - lambda^(2/3), of which one is the resonance curve's unstable part.
+/// Accuracy: 4 ulp away from where the two meet, there the square root of that. Cost: a microsecond.
+/// Throws InvalidArgument unless all three are positive and finite.
+template <Real T>
+CarriedInclinations<T> carried_inclinations(const T& length, const T& height, const T& radius) {
+    using std::atan;
+    using std::cbrt;
+    using std::sqrt;
+    constexpr std::string_view place = "carried_inclinations";
+    detail::require_positive(place, "length", length);
+    detail::require_positive(place, "height", height);
+    detail::require_positive(place, "radius", radius);
+    // In t = tan d: lambda t - b - l t / sqrt(1 + t^2), convex for t > 0, its slope lambda - l / (1 + t^2)^(3/2).
+    const T c = height / length, r = radius / length;
+    const auto function = [&](const T& t) {
+        const T secant = sqrt(T(1) + t * t);
+        return std::pair<T, T>(c * t - r - t / secant, c - T(1) / (secant * secant * secant));
+    };
+    const auto negative = [&](const T& t) {  // decreasing there: turned round
+        const auto [value, slope] = function(t);
+        return std::pair<T, T>(-value, -slope);
+    };
+    CarriedInclinations<T> result;
+    const auto add = [&](const T& t) { result.inclination[static_cast<std::size_t>(result.count++)] = atan(t); };
+    if (c < T(1)) {
+        // Slope 0 at |t| = sqrt(c^(-2/3) - 1): a maximum on the inner side.
+        const T root = cbrt(c), turn = sqrt((T(1) - root) * (T(1) + root)) / root;
+        if (!(function(-turn).first < T(0))) {
+            const T farthest = (T(1) + r) / c;  // |c t| <= r + 1
+            add(detail::zero_between(-farthest, T(-turn), function));
+            add(detail::zero_between(T(-turn), T(0), negative));
+        }
+    }
+    const T nearest = c < T(1) ? sqrt((T(1) - cbrt(c)) * (T(1) + cbrt(c))) / cbrt(c) : T(0);
+    add(detail::zero_between(nearest, (T(1) + r) / c, function));
+    return result;
+}
+
+}  // namespace revchain

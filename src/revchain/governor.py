@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The governor: a compound link hinged on an axis that is made to turn, in its turning plane.
+
+``theta'' = n**2 sin(theta) cos(theta) - (g/l) sin(theta)`` in closed form, from any start. Source:
+Greenhill (1908), section 7. Angles are in radians, from the downward vertical.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arguments import STANDARD_GRAVITY, floats, real
+
+__all__ = ["Motion"]
+
+
+class Motion:
+    """The motion of a link hinged on a turning axis.
+
+    Parameters
+    ----------
+    angular_speed : float
+        Of the axis; 0 is the plain pendulum.
+    pendulum_length : float
+        Length of the equivalent simple pendulum about the hinge, positive.
+    angle, angle_rate : float
+        Where the link is and how fast it moves at time 0.
+    gravity : float
+        Negative: the axis upside down.
+    axial_inertia : float
+        Moment of inertia about the link's own line over that about the hinge across it, 0 to 1.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite, `pendulum_length` not positive, or `axial_inertia` outside 0 to 1.
+
+    Notes
+    -----
+    Accuracy: 1e-13 of the angle and of ``t`` times its rate (measured against integration in
+    quadruple precision); next to the motions that take for ever as far as the start, rounded to
+    double, says which side they are on. Cost: 2 microseconds, and 0.2 for each time.
+
+    References
+    ----------
+    Greenhill (1908), section 7 (1)-(13).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> swing = rc.governor.Motion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
+    >>> swing.regime
+    'aside'
+    >>> round(swing.period, 4), round(swing.least_angle, 4)
+    (1.3817, 0.7702)
+    """
+
+    __slots__ = ("_compiled",)
+    _compiled: _core.GovernorMotion
+
+    def __init__(
+        self,
+        *,
+        angular_speed: float,
+        pendulum_length: float,
+        angle: float,
+        angle_rate: float = 0.0,
+        gravity: float = STANDARD_GRAVITY,
+        axial_inertia: float = 0.0,
+    ) -> None:
+        place = "revchain.governor.Motion"
+        self._compiled = _core.GovernorMotion(
+            real(place, "angular_speed", angular_speed),
+            real(place, "pendulum_length", pendulum_length),
+            real(place, "gravity", gravity),
+            real(place, "angle", angle),
+            real(place, "angle_rate", angle_rate),
+            real(place, "axial_inertia", axial_inertia),
+        )
+
+    @property
+    def regime(self) -> str:
+        """``rest``, ``aside`` (dn), ``asymptotic`` (sech, sinh), ``through`` (cn) or ``revolutions`` (tn)."""
+        return self._compiled.regime
+
+    @property
+    def period(self) -> float:
+        """Of the motion, of one turn where it revolves; infinite where it never returns, 0 at rest."""
+        return self._compiled.period
+
+    @property
+    def least_angle(self) -> float:
+        """Turning angle; minus infinity where it revolves."""
+        return self._compiled.least_angle
+
+    @property
+    def greatest_angle(self) -> float:
+        """Turning angle; infinity where it revolves."""
+        return self._compiled.greatest_angle
+
+    def angle(self, time: ArrayLike) -> Any:
+        """Return the angle at the times given, any shape; it counts whole turns."""
+        return self._compiled.angle(floats("revchain.governor.Motion.angle", "time", time))
+
+    def angle_rate(self, time: ArrayLike) -> Any:
+        """Return the rate of the angle at the times given, any shape."""
+        return self._compiled.angle_rate(floats("revchain.governor.Motion.angle_rate", "time", time))
+
+    def __repr__(self) -> str:
+        return f"Motion of a governor: {self.regime}, period {self.period:g}"
