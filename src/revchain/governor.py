@@ -7,17 +7,24 @@ Greenhill (1908), section 7. Angles are in radians, from the downward vertical.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, floats, real
 
-__all__ = ["Motion"]
+__all__ = ["GovernorMotion", "GovernorState"]
 
 
-class Motion:
+class GovernorState(NamedTuple):
+    """Angle and its rate at one time or many."""
+
+    angle: Any
+    angle_rate: Any
+
+
+class GovernorMotion:
     """The motion of a link hinged on a turning axis.
 
     Parameters
@@ -51,7 +58,7 @@ class Motion:
     Examples
     --------
     >>> import revchain as rc
-    >>> swing = rc.governor.Motion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
+    >>> swing = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
     >>> swing.regime
     'aside'
     >>> round(swing.period, 4), round(swing.least_angle, 4)
@@ -71,7 +78,7 @@ class Motion:
         gravity: float = STANDARD_GRAVITY,
         axial_inertia: float = 0.0,
     ) -> None:
-        place = "revchain.governor.Motion"
+        place = "revchain.GovernorMotion"
         self._compiled = _core.GovernorMotion(
             real(place, "angular_speed", angular_speed),
             real(place, "pendulum_length", pendulum_length),
@@ -101,13 +108,28 @@ class Motion:
         """Turning angle; infinity where it revolves."""
         return self._compiled.greatest_angle
 
+    @property
+    def modulus(self) -> float:
+        """Of the elliptic functions."""
+        return self._compiled.modulus
+
+    @property
+    def complementary_modulus(self) -> float:
+        """Its complement, which says more next to the motions that never return."""
+        return self._compiled.complementary_modulus
+
     def angle(self, time: ArrayLike) -> Any:
         """Return the angle at the times given, any shape; it counts whole turns."""
-        return self._compiled.angle(floats("revchain.governor.Motion.angle", "time", time))
+        return self.state(time).angle
 
     def angle_rate(self, time: ArrayLike) -> Any:
         """Return the rate of the angle at the times given, any shape."""
-        return self._compiled.angle_rate(floats("revchain.governor.Motion.angle_rate", "time", time))
+        return self.state(time).angle_rate
+
+    def state(self, time: ArrayLike) -> GovernorState:
+        """Return the angle and its rate at the times given, any shape."""
+        values = self._compiled.state(floats("revchain.GovernorMotion.state", "time", time))
+        return GovernorState(*(x[()] for x in values))
 
     def __repr__(self) -> str:
-        return f"Motion of a governor: {self.regime}, period {self.period:g}"
+        return f"GovernorMotion: {self.regime}, period {self.period:g}"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "revchain/core/status.hpp"
+#include "revchain/core/zero_between.hpp"
 
 /// A plummet whose support is carried round a circle (or to and fro) at the speed of conical height lambda.
 /// Greenhill (1908) §1 (9).
@@ -26,28 +27,6 @@ struct CarriedInclinations {
     std::array<T, 3> inclination{};
     int count = 0;
 };
-
-namespace detail {
-
-/// The zero of an increasing function between two places where it does not have the same sign: Newton's method, kept
-/// within the bracket by halving.
-template <Real T, class F>
-T zero_between(T low, T high, const F& value_and_slope) {
-    const T tiny = std::numeric_limits<T>::min();
-    T x = low + (high - low) / T(2);
-    for (int round = 0; round < 400; ++round) {
-        const auto [value, slope] = value_and_slope(x);
-        (value < T(0) ? low : high) = x;
-        T next = x - value / slope;
-        if (!(next > low && next < high)) next = low + (high - low) / T(2);
-        const T step = next > x ? next - x : x - next, size = x > T(0) ? x : -x;
-        x = next;
-        if (step <= epsilon<T>() / T(2) * size || step < tiny || !(low < high)) break;
-    }
-    return x;
-}
-
-}  // namespace detail
 
 /// All steady inclinations between -pi/2 and pi/2 of a plummet whose support runs in a circle of `radius` (b > 0):
 /// lambda tan d = b + l sin d. One always, outwards; two more, inwards, where lambda < l and

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
+#include <utility>
 
 #include "revchain/core/status.hpp"
 
@@ -60,9 +60,7 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     if (b < c) std::swap(b, c);
     if (a < b) std::swap(a, b);
     const T slack = c - (a - b);
-    if (!(slack >= T(0)))
-        detail::refuse(place, "the threads and the distance of their ends must make a triangle; the distance is",
-                       distance);
+    if (!(slack >= T(0))) detail::refuse(place, "distance must make a triangle with the two threads", distance);
     const T twice_area = sqrt((a + (b + c)) * slack * ((c + (a - b)) * (a + (b - c)))) / T(2);
     const T along = (upper_thread - lower_thread) * ((upper_thread + lower_thread) / distance);
     const T depth = (distance + along) / T(2), above_lower = (along - distance) / T(2);  // depth - distance

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "revchain/core/status.hpp"
+#include "revchain/linear/compound_link.hpp"
 
 /// Two links, or one with something that yields: every case is a quadratic  lambda^2 - sum lambda + product = 0  in the
 /// conical height, its roots taken without a difference of like numbers. Greenhill (1908) §2 and §6. No square of a
@@ -87,40 +87,11 @@ HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, con
         square = (abs(share) - limit) * (abs(share) + limit) / whole;
         if (square < T(0))
             detail::refuse(
-                place,
-                "the roots are complex: a float is steady only where |x| is at least half length sqrt(-ratio); x is",
-                x);
+                place, "x must be at least half length sqrt(-ratio) on either side, else both heights are complex", x);
     }
     const T larger = T(1) + sqrt(square);
     return {half_length * larger, half_length * ((T(1) - share) * (T(1) + share) / whole / larger)};
 }
-
-/// A compound link: its weight acts at `centroid` from the pin it hangs by, and turns about there with
-/// `radius_of_gyration`.
-template <Real T>
-struct CompoundLink {
-    T centroid;            ///< h > 0
-    T radius_of_gyration;  ///< k >= 0; 0 is a plummet
-
-    /// l = h + k^2/h, of the equivalent simple pendulum; also the distance of the centre of oscillation from the pin.
-    T pendulum_length() const { return centroid + square_over_centroid(); }
-    /// k^2/h: the centroid from the centre of oscillation; hung from there the two change places, §6.
-    T square_over_centroid() const { return radius_of_gyration / centroid * radius_of_gyration; }
-    /// Of Maxwell's two particles that move as the link does, the share of its weight at the centre of oscillation, h/l;
-    /// the rest is at the pin. §6.
-    T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
-};
-
-namespace detail {
-template <Real T>
-void check(std::string_view place, const CompoundLink<T>& link) {
-    require_positive(place, "centroid", link.centroid);
-    using std::isfinite;
-    if (!(link.radius_of_gyration >= T(0)) || !isfinite(link.pendulum_length()))
-        refuse(place, "radius of gyration must not be negative, nor its square too large for the centroid",
-               link.radius_of_gyration);
-}
-}  // namespace detail
 
 /// Both heights of a compound link hung by a thread: a boat from its davits, a bag in the hand.
 /// (lambda - l)(lambda - a) = a h, §6 (11).

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "revchain/core/zero_between.hpp"
+#include "revchain/linear/two_links.hpp"
+
+/// Two links at any inclination: every hanging figure of two plummets, or of a compound link on a thread, at a given
+/// speed. Greenhill (1908) §2 (4), (8), §6 (10).
+///
+/// In units of the conical height, l1 and l2 the lengths, s l1 l2 the coupling (s = W1/(W1+W2), or h/l) and
+/// A = sec d1 - l1, the paper's (4) and (A) sin d1 = l2 sin d2 leave one equation in A,
+///     F = A^2 (1 - cos^2 d1) - l2^2 (1 - cos^2 d2) = 0,      sec d2 = l2 + s l1 l2 / A.
+/// A > 0: both lean to one side. F grows with A, so there is one figure if the height lies below the first of (5), else
+/// none. A < 0, B = -A: F(B)/dB is 2B (1 - l1/(l1-B)^3 - s l1/(B - s l1)^3), whose bracket is concave with its maximum at
+/// B = s^(1/4) l1 (1 - s^(1/4) + s^(1/2)): between its two zeros F grows, elsewhere it falls, so that there are one or
+/// three figures if the height lies below the second of (5), else none. All are found, and no more exist.
+namespace revchain {
+
+/// A steady figure, lowest link first; of two mirror images that with the free end (or lowest centre of oscillation) at a
+/// positive offset.
+template <Real T>
+struct PairShape {
+    std::array<T, 2> inclination;  ///< to the vertical, rad
+    std::array<T, 2> offset;       ///< from the axis, of P1 (L1 for a compound link) and of the joint
+    std::array<T, 2> tension;  ///< of either thread over the whole weight; for a compound link both are the thread's
+
+    /// Sign changes of the offsets, and one.
+    int half_waves() const { return offset[1] < T(0) ? 2 : 1; }
+};
+
+namespace detail {
+
+/// Lengths in units of the conical height.
+template <Real T>
+struct Pair {
+    T l1, l2, share;
+
+    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5): negative between the two heights.
+    T characteristic() const { return (T(1) - l1) * (T(1) - l2) - share * l1 * l2; }
+};
+
+/// F/l2^2 and its slope along |A|. `versed` = sec d1 - 1, growing with |A| or falling as `direction` says; `arm` = |A|;
+/// `rest` = arm (sec d2 - 1); `joint` = +- s l1, so that arm sec d2 = l2 (arm + joint).
+template <Real T>
+std::pair<T, T> balance(const Pair<T>& pair, int direction, const T& joint, const T& arm, const T& versed,
+                        const T& rest) {
+    const T cosine1 = T(1) / (T(1) + versed), sine1_squared = versed * cosine1 * (T(1) + cosine1);
+    const T lever = arm + joint, cosine2 = arm / lever / pair.l2, ratio = arm / pair.l2;
+    const T sine2_squared = rest / lever / pair.l2 * (T(1) + cosine2);
+    return {ratio * ratio * sine1_squared - sine2_squared,
+            T(2) * (ratio / pair.l2 * (sine1_squared + T(direction) * arm * cosine1 * cosine1 * cosine1) +
+                    cosine2 * cosine2 * (joint / lever) / arm)};
+}
+
+template <Real T>
+PairShape<T> pair_shape(const Pair<T>& pair, int side, const T& arm, const T& versed, const T& rest, const T& height) {
+    using std::atan;
+    using std::sqrt;
+    const T excess = rest / arm, secant2 = T(1) + excess;
+    const T tangent1 = sqrt(versed) * sqrt(T(2) + versed), tangent2 = T(side) * sqrt(excess) * sqrt(T(2) + excess);
+    return {{atan(tangent1), atan(tangent2)},
+            {height * tangent1, height * (pair.l2 * (tangent2 / secant2))},
+            {pair.share * (T(1) + versed), secant2}};
+}
+
+/// Figures leaning to one side: one, if any.
+template <Real T>
+void add_same_side(const Pair<T>& pair, const T& height, std::vector<PairShape<T>>& shapes) {
+    const T chi = pair.characteristic();
+    if (!(chi < T(0)) && !(pair.l1 > T(1) && pair.l2 > T(1))) return;
+    const T arm0 = std::max(T(0), T(1) - pair.l1), versed0 = std::max(T(0), pair.l1 - T(1));
+    // rest = (l2 - 1) A + s l1 l2, which is -chi where sec d1 = 1
+    const T rest0 = pair.l1 < T(1) ? -chi : pair.share * pair.l1 * pair.l2;
+    const auto function = [&](const T& x) {
+        return balance(pair, 1, T(pair.share * pair.l1), T(arm0 + x), T(versed0 + x), T(rest0 + (pair.l2 - T(1)) * x));
+    };
+    const T x = detail::zero_between(T(0), T(pair.l1 + pair.l2 + T(1)), function);
+    shapes.push_back(pair_shape(pair, 1, T(arm0 + x), T(versed0 + x), T(rest0 + (pair.l2 - T(1)) * x), height));
+}
+
+/// Figures leaning to both sides: one or three, if any.
+template <Real T>
+void add_opposite_sides(const Pair<T>& pair, const T& height, std::vector<PairShape<T>>& shapes) {
+    using std::sqrt;
+    const T chi = pair.characteristic();
+    if (!(chi > T(0) && pair.l1 > T(1) && pair.l2 > T(1))) return;
+    // B from s l1 l2/(l2 - 1), where d2 = 0, over a width of chi/(l2 - 1) to l1 - 1, where d1 = 0; counted as x from the
+    // one end and as `versed` from the other, so that neither angle is lost where it is small.
+    const T first = pair.share * pair.l1 * (pair.l2 / (pair.l2 - T(1))), width = chi / (pair.l2 - T(1));
+    const auto at = [&](const T& x, const T& versed) {
+        return balance(pair, -1, T(-pair.share * pair.l1), T(first + x), versed, T((pair.l2 - T(1)) * x));
+    };
+    const auto add = [&](const T& x, const T& versed) {
+        shapes.push_back(pair_shape(pair, -1, T(first + x), versed, T((pair.l2 - T(1)) * x), height));
+    };
+    const T middle = width / T(2);
+    const auto falls_between = [&](const T& low, const T& high, T sign) {  // sign 1: F falls from low to high
+        const auto from_low = [&](const T& x) {
+            const auto [value, slope] = at(x, T(width - x));
+            return std::pair<T, T>(-sign * value, -sign * slope);
+        };
+        const auto from_high = [&](const T& versed) {
+            const auto [value, slope] = at(T(width - versed), versed);
+            return std::pair<T, T>(sign * value, -sign * slope);
+        };
+        const bool beyond = high > middle && (low >= middle || !(from_low(middle).first > T(0)));
+        if (beyond) {
+            const T versed = detail::zero_between(T(width - high), T(width - std::max(low, middle)), from_high);
+            add(T(width - versed), versed);
+        } else {
+            const T x = detail::zero_between(low, std::min(high, middle), from_low);
+            add(x, T(width - x));
+        }
+    };
+    // Where F turns: zeros of 1 - l1/(l1-B)^3 - s l1/(B - s l1)^3, one on either side of its maximum.
+    const auto turning = [&](const T& b) {
+        const T p = pair.l1 - b, q = b - pair.share * pair.l1;
+        const T u = pair.l1 / (p * p * p), v = pair.share * pair.l1 / (q * q * q);
+        return std::pair<T, T>(T(1) - u - v, T(3) * (v / q - u / p));
+    };
+    const T root = sqrt(sqrt(pair.share)), top = root * pair.l1 * (T(1) - root + root * root);
+    T low = T(0), high = T(0);  // F grows between
+    if (turning(top).first > T(0)) {
+        const auto falling = [&](const T& b) {
+            const auto [value, slope] = turning(b);
+            return std::pair<T, T>(-value, -slope);
+        };
+        const T start = pair.share * pair.l1;
+        low = detail::zero_between(start, top, turning) - first;
+        high = detail::zero_between(top, pair.l1, falling) - first;
+        low = std::clamp(low, T(0), width), high = std::clamp(high, T(0), width);
+    }
+    const bool three = low < high && at(low, T(width - low)).first < T(0) && at(high, T(width - high)).first > T(0);
+    if (three) {
+        falls_between(high, width, T(1));
+        falls_between(low, high, T(-1));
+        falls_between(T(0), low, T(1));
+    } else if (low < high && !(at(low, T(width - low)).first < T(0))) {
+        falls_between(high, width, T(1));
+    } else if (low < high) {
+        falls_between(T(0), low, T(1));
+    } else {
+        falls_between(T(0), width, T(1));
+    }
+}
+
+/// The lower link upside down: l1 + sec d1 for A, and d1 from the upward vertical. F grows from sec d1 = 1.
+template <Real T>
+std::optional<PairShape<T>> standing_shape(const Pair<T>& pair, const T& height) {
+    const T arm0 = T(1) + pair.l1, rest0 = (pair.l2 - T(1)) * arm0 - pair.share * pair.l1 * pair.l2;
+    if (!(rest0 > T(0))) return std::nullopt;
+    const auto function = [&](const T& x) {
+        return balance(pair, 1, T(-pair.share * pair.l1), T(arm0 + x), x, T(rest0 + (pair.l2 - T(1)) * x));
+    };
+    const T x = detail::zero_between(T(0), pair.l2, function);
+    auto shape = pair_shape(pair, 1, T(arm0 + x), x, T(rest0 + (pair.l2 - T(1)) * x), height);
+    shape.tension[0] = -shape.tension[0];
+    return shape;
+}
+
+template <Real T>
+std::vector<PairShape<T>> pair_shapes(const Pair<T>& pair, const T& height) {
+    std::vector<PairShape<T>> shapes;
+    add_same_side(pair, height, shapes);
+    add_opposite_sides(pair, height, shapes);
+    return shapes;
+}
+
+}  // namespace detail
+
+/// All hanging figures of two plummets at the speed of conical height `height`, by sign changes, then inclination of the
+/// lower thread: §2 (4). Empty above the first of `two_plummets`; at most four.
+/// Accuracy: tangents to 1e-15 height_k / (height_k - height) where the figure leaves the vertical at height_k, and as
+/// the square root of that next to a fold. Cost: a microsecond. Throws InvalidArgument unless all are positive and finite.
+template <Real T>
+std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lower_thread, const T& upper_weight,
+                                              const T& upper_thread, const T& height) {
+    constexpr std::string_view place = "two_plummets_shapes";
+    detail::require_positive(place, "lower weight", lower_weight);
+    detail::require_positive(place, "lower thread", lower_thread);
+    detail::require_positive(place, "upper weight", upper_weight);
+    detail::require_positive(place, "upper thread", upper_thread);
+    detail::require_positive(place, "height", height);
+    const T heavy = std::max(lower_weight, upper_weight), w1 = lower_weight / heavy, w2 = upper_weight / heavy;
+    return detail::pair_shapes<T>({lower_thread / height, upper_thread / height, w1 / (w1 + w2)}, height);
+}
+
+/// All hanging figures of a compound link on a thread, §6 (10): likewise.
+template <Real T>
+std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundLink<T>& link, const T& height) {
+    constexpr std::string_view place = "link_on_thread_shapes";
+    detail::require_positive(place, "thread", thread);
+    detail::check(place, link);
+    detail::require_positive(place, "height", height);
+    auto shapes = detail::pair_shapes<T>(
+        {link.pendulum_length() / height, thread / height, link.share_at_centre_of_oscillation()}, height);
+    for (PairShape<T>& shape : shapes) shape.tension[0] = shape.tension[1];
+    return shapes;
+}
+
+/// The figure in which a plummet stands above the other on a stiff weightless rod, §2 (8): inclination[0] is the rod's to
+/// the upward vertical, tension[0] its thrust, negative. Exactly one where `standing_plummet` lies above the height, else
+/// none: F grows with sec d1.
+template <Real T>
+std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, const T& rod, const T& hung_weight,
+                                                   const T& thread, const T& height) {
+    constexpr std::string_view place = "standing_plummet_shape";
+    detail::require_positive(place, "standing weight", standing_weight);
+    detail::require_positive(place, "rod", rod);
+    detail::require_positive(place, "hung weight", hung_weight);
+    detail::require_positive(place, "thread", thread);
+    detail::require_positive(place, "height", height);
+    const T heavy = std::max(standing_weight, hung_weight), w1 = standing_weight / heavy, w2 = hung_weight / heavy;
+    return detail::standing_shape<T>({rod / height, thread / height, w1 / (w1 + w2)}, height);
+}
+
+/// The same of a compound link that stands on its lowest point, §6 (12) with the secants of (10): both tensions are that
+/// of the thread, or of the hand that moves as its end does.
+template <Real T>
+std::optional<PairShape<T>> standing_link_shape(const T& thread, const CompoundLink<T>& link, const T& height) {
+    constexpr std::string_view place = "standing_link_shape";
+    detail::require_positive(place, "thread", thread);
+    detail::check(place, link);
+    detail::require_positive(place, "height", height);
+    auto shape = detail::standing_shape<T>(
+        {link.pendulum_length() / height, thread / height, link.share_at_centre_of_oscillation()}, height);
+    if (shape) shape->tension[0] = shape->tension[1];
+    return shape;
+}
+
+}  // namespace revchain
