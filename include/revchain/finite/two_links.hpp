@@ -50,11 +50,31 @@ template <Real T>
 std::pair<T, T> balance(const Pair<T>& pair, int direction, const T& joint, const T& arm, const T& versed,
                         const T& rest) {
     const T cosine1 = T(1) / (T(1) + versed), sine1_squared = versed * cosine1 * (T(1) + cosine1);
-    const T lever = arm + joint, cosine2 = arm / lever / pair.l2, ratio = arm / pair.l2;
-    const T sine2_squared = rest / lever / pair.l2 * (T(1) + cosine2);
-    return {ratio * ratio * sine1_squared - sine2_squared,
+    const T lever = arm + rest, cosine2 = arm / lever, ratio = arm / pair.l2;
+    return {ratio * ratio * sine1_squared - rest / lever * (T(1) + cosine2),
             T(2) * (ratio / pair.l2 * (sine1_squared + T(direction) * arm * cosine1 * cosine1 * cosine1) +
-                    cosine2 * cosine2 * (joint / lever) / arm)};
+                    cosine2 * cosine2 * (joint * pair.l2 / lever) / arm)};
+}
+
+/// Where, from `low` to `high` in 0 ... width, a function of x and of what is left of the width goes through zero once,
+/// upwards (sign 1) or downwards (sign -1): x and what is left, each to its own last digit.
+template <Real T, class F>
+std::pair<T, T> zero_within(const T& width, const T& low, const T& high, const T& sign, const F& value_and_slope) {
+    const T middle = width / T(2);
+    const auto from_low = [&](const T& x) {
+        const auto [value, slope] = value_and_slope(x, T(width - x));
+        return std::pair<T, T>(sign * value, sign * slope);
+    };
+    const auto from_high = [&](const T& left) {
+        const auto [value, slope] = value_and_slope(T(width - left), left);
+        return std::pair<T, T>(-sign * value, sign * slope);
+    };
+    if (high > middle && (low >= middle || !(from_low(middle).first > T(0)))) {
+        const T left = zero_between(T(width - high), T(width - std::max(low, middle)), from_high);
+        return {T(width - left), left};
+    }
+    const T x = zero_between(low, std::min(high, middle), from_low);
+    return {x, T(width - x)};
 }
 
 template <Real T>
@@ -73,14 +93,27 @@ template <Real T>
 void add_same_side(const Pair<T>& pair, const T& height, std::vector<PairShape<T>>& shapes) {
     const T chi = pair.characteristic();
     if (!(chi < T(0)) && !(pair.l1 > T(1) && pair.l2 > T(1))) return;
+    // From A = 0 or d1 = 0; rest = (l2 - 1) A + s l1 l2, which is -chi where d1 = 0.
     const T arm0 = std::max(T(0), T(1) - pair.l1), versed0 = std::max(T(0), pair.l1 - T(1));
-    // rest = (l2 - 1) A + s l1 l2, which is -chi where sec d1 = 1
     const T rest0 = pair.l1 < T(1) ? -chi : pair.share * pair.l1 * pair.l2;
-    const auto function = [&](const T& x) {
-        return balance(pair, 1, T(pair.share * pair.l1), T(arm0 + x), T(versed0 + x), T(rest0 + (pair.l2 - T(1)) * x));
+    const auto add = [&](const T& x, const T& rest) {
+        shapes.push_back(pair_shape(pair, 1, T(arm0 + x), T(versed0 + x), rest, height));
     };
-    const T x = detail::zero_between(T(0), T(pair.l1 + pair.l2 + T(1)), function);
-    shapes.push_back(pair_shape(pair, 1, T(arm0 + x), T(versed0 + x), T(rest0 + (pair.l2 - T(1)) * x), height));
+    const auto at = [&](const T& x, const T& rest) {
+        return balance(pair, 1, T(pair.share * pair.l1), T(arm0 + x), T(versed0 + x), rest);
+    };
+    if (pair.l2 < T(1)) {  // up to where d2 = 0
+        const T falls = T(1) - pair.l2, width = rest0 / falls;
+        const auto [x, left] = zero_within(width, T(0), width, T(1), [&](const T& from_low, const T& from_high) {
+            return at(from_low, T(falls * from_high));
+        });
+        add(x, T(falls * left));
+    } else {
+        const auto rest = [&](const T& x) { return rest0 + (pair.l2 - T(1)) * x; };
+        const T x =
+            zero_between(T(0), T(pair.l1 + pair.l2 + T(1)), [&](const T& from) { return at(from, rest(from)); });
+        add(x, rest(x));
+    }
 }
 
 /// Figures leaning to both sides: one or three, if any.
@@ -89,33 +122,14 @@ void add_opposite_sides(const Pair<T>& pair, const T& height, std::vector<PairSh
     using std::sqrt;
     const T chi = pair.characteristic();
     if (!(chi > T(0) && pair.l1 > T(1) && pair.l2 > T(1))) return;
-    // B from s l1 l2/(l2 - 1), where d2 = 0, over a width of chi/(l2 - 1) to l1 - 1, where d1 = 0; counted as x from the
-    // one end and as `versed` from the other, so that neither angle is lost where it is small.
-    const T first = pair.share * pair.l1 * (pair.l2 / (pair.l2 - T(1))), width = chi / (pair.l2 - T(1));
+    // B from s l1 l2/(l2 - 1), where d2 = 0, over a width of chi/(l2 - 1) to l1 - 1, where d1 = 0.
+    const T rises = pair.l2 - T(1), first = pair.share * pair.l1 * (pair.l2 / rises), width = chi / rises;
     const auto at = [&](const T& x, const T& versed) {
-        return balance(pair, -1, T(-pair.share * pair.l1), T(first + x), versed, T((pair.l2 - T(1)) * x));
+        return balance(pair, -1, T(-pair.share * pair.l1), T(first + x), versed, T(rises * x));
     };
-    const auto add = [&](const T& x, const T& versed) {
-        shapes.push_back(pair_shape(pair, -1, T(first + x), versed, T((pair.l2 - T(1)) * x), height));
-    };
-    const T middle = width / T(2);
-    const auto falls_between = [&](const T& low, const T& high, T sign) {  // sign 1: F falls from low to high
-        const auto from_low = [&](const T& x) {
-            const auto [value, slope] = at(x, T(width - x));
-            return std::pair<T, T>(-sign * value, -sign * slope);
-        };
-        const auto from_high = [&](const T& versed) {
-            const auto [value, slope] = at(T(width - versed), versed);
-            return std::pair<T, T>(sign * value, -sign * slope);
-        };
-        const bool beyond = high > middle && (low >= middle || !(from_low(middle).first > T(0)));
-        if (beyond) {
-            const T versed = detail::zero_between(T(width - high), T(width - std::max(low, middle)), from_high);
-            add(T(width - versed), versed);
-        } else {
-            const T x = detail::zero_between(low, std::min(high, middle), from_low);
-            add(x, T(width - x));
-        }
+    const auto add_between = [&](const T& low, const T& high, const T& sign) {
+        const auto [x, versed] = zero_within(width, low, high, sign, at);
+        shapes.push_back(pair_shape(pair, -1, T(first + x), versed, T(rises * x), height));
     };
     // Where F turns: zeros of 1 - l1/(l1-B)^3 - s l1/(B - s l1)^3, one on either side of its maximum.
     const auto turning = [&](const T& b) {
@@ -137,15 +151,15 @@ void add_opposite_sides(const Pair<T>& pair, const T& height, std::vector<PairSh
     }
     const bool three = low < high && at(low, T(width - low)).first < T(0) && at(high, T(width - high)).first > T(0);
     if (three) {
-        falls_between(high, width, T(1));
-        falls_between(low, high, T(-1));
-        falls_between(T(0), low, T(1));
+        add_between(high, width, T(-1));
+        add_between(low, high, T(1));
+        add_between(T(0), low, T(-1));
     } else if (low < high && !(at(low, T(width - low)).first < T(0))) {
-        falls_between(high, width, T(1));
+        add_between(high, width, T(-1));
     } else if (low < high) {
-        falls_between(T(0), low, T(1));
+        add_between(T(0), low, T(-1));
     } else {
-        falls_between(T(0), width, T(1));
+        add_between(T(0), width, T(-1));
     }
 }
 

