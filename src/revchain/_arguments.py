@@ -86,6 +86,11 @@ def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
         raise ValueError(f"{place}: these shapes do not go together: {shapes}") from None
 
 
+def positives(place: str, **given: ArrayLike) -> list[Floats]:
+    """Positive finite numbers, broadcast to one shape."""
+    return together(place, **{name: positive(place, name, value) for name, value in given.items()})
+
+
 def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
     """What `Chain` takes, as arrays by name: weight, length and, of links that are not plummets, what goes with them."""
     bodies = [name for name in ("pendulum_length", "radius_of_gyration") if given[name] is not None]

@@ -93,7 +93,30 @@ class BufferImpact:
         return [Blow(*row) for row in self._compiled.blows.tolist()]
 
     def state(self, time: ArrayLike) -> CarriageState:
-        """Return places, speeds and the buffer's force at the times given, any shape, not negative."""
+        """Return where the carriages are, how fast they run, and the force of the buffer.
+
+        Parameters
+        ----------
+        time : array_like
+            Not negative, any shape.
+
+        Returns
+        -------
+        CarriageState
+            Each of the shape of `time`.
+
+        Raises
+        ------
+        ValueError
+            If a time is negative or not finite.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> impact = rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=4, coupling_stiffness=0.5, speed=1)
+        >>> round(float(impact.state(1.0).buffer_force), 6)
+        1.87221
+        """
         values = self._compiled.state(floats("revchain.BufferImpact.state", "time", time))
         return CarriageState(*(x[()] for x in values))
 

@@ -123,7 +123,7 @@ def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus:
     >>> import revchain as rc
     >>> f = rc.elliptic.jacobi(1.0, modulus=0.6)
     >>> round(float(f.sn), 12), round(float(f.cn**2 + f.sn**2), 12)
-    (0.810045391532, 1.0)
+    (0.81409141238, 1.0)
     """
     place = "revchain.elliptic.jacobi"
     given = _modulus(place, modulus, complementary_modulus)
@@ -195,7 +195,7 @@ def incomplete(
     --------
     >>> import revchain as rc
     >>> round(float(rc.elliptic.incomplete(1.0, modulus=0.6).F), 12)
-    1.053790664835
+    1.056273109822
     """
     place = "revchain.elliptic.incomplete"
     given = _modulus(place, modulus, complementary_modulus)
@@ -229,7 +229,7 @@ def complete_pi(
     --------
     >>> import revchain as rc
     >>> round(float(rc.elliptic.complete_pi(-2.0, modulus=0.0)), 12)
-    0.906899682118
+    0.906899682117
     """
     place = "revchain.elliptic.complete_pi"
     given = _modulus(place, modulus, complementary_modulus)
@@ -270,7 +270,7 @@ def incomplete_pi(
     --------
     >>> import revchain as rc
     >>> round(float(rc.elliptic.incomplete_pi(0.5, 1.0, modulus=0.6)), 12)
-    1.236985853806
+    1.253085614008
     """
     place = "revchain.elliptic.incomplete_pi"
     given = _modulus(place, modulus, complementary_modulus)

@@ -12,7 +12,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, positive, together
+from ._arguments import STANDARD_GRAVITY, positives
 
 __all__ = ["speed", "string_revolutions_per_second", "tension"]
 
@@ -49,7 +49,7 @@ def tension(speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
     40.0
     """
     place = "revchain.hoop.tension"
-    return _core.hoop_tension(*together(place, speed=positive(place, "speed", speed), gravity=positive(place, "gravity", gravity)))
+    return _core.hoop_tension(*positives(place, speed=speed, gravity=gravity))
 
 
 def speed(tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -85,7 +85,7 @@ def speed(tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
     515
     """
     place = "revchain.hoop.speed"
-    return _core.hoop_speed(*together(place, tension=positive(place, "tension", tension), gravity=positive(place, "gravity", gravity)))
+    return _core.hoop_speed(*positives(place, tension=tension, gravity=gravity))
 
 
 def string_revolutions_per_second(span: ArrayLike, tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -118,11 +118,8 @@ def string_revolutions_per_second(span: ArrayLike, tension: ArrayLike, gravity: 
     Examples
     --------
     >>> import revchain as rc
-    >>> float(rc.hoop.string_revolutions_per_second(2.0, tension=10.0, gravity=10.0))
+    >>> round(float(rc.hoop.string_revolutions_per_second(2.0, tension=10.0, gravity=10.0)), 6)
     2.5
     """
     place = "revchain.hoop.string_revolutions_per_second"
-    given = {"span": span, "tension": tension, "gravity": gravity}
-    return _core.hoop_string_revolutions_per_second(
-        *together(place, **{name: positive(place, name, value) for name, value in given.items()})
-    )
+    return _core.hoop_string_revolutions_per_second(*positives(place, span=span, tension=tension, gravity=gravity))

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, positive, together
+from ._arguments import Floats, positives
 
 __all__ = [
     "HeldPlummet",
@@ -58,9 +58,6 @@ class HeldPlummet(NamedTuple):
     """Likewise."""
 
 
-def _positive(place: str, **given: ArrayLike) -> list[Floats]:
-    return together(place, **{name: positive(place, name, value) for name, value in given.items()})
-
 
 def _plain(values: tuple[Floats, ...]) -> tuple[Any, ...]:
     """Numbers where arrays have no axis."""
@@ -101,7 +98,7 @@ def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
     (1.047198, 2.0)
     """
     place = "revchain.plummet.inclined_pendulum"
-    return InclinedPendulum(*_plain(_core.inclined_pendulum(*_positive(place, length=length, height=height))))
+    return InclinedPendulum(*_plain(_core.inclined_pendulum(*positives(place, length=length, height=height))))
 
 
 def held_plummet(
@@ -141,7 +138,7 @@ def held_plummet(
     (0.8, True)
     """
     place = "revchain.plummet.held_plummet"
-    given = _positive(
+    given = positives(
         place, upper_thread=upper_thread, lower_thread=lower_thread, distance=distance, height=height
     )
     radius, depth, upper, lower = _plain(_core.held_plummet(*given))
@@ -179,7 +176,7 @@ def air_resistance(arm: ArrayLike, height: ArrayLike) -> Any:
     >>> float(rc.plummet.air_resistance(arm=0.1, height=0.5))
     0.2
     """
-    return _core.air_resistance(*_positive("revchain.plummet.air_resistance", arm=arm, height=height))
+    return _core.air_resistance(*positives("revchain.plummet.air_resistance", arm=arm, height=height))
 
 
 def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Any:
@@ -213,7 +210,7 @@ def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Any
     3.0
     """
     place = "revchain.plummet.whirling_thread"
-    return _core.whirling_thread(*_positive(place, arm=arm, height=height, radius=radius))
+    return _core.whirling_thread(*positives(place, arm=arm, height=height, radius=radius))
 
 
 def carried_response(length: ArrayLike, height: ArrayLike) -> Any:
@@ -247,7 +244,7 @@ def carried_response(length: ArrayLike, height: ArrayLike) -> Any:
     >>> rc.plummet.carried_response(1.0, [3.0, 1.5, 0.5])
     array([ 1.5,  3. , -1. ])
     """
-    return _core.carried_response(*_positive("revchain.plummet.carried_response", length=length, height=height))
+    return _core.carried_response(*positives("revchain.plummet.carried_response", length=length, height=height))
 
 
 def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Floats:
@@ -283,8 +280,8 @@ def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike
     --------
     >>> import revchain as rc
     >>> rc.plummet.carried_inclinations(1.0, height=0.25, radius=0.1).round(4)
-    array([-1.2704, -0.1353,  1.3465])
+    array([-1.288 , -0.1341,  1.3421])
     """
     place = "revchain.plummet.carried_inclinations"
-    given = _positive(place, length=length, height=height, radius=radius)
+    given = positives(place, length=length, height=height, radius=radius)
     return np.stack(_core.carried_inclinations(*given), axis=-1)

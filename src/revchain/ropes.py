@@ -87,7 +87,7 @@ class SkippingRope:
     >>> import revchain as rc
     >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
     >>> round(rope.sag, 6), round(rope.tension_in_the_middle, 6)
-    (1.00427, 4.155793)
+    (1.031409, 7.397524)
     >>> rope.drawn_to(2.5).angular_speed > rope.angular_speed
     True
     """
@@ -199,17 +199,83 @@ class SkippingRope:
         return self._compiled.tension_at_ends
 
     def at(self, x: ArrayLike) -> RopePoints:
-        """Return what there is at distances along the axis from an end, 0 to `span`, any shape."""
+        """Return what there is at distances along the axis.
+
+        Parameters
+        ----------
+        x : array_like
+            From an end, 0 to `span`, any shape.
+
+        Returns
+        -------
+        RopePoints
+            Each of the shape of `x`. Cost 0.2 microseconds a number.
+
+        Raises
+        ------
+        ValueError
+            If a number is out of its range.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rope = rc.SkippingRope(span=2.0, sag=0.5)
+        >>> rope.at([0.0, 0.5, 1.0]).offset.round(6)
+        array([0.      , 0.359451, 0.5     ])
+        """
         return RopePoints(*(v[()] for v in self._compiled.at(floats("revchain.SkippingRope.at", "x", x))))
 
     def at_arc(self, arc: ArrayLike) -> RopePoints:
-        """Return what there is at distances along the rope from an end, 0 to `length`, any shape."""
+        """Return what there is at distances along the rope.
+
+        Parameters
+        ----------
+        arc : array_like
+            From an end, 0 to `length`, any shape.
+
+        Returns
+        -------
+        RopePoints
+            Each of the shape of `arc`. Cost 10 microseconds a number.
+
+        Raises
+        ------
+        ValueError
+            If a number is out of its range.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rope = rc.SkippingRope(span=2.0, length=3.0)
+        >>> round(float(rope.at_arc(1.5).offset - rope.sag), 12)
+        0.0
+        """
         return RopePoints(*(v[()] for v in self._compiled.at_arc(floats("revchain.SkippingRope.at_arc", "arc", arc))))
 
     def drawn_to(self, span: float) -> SkippingRope:
         """Return the rope with its ends at another distance, its length and angular momentum kept.
 
-        The work done on it is the gain in ``moment_of_inertia * angular_speed**2 / 2``, times the mass per length.
+        Parameters
+        ----------
+        span : float
+            The new distance, positive, less than the length.
+
+        Returns
+        -------
+        SkippingRope
+            Work done on it is the gain in ``moment_of_inertia * angular_speed**2 / 2``.
+
+        Raises
+        ------
+        ValueError
+            If `span` is out of its range, or the rope has no speed.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
+        >>> round(rope.drawn_to(2.5).angular_speed, 4)
+        20.9459
         """
         drawn = object.__new__(SkippingRope)
         drawn._compiled = self._compiled.drawn_to(real("revchain.SkippingRope.drawn_to", "span", span))
@@ -250,7 +316,7 @@ class TortuousRope:
     >>> import revchain as rc
     >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
     >>> round(rope.half_wave, 6), round(rope.half_wave_angle, 6)
-    (1.904871, 2.458206)
+    (2.494443, 3.335154)
     """
 
     __slots__ = ("_compiled",)
@@ -325,7 +391,30 @@ class TortuousRope:
         return self._compiled.half_wave_angle
 
     def at(self, x: ArrayLike) -> TortuousPoints:
-        """Return what there is at distances along the axis, of either sign, any shape."""
+        """Return what there is at distances along the axis.
+
+        Parameters
+        ----------
+        x : array_like
+            From where the rope is nearest to the axis, of either sign, any shape.
+
+        Returns
+        -------
+        TortuousPoints
+            Each of the shape of `x`. Cost 1 microsecond a number.
+
+        Raises
+        ------
+        ValueError
+            If a number is not finite.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
+        >>> rope.at([0.0, rope.half_wave / 2]).radius.round(12)
+        array([0.5, 1. ])
+        """
         return TortuousPoints(*(v[()] for v in self._compiled.at(floats("revchain.TortuousRope.at", "x", x))))
 
     def __repr__(self) -> str:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, floats, positive, real, together
+from ._arguments import Floats, floats, positive, positives, real, together
 from ._core import PairShape
 
 __all__ = [
@@ -52,9 +52,6 @@ class SwungLink(NamedTuple):
     reaction_inclination: Any
     """Of its line, rad."""
 
-
-def _positive(place: str, **given: ArrayLike) -> list[Floats]:
-    return together(place, **{name: positive(place, name, value) for name, value in given.items()})
 
 
 def _link(place: str, centroid: ArrayLike, radius_of_gyration: ArrayLike, **given: ArrayLike) -> list[Floats]:
@@ -104,7 +101,7 @@ def two_plummets(
     array([1.5, 0.5])
     """
     place = "revchain.two_links.two_plummets"
-    given = _positive(
+    given = positives(
         place,
         lower_weight=lower_weight,
         lower_thread=lower_thread,
@@ -191,7 +188,7 @@ def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
 
 
 def share_at_centre_of_oscillation(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
-    """Return which share of a link's weight, put at its centre of oscillation and the rest at its pin, moves as it does.
+    """Return the share of a link's weight that belongs at its centre of oscillation, the rest at its pin.
 
     Parameters
     ----------
@@ -391,12 +388,12 @@ def standing_plummet(
     Examples
     --------
     >>> import revchain as rc
-    >>> float(rc.two_links.standing_plummet(standing_weight=1, rod=1, hung_weight=3, thread=2))
-    1.0
+    >>> round(float(rc.two_links.standing_plummet(standing_weight=1, rod=1, hung_weight=3, thread=2)), 6)
+    1.822876
     """
     place = "revchain.two_links.standing_plummet"
     return _core.standing_plummet(
-        *_positive(place, standing_weight=standing_weight, rod=rod, hung_weight=hung_weight, thread=thread)
+        *positives(place, standing_weight=standing_weight, rod=rod, hung_weight=hung_weight, thread=thread)
     )
 
 
@@ -429,7 +426,7 @@ def spring_deflection(weight: ArrayLike, stiffness: ArrayLike) -> Any:
     0.025
     """
     return _core.spring_deflection(
-        *_positive("revchain.two_links.spring_deflection", weight=weight, stiffness=stiffness)
+        *positives("revchain.two_links.spring_deflection", weight=weight, stiffness=stiffness)
     )
 
 
@@ -540,10 +537,10 @@ def two_plummets_shapes(
     >>> pair = dict(lower_weight=1, lower_thread=2, upper_weight=3, upper_thread=1)
     >>> for shape in rc.two_links.two_plummets_shapes(**pair, height=1 / 64):
     ...     print(shape.half_waves, shape.inclination.round(3))
-    1 [1.564 1.56 ]
-    2 [ 0.046 -1.516]
-    2 [ 0.482 -1.492]
-    2 [ 1.532 -1.322]
+    1 [1.566 1.56 ]
+    2 [ 0.529 -1.55 ]
+    2 [ 1.555 -1.54 ]
+    2 [ 1.56  -0.534]
     """
     place = "revchain.two_links.two_plummets_shapes"
     return _core.two_plummets_shapes(
@@ -628,8 +625,8 @@ def standing_plummet_shape(
     >>> import revchain as rc
     >>> pair = dict(standing_weight=1, rod=1, hung_weight=3, thread=2)
     >>> rc.two_links.standing_plummet_shape(**pair, height=0.9).inclination.round(4)
-    array([0.4287, 0.4703])
-    >>> rc.two_links.standing_plummet_shape(**pair, height=1.1) is None
+    array([0.8321, 1.0427])
+    >>> rc.two_links.standing_plummet_shape(**pair, height=1.9) is None
     True
     """
     place = "revchain.two_links.standing_plummet_shape"
