@@ -16,7 +16,7 @@
 /// A = sec d1 - l1, the paper's (4) and (A) sin d1 = l2 sin d2 leave one equation in A,
 ///     F = A^2 (1 - cos^2 d1) - l2^2 (1 - cos^2 d2) = 0,      sec d2 = l2 + s l1 l2 / A.
 /// A > 0: both lean to one side. F grows with A, so there is one figure if the height lies below the first of (5), else
-/// none. A < 0, B = -A: F(B)/dB is 2B (1 - l1/(l1-B)^3 - s l1/(B - s l1)^3), whose bracket is concave with its maximum at
+/// none. A < 0, B = -A: dF/dB is 2B (1 - l1/(l1-B)^3 - s l1/(B - s l1)^3), whose bracket is concave with its maximum at
 /// B = s^(1/4) l1 (1 - s^(1/4) + s^(1/2)): between its two zeros F grows, elsewhere it falls, so that there are one or
 /// three figures if the height lies below the second of (5), else none. All are found, and no more exist.
 namespace revchain {
