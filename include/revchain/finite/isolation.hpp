@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <functional>
+#include <random>
+
+#include "revchain/finite/jet.hpp"
+
+namespace revchain::finite {
+
+/// Where the tangent of the lowest link lies at a steady shape: in low ... high, once and nowhere twice.
+template <class T>
+struct Bracket {
+    T low, high;
+};
+
+/// Steady shapes isolated by proof.
+template <class T>
+struct Isolation {
+    std::vector<Bracket<T>> shapes;     ///< ascending
+    std::vector<Bracket<T>> undecided;  ///< ascending: there may be shapes more in these; empty if the list is complete
+    long cells = 0;                     ///< looked at
+};
+
+namespace detail {
+
+/// Sign of the support's offset at one tangent: 0 where rounding leaves it open.
+template <Real T>
+int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t) {
+    Interval<T> y, sum, tangent_m(t);
+    for (std::size_t m = 0; m < links.size(); ++m) {
+        const Link<Interval<T>>& link = links[m];
+        const Interval<T> stiffness = height * link.pull, turning = link.length * link.cross;
+        const bool plummet = link.cross.low == T(0) && link.cross.high == T(0);
+        Interval<T> R;
+        if (m > 0) {
+            R = sum + link.moment * y;
+            tangent_m = plummet ? R / stiffness : tangent(stiffness, turning, R);
+        }
+        const Interval<T> s = Sine<T>(tangent_m).value;
+        if (m == 0) {
+            R = stiffness * tangent_m;
+            if (!plummet) R = R + turning * s;
+            y = R / link.moment;
+        }
+        y = y - link.length * s;
+        sum = R + link.rest * y;
+    }
+    return y.positive() ? 1 : y.negative() ? -1 : 0;
+}
+
+template <Real T>
+struct Part {
+    T low, high;
+    int low_sign, high_sign;
+};
+
+/// Splits 0 ... `last` until each cell is seen to hold no shape or one, or is narrower than `narrowest` of its upper end,
+/// or of `last` next to 0. The straight chain, at 0, is left out.
+template <Real T>
+Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Part<T>& whole,
+                     const T& narrowest, long budget) {
+    using std::sqrt;
+    Isolation<T> found;
+    std::vector<Part<T>> stack{whole};
+    std::minstd_rand random(1);
+    while (!stack.empty()) {
+        const Part<T> part = stack.back();
+        stack.pop_back();
+        if (found.cells++ >= budget) {
+            found.undecided.push_back({part.low, part.high});
+            continue;
+        }
+        const Jet<T> end = support_offset(links, height, Cell<T>(part.low, part.high));
+        const bool from_zero = part.low == T(0);
+        if (!from_zero && !end.value.may_vanish()) continue;
+        if (!end.slope.may_vanish()) {
+            if (from_zero) continue;  // the straight chain alone
+            if (part.low_sign * part.high_sign != 0) {
+                if (part.low_sign != part.high_sign) found.shapes.push_back({part.low, part.high});
+                continue;
+            }
+        }
+        // A cut at random, since one in the middle can meet a shape for ever.
+        const T share = T(0.45 + 0.1 * static_cast<double>(random()) / static_cast<double>(random.max()));
+        const T cut = from_zero ? part.high / T(16)
+                      : part.high > T(2) * part.low
+                          ? sqrt(part.low) * sqrt(part.high) * (T(1) + (share - T(0.5)) / T(4))
+                          : part.low + share * (part.high - part.low);
+        const bool narrow = from_zero
+                                ? part.high < narrowest * whole.high
+                                : part.high - part.low < narrowest * part.high || !(part.low < cut && cut < part.high);
+        if (narrow) {
+            found.undecided.push_back({part.low, part.high});
+            continue;
+        }
+        const int sign = sign_at(links, height, cut);
+        stack.push_back({cut, part.high, sign, part.high_sign});
+        stack.push_back({part.low, cut, part.low_sign, sign});
+    }
+    return found;
+}
+
+}  // namespace detail
+
+}  // namespace revchain::finite

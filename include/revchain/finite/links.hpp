@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <vector>
+
+#include "revchain/chain/chain.hpp"
+#include "revchain/core/interval.hpp"
+
+namespace revchain::finite {
+
+/// A link of steady motion at any inclination, lowest first in a chain. With R the moment of all that hangs at its upper
+/// pin, over the distance to its lower pin, taken as if the link hung vertically, y the offsets and t, s tangent and sine of
+/// its inclination, Greenhill (1908) §8 (6)-(12) is
+///     R = H_below + moment y_below,   lambda pull t + length cross s = R,   y = y_below - length s,   H = R + rest y,
+/// H the sum of weights times offsets of their centroids: lambda times the sideways pull at the pin.
+template <class S>
+struct Link {
+    S length;  ///< a
+    S pull;    ///< sigma = (W h + a S)/a, S the weight hung below; positive
+    S cross;   ///< X = W (h (a - h)/a^2 - rho^2/a^2): 0 for a plummet, positive where l < a
+    S moment;  ///< W h/a
+    S rest;    ///< W (a - h)/a
+};
+
+/// Links in units of 2^length_exponent and 2^weight_exponent.
+template <class S>
+struct Links {
+    std::vector<Link<S>> links;
+    ChainUnits units;
+};
+
+/// Every number within 1e-28 (double) of the exact function of those the chain stores, but where W h + a S cancels.
+/// Throws InvalidArgument where weights are more than 1e123 apart.
+template <Real T>
+Links<Wide<T>> links_of(const Chain<T>& chain) {
+    using std::ldexp;
+    using S = Wide<T>;
+    using E = Narrow<S>;
+    if (!chain.has_one_weight_unit())
+        detail::refuse("finite::links_of", "weights must not be more than 1e123 apart", chain.total_weight());
+    Links<S> result;
+    result.units = chain.units();
+    result.links.reserve(static_cast<std::size_t>(chain.size()));
+    S below(T(0));
+    for (Index m = 0; m < chain.size(); ++m) {
+        if (m % segment_size == 0) below = chain.weight_below(m);
+        const revchain::Link<T> link = chain.link(m);
+        const S weight(E(ldexp(link.weight, -result.units.weight_exponent)));
+        const S hung = ldexp(below, -result.units.weight_exponent);
+        const S a(E(ldexp(link.length, -result.units.length_exponent)));
+        const S h(E(ldexp(link.centroid, -result.units.length_exponent)));
+        const S p = h / a, q = (a - h) / a, moment = p * weight;
+        result.links.push_back({a, moment + hung, (p * q - link.gyration_ratio) * weight, moment, q * weight});
+        below = below + S(link.weight);
+    }
+    return result;
+}
+
+/// The same, rounded.
+template <class To, class From>
+std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
+    std::vector<Link<To>> result;
+    result.reserve(links.size());
+    for (const Link<From>& l : links)
+        result.push_back({static_cast<To>(l.length), static_cast<To>(l.pull), static_cast<To>(l.cross),
+                          static_cast<To>(l.moment), static_cast<To>(l.rest)});
+    return result;
+}
+
+/// The same, enclosed: what rounding to T, and forming them, leave open.
+template <class T, class From>
+std::vector<Link<Interval<T>>> enclosed(const std::vector<Link<From>>& links) {
+    const auto interval = [](const From& x) {
+        const T near = static_cast<T>(x);
+        if (near == T(0)) return Interval<T>(near);
+        if constexpr (std::numeric_limits<T>::digits < std::numeric_limits<From>::digits) {
+            if (From(near) == x) return Interval<T>(near);
+            return Interval<T>(detail::down(near), detail::up(near));
+        } else {
+            using std::abs;
+            const T off = abs(near) * T(256) * T(operation_error<From>());
+            return Interval<T>(detail::down(T(near - off)), detail::up(T(near + off)));
+        }
+    };
+    std::vector<Link<Interval<T>>> result;
+    result.reserve(links.size());
+    for (const Link<From>& l : links)
+        result.push_back(
+            {interval(l.length), interval(l.pull), interval(l.cross), interval(l.moment), interval(l.rest)});
+    return result;
+}
+
+}  // namespace revchain::finite
