@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+
+#include "revchain/core/double_double.hpp"
+#include "revchain/finite/isolation.hpp"
+#include "revchain/finite/steady_shape.hpp"
+#include "revchain/finite/sweep.hpp"
+
+namespace revchain {
+
+/// A range of inclinations of the lowest link, rad.
+struct InclinationRange {
+    double low, high;
+};
+
+struct SteadyShapesOptions {
+    long budget = 2'000'000;  ///< cells to look at, 1 to 10 microseconds each
+};
+
+/// The shapes found, and whether there are more.
+struct SteadyShapes {
+    std::vector<SteadyShape> shapes;          ///< by half waves, then inclination of the lowest link
+    std::vector<InclinationRange> undecided;  ///< where there may be others; empty if the list is complete
+    bool complete = false;                    ///< proved: no shape is missing
+    long cells = 0;                           ///< looked at
+};
+
+namespace finite {
+
+/// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the chain
+/// reaches.  y0 = lambda t + (a X/moment) s.
+template <class T>
+T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
+    Interval<T> reach(T(0));
+    for (const Link<Interval<T>>& link : links) reach = reach + link.length;
+    const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
+    using std::max;
+    const Interval<T> far = (reach + Interval<T>(max(T(0), T(-turning.low)))) / height;
+    return far.high;
+}
+
+/// Isolated in double, where that leaves cells open in two words.
+inline Isolation<DoubleDouble> isolated(const std::vector<Link<Wide<double>>>& links, double height, long budget) {
+    using Far = DoubleDouble;
+    const auto narrow = enclosed<double>(links);
+    const Interval<double> lambda(height);
+    const double last = farthest_tangent(narrow, lambda);
+    const Isolation<double> first =
+        detail::isolate<double>(narrow, lambda, {0.0, last, 0, detail::sign_at(narrow, lambda, last)}, 1e-14, budget);
+    Isolation<Far> found;
+    found.cells = first.cells;
+    for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
+    if (first.undecided.empty()) return found;
+    const auto wide = enclosed<Far>(links);
+    const Interval<Far> height_wide{Far(height)};
+    const std::size_t count = first.undecided.size();
+    for (std::size_t i = 0, end = 0; i < count; i = end) {
+        for (end = i + 1; end < count && first.undecided[end].low == first.undecided[end - 1].high;) ++end;
+        const Far low(first.undecided[i].low), high(first.undecided[end - 1].high);  // cells that touch are one
+        const int low_sign = low == Far(0) ? 0 : detail::sign_at(wide, height_wide, low);
+        const auto again =
+            detail::isolate<Far>(wide, height_wide, {low, high, low_sign, detail::sign_at(wide, height_wide, high)},
+                                 Far(1e-26), std::max(0L, budget - found.cells));
+        found.cells += again.cells;
+        found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
+        found.undecided.insert(found.undecided.end(), again.undecided.begin(), again.undecided.end());
+    }
+    return found;
+}
+
+/// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
+inline std::optional<Balanced<Wide<double>>> finished(const std::vector<Link<Wide<double>>>& links, double height,
+                                                      const Bracket<DoubleDouble>& bracket) {
+    using S = Wide<double>;
+    const S lambda(height);
+    S low = bracket.low.word(), high = bracket.high.word();
+    const bool rises = swept(links, lambda, low).back() < S(0);
+    const auto halve = [&]() {
+        const S middle = low + (high - low) * S(0.5);
+        ((swept(links, lambda, middle).back() < S(0)) == rises ? low : high) = middle;
+        return middle;
+    };
+    for (int round = 0; round < 16; ++round) {
+        auto found = balance(links, lambda, swept(links, lambda, halve()));
+        if (found.converged) {
+            const S d = found.offset[0] - found.offset[1];
+            const S tangent = d / (links[0].length * detail::cosine_of(links[0].length, d));
+            if (bracket.low.word() <= tangent && tangent <= bracket.high.word()) return found;
+        }
+        for (int i = 0; i < 6; ++i) halve();
+    }
+    return std::nullopt;
+}
+
+}  // namespace finite
+
+/// All hanging shapes of a chain that whirls steadily at the speed of conical height `height`, the straight one left out,
+/// of two mirror images that with the free end at a positive offset.
+inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options = {}) {
+    detail::require_positive("steady_shapes", "conical height", height);
+    const auto links = finite::links_of(chain);
+    const double scaled = std::ldexp(height, -links.units.length_exponent);
+    const auto isolation = finite::isolated(links.links, scaled, options.budget);
+    SteadyShapes result;
+    result.cells = isolation.cells;
+    const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
+    for (const auto& b : isolation.undecided) result.undecided.push_back({inclination(b.low), inclination(b.high)});
+    for (const auto& bracket : isolation.shapes) {
+        if (const auto found = finite::finished(links.links, scaled, bracket))
+            result.shapes.push_back(finite::described(links, Wide<double>(scaled), *found));
+        else
+            result.undecided.push_back({inclination(bracket.low), inclination(bracket.high)});
+    }
+    std::sort(result.shapes.begin(), result.shapes.end(), [](const SteadyShape& x, const SteadyShape& y) {
+        return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
+    });
+    result.complete = result.undecided.empty();
+    return result;
+}
+
+}  // namespace revchain
