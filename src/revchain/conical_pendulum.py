@@ -21,6 +21,7 @@ __all__ = [
     "gravity_from_seconds_pendulum",
     "height",
     "height_from_period",
+    "height_from_revolutions_per_second",
     "height_from_seconds_pendulum",
     "period",
     "revolutions_per_second",
@@ -232,6 +233,44 @@ def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike)
     place = "revchain.conical_pendulum.height_from_seconds_pendulum"
     return _core.conical_pendulum_height_from_seconds_pendulum(
         *positives(place, seconds_pendulum=seconds_pendulum, period=period)
+    )
+
+
+def height_from_revolutions_per_second(
+    revolutions_per_second: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY
+) -> Any:
+    """Return the height that goes with so many turns in a second.
+
+    Parameters
+    ----------
+    revolutions_per_second : array_like
+        In 1/s, positive.
+    gravity : array_like, optional
+        In the same unit of length per s^2 as the height, positive; standard gravity in m/s^2 if left out.
+
+    Returns
+    -------
+    float or ndarray
+        ``gravity / (2 pi revolutions_per_second)**2``, broadcast shape, within 3 ulp. Cost O(1) a number.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 1 (1).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> round(float(rc.conical_pendulum.height_from_revolutions_per_second(1.0)), 6)
+    0.248405
+    """
+    place = "revchain.conical_pendulum.height_from_revolutions_per_second"
+    return _core.conical_pendulum_height_from_revolutions_per_second(
+        *positives(place, revolutions_per_second=revolutions_per_second, gravity=gravity)
     )
 
 

@@ -7,12 +7,15 @@ Greenhill (1908), section 7. Angles are in radians, from the downward vertical.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, floats, real
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["GovernorMotion", "GovernorState"]
 
@@ -199,6 +202,38 @@ class GovernorMotion:
         """
         values = self._compiled.state(floats("revchain.GovernorMotion.state", "time", time))
         return GovernorState(*(x[()] for x in values))
+
+    def plot(self, ax: Axes | None = None, *, duration: float | None = None) -> Axes:
+        """Draw the angle against time, and the turning angles.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        duration : float, optional
+            In seconds; two periods if left out.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If the motion never returns and no `duration` is given, or it is not positive and finite.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> ax = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).plot()
+        >>> ax.get_ylabel()
+        'angle (degrees)'
+        """
+        from ._plots import plot_governor
+
+        return plot_governor(self, ax, duration)
 
     def __repr__(self) -> str:
         return f"GovernorMotion: {self.regime}, period {self.period:g}"

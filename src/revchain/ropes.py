@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, count, floats, real
+from ._arguments import STANDARD_GRAVITY, count, floats, positive, real
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 __all__ = ["RopePoints", "SkippingRope", "TortuousPoints", "TortuousRope"]
 
@@ -179,6 +182,11 @@ class SkippingRope:
         return self._compiled.moment_of_inertia
 
     @property
+    def has_speed(self) -> bool:
+        """Whether angular speed or tension was given, so that both are known."""
+        return self._compiled.has_speed
+
+    @property
     def conical_height(self) -> float:
         """Of the speed; a ValueError if neither speed nor tension was given."""
         return self._compiled.conical_height
@@ -281,8 +289,38 @@ class SkippingRope:
         drawn._compiled = self._compiled.drawn_to(real("revchain.SkippingRope.drawn_to", "span", span))
         return drawn
 
+    def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
+        """Draw the rope seen from the side.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        length_unit : str
+            What to write on the axes.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> ax = rc.SkippingRope(span=2.0, length=3.0).plot()
+        >>> ax.get_xlabel()
+        'along the axis (m)'
+        """
+        from ._plots import plot_skipping_rope
+
+        return plot_skipping_rope(self, ax, length_unit=length_unit)
+
     def __repr__(self) -> str:
-        speed = f", angular speed {self.angular_speed:g}" if self._compiled.has_speed else ""
+        speed = f", angular speed {self.angular_speed:g}" if self.has_speed else ""
         return f"SkippingRope: span {self.span:g}, length {self.length:g}, sag {self.sag:g}{speed}"
 
 
@@ -416,6 +454,48 @@ class TortuousRope:
         array([0.5, 1. ])
         """
         return TortuousPoints(*(v[()] for v in self._compiled.at(floats("revchain.TortuousRope.at", "x", x))))
+
+    def plot(
+        self, ax: Axes | None = None, *, half_waves: float = 4.0, length_unit: str = "m"
+    ) -> Axes:
+        """Draw the rope seen along its axis, and the two circles between which it stays.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        half_waves : float
+            How much of it, from a place nearest to the axis on.
+        length_unit : str
+            What to write on the axes.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If `half_waves` is not positive and finite.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
+        >>> ax = rope.plot()
+        >>> ax.get_xlabel()
+        'across (m)'
+        """
+        from ._plots import plot_tortuous_rope
+
+        return plot_tortuous_rope(
+            self,
+            ax,
+            float(positive("TortuousRope.plot", "half_waves", real("TortuousRope.plot", "half_waves", half_waves))),
+            length_unit=length_unit,
+        )
 
     def __repr__(self) -> str:
         return (
