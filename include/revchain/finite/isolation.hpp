@@ -24,10 +24,11 @@ struct Isolation {
 
 namespace detail {
 
-/// Sign of the support's offset at one tangent: 0 where rounding leaves it open.
+/// Offset of the support for tangents of the lowest link within an interval, and, if asked, those of all links.
 template <Real T>
-int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t) {
-    Interval<T> y, sum, tangent_m(t);
+Interval<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
+                           const Interval<T>& lowest, std::vector<Interval<T>>* tangents = nullptr) {
+    Interval<T> y, sum, t = lowest;
     for (std::size_t m = 0; m < links.size(); ++m) {
         const Link<Interval<T>>& link = links[m];
         const Interval<T> stiffness = height * link.pull, turning = link.length * link.cross;
@@ -35,17 +36,25 @@ int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& heig
         Interval<T> R;
         if (m > 0) {
             R = sum + link.moment * y;
-            tangent_m = plummet ? R / stiffness : tangent(stiffness, turning, R);
+            t = plummet ? R / stiffness : tangent(stiffness, turning, R);
         }
-        const Interval<T> s = Sine<T>(tangent_m).value;
+        if (tangents) tangents->push_back(t);
+        const Interval<T> s = Sine<T>(t).value;
         if (m == 0) {
-            R = stiffness * tangent_m;
+            R = stiffness * t;
             if (!plummet) R = R + turning * s;
             y = R / link.moment;
         }
         y = y - link.length * s;
         sum = R + link.rest * y;
     }
+    return y;
+}
+
+/// Its sign at one tangent: 0 where rounding leaves it open.
+template <Real T>
+int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t) {
+    const Interval<T> y = support_offset(links, height, Interval<T>(t));
     return y.positive() ? 1 : y.negative() ? -1 : 0;
 }
 

@@ -10,7 +10,7 @@ template <class S>
 struct Balanced {
     std::vector<S> offset;
     double residual = 0;   ///< largest force left over at a pin, over the sum of sizes of its terms
-    double condition = 0;  ///< largest change of a sine for relative changes of that size in the links' numbers
+    double condition = 0;  ///< largest change of an inclination for a relative change 1 of forces, as tried
     bool converged = false;
 };
 
@@ -23,6 +23,51 @@ S cosine_of(const S& length, const S& difference) {
     return sqrt((length - difference) * (length + difference)) / length;
 }
 
+/// A symmetric tridiagonal matrix as the product of its factors, from the first row down.
+class Tridiagonal {
+   public:
+    /// `upper[m]` couples rows m and m + 1; the last is not used.
+    Tridiagonal(std::vector<double> diagonal, std::vector<double> upper)
+        : pivot_(std::move(diagonal)), upper_(std::move(upper)) {
+        for (std::size_t m = 0; m < pivot_.size(); ++m) {
+            if (m > 0) pivot_[m] -= upper_[m - 1] / pivot_[m - 1] * upper_[m - 1];
+            if (pivot_[m] == 0) pivot_[m] = std::numeric_limits<double>::min();
+        }
+    }
+    std::vector<double> solve(std::vector<double> x) const {
+        for (std::size_t m = 1; m < x.size(); ++m) x[m] -= upper_[m - 1] / pivot_[m - 1] * x[m - 1];
+        for (std::size_t m = x.size(); m-- > 0;)
+            x[m] = (x[m] - (m + 1 < x.size() ? upper_[m] * x[m + 1] : 0.0)) / pivot_[m];
+        return x;
+    }
+
+   private:
+    std::vector<double> pivot_, upper_;
+};
+
+/// Largest change of an inclination for forces changed by `size`, in a few patterns of signs.
+template <class S>
+double condition(const std::vector<Link<S>>& links, const std::vector<S>& y, const Tridiagonal& stiffness,
+                 const std::vector<double>& size) {
+    const std::size_t n = links.size();
+    double worst = 0;
+    for (unsigned pattern = 0; pattern < 4; ++pattern) {
+        std::vector<double> force(size);
+        unsigned state = 2463534242U + pattern;
+        for (double& f : force) {
+            state ^= state << 13, state ^= state >> 17, state ^= state << 5;
+            if (pattern > 0 && (state & 64U)) f = -f;
+        }
+        const std::vector<double> change = stiffness.solve(std::move(force));
+        for (std::size_t m = 0; m < n; ++m) {
+            const double d = change[m] - (m + 1 < n ? change[m + 1] : 0.0);
+            const double cosine = static_cast<double>(cosine_of(links[m].length, S(y[m] - y[m + 1])));
+            worst = std::max(worst, std::abs(d) / (static_cast<double>(links[m].length) * cosine));
+        }
+    }
+    return worst;
+}
+
 }  // namespace detail
 
 /// Newton's method on all pins at once, from offsets near a steady shape: the balance of forces at each pin in S, its
@@ -32,10 +77,10 @@ template <class S>
 Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int most_steps = 60) {
     using std::abs;
     const std::size_t n = links.size();
-    Balanced<S> result{std::move(start), 0, 0, false};
+    Balanced<S> result{std::move(start)};
     std::vector<S>& y = result.offset;
     y[n] = S(0);
-    std::vector<double> diagonal(n), upper(n), force(n), change(n), size(n);
+    std::vector<double> diagonal(n), upper(n), force(n), size(n);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
         S carried(0);  // lambda sigma tan d + a X sin d, minus what mass asks, of the link below
@@ -65,27 +110,18 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
             below_size =
                 static_cast<double>(abs(pull)) + static_cast<double>(abs(turn)) + static_cast<double>(abs(at_upper));
         }
-        // Elimination from the tip up, substitution from the support down.
+        const detail::Tridiagonal tangent_stiffness(diagonal, upper);
+        const std::vector<double> change = tangent_stiffness.solve(force);
+        double largest = 0;
         for (std::size_t m = 0; m < n; ++m) {
-            double pivot = diagonal[m], right = force[m];
-            if (m > 0) {
-                const double factor = upper[m - 1] / change[m - 1];
-                pivot -= factor * upper[m - 1];
-                right -= factor * force[m - 1];
-            }
-            if (pivot == 0) pivot = std::numeric_limits<double>::min();
-            change[m] = pivot, force[m] = right;
-        }
-        double above = 0, largest = 0;
-        for (std::size_t m = n; m-- > 0;) {
-            above = (force[m] - upper[m] * above) / change[m];
             const double share = static_cast<double>(abs(y[m]));
-            largest = std::max(largest, share > 0 ? std::abs(above) / share : std::abs(above));
-            y[m] = y[m] + S(above);
+            largest = std::max(largest, share > 0 ? std::abs(change[m]) / share : std::abs(change[m]));
+            y[m] = y[m] + S(change[m]);
         }
         if (!(largest < std::numeric_limits<double>::infinity())) return result;
         if (largest < 1e-14 && (largest > 0.25 * last || largest < static_cast<double>(epsilon<S>()))) {
             result.converged = true;
+            result.condition = detail::condition(links, y, tangent_stiffness, size);
             break;
         }
         last = largest;

@@ -69,6 +69,7 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
         inertia = inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }
+    shape.residual = found.residual, shape.condition = found.condition;
     shape.conical_height = length(height);
     shape.moment_of_inertia = weight(std::ldexp(static_cast<double>(inertia), 2 * chain.units.length_exponent));
     shape.effective_energy = weight(length(energy - inertia / (S(2) * height)));

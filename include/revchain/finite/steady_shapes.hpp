@@ -70,9 +70,15 @@ inline Isolation<DoubleDouble> isolated(const std::vector<Link<Wide<double>>>& l
     return found;
 }
 
+/// A shape and the tangent of its lowest link.
+struct Finished {
+    Balanced<Wide<double>> shape;
+    Wide<double> tangent;
+};
+
 /// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
-inline std::optional<Balanced<Wide<double>>> finished(const std::vector<Link<Wide<double>>>& links, double height,
-                                                      const Bracket<DoubleDouble>& bracket) {
+inline std::optional<Finished> finished(const std::vector<Link<Wide<double>>>& links, double height,
+                                        const Bracket<DoubleDouble>& bracket) {
     using S = Wide<double>;
     const S lambda(height);
     S low = bracket.low.word(), high = bracket.high.word();
@@ -87,11 +93,34 @@ inline std::optional<Balanced<Wide<double>>> finished(const std::vector<Link<Wid
         if (found.converged) {
             const S d = found.offset[0] - found.offset[1];
             const S tangent = d / (links[0].length * detail::cosine_of(links[0].length, d));
-            if (bracket.low.word() <= tangent && tangent <= bracket.high.word()) return found;
+            if (bracket.low.word() <= tangent && tangent <= bracket.high.word())
+                return Finished{std::move(found), tangent};
         }
         for (int i = 0; i < 6; ++i) halve();
     }
     return std::nullopt;
+}
+
+/// How far the inclinations may be from those of the shape in the bracket, rad: signs of the support's offset on both
+/// sides of the tangent found, as near as two words can tell, and what all links then may do.
+inline double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, double height,
+                                const Bracket<DoubleDouble>& bracket, const DoubleDouble& tangent) {
+    using Far = DoubleDouble;
+    const Interval<Far> lambda{Far(height)};
+    for (Far reach = tangent * Far(1e-28);; reach = reach * Far(16)) {
+        const Far low = std::max(bracket.low, tangent - reach), high = std::min(bracket.high, tangent + reach);
+        const bool whole = low == bracket.low && high == bracket.high;
+        if (!whole && detail::sign_at(links, lambda, low) * detail::sign_at(links, lambda, high) != -1) continue;
+        std::vector<Interval<Far>> tangents;
+        detail::support_offset(links, lambda, Interval<Far>(low, high), &tangents);
+        double worst = 0;
+        for (const Interval<Far>& t : tangents) {
+            const double near = static_cast<double>(t.middle()), width = static_cast<double>(t.high - t.low);
+            const double change = width / (1 + near * near);
+            worst = std::max(worst, change == change ? change : std::numeric_limits<double>::infinity());
+        }
+        return worst * 1.01 + 0x1p-52;  // and two roundings of an angle below pi/2
+    }
 }
 
 }  // namespace finite
@@ -101,6 +130,7 @@ inline std::optional<Balanced<Wide<double>>> finished(const std::vector<Link<Wid
 inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options = {}) {
     detail::require_positive("steady_shapes", "conical height", height);
     const auto links = finite::links_of(chain);
+    const auto enclosed = finite::enclosed<DoubleDouble>(links.links);
     const double scaled = std::ldexp(height, -links.units.length_exponent);
     const auto isolation = finite::isolated(links.links, scaled, options.budget);
     SteadyShapes result;
@@ -108,10 +138,13 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, con
     const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
     for (const auto& b : isolation.undecided) result.undecided.push_back({inclination(b.low), inclination(b.high)});
     for (const auto& bracket : isolation.shapes) {
-        if (const auto found = finite::finished(links.links, scaled, bracket))
-            result.shapes.push_back(finite::described(links, Wide<double>(scaled), *found));
-        else
+        if (const auto found = finite::finished(links.links, scaled, bracket)) {
+            SteadyShape& shape =
+                result.shapes.emplace_back(finite::described(links, Wide<double>(scaled), found->shape));
+            shape.error_bound = finite::inclination_error(enclosed, scaled, bracket, DoubleDouble(found->tangent));
+        } else {
             result.undecided.push_back({inclination(bracket.low), inclination(bracket.high)});
+        }
     }
     std::sort(result.shapes.begin(), result.shapes.end(), [](const SteadyShape& x, const SteadyShape& y) {
         return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
