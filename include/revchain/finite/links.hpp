@@ -67,26 +67,28 @@ std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
     return result;
 }
 
-/// The same, enclosed: what rounding to T, and forming them, leave open.
-template <class T, class From>
-std::vector<Link<Interval<T>>> enclosed(const std::vector<Link<From>>& links) {
-    const auto interval = [](const From& x) {
-        const T near = static_cast<T>(x);
-        if (near == T(0)) return Interval<T>(near);
-        if constexpr (std::numeric_limits<T>::digits < std::numeric_limits<From>::digits) {
-            if (From(near) == x) return Interval<T>(near);
-            return Interval<T>(detail::down(near), detail::up(near));
-        } else {
-            using std::abs;
-            const T off = abs(near) * T(256) * T(operation_error<From>());
-            return Interval<T>(detail::down(T(near - off)), detail::up(T(near + off)));
-        }
-    };
+/// A number known in S to some of its last digits, enclosed in T; one that T holds exactly is taken as exact if T is the
+/// narrower.
+template <class T, class S>
+Interval<T> enclosed(const S& x) {
+    const T near = static_cast<T>(x);
+    if (near == T(0)) return Interval<T>(near);
+    if constexpr (std::numeric_limits<T>::digits < std::numeric_limits<S>::digits) {
+        if (S(near) == x) return Interval<T>(near);
+        return Interval<T>(detail::down(near), detail::up(near));
+    } else {
+        using std::abs;
+        const T off = abs(near) * T(256) * T(operation_error<S>());
+        return Interval<T>(detail::down(T(near - off)), detail::up(T(near + off)));
+    }
+}
+template <class T, class S>
+std::vector<Link<Interval<T>>> enclosed(const std::vector<Link<S>>& links) {
     std::vector<Link<Interval<T>>> result;
     result.reserve(links.size());
-    for (const Link<From>& l : links)
-        result.push_back(
-            {interval(l.length), interval(l.pull), interval(l.cross), interval(l.moment), interval(l.rest)});
+    for (const Link<S>& l : links)
+        result.push_back({enclosed<T>(l.length), enclosed<T>(l.pull), enclosed<T>(l.cross), enclosed<T>(l.moment),
+                          enclosed<T>(l.rest)});
     return result;
 }
 

@@ -33,7 +33,7 @@ struct Sweep {
             links.push_back({Quad(link.weight), a, h, h + rho2 / h});
         }
     }
-    Quad operator()(Quad t1) const {
+    Quad operator()(Quad t1, std::vector<Quad>* inclinations = nullptr) const {
         Quad S = 0, H = 0, y = 0;  // weight below, sum of W y_G below, offset of the pin below
         for (std::size_t m = 0; m < links.size(); ++m) {
             const auto& [W, a, h, l] = links[m];
@@ -53,6 +53,7 @@ struct Sweep {
                 y = (lambda * t - l * t / sqrtq(1 + t * t)) + a * t / sqrtq(1 + t * t);  // (4), at the lower end
             }
             const Quad s = t / sqrtq(1 + t * t);
+            if (inclinations) inclinations->push_back(atanq(t));
             y -= a * s;
             H += W * (y + h * s);
             S += W;
@@ -199,13 +200,26 @@ TEST_CASE("random chains: the proved list holds all that a scan finds", "[finite
         const int scanned = Sweep(chain, height).changes(4000);
         CHECK(static_cast<int>(found.shapes.size()) >= scanned);
         many += found.shapes.size() > static_cast<std::size_t>(above(chain, height));
-        // the same tips, to the truth of quadruple precision
+        // every inclination within its bound, and far within
         const Sweep sweep(chain, height);
         for (const SteadyShape& shape : found.shapes) {
-            const Quad d = shape.inclination[0], t = tanq(d);
-            const Quad slope = (sweep(t * (1 + Quad(1e-15))) - sweep(t * (1 - Quad(1e-15)))) / (2e-15 * t);
-            // Newton's step from it is what its rounding explains
-            CHECK(fabsq(sweep(t) / slope) <= 4e-16 * t * (1 + d / (sinq(d) * cosq(d))));
+            const Quad t = tanq(Quad(shape.inclination[0]));
+            Quad low = t * (1 - Quad(1e-13)), high = t * (1 + Quad(1e-13));
+            const bool rises = sweep(low) < 0;
+            REQUIRE((sweep(high) < 0) != rises);
+            for (int j = 0; j < 80; ++j) {
+                const Quad middle = (low + high) / 2;
+                ((sweep(middle) < 0) == rises ? low : high) = middle;
+            }
+            std::vector<Quad> truth;
+            sweep(low, &truth);
+            for (Index m = 0; m < n; ++m) {
+                const Quad exact = truth[static_cast<std::size_t>(m)];
+                CHECK(fabsq(shape.inclination[m] - exact) <= shape.error_bound);
+                CHECK(support::error_in_ulp(shape.inclination[m], exact) <= 2);
+            }
+            CHECK(shape.error_bound <= 1e-15);
+            CHECK(shape.residual <= 1e-20);
         }
     }
     CHECK(many > 5);
