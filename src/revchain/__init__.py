@@ -29,6 +29,7 @@ from ._chain import Chain
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
+from ._steady import SteadyShape, SteadyShapes, steady_shapes
 from ._storage import load
 from .buffer_impact import BufferImpact
 from .governor import GovernorMotion
@@ -47,6 +48,8 @@ __all__ = [
     "Modes",
     "SceneError",
     "SkippingRope",
+    "SteadyShape",
+    "SteadyShapes",
     "TortuousRope",
     "__version__",
     "conical_heights",
@@ -59,6 +62,7 @@ __all__ = [
     "modes",
     "plummet",
     "recurrence_matrices",
+    "steady_shapes",
     "two_links",
 ]
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them

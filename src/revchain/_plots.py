@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from ._chain import Chain
     from ._modes import Modes
+    from ._steady import SteadyShape
     from .governor import GovernorMotion
     from .ropes import SkippingRope, TortuousRope
 
@@ -227,4 +228,32 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | Non
     ax.plot(time, np.degrees(motion.angle(time)), linewidth=1.6)
     period = f", period {motion.period:.4g} s" if 0 < motion.period < np.inf else ""
     ax.set(xlabel="time (s)", ylabel="angle (degrees)", title=f"{motion.regime}{period}")
+    return ax
+
+
+def plot_steady_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, *, length_unit: str) -> Axes:
+    """See `SteadyShapes.plot`."""
+    if ax is None:
+        ax = new_axes(5.0, 6.0)
+    ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    named = set()
+    for shape in shapes:
+        marker = "o" if shape.offset.size <= MOST_PINS_AS_DOTS else ""
+        waves = shape.half_waves
+        label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
+        named.add(waves)
+        kept = thinned(shape.offset)
+        ax.plot(
+            shape.offset[kept],
+            shape.height[kept],
+            color=f"C{(waves - 1) % 10}",
+            linewidth=1.4,
+            marker=marker,
+            markersize=3.0,
+            label=label,
+        )
+    ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
+    ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the support ({length_unit})", aspect="equal")
+    if named:
+        ax.legend()
     return ax

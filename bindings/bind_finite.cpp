@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings.hpp"
+#include "revchain/finite/steady_shapes.hpp"
+
+namespace {
+
+using Chain = revchain::Chain<double>;
+using revchain::SteadyShape;
+using revchain::SteadyShapes;
+
+py::array ranges(const SteadyShapes& found) {
+    revchain::Table<double> table(static_cast<revchain::Index>(found.undecided.size()), 2);
+    for (revchain::Index i = 0; i < table.rows(); ++i) {
+        const auto& range = found.undecided[static_cast<std::size_t>(i)];
+        table.row(i) << range.low, range.high;
+    }
+    return to_numpy(table);
+}
+
+}  // namespace
+
+void bind_finite(py::module_& module) {
+    const auto column = [](revchain::Vector<double> SteadyShape::*member) {
+        return [member](const SteadyShape& shape) { return to_numpy(shape.*member); };
+    };
+    py::class_<SteadyShape>(module, "SteadyShape", "A steady shape of a whirling chain.")
+        .def_property_readonly("inclination", column(&SteadyShape::inclination))
+        .def_property_readonly("offset", column(&SteadyShape::offset))
+        .def_property_readonly("height", column(&SteadyShape::height))
+        .def_property_readonly("tension", column(&SteadyShape::tension))
+        .def_property_readonly("reaction_inclination", column(&SteadyShape::reaction_inclination))
+        .def_readonly("half_waves", &SteadyShape::half_waves)
+        .def_readonly("conical_height", &SteadyShape::conical_height)
+        .def_readonly("residual", &SteadyShape::residual)
+        .def_readonly("error_bound", &SteadyShape::error_bound)
+        .def_readonly("condition", &SteadyShape::condition)
+        .def_readonly("moment_of_inertia", &SteadyShape::moment_of_inertia)
+        .def_readonly("effective_energy", &SteadyShape::effective_energy);
+    py::class_<SteadyShapes>(module, "SteadyShapes", "Steady shapes of one speed.")
+        .def_readonly("shapes", &SteadyShapes::shapes)
+        .def_readonly("complete", &SteadyShapes::complete)
+        .def_readonly("cells", &SteadyShapes::cells)
+        .def_property_readonly("undecided", ranges);
+    module.def(
+        "steady_shapes",
+        [](const Chain& chain, double height, long budget) {
+            const py::gil_scoped_release release;
+            return revchain::steady_shapes(chain, height, {.budget = budget});
+        },
+        "chain"_a, "height"_a, "budget"_a);
+    module.def(
+        "steady_shapes_at_speed",
+        [](const Chain& chain, double angular_speed, double gravity, long budget) {
+            const py::gil_scoped_release release;
+            return revchain::steady_shapes_at_speed(chain, angular_speed, gravity, {.budget = budget});
+        },
+        "chain"_a, "angular_speed"_a, "gravity"_a, "budget"_a);
+}
