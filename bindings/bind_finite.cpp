@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
+#include "revchain/finite/stability.hpp"
 #include "revchain/finite/steady_shapes.hpp"
+
+#include <pybind11/complex.h>
 
 namespace {
 
@@ -41,6 +44,24 @@ void bind_finite(py::module_& module) {
         .def_readonly("complete", &SteadyShapes::complete)
         .def_readonly("cells", &SteadyShapes::cells)
         .def_property_readonly("undecided", ranges);
+    using revchain::Stability;
+    py::class_<Stability>(module, "Stability", "What becomes of a small disturbance of a steady shape.")
+        .def_property_readonly("verdict", [](const Stability& s) { return std::string(to_string(s.verdict)); })
+        .def_property_readonly("exponents",
+                               [](const Stability& s) {
+                                   return frozen(py::array_t<std::complex<double>>(
+                                       static_cast<py::ssize_t>(s.exponents.size()), s.exponents.data()));
+                               })
+        .def_readonly("growth_rate", &Stability::growth_rate)
+        .def_readonly("margin", &Stability::margin)
+        .def_readonly("negative_directions", &Stability::negative_directions);
+    module.def(
+        "stability",
+        [](const Chain& chain, const SteadyShape& shape, bool driven) {
+            return revchain::stability(chain, shape,
+                                       driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free);
+        },
+        "chain"_a, "shape"_a, "driven"_a);
     module.def(
         "steady_shapes",
         [](const Chain& chain, double height, long budget) {

@@ -29,7 +29,7 @@ from ._chain import Chain
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
-from ._steady import SteadyShape, SteadyShapes, steady_shapes
+from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
 from ._storage import load
 from .buffer_impact import BufferImpact
 from .governor import GovernorMotion
@@ -48,6 +48,7 @@ __all__ = [
     "Modes",
     "SceneError",
     "SkippingRope",
+    "Stability",
     "SteadyShape",
     "SteadyShapes",
     "TortuousRope",
