@@ -35,7 +35,7 @@ class Cell {
         centre_ = Interval<T>(centre);
         const T reach = max(T(-off.low), off.high);
         off_ = {-reach, reach};
-        half_square_ = {T(0), detail::up(T(detail::up(T(reach * reach)) / T(2)))};
+        half_square_ = {T(0), revchain::detail::up(T(revchain::detail::up(T(reach * reach)) / T(2)))};
     }
     Jet<T> x() const { return {range_, Interval<T>(T(1)), Interval<T>(T(0)), centre_, Interval<T>(T(1))}; }
 
