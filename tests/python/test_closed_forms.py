@@ -34,6 +34,11 @@ def ulps(found, exact):
     return float(worst)
 
 
+def near(value, rel):
+    """Within that of the value, however small."""
+    return pytest.approx(value, rel=rel, abs=0)
+
+
 def exactly(*numbers):
     return [mp.mpf(float(number)) for number in numbers]
 
@@ -109,7 +114,7 @@ def test_a_held_plummet_lies_where_the_threads_meet(triangle):
 @pytest.mark.parametrize("distance", [1e-9, 1e-20, 1e-100, 1e-150, 1e-200, 1e-300])
 def test_two_equal_threads_from_nearly_one_point_reach_as_far_as_they_are_long(distance):
     found = plummet.held_plummet(1.0, 1.0, distance, 0.5)
-    assert found.radius == pytest.approx(1.0, rel=4 * ULP)
+    assert found.radius == near(1.0, rel=4 * ULP)
     assert np.isfinite(found.depth)
 
 
@@ -169,13 +174,14 @@ def carried_roots(length, height, radius, cells=4000):
         (1.0, 2.0, 30.0),
         (1.0, 1.0, 1e-6),
         (1.0, 0.999, 1e-9),
+        (1.0, 0.950272226711884, 0.002397700354444707),
         (3.0, 1e-5, 2.99),
         (1e-3, 1e-9, 1e-12),
         (1e6, 3.0, 1e-3),
     ],
 )
 def test_all_inclinations_of_a_carried_plummet(length, height, radius):
-    exact = carried_roots(length, height, radius)
+    exact = carried_roots(length, height, radius, 2000)
     found = plummet.carried_inclinations(length, height, radius)
     assert len(exact) == (3 if radius ** (2 / 3) <= length ** (2 / 3) - height ** (2 / 3) else 1)
     assert np.isnan(found[len(exact) :]).all()
@@ -466,7 +472,9 @@ def test_all_figures_of_two_plummets(pair):
             np.testing.assert_allclose(y1 - y2, l1 * math.sin(d1), rtol=1e-12)
 
 
-@pytest.mark.parametrize("link", [(2.0, 1.0, 1.0), (1.0, 0.6, 0.35), (0.01, 1.0, 0.5), (5.0, 0.1, 2.0), (1.0, 1.0, 0.0)])
+@pytest.mark.parametrize(
+    "link", [(2.0, 1.0, 1.0), (1.0, 0.6, 0.35), (0.01, 1.0, 0.5), (5.0, 0.1, 2.0), (1.0, 1.0, 0.0)]
+)
 def test_all_figures_of_a_link_on_a_thread(link):
     heights = two_links.link_on_thread(*link)
     for height in HEIGHTS:
@@ -518,9 +526,9 @@ def test_figures_next_to_where_they_leave_the_vertical(below):
         problem = TwoPlummets(1, 1, 3, 1, height)
         numbers = exactly(*problem.numbers)
         value = lambda q: problem.residual(q, numbers, mp.sqrt) / q  # noqa: E731, B023
-        near = shapes[0].offset[0] / height
-        exact = mp.findroot(value, (near * 0.99, near * 1.01), solver="anderson", tol=1e-80, maxsteps=200)
-        assert abs(near / exact - 1) <= 1e-15 * x / (x - height)
+        first = shapes[0].offset[0] / height
+        exact = mp.findroot(value, (first * 0.99, first * 1.01), solver="anderson", tol=1e-80, maxsteps=200)
+        assert abs(first / exact - 1) <= 1e-15 * x / (x - height)
 
 
 @pytest.mark.parametrize("height", [1e-12, 1e-50, 1e-100, 1e-300])
@@ -542,7 +550,8 @@ def test_lengths_of_two_links_scale_exactly(exponent):
     heights = two_links.two_plummets(lower_weight=1, lower_thread=2, upper_weight=3, upper_thread=1)
     larger = two_links.two_plummets(lower_weight=f, lower_thread=2 * f, upper_weight=3 * f, upper_thread=f)
     assert (heights * f).tolist() == larger.tolist()
-    assert (two_links.link_on_thread(2.0, 1.0, 0.7) * f).tolist() == two_links.link_on_thread(2 * f, f, 0.7 * f).tolist()
+    plain, other = two_links.link_on_thread(2.0, 1.0, 0.7), two_links.link_on_thread(2 * f, f, 0.7 * f)
+    assert (plain * f).tolist() == other.tolist()
     assert two_links.standing_link(2.0, 1.0, 0.7) * f == two_links.standing_link(2 * f, f, 0.7 * f)
     plain = two_links.two_plummets_shapes(lower_weight=1, lower_thread=2, upper_weight=3, upper_thread=1, height=0.1)
     other = two_links.two_plummets_shapes(
@@ -570,7 +579,7 @@ def test_the_hoop_within_3_ulp(speed, gravity, span):
 @pytest.mark.parametrize("exponent", [-140, 140])
 def test_speed_and_tension_of_a_hoop_are_inverse_at_extremes(exponent):
     tension = 1.3 * 10.0**exponent
-    assert hoop.tension(hoop.speed(tension)) == pytest.approx(tension, rel=8 * ULP)
+    assert hoop.tension(hoop.speed(tension)) == near(tension, rel=8 * ULP)
 
 
 def test_standard_gravity_is_the_default():
@@ -579,7 +588,7 @@ def test_standard_gravity_is_the_default():
 
 # Elliptic integrals and functions ------------------------------------------------------------------------------------
 
-COMPLEMENTS = [1e-150, 1e-100, 1e-30, 1e-9, 1e-3, 0.1, 0.5, 0.8, 0.999, 1 - 1e-12, 1.0]
+COMPLEMENTS = [1e-150, 1e-100, 1.9098631509497832e-75, 1e-30, 1e-9, 1e-3, 0.1, 0.5, 0.8, 0.999, 1 - 1e-12, 1.0]
 
 
 def parameter(complementary):
@@ -617,7 +626,7 @@ def test_the_argument_is_the_modulus(modulus):
     found = elliptic.complete(modulus=modulus)
     m = mp.mpf(modulus) ** 2
     assert ulps(found[:2], [mp.ellipk(m), mp.ellipe(m)]) * ULP <= 3e-16
-    assert found.D + found.B == pytest.approx(found.K, rel=2 * ULP)
+    assert found.D + found.B == near(found.K, rel=2 * ULP)
     assert ulps(elliptic.complete_pi(-0.7, modulus=modulus), mp.ellippi(-mp.mpf(0.7), m)) * ULP <= 1e-15
     exact = [mp.ellipf(mp.mpf(1.1), m), mp.ellipe(mp.mpf(1.1), m)]
     assert ulps(elliptic.incomplete(1.1, modulus=modulus)[:2], exact) * ULP <= 2e-15
