@@ -835,9 +835,7 @@ def test_everything_broadcasts(function, arguments):
 @pytest.mark.parametrize(("function", "arguments"), EACH[:6], ids=by_name)
 def test_whole_numbers_are_numbers(function, arguments):
     whole = {name: 3 for name in arguments}
-    for one, other in zip(
-        columns(function(**whole)), columns(function(**{k: 3.0 for k in whole})), strict=True
-    ):
+    for one, other in zip(columns(function(**whole)), columns(function(**{k: 3.0 for k in whole})), strict=True):
         assert np.array_equal(one, other, equal_nan=True)
 
 

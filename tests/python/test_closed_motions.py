@@ -45,9 +45,7 @@ class Carriages:
     """Phases (start, in contact, function of the time since) of the motion, in exact modes of each phase."""
 
     def __init__(self, front_mass, rear_mass, buffer_stiffness, coupling_stiffness, speed):
-        self.m, self.n, self.b, self.c, v = exactly(
-            front_mass, rear_mass, buffer_stiffness, coupling_stiffness, speed
-        )
+        self.m, self.n, self.b, self.c, v = exactly(front_mass, rear_mass, buffer_stiffness, coupling_stiffness, speed)
         self.phases, self.blows = [], []
         start, state, contact = mp.mpf(0), (mp.mpf(0), mp.mpf(0), v, v), True
         while True:
@@ -207,9 +205,7 @@ def test_the_motion_of_the_carriages_is_in_proportion_to_the_speed():
 @pytest.mark.parametrize("speed", [1e-200, 1e-100, 1e100, 1e200])
 def test_carriages_at_any_speed(speed):
     blows = rc.BufferImpact(**{**IMPACTS[0], "speed": speed}).blows
-    assert [blow[:2] for blow in blows] == [
-        near(blow[:2], rel=1e-13) for blow in rc.BufferImpact(**IMPACTS[0]).blows
-    ]
+    assert [blow[:2] for blow in blows] == [near(blow[:2], rel=1e-13) for blow in rc.BufferImpact(**IMPACTS[0]).blows]
 
 
 def test_a_stiff_coupling_makes_one_carriage():
@@ -469,9 +465,7 @@ def test_inertia_about_its_own_line_slows_the_axis():
 
 def test_motions_with_lengths_and_times_scale_exactly():
     one = rc.GovernorMotion(**SWINGS["aside, moving"])
-    other = rc.GovernorMotion(
-        angular_speed=10.0, pendulum_length=4.0, angle=-1.0, angle_rate=1.4, gravity=9.80665 * 16
-    )
+    other = rc.GovernorMotion(angular_speed=10.0, pendulum_length=4.0, angle=-1.0, angle_rate=1.4, gravity=9.80665 * 16)
     assert other.period * 2 == one.period
     assert other.angle(0.35) == one.angle(0.7) and other.angle_rate(0.35) == 2 * one.angle_rate(0.7)
 
@@ -798,9 +792,7 @@ SPEEDS = [(5.0, 2.0), (0.1, 2.0), (50.0, 1e-3)]
 @pytest.mark.parametrize("radii", RADII)
 @pytest.mark.parametrize("speed", SPEEDS)
 def test_half_waves_of_a_tortuous_rope(radii, speed):
-    rope = rc.TortuousRope(
-        least_radius=radii[0], greatest_radius=radii[1], angular_speed=speed[0], tension=speed[1]
-    )
+    rope = rc.TortuousRope(least_radius=radii[0], greatest_radius=radii[1], angular_speed=speed[0], tension=speed[1])
     exact = Tortuous(*radii, *speed)
     with mp.workdps(340 if radii[0] == 1e-150 else 40):
         x, arc, angle, slack = (2 * each for each in Tortuous(*radii, *speed).at(mp.pi / 2))
