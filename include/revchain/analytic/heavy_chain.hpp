@@ -51,7 +51,7 @@ inline double slope(double x, Index mode, double length) {
     detail::check_place("slope", x, length);
     const double half_end = 0.5 * zero_of_j0(mode), half = half_end * std::sqrt(x / length);
     const double part = half > 0 ? analytic::detail::gsl_value(gsl_sf_bessel_J1_e, 2 * half) / half : 1.0;
-    return -part * half_end / length * half_end;
+    return -part / (length / (half_end * half_end));
 }
 
 /// Tension at x, to first order in the offsets: the length of chain that hangs below. §4 (1).

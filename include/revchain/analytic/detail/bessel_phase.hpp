@@ -40,11 +40,13 @@ class PhaseSeries {
     static constexpr std::size_t terms = 14;
 
     static double sum(const std::array<double, terms + 1>& coefficient, double step) {
-        double power = step, total = coefficient[1];
+        double power = step, total = coefficient[1], before = 1;
         for (std::size_t m = 2; m <= terms; ++m, power *= step) {
             const double term = coefficient[m] * power;
             total += term;
-            if (std::abs(term) <= 1e-18 * std::abs(total)) break;
+            const double size = std::abs(term);
+            if (std::max(size, before) <= 1e-18 * std::abs(total)) break;  // single coefficients may vanish
+            before = size;
         }
         return total;
     }
