@@ -142,7 +142,7 @@ def slope(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
     --------
     >>> import revchain as rc
     >>> rc.heavy_chain.slope([0.0, 0.5, 1.0], mode=1).round(4)
-    array([-1.4458, -0.9788, -0.6242])
+    array([-1.4458, -0.9825, -0.6242])
     """
     place = "revchain.heavy_chain.slope"
     return _core.heavy_chain_slope(*_places(place, x, length, mode))
@@ -217,7 +217,7 @@ def kinetic_energy(mode: ArrayLike, amplitude: ArrayLike = 1.0) -> Any:
     --------
     >>> import revchain as rc
     >>> rc.heavy_chain.kinetic_energy([1, 2, 3], amplitude=0.1).round(6)
-    array([0.001948, 0.00441 , 0.006896])
+    array([0.001948, 0.00441 , 0.006898])
     """
     return _energy("revchain.heavy_chain.kinetic_energy", mode, amplitude)
 

@@ -58,7 +58,8 @@ def conical_heights(count: int, *, exponent: ArrayLike, length: ArrayLike = 1.0)
     --------
     >>> import revchain as rc
     >>> rc.tapered_chain.conical_heights(3, exponent=[0.0, 1.0]).round(6)
-    ...
+    array([[0.69166 , 0.131271, 0.053414],
+           [0.544886, 0.162541, 0.077295]])
     """
     place = "revchain.tapered_chain.conical_heights"
     number = checked_count(place, "count", count)
@@ -112,7 +113,7 @@ def shape(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLi
     --------
     >>> import revchain as rc
     >>> rc.tapered_chain.shape([0.0, 0.5, 1.0], mode=1, exponent=1.0).round(4) + 0.0
-    ...
+    array([1.    , 0.3238, 0.    ])
     """
     return _profile("revchain.tapered_chain.shape", x, mode, exponent, length)[0][()]
 
@@ -150,7 +151,7 @@ def slope(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLi
     --------
     >>> import revchain as rc
     >>> rc.tapered_chain.slope([0.0, 0.5, 1.0], mode=1, exponent=1.0).round(4)
-    ...
+    array([-1.8352, -0.9409, -0.4028])
     """
     return _profile("revchain.tapered_chain.slope", x, mode, exponent, length)[1][()]
 
@@ -186,7 +187,7 @@ def nodes(mode: int, *, exponent: float, length: float = 1.0) -> Floats:
     --------
     >>> import revchain as rc
     >>> rc.tapered_chain.nodes(3, exponent=1.0).round(4)
-    ...
+    array([0.1419, 0.4755])
     """
     place = "revchain.tapered_chain.nodes"
     chain = _chain(place, real(place, "exponent", exponent), real(place, "length", length))

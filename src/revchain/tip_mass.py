@@ -59,7 +59,9 @@ def conical_heights(count: int, *, tip: ArrayLike, length: ArrayLike = 1.0) -> F
     --------
     >>> import revchain as rc
     >>> rc.tip_mass.conical_heights(3, tip=[0.0, 1.0, 1000.0]).round(6)
-    ...
+    array([[6.91660e-01, 1.31271e-01, 5.34140e-02],
+           [8.96035e-01, 6.00230e-02, 1.67030e-02],
+           [9.99833e-01, 1.01000e-04, 2.50000e-05]])
     """
     place = "revchain.tip_mass.conical_heights"
     number = checked_count(place, "count", count)
@@ -96,8 +98,9 @@ def shape(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 
     Returns
     -------
     float or ndarray
-        Broadcast shape; absolute error below 1e-15 times the mode, of the largest offset, which can
-        reach ``sqrt(1 + tip / height)``. Cost O(1) a number, and the height's where the chain or mode changes.
+        Broadcast shape; absolute error below 2e-15 times the mode, of the largest offset, which for modes above 1 can
+        reach ``sqrt(1 + tip / height)``. Cost O(1) a number, and the height's where
+        the chain or mode changes.
 
     Raises
     ------
@@ -113,7 +116,7 @@ def shape(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 
     --------
     >>> import revchain as rc
     >>> rc.tip_mass.shape([0.0, 0.5, 1.0], mode=1, tip=1.0).round(4) + 0.0
-    ...
+    array([1.    , 0.4608, 0.    ])
     """
     return _profile("revchain.tip_mass.shape", x, mode, tip, length)[0][()]
 
@@ -151,7 +154,7 @@ def slope(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 
     --------
     >>> import revchain as rc
     >>> rc.tip_mass.slope([0.0, 0.5, 1.0], mode=1, tip=1.0).round(4)
-    ...
+    array([-1.116 , -1.0141, -0.8226])
     """
     return _profile("revchain.tip_mass.slope", x, mode, tip, length)[1][()]
 
@@ -187,7 +190,7 @@ def nodes(mode: int, *, tip: float, length: float = 1.0) -> Floats:
     --------
     >>> import revchain as rc
     >>> rc.tip_mass.nodes(3, tip=1.0).round(4)
-    ...
+    array([0.0167, 0.4672])
     """
     place = "revchain.tip_mass.nodes"
     chain = _chain(place, real(place, "tip", tip), real(place, "length", length))

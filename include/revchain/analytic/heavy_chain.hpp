@@ -64,7 +64,7 @@ inline double tension(double x, double length) {
 /// Energies of the steady whirl of the chain of any length whose free end is `amplitude` off the axis, to the second order
 /// in it, over the chain's weight per length: kinetic (1/(2 lambda)) int y^2 dx and potential (1/2) int x y'^2 dx, both
 /// amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. (The chain's angular momentum times the angular speed is 2 of either.)
-/// Accuracy: 1e-15 relative (1 + j/4). Derived from §4 (4), (9): neither is in the paper.
+/// Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9): neither is in the paper.
 inline double kinetic_energy(Index mode, double amplitude) {
     detail::check("kinetic_energy", "mode", mode, 1.0);
     revchain::detail::require_positive("analytic::heavy_chain::kinetic_energy", "amplitude", amplitude);

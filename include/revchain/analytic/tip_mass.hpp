@@ -133,7 +133,7 @@ struct Ends {
 
 /// Conical heights of the `count` slowest modes, descending. A heavy tip leaves nearly a plummet, lambda_1 = length + ...,
 /// and the string of half waves between its ends, z_L - z_0 = (mode - 1) pi + ...
-/// Accuracy: 2 ulp. Cost: 0.2 to 15 microseconds each.
+/// Accuracy: 2 ulp (measured 1.04). Cost: 0.15 microseconds where z_0 > 30, else 3 to 5, 10 to 15 where z_L < 45.
 inline Vector<double> conical_heights(Index count, double length, double tip) {
     detail::check("conical_heights", "count", count, length, tip);
     const detail::Ends ends(length, tip);
@@ -164,7 +164,7 @@ class Mode {
     double conical_height() const { return height_; }
 
     /// Offset at x, 1 at the free end: (pi z_0^2/4) (J_2(z_0) Y_0(z) - Y_2(z_0) J_0(z)).
-    /// Accuracy: absolute error 4e-16 (1 + z_L - z_0) of the largest offset, which is 1 for mode 1 and can reach
+    /// Accuracy: absolute error 6e-16 (1 + z_L - z_0) of the largest offset, which is 1 for mode 1 and can reach
     /// sqrt(1 + tip/lambda) for others. Cost: 0.1 microseconds, 4 where z_0 > 1 and z < 45.
     double shape(double x) const {
         const double w = apart_at(x, "shape"), z = end_.z + w;
