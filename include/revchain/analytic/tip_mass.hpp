@@ -92,6 +92,9 @@ struct Ends {
     TwoDoubles gap;    ///< 1 - ratio
 
     Ends(double length, double tip) {
+        int unit = 0;  // a power of two near the larger: no sum, no split product overflows
+        std::frexp(std::max(length, tip), &unit);
+        length = std::ldexp(length, -unit), tip = std::ldexp(tip, -unit);
         const TwoDoubles whole = two_sum(length, tip);
         share = TwoDoubles(length) / whole;
         ratio = sqrt(TwoDoubles(tip) / whole);
@@ -124,8 +127,10 @@ struct Ends {
     }
 
     double height(const TwoDoubles& apart, double length) const {
+        int unit = 0;
+        const double part = std::frexp(length, &unit);
         const TwoDoubles q = TwoDoubles(2.0) / (ratio + 1.0);
-        return (share / apart * q * (q / apart) * length).high;
+        return std::ldexp((share / apart * q * (q / apart) * part).high, unit);
     }
 };
 

@@ -154,6 +154,19 @@ TEST_CASE("tip mass: heights of neighbouring weights do not step where the metho
     }
 }
 
+TEST_CASE("tip mass: any unit of length", "[analytic]") {
+    for (const int power : {-980, -300, 300, 1010}) {
+        for (const double tip : {0.0, 0.01, 1.0, 300.0}) {
+            CAPTURE(power, tip);
+            const tip_mass::Mode mode(3, 1.5, tip), other(3, std::ldexp(1.5, power), std::ldexp(tip, power));
+            CHECK(other.conical_height() == std::ldexp(mode.conical_height(), power));
+            CHECK(other.shape(std::ldexp(0.4, power)) == mode.shape(0.4));
+            CHECK(other.slope(std::ldexp(0.4, power)) == std::ldexp(mode.slope(0.4), -power));
+            CHECK(other.nodes()[1] == std::ldexp(mode.nodes()[1], power));
+        }
+    }
+}
+
 TEST_CASE("tip mass: bad input", "[analytic]") {
     const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
     for (const double bad : {-1.0, -1e-300, 1e251, inf, nan}) {
