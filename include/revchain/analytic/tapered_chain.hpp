@@ -34,7 +34,7 @@ inline Vector<double> conical_heights(Index count, double length, double exponen
     return heights;
 }
 
-/// One mode. Cost: that of its zero; of a place 5 to 100 ns far from the free end, 3 ns (z + 40) near it.
+/// One mode. Cost: that of its zero; of a place 0.1 to 0.7 microseconds.
 class Mode {
    public:
     Mode(Index mode, double length, double exponent)

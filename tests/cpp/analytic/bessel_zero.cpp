@@ -99,6 +99,22 @@ TEST_CASE("zeros of J of random orders: correctly rounded but for 1 %, none left
     CHECK(worst <= 0.51);  // measured 0.501
 }
 
+TEST_CASE("a million zeros of J: their distances tend to pi from the side of the order", "[analytic]") {
+    for (const double order : {-0.99, -0.3, 2.2, 99.5}) {  // from above where |order| > 1/2 (Sturm)
+        const analytic::ZerosOfJ zeros(order);
+        const double sign = std::abs(order) > 0.5 ? 1 : -1;
+        double z = zeros(2), before = sign > 0 ? 100 : 0;
+        revchain::Index wrong = 0;
+        for (revchain::Index k = 3; k <= 1'000'000; ++k) {
+            const double next = zeros(k), distance = next - z, rounding = 3e-16 * next;
+            if (sign * (distance - before) > rounding || sign * (M_PI - distance) > rounding) ++wrong;
+            z = next, before = distance;
+        }
+        CAPTURE(order);
+        CHECK(wrong == 0);
+    }
+}
+
 TEST_CASE("zeros of J of real order: both methods agree where they meet", "[analytic]") {
     for (const double order : {-0.9, 0.0, 2.5, 3.75, 5.0, 31.4, 100.0}) {
         const analytic::ZerosOfJ zeros(order);

@@ -50,12 +50,14 @@ TEST_CASE("tip mass: offsets and slopes against 20 digits", "[analytic]") {
 
 TEST_CASE("tip mass: none is the uniform chain, and next to none is next to it", "[analytic]") {
     const auto uniform = heavy_chain::conical_heights(400, 0.7);
-    for (const double tip : {0.0, 1e-300, 1e-30}) {
+    for (const double tip : {0.0, 5e-324, 1e-300, 1e-30}) {
         CAPTURE(tip);
         const auto heights = tip_mass::conical_heights(400, 0.7, tip);
         for (Index k = 0; k < 400; ++k) CHECK(support::error_in_ulp(heights[k], Quad(uniform[k])) <= 2.5);
         for (const Index k : {1, 2, 6, 30}) {
             const tip_mass::Mode mode(k, 0.7, tip);
+            CHECK(mode.shape(5e-324) == 1);
+            CHECK(mode.slope(5e-324) * mode.conical_height() == Approx(-1).epsilon(1e-15));
             const auto nodes = mode.nodes(), expected = heavy_chain::nodes(k, 0.7);
             REQUIRE(nodes.size() == k - 1);
             for (Index i = 0; i < k - 1; ++i) CHECK(std::abs(nodes[i] - expected[i]) <= 1e-15 * 0.7);
