@@ -67,7 +67,9 @@ def conical_heights(count: int, *, exponent: ArrayLike, length: ArrayLike = 1.0)
     return _core.tapered_chain_conical_heights(number, long, other)
 
 
-def _profile(place: str, x: ArrayLike, mode: ArrayLike, exponent: ArrayLike, length: ArrayLike) -> tuple[Floats, Floats]:
+def _profile(
+    place: str, x: ArrayLike, mode: ArrayLike, exponent: ArrayLike, length: ArrayLike
+) -> tuple[Floats, Floats]:
     """Offset and slope, broadcast."""
     at, number, long, other = together(
         place,
@@ -191,4 +193,5 @@ def nodes(mode: int, *, exponent: float, length: float = 1.0) -> Floats:
     """
     place = "revchain.tapered_chain.nodes"
     chain = _chain(place, real(place, "exponent", exponent), real(place, "length", length))
-    return _core.tapered_chain_nodes(checked_count(place, "mode", mode), float(chain["length"]), float(chain["exponent"]))
+    number = checked_count(place, "mode", mode)
+    return _core.tapered_chain_nodes(number, float(chain["length"]), float(chain["exponent"]))

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MPL-2.0
-"""Zeros of J of real order to 25 digits, for tests/cpp/analytic: python make_bessel_zeros_real.py > bessel_zeros_real.csv
+"""Zeros of J of real order to 25 digits, for tests/cpp/analytic.
 
-Numbered by the phase of J + iY: (k - 1/2) pi at the k-th zero, counted up from -pi/2 at 0 by steps too short for a turn.
+python make_bessel_zeros_real.py > bessel_zeros_real.csv
+
+Small numbers are counted as J changes sign on a grid; great ones are those of the phase of J + iY, (k - 1/2) pi.
 """
 import mpmath as mp
 
@@ -19,7 +21,7 @@ def polished(order, guess):
 
 
 def by_counting(order, numbers):
-    """Zeros as J changes its sign on a grid finer than their distance, which is above 2.9 from the second on."""
+    """As J changes its sign on a grid of 1/4, finer than the zeros' distances, which are above 2.9."""
     found, z, before = {}, mp.mpf("0.01"), mp.mpf(1)
     if order > 1:
         z = order  # no zero is below
@@ -37,7 +39,7 @@ def by_counting(order, numbers):
 
 
 def far(order, k):
-    """McMahon's leading terms are within 0.01 there."""
+    """From the leading terms of the phase."""
     b = (k + order / 2 - mp.mpf(1) / 4) * mp.pi
     mu = 4 * order**2
     guess = b

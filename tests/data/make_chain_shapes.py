@@ -38,7 +38,8 @@ def tapered(p, zero, x):
 print("chain,parameter,mode,x,offset,slope")
 for chain, function, found in (
     ("tip", with_tip, rows("tip_mass.csv", ("1e-12", "0.001", "0.3", "1", "20", "150", "1e6"), (1, 2, 9, 1000))),
-    ("tapered", tapered, rows("bessel_zeros_real.csv", ("-0.99", "-0.5", "0.125", "3.5", "20.25", "100"), (1, 4, 40, 1000))),
+    ("tapered", tapered, rows("bessel_zeros_real.csv", ("-0.99", "-0.5", "0.125", "3.5", "20.25", "100"),
+                              (1, 4, 40, 1000))),
 ):
     for parameter, mode, value in found:
         for x in PLACES:

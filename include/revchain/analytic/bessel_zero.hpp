@@ -60,11 +60,12 @@ inline double zero_of_j1(Index k) {
 
 /// Positive zeros of J_order for real order > -1, by number from 1.
 /// Far out the phase series is solved. Nearer: Segura's iteration (doi:10.1137/090747762), which stays between the
-/// neighbouring zeros, in double from Debye's phase (order < 0, k = 1: Newton from Rayleigh's bound, which lies below the
-/// zero, so that no step can pass it), then one Newton step in two doubles.
-/// Accuracy: 0.51 ulp (ulp: 2^-52 relative) for orders from -0.999 to 100 and k up to 1e6, measured against 25 digits and
-/// against the recurrence in two long doubles; the same step with GSL's J_order leaves 5.5 ulp, with std::cyl_bessel_j 83,
-/// with the recurrence in double 1.2. Cost: 0.02 to 0.15 microseconds for zeros above max(30, 8 order), 1 to 10 below.
+/// neighbouring zeros, in double from Debye's phase (order < 0, k = 1: Newton from Rayleigh's bound, which lies below
+/// the zero, so that no step can pass it), then one Newton step in two doubles.
+/// Accuracy: 0.51 ulp (ulp: 2^-52 relative) for orders from -0.999 to 100 and k up to 1e6, measured against 25 digits
+/// and against the recurrence in two long doubles; the same step with GSL's J_order leaves 5.5 ulp, with
+/// std::cyl_bessel_j 83, with the recurrence in double 1.2. Cost: 0.02 to 0.15 microseconds for zeros above max(30, 8
+/// order), 1 to 10 below.
 class ZerosOfJ {
    public:
     /// Throws InvalidArgument for an order not above -1 or not finite.

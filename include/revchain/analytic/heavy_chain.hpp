@@ -5,9 +5,9 @@
 #include "revchain/core/conical_pendulum.hpp"
 
 /// The uniform flexible chain hung from one end, at small amplitude: the limit of many links. Greenhill (1908) §4.
-/// x is the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length or amplitude
-/// that is not positive and finite, and x outside [0, length]. With a particle at the free end: tip_mass.hpp; of varying
-/// density: tapered_chain.hpp.
+/// x is the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length or
+/// amplitude that is not positive and finite, and x outside [0, length]. With a particle at the free end: tip_mass.hpp;
+/// of varying density: tapered_chain.hpp.
 namespace revchain::analytic::heavy_chain {
 
 namespace detail {
@@ -61,10 +61,10 @@ inline double tension(double x, double length) {
     return x;
 }
 
-/// Energies of the steady whirl of the chain of any length whose free end is `amplitude` off the axis, to the second order
-/// in it, over the chain's weight per length: kinetic (1/(2 lambda)) int y^2 dx and potential (1/2) int x y'^2 dx, both
-/// amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. (The chain's angular momentum times the angular speed is 2 of either.)
-/// Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9): neither is in the paper.
+/// Energies of the steady whirl of the chain of any length whose free end is `amplitude` off the axis, to the second
+/// order in it, over the chain's weight per length: kinetic (1/(2 lambda)) int y^2 dx and potential (1/2) int x y'^2
+/// dx, both amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. (The chain's angular momentum times the angular speed is 2 of
+/// either.) Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9): neither is in the paper.
 inline double kinetic_energy(Index mode, double amplitude) {
     detail::check("kinetic_energy", "mode", mode, 1.0);
     revchain::detail::require_positive("analytic::heavy_chain::kinetic_energy", "amplitude", amplitude);

@@ -6,8 +6,8 @@
 /// The chain of Greenhill (1908) §4 with line density proportional to x^exponent, x the distance from the free end, at
 /// small amplitude: (x^(p+1) y')' + (p+1) x^p y/lambda = 0, solved by z^-p J_p(z), z = 2 sqrt((p+1) x/lambda). Exponent
 /// 0 is the uniform chain, 1 one that thickens upwards; from 0 down to -1 the mass gathers at the free end.
-/// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, an exponent not
-/// above -1 or above 1e4, and x outside [0, length]. Accuracies hold for exponents from -0.99 to 100.
+/// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, an exponent
+/// not above -1 or above 1e4, and x outside [0, length]. Accuracies hold for exponents from -0.99 to 100.
 namespace revchain::analytic::tapered_chain {
 
 namespace detail {

@@ -49,7 +49,7 @@ TEST_CASE("tapered chain: offsets and slopes against 20 digits", "[analytic]") {
 }
 
 TEST_CASE("tapered chain: offsets do not step where the method changes", "[analytic]") {
-    // z < 2 sqrt(p + 1): power series; from max(30, 8 p) on: phase. Third differences over neighbouring doubles show a step.
+    // z < 2 sqrt(p + 1): power series; from max(30, 8 p) on: phase.
     for (const double p : {-0.99, -0.5, -0.1, 0.0, 0.5, 2.5, 7.3, 40.0, 100.0}) {
         const revchain::analytic::detail::ScaledBessel f(p);
         for (const double z : {2 * std::sqrt(p + 1), std::max(30.0, 8 * p)}) {

@@ -69,9 +69,7 @@ TEST_CASE("tip mass: none is the uniform chain, and next to none is next to it",
             }
         }
     }
-    // The first effect: lambda = lambda_k (1 + tip (1/length + (1/lambda_k - 1/length) ...)) by Rayleigh's quotient,
-    // d(1/lambda)/d tip = (int y'^2 dx - 1/lambda) / int y^2 dx; with the closed forms of the uniform chain it is
-    // (d ln lambda/d tip) = 1/length for every mode.
+    // The first effect of a tip is that of more chain: d ln lambda / d tip = 1/length, for every mode.
     for (Index k = 0; k < 3; ++k) {
         const double tip = 1e-9;
         const double rise =
@@ -116,8 +114,7 @@ TEST_CASE("tip mass: laws of all weights", "[analytic]") {
         const tip_mass::Mode mode(k, length, tip);
         const double height = mode.conical_height(), largest = k == 1 ? 1 : std::sqrt(1 + tip / height),
                      turns = 3.2 * double(k);
-        // Half the tension's square root, so to say: theta_0 - theta_2 rises with z_0/z_L, the heights fall with the mode
-        // and, over tip + length, between those of the plain chain and 0.
+        // Mode k has z_L above j_{0,k}, and z_L - z_0 below k pi.
         const auto heights = tip_mass::conical_heights(k + 1, length, tip);
         CHECK(heights[k - 1] == height);
         CHECK(heights[k] < height);
