@@ -15,6 +15,7 @@ __all__ = ["Blow", "BufferImpact", "CarriageState"]
 
 class Blow(NamedTuple):
     """One contact with the buffer.
+
     Attributes
     ----------
     start : float
@@ -30,6 +31,7 @@ class Blow(NamedTuple):
 
 class CarriageState(NamedTuple):
     """Where the carriages are, towards the buffer from where they were at time 0, and how fast.
+
     Attributes
     ----------
     front : float or ndarray

@@ -31,6 +31,7 @@ __all__ = [
 
 class Jacobi(NamedTuple):
     """Jacobi's functions of one argument ``u``.
+
     Attributes
     ----------
     amplitude : float or ndarray
@@ -51,6 +52,7 @@ class Jacobi(NamedTuple):
 
 class Complete(NamedTuple):
     """The complete integrals, over a quarter turn, ``Delta = sqrt(1 - modulus**2 sin**2)``.
+
     Attributes
     ----------
     K : float or ndarray
@@ -71,6 +73,7 @@ class Complete(NamedTuple):
 
 class Incomplete(NamedTuple):
     """Legendre's integrals up to an amplitude.
+
     Attributes
     ----------
     F : float or ndarray

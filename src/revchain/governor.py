@@ -22,6 +22,7 @@ __all__ = ["GovernorMotion", "GovernorState"]
 
 class GovernorState(NamedTuple):
     """Angle and its rate at one time or many.
+
     Attributes
     ----------
     angle : float or ndarray

@@ -30,6 +30,7 @@ __all__ = [
 
 class InclinedPendulum(NamedTuple):
     """Where a plummet swings round, and how its thread pulls.
+
     Attributes
     ----------
     inclination : float or ndarray
@@ -50,6 +51,7 @@ class InclinedPendulum(NamedTuple):
 
 class HeldPlummet(NamedTuple):
     """A plummet on two threads tied to the axis.
+
     Attributes
     ----------
     radius : float or ndarray

@@ -18,6 +18,7 @@ __all__ = ["RopePoints", "SkippingRope", "TortuousPoints", "TortuousRope"]
 
 class RopePoints(NamedTuple):
     """What there is at places of a skipping rope.
+
     Attributes
     ----------
     x : float or ndarray
@@ -41,6 +42,7 @@ class RopePoints(NamedTuple):
 
 class TortuousPoints(NamedTuple):
     """What there is at places of a tortuous rope.
+
     Attributes
     ----------
     x : float or ndarray

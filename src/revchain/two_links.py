@@ -44,6 +44,7 @@ __all__ = [
 
 class SwungLink(NamedTuple):
     """A link that swings round, hung from an axle on the axis.
+
     Attributes
     ----------
     inclination : float or ndarray

@@ -153,6 +153,12 @@ def times_of(blows):
     return [0.0, *inside, *between, blows[-1].end * 1.1, blows[-1].end * 3]
 
 
+def fastest(numbers):
+    """Of the frequencies, at most."""
+    front, rear, buffer, coupling = (numbers[n] for n in ("front_mass", "rear_mass", "buffer_stiffness", "coupling_stiffness"))
+    return math.sqrt((buffer + coupling) / front + coupling / rear)
+
+
 @many
 def test_places_and_speeds_of_the_carriages(numbers):
     exact, impact = Carriages(**numbers), rc.BufferImpact(**numbers)
@@ -161,7 +167,8 @@ def test_places_and_speeds_of_the_carriages(numbers):
     for time, *state in zip(times, *impact.state(times), strict=True):
         truth = exact(time)
         assert all(abs(f - e) <= 1e-13 * v * time for f, e in zip(state[:2], truth[:2], strict=True))
-        assert all(abs(f - e) <= 1e-13 * v for f, e in zip(state[2:4], truth[2:4], strict=True))
+        within = 1e-13 * v * (1 + fastest(numbers) * time)
+        assert all(abs(f - e) <= within for f, e in zip(state[2:4], truth[2:4], strict=True))
         assert abs(state[4] - truth[4]) <= 1e-13 * numbers["buffer_stiffness"] * v * time + 1e-300
         assert state[4] >= 0
 
@@ -171,7 +178,8 @@ def test_carriages_long_after_the_last_blow(time):
     exact, impact = Carriages(**IMPACTS[0]), rc.BufferImpact(**IMPACTS[0])
     truth, found = exact(time), impact.state(time)
     assert all(abs(f - e) <= 1e-13 * time for f, e in zip(found[:2], truth[:2], strict=True))
-    assert all(abs(f - e) <= 1e-13 for f, e in zip(found[2:4], truth[2:4], strict=True))
+    within = 1e-13 * (1 + fastest(IMPACTS[0]) * time)
+    assert all(abs(f - e) <= within for f, e in zip(found[2:4], truth[2:4], strict=True))
     assert found.buffer_force == 0
 
 
@@ -598,7 +606,7 @@ def test_places_on_the_rope(complementary):
         assert close(found.arc, arc, 3e-14 + within) and found.x == float(x)
         bend = abs(offset / exact.c) * tension * x  # of the slope with x
         assert abs(found.slope - slope) <= 3e-14 * (slope + bend * 10)
-        assert close(found.tension, tension, within)
+        assert close(found.tension_ratio, tension, within)
         back = rope.at_arc(float(arc))
         assert abs(back.x - x) <= 4e-14 * x + ULP * arc and close(back.offset, offset, 2 * within + 2e-14)
 
@@ -657,9 +665,8 @@ def test_tensions_of_the_rope():
 
 
 def test_the_tension_at_places_is_that_of_the_rope():
-    """A length of rope, as `tension_at_ends` and `tension_in_the_middle` are."""
     rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
-    found = rope.at([0.0, 1.0]).tension
+    found = rope.at([0.0, 1.0]).tension_ratio * rope.tension_in_the_middle
     np.testing.assert_allclose(found, [rope.tension_at_ends, rope.tension_in_the_middle], rtol=1e-13)
 
 
@@ -852,11 +859,10 @@ def test_forces_on_a_tortuous_rope_balance(radii):
 
 
 def test_the_tension_at_places_of_a_tortuous_rope():
-    """A length, as the one given: along the axis it is everywhere the tension that was given."""
     rope = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
     there = rope.at(np.linspace(0, 2, 7))
     along = np.sqrt(1 + there.radius_slope**2 + (there.radius * there.angle_slope) ** 2)
-    np.testing.assert_allclose(there.tension / along, 2.0, rtol=1e-13)
+    np.testing.assert_allclose(there.tension_ratio, along, rtol=1e-13)
 
 
 def test_no_least_radius_is_the_plane_rope():

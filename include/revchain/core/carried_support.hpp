@@ -42,14 +42,19 @@ CarriedInclinations<T> carried_inclinations(const T& length, const T& height, co
     detail::require_positive(place, "length", length);
     detail::require_positive(place, "height", height);
     detail::require_positive(place, "radius", radius);
-    // In t = tan d, over l:  t (gap + 1 - cos d) - b,  gap = (lambda - l)/l, which keeps its digits next to resonance; convex
-    // for t > 0, its slope gap + 1 - cos^3 d.
-    const T gap = (height - length) / length, c = height / length, r = radius / length;
+    // In t = tan d, over l:  t (lambda - cos d) - b, convex for t > 0, its slope lambda - cos^3 d; next to resonance
+    // lambda - cos d = gap + 1 - cos d,  gap = lambda - l, keeps its digits.
+    const T gap = (height - length) / length, lacking = (length - radius) / length;
+    const T c = height / length, r = radius / length;
     const T farthest = (T(1) + r) / c;  // |c t| <= r + 1
     if (!(farthest <= std::numeric_limits<T>::max() / T(2)) || !(c > T(0)))
         detail::refuse(place, "height must not be so small beside length and radius", height);
     const auto function = [&](const T& t) {
         const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant, versed = t / (secant + T(1)) * (t / secant);
+        const T slope = c - cosine * cosine * cosine;
+        // inwards and flown out, l sin d all but as long as l: what both lack of it
+        if (t < T(-1)) return std::pair<T, T>(c * t + lacking - cosine / (secant - t), slope);
+        if (T(2) * c < T(1)) return std::pair<T, T>(t * (c - cosine) - r, slope);
         return std::pair<T, T>(t * (gap + versed) - r, gap + versed * (T(1) + cosine + cosine * cosine));
     };
     const auto negative = [&](const T& t) {  // decreasing there: turned round

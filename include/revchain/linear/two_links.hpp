@@ -81,12 +81,15 @@ HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, con
     if (!(abs(x) < half_length)) detail::refuse(place, "x must lie within the half length on either side", x);
     if (!(weight_ratio > T(-1)) || !(weight_ratio <= std::numeric_limits<T>::max()))
         detail::refuse(place, "weight ratio must be greater than -1 and finite", weight_ratio);
-    // ratio a^2 + x^2 is a difference for a float: formed in two words.
-    using S = Wide<T>;
-    const T unit = detail::inverse_power_near(half_length), whole = T(1) + weight_ratio;
-    const S half(static_cast<Narrow<S>>(T(half_length * unit))), at(static_cast<Narrow<S>>(T(x * unit)));
-    const S ratio(static_cast<Narrow<S>>(weight_ratio));
-    const T square = static_cast<T>(S((ratio * half * half + at * at) / (half * half))) / whole;
+    const T share = x / half_length, whole = T(1) + weight_ratio;
+    T square = (weight_ratio + share * share) / whole;
+    if (weight_ratio < T(0)) {  // a difference: formed in two words
+        using S = Wide<T>;
+        const T unit = detail::inverse_power_near(half_length);
+        const S half(static_cast<Narrow<S>>(T(half_length * unit))), at(static_cast<Narrow<S>>(T(x * unit)));
+        const S ratio(static_cast<Narrow<S>>(weight_ratio));
+        square = static_cast<T>(S((ratio * half * half + at * at) / (half * half))) / whole;
+    }
     if (square < T(0))
         detail::refuse(place,
                        "x must be at least half length sqrt(-ratio) on either side, else both heights are complex", x);
@@ -173,9 +176,12 @@ T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     const T unit = detail::inverse_power_near(max(deflection, link.pendulum_length()));
     const T l = link.pendulum_length() * unit, c = deflection * unit, half = (c - l) / T(2);
     const T coupling = c * (link.centroid * unit), root = sqrt(half * half + coupling);
-    const T longer = half < T(0) ? c * (link.centroid * unit / (root - half)) : half + root,
-            whole = sqrt(l + longer);  // lambda - l; lambda
-    return T(86400) * (longer / (whole * (whole + sqrt(l))));
+    const T whole_square = l + (half < T(0) ? coupling / (root - half) : half + root),
+            whole = sqrt(whole_square);  // lambda
+    const T over = whole * (whole + sqrt(l));
+    // 86400 (lambda - l) / over, the day first: what the rest is may be below the range
+    return half < T(0) ? T(86400) * c * (link.centroid * unit / (root - half)) / over
+                       : T(86400) * ((half + root) / over);
 }
 
 }  // namespace revchain
