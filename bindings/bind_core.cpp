@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
+#include "revchain/core/carried_support.hpp"
 #include "revchain/core/conical_pendulum.hpp"
+#include "revchain/core/hoop.hpp"
+#include "revchain/core/inclined_pendulum.hpp"
 #include "revchain/core/progress.hpp"
 
 void bind_core(py::module_& module) {
@@ -30,6 +33,11 @@ void bind_core(py::module_& module) {
                    return pendulum::revolutions_per_second(height, gravity);
                }),
                "height"_a, "gravity"_a);
+    module.def("conical_pendulum_height_from_revolutions_per_second",
+               py::vectorize([](double revolutions, double gravity) {
+                   return pendulum::height_from_revolutions_per_second(revolutions, gravity);
+               }),
+               "revolutions_per_second"_a, "gravity"_a);
     module.def("conical_pendulum_gravity",
                py::vectorize([](double length, double period) { return pendulum::gravity(length, period); }),
                "length"_a, "period"_a);
@@ -41,4 +49,62 @@ void bind_core(py::module_& module) {
                    return pendulum::height_from_seconds_pendulum(seconds_pendulum, period);
                }),
                "seconds_pendulum"_a, "period"_a);
+
+    module.def(
+        "inclined_pendulum",
+        [](const Array& length, const Array& height) {
+            return columns<4>(
+                [](double l, double lambda) {
+                    const auto p = revchain::inclined_pendulum(l, lambda);
+                    return std::array<double, 4>{p.inclination, p.radius, p.depth, p.tension};
+                },
+                length, height);
+        },
+        "length"_a, "height"_a);
+    module.def(
+        "held_plummet",
+        [](const Array& upper_thread, const Array& lower_thread, const Array& distance, const Array& height) {
+            return columns<4>(
+                [](double upper, double lower, double apart, double lambda) {
+                    const auto p = revchain::held_plummet(upper, lower, apart, lambda);
+                    return std::array<double, 4>{p.radius, p.depth, p.upper_tension, p.lower_tension};
+                },
+                upper_thread, lower_thread, distance, height);
+        },
+        "upper_thread"_a, "lower_thread"_a, "distance"_a, "height"_a);
+    module.def("air_resistance",
+               py::vectorize([](double arm, double height) { return revchain::air_resistance(arm, height); }), "arm"_a,
+               "height"_a);
+    module.def("whirling_thread", py::vectorize([](double arm, double height, double radius) {
+                   return revchain::whirling_thread(arm, height, radius);
+               }),
+               "arm"_a, "height"_a, "radius"_a);
+    module.def("carried_response",
+               py::vectorize([](double length, double height) { return revchain::carried_response(length, height); }),
+               "length"_a, "height"_a);
+    module.def(
+        "carried_inclinations",
+        [](const Array& length, const Array& height, const Array& radius) {
+            return columns<3>(
+                [](double l, double lambda, double b) {
+                    auto roots = revchain::carried_inclinations(l, lambda, b);
+                    for (int j = roots.count; j < 3; ++j)
+                        roots.inclination[static_cast<std::size_t>(j)] = std::numeric_limits<double>::quiet_NaN();
+                    return roots.inclination;
+                },
+                length, height, radius);
+        },
+        "length"_a, "height"_a, "radius"_a);
+
+    namespace hoop = revchain::hoop;
+    module.def("hoop_tension",
+               py::vectorize([](double speed, double gravity) { return hoop::tension(speed, gravity); }), "speed"_a,
+               "gravity"_a);
+    module.def("hoop_speed",
+               py::vectorize([](double tension, double gravity) { return hoop::speed(tension, gravity); }), "tension"_a,
+               "gravity"_a);
+    module.def("hoop_string_revolutions_per_second", py::vectorize([](double span, double tension, double gravity) {
+                   return hoop::string_revolutions_per_second(span, tension, gravity);
+               }),
+               "span"_a, "tension"_a, "gravity"_a);
 }

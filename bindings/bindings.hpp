@@ -5,7 +5,9 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include "revchain/core/scalar.hpp"
 
@@ -31,9 +33,27 @@ inline py::array to_numpy(const revchain::Table<double>& values) {
 
 inline py::array to_numpy(const revchain::Matrix<double>& values) { return to_numpy(revchain::Table<double>(values)); }
 
-// One function per folder of include/revchain, each in bind_<folder>.cpp.
+/// Arrays of one shape in, `count` arrays of that shape out: `function(numbers...)` returns a std::array<double, count>.
+template <std::size_t count, class Function, class... Arrays>
+py::tuple columns(const Function& function, const Array& first, const Arrays&... rest) {
+    const std::vector<py::ssize_t> shape(first.shape(), first.shape() + first.ndim());
+    std::array<py::array_t<double>, count> out;
+    std::array<double*, count> to{};
+    for (std::size_t j = 0; j < count; ++j) out[j] = py::array_t<double>(shape), to[j] = out[j].mutable_data();
+    for (py::ssize_t i = 0; i < first.size(); ++i) {
+        const std::array<double, count> row = function(first.data()[i], rest.data()[i]...);
+        for (std::size_t j = 0; j < count; ++j) to[j][i] = row[j];
+    }
+    py::tuple result(count);
+    for (std::size_t j = 0; j < count; ++j) result[j] = std::move(out[j]);
+    return result;
+}
+
+// Each in bind_<name>.cpp.
 void bind_core(py::module_& module);
 void bind_chain(py::module_& module);
 void bind_linear(py::module_& module);
+void bind_two_links(py::module_& module);
 void bind_batch(py::module_& module);
 void bind_analytic(py::module_& module);
+void bind_elliptic(py::module_& module);

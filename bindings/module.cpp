@@ -11,6 +11,8 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_core(module);
     bind_chain(module);
     bind_linear(module);
+    bind_two_links(module);
     bind_batch(module);
     bind_analytic(module);
+    bind_elliptic(module);
 }

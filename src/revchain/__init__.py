@@ -23,13 +23,16 @@ from contextlib import suppress
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from . import conical_pendulum, heavy_chain
+from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
 from ._batch import conical_heights
 from ._chain import Chain
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
 from ._storage import load
+from .buffer_impact import BufferImpact
+from .governor import GovernorMotion
+from .ropes import SkippingRope, TortuousRope
 
 if TYPE_CHECKING:
     from .scene import Scene, load_scene
@@ -37,18 +40,28 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "BufferImpact",
     "Certificate",
     "Chain",
+    "GovernorMotion",
     "Modes",
     "SceneError",
+    "SkippingRope",
+    "TortuousRope",
     "__version__",
     "conical_heights",
     "conical_pendulum",
     "count_modes",
+    "elliptic",
     "heavy_chain",
+    "hoop",
     "load",
     "modes",
+    "plummet",
     "recurrence_matrices",
+    "tapered_chain",
+    "tip_mass",
+    "two_links",
 ]
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them
     if find_spec("msgspec") is not None:

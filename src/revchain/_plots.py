@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from ._chain import Chain
     from ._modes import Modes
+    from .governor import GovernorMotion
+    from .ropes import SkippingRope, TortuousRope
 
 MOST_SHAPES = 6  # drawn unless asked: more do not stay legible side by side
 MOST_PINS_AS_DOTS = 40
@@ -175,3 +177,54 @@ def _chosen(available: Whole, which: Iterable[int] | None) -> list[int]:
     if not chosen:
         raise ValueError("Modes.plot: modes names no mode")
     return chosen
+
+
+def plot_skipping_rope(rope: SkippingRope, ax: Axes | None, *, length_unit: str) -> Axes:
+    """See `SkippingRope.plot`."""
+    if ax is None:
+        ax = new_axes(6.4, 4.0)
+    places = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
+    ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    label = f"{rope.angular_speed:.4g} rad/s" if rope.has_speed else f"length {rope.length:.4g}"
+    ax.plot(places.x, places.offset, linewidth=1.6, label=label)
+    ax.set(xlabel=f"along the axis ({length_unit})", ylabel=f"from the axis ({length_unit})", aspect="equal")
+    ax.legend()
+    return ax
+
+
+def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None, half_waves: float, *, length_unit: str) -> Axes:
+    """See `TortuousRope.plot`."""
+    if ax is None:
+        ax = new_axes(5.0, 5.0)
+    places = rope.at(np.linspace(0.0, half_waves * rope.half_wave, 1 + int(200 * max(half_waves, 1.0))))
+    round_ = np.linspace(0.0, 2 * np.pi, 200)
+    for radius in {rope.least_radius, rope.greatest_radius} - {0.0}:
+        ax.plot(radius * np.cos(round_), radius * np.sin(round_), color="0.7", linestyle="--", linewidth=0.9)
+    ax.plot(places.radius * np.cos(places.angle), places.radius * np.sin(places.angle), linewidth=1.6)
+    ax.plot(0.0, 0.0, marker="+", color="0.4")
+    ax.set(
+        xlabel=f"across ({length_unit})",
+        ylabel=f"across ({length_unit})",
+        title=f"seen along the axis: {rope.half_wave_angle:.3g} rad in {rope.half_wave:.3g} {length_unit}",
+        aspect="equal",
+    )
+    return ax
+
+
+def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | None) -> Axes:
+    """See `GovernorMotion.plot`."""
+    place = "GovernorMotion.plot"
+    if duration is None:
+        if motion.regime == "asymptotic":
+            raise ValueError(f"{place}: give duration: the motion never returns")
+        duration = 2 * motion.period if motion.period > 0 else 1.0
+    time = np.linspace(0.0, float(positive(place, "duration", real(place, "duration", duration))), 801)
+    if ax is None:
+        ax = new_axes(6.4, 4.0)
+    for angle in (motion.least_angle, motion.greatest_angle):
+        if np.isfinite(angle):
+            ax.axhline(np.degrees(angle), color="0.6", linestyle=":", linewidth=0.9, zorder=1)
+    ax.plot(time, np.degrees(motion.angle(time)), linewidth=1.6)
+    period = f", period {motion.period:.4g} s" if 0 < motion.period < np.inf else ""
+    ax.set(xlabel="time (s)", ylabel="angle (degrees)", title=f"{motion.regime}{period}")
+    return ax

@@ -13,7 +13,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, positive, together
+from ._arguments import STANDARD_GRAVITY, positive, positives
 
 __all__ = [
     "angular_speed",
@@ -21,6 +21,7 @@ __all__ = [
     "gravity_from_seconds_pendulum",
     "height",
     "height_from_period",
+    "height_from_revolutions_per_second",
     "height_from_seconds_pendulum",
     "period",
     "revolutions_per_second",
@@ -58,7 +59,7 @@ def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     2.0
     """
     place = "revchain.conical_pendulum.angular_speed"
-    return _core.conical_pendulum_angular_speed(*_pair(place, height=height, gravity=gravity))
+    return _core.conical_pendulum_angular_speed(*positives(place, height=height, gravity=gravity))
 
 
 def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -94,7 +95,7 @@ def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
     2.0
     """
     place = "revchain.conical_pendulum.period"
-    return _core.conical_pendulum_period(*_pair(place, height=height, gravity=gravity))
+    return _core.conical_pendulum_period(*positives(place, height=height, gravity=gravity))
 
 
 def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -128,7 +129,7 @@ def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAV
     array([0.4984, 0.9968])
     """
     place = "revchain.conical_pendulum.revolutions_per_second"
-    return _core.conical_pendulum_revolutions_per_second(*_pair(place, height=height, gravity=gravity))
+    return _core.conical_pendulum_revolutions_per_second(*positives(place, height=height, gravity=gravity))
 
 
 def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -162,7 +163,7 @@ def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     2.4525
     """
     place = "revchain.conical_pendulum.height"
-    return _core.conical_pendulum_height(*_pair(place, angular_speed=angular_speed, gravity=gravity))
+    return _core.conical_pendulum_height(*positives(place, angular_speed=angular_speed, gravity=gravity))
 
 
 def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -196,7 +197,7 @@ def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY)
     39.1396
     """
     place = "revchain.conical_pendulum.height_from_period"
-    return _core.conical_pendulum_height_from_period(*_pair(place, period=period, gravity=gravity))
+    return _core.conical_pendulum_height_from_period(*positives(place, period=period, gravity=gravity))
 
 
 def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike) -> Any:
@@ -231,7 +232,45 @@ def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike)
     """
     place = "revchain.conical_pendulum.height_from_seconds_pendulum"
     return _core.conical_pendulum_height_from_seconds_pendulum(
-        *_pair(place, seconds_pendulum=seconds_pendulum, period=period)
+        *positives(place, seconds_pendulum=seconds_pendulum, period=period)
+    )
+
+
+def height_from_revolutions_per_second(
+    revolutions_per_second: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY
+) -> Any:
+    """Return the height that goes with so many turns in a second.
+
+    Parameters
+    ----------
+    revolutions_per_second : array_like
+        In 1/s, positive.
+    gravity : array_like, optional
+        In the same unit of length per s^2 as the height, positive; standard gravity in m/s^2 if left out.
+
+    Returns
+    -------
+    float or ndarray
+        ``gravity / (2 pi revolutions_per_second)**2``, broadcast shape, within 3 ulp. Cost O(1) a number.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 1 (1).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> round(float(rc.conical_pendulum.height_from_revolutions_per_second(1.0)), 6)
+    0.248405
+    """
+    place = "revchain.conical_pendulum.height_from_revolutions_per_second"
+    return _core.conical_pendulum_height_from_revolutions_per_second(
+        *positives(place, revolutions_per_second=revolutions_per_second, gravity=gravity)
     )
 
 
@@ -265,7 +304,7 @@ def gravity(length: ArrayLike, period: ArrayLike) -> Any:
     >>> round(rc.conical_pendulum.gravity(0.99396, period=2.0), 4)
     9.81
     """
-    return _core.conical_pendulum_gravity(*_pair("revchain.conical_pendulum.gravity", length=length, period=period))
+    return _core.conical_pendulum_gravity(*positives("revchain.conical_pendulum.gravity", length=length, period=period))
 
 
 def gravity_from_seconds_pendulum(length: ArrayLike) -> Any:
@@ -298,7 +337,3 @@ def gravity_from_seconds_pendulum(length: ArrayLike) -> Any:
     """
     place = "revchain.conical_pendulum.gravity_from_seconds_pendulum"
     return _core.conical_pendulum_gravity_from_seconds_pendulum(positive(place, "length", length))
-
-
-def _pair(place: str, **values: ArrayLike) -> list[Floats]:
-    return together(place, **{name: positive(place, name, value) for name, value in values.items()})

@@ -12,7 +12,9 @@ import revchain as rc
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = sorted((ROOT / "examples" / "scenes").glob("*.toml"))
-PROGRAMS = sorted((ROOT / "examples" / "python").glob("*.py"))
+PYTHON = ROOT / "examples" / "python"
+EXPERIMENTS = sorted(PYTHON.glob("experiment_*.py"))
+PROGRAMS = sorted(set(PYTHON.glob("[!_]*.py")) - set(EXPERIMENTS))
 SMALL = [path for path in SCENES if rc.load_scene(path).chain().size <= 20]  # for the dense reference
 ULP = 2.0**-52
 # The expected values belong to the decimals of the file and the answers to their roundings. Those cost up
@@ -22,8 +24,10 @@ ULP = 2.0**-52
 def test_there_are_all():
     assert {path.stem for path in SCENES} >= (
         {"watch_chain", "bell_and_clapper", "crane_hook_block", "bernoulli_chain", "anchor_chain", "weight_ratio"}
+        | {"two_weights", "stick_on_string"}
     )
     assert len(PROGRAMS) >= 3
+    assert len(EXPERIMENTS) == 11
 
 
 @pytest.fixture(params=SCENES, ids=lambda path: path.stem)
@@ -77,3 +81,21 @@ def test_what_the_programs_say(python):
     assert "meets the slower one with 9.855 m of rope" in crane.stdout
     bell = python(ROOT / "examples/python/silent_bell.py")
     assert "0.1785  +1.000000" in bell.stdout
+
+
+@pytest.mark.parametrize("path", EXPERIMENTS, ids=lambda path: path.stem)
+def test_experiments(python, tmp_path, path):
+    """Each draws its picture, and prints what docs/experiments.md says it prints."""
+    folder = tmp_path / "pictures"
+    folder.mkdir()
+    done = python(path, folder)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == ""
+    numbers, _, last = done.stdout.removesuffix("\n").rpartition("\n")
+    picture = folder / f"{path.stem}.png"
+    assert last == f"wrote {picture.name}"
+    assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size < 60_000
+    document = (ROOT / "docs" / "experiments.md").read_text(encoding="utf-8")
+    assert f"\n```text\n{numbers}\n```\n" in document
+    assert f"](figures/{picture.name})" in document and f"](../examples/python/{path.name})" in document
+    assert (ROOT / "docs" / "figures" / picture.name).is_file()

@@ -133,3 +133,31 @@ assert plt.get_fignums() == [axes.figure.number]  # so that plt.show() shows it
 """
     done = python("-c", program)
     assert done.returncode == 0, done.stderr
+
+
+TORTUOUS = rc.TortuousRope(least_radius=0.5, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
+SWING = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
+
+
+@pytest.mark.parametrize(
+    "thing",
+    [rc.SkippingRope(span=2.0, length=3.0), rc.SkippingRope(span=2.0, sag=1e3, half_waves=3, angular_speed=1.0), TORTUOUS, SWING],
+    ids=repr,
+)
+def test_ropes_and_governor(thing):
+    axes = thing.plot()
+    assert isinstance(axes, Axes)
+    assert clipped(axes) == []
+    assert thing.plot(axes) is axes
+
+
+def test_governor_that_never_returns_asks_for_a_duration():
+    swing = rc.GovernorMotion(angular_speed=0.0, pendulum_length=1.0, angle=0.0, angle_rate=2 * 9.80665**0.5)
+    assert swing.regime == "asymptotic"
+    with pytest.raises(ValueError, match="give duration"):
+        swing.plot()
+    assert len(swing.plot(duration=3.0).lines) == 3
+    with pytest.raises(ValueError, match="duration must be positive"):
+        SWING.plot(duration=-1.0)
+    with pytest.raises(ValueError, match="half_waves must be positive"):
+        TORTUOUS.plot(half_waves=0.0)

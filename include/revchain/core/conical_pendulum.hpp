@@ -54,6 +54,14 @@ T revolutions_per_second(const T& height, const T& gravity = T(standard_gravity)
     return angular_speed(height, gravity) / (T(2) * std::numbers::pi_v<T>);
 }
 
+/// lambda = g / (2 pi R)^2, from revolutions per second R.
+template <Real T>
+T height_from_revolutions_per_second(const T& revolutions, const T& gravity = T(standard_gravity)) {
+    detail::require_positive("conical_pendulum::height_from_revolutions_per_second", "revolutions per second",
+                             revolutions);
+    return height(T(T(2) * std::numbers::pi_v<T> * revolutions), gravity);
+}
+
 /// g = 4 pi^2 l / T^2, from the length and the period (of a small double beat) of a simple pendulum. §1 (4)
 template <Real T>
 T gravity(const T& length, const T& period) {

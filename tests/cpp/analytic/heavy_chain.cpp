@@ -71,6 +71,29 @@ TEST_CASE("many links tend to the chain", "[analytic]") {
     }
 }
 
+TEST_CASE("slopes and energies against J_1 in quadruple precision", "[analytic]") {
+    double worst = 0, worst_energy = 0;
+    for (const Index mode : {1, 2, 3, 7, 20, 150, 3000, 100'000}) {
+        const Quad j = revchain::analytic::zero_of_j0(mode);
+        const double length = 2.5, height = heavy_chain::conical_heights(mode, length)[mode - 1];
+        for (const double x : {0.0, 1e-300, 1e-12, 1e-3, 0.2, 0.7, 1.9, length}) {
+            const Quad z = j * sqrtq(Quad(x) / length);
+            const Quad truth = x == 0 ? Quad(-1) : -2 * j1q(z) / z;
+            const Quad off = fabsq(heavy_chain::slope(x, mode, length) * height - truth);
+            worst = std::max(worst, static_cast<double>(off / (1 + j)));
+        }
+        const Quad part = Quad(0.3) * j * j1q(j);
+        worst_energy =
+            std::max(worst_energy, support::error_in_ulp(heavy_chain::kinetic_energy(mode, 0.3), part * part / 8) /
+                                       static_cast<double>(1 + j / 4));
+        CHECK(heavy_chain::potential_energy(mode, 0.3) == heavy_chain::kinetic_energy(mode, 0.3));
+        CHECK(heavy_chain::kinetic_energy(mode, 0.6) == 4 * heavy_chain::kinetic_energy(mode, 0.3));
+    }
+    CAPTURE(worst, worst_energy);
+    CHECK(worst <= 1e-16);     // measured 7.9e-17; documented: 4e-16
+    CHECK(worst_energy <= 1);  // ulp; measured 0.73
+}
+
 TEST_CASE("bad input", "[analytic]") {
     const double bad =
         GENERATE(0.0, -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
@@ -80,6 +103,13 @@ TEST_CASE("bad input", "[analytic]") {
     CHECK_THROWS_AS(heavy_chain::vertical_points(1, bad), revchain::InvalidArgument);
     CHECK_THROWS_AS(heavy_chain::revolutions_per_second(1, bad), revchain::InvalidArgument);
     CHECK_THROWS_AS(heavy_chain::revolutions_per_second(1, 1.0, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::slope(0.0, 1, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::tension(0.0, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::kinetic_energy(1, bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::potential_energy(0, 1.0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::slope(0.0, 0, 1.0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::slope(1.1, 1, 1.0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(heavy_chain::tension(-0.1, 1.0), revchain::InvalidArgument);
     CHECK_THROWS_AS(heavy_chain::conical_heights(0, 1.0), revchain::InvalidArgument);
     CHECK_THROWS_AS(heavy_chain::shape(0.0, 0, 1.0), revchain::InvalidArgument);
     CHECK_THROWS_AS(heavy_chain::shape(-1e-9, 1, 1.0), revchain::InvalidArgument);

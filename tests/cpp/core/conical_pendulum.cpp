@@ -14,7 +14,8 @@ using support::Quad;
 TEMPLATE_TEST_CASE("the conical pendulum to 2.1 ulp", "[core]", float, double, long double) {
     using T = TestType;
     support::Random random(3);
-    double speed = 0, height = 0, period = 0, back = 0, turns = 0, gravity = 0, seconds = 0, seconds_height = 0;
+    double speed = 0, height = 0, period = 0, back = 0, turns = 0, gravity = 0, seconds = 0, seconds_height = 0,
+           from_turns = 0;
     for (int i = 0; i < 20000; ++i) {
         const double reach = i % 3 == 0 ? 1.0 : 9.0;
         const T x = static_cast<T>(std::pow(10.0, random.between(-reach, reach)));
@@ -25,17 +26,20 @@ TEMPLATE_TEST_CASE("the conical pendulum to 2.1 ulp", "[core]", float, double, l
         period = std::max(period, error_in_ulp(pendulum::period(x, g), 2 * pi * sqrtq(X / G)));
         back = std::max(back, error_in_ulp(pendulum::height_from_period(x, g), G * X * X / (4 * pi * pi)));
         turns = std::max(turns, error_in_ulp(pendulum::revolutions_per_second(x, g), sqrtq(G / X) / (2 * pi)));
+        from_turns = std::max(
+            from_turns, error_in_ulp(pendulum::height_from_revolutions_per_second(x, g), G / (4 * pi * pi * X * X)));
         gravity = std::max(gravity, error_in_ulp(pendulum::gravity(g, x), 4 * pi * pi * G / (X * X)));
         seconds = std::max(seconds, error_in_ulp(pendulum::gravity_from_seconds_pendulum(x), pi * pi * X));
         seconds_height =
             std::max(seconds_height, error_in_ulp(pendulum::height_from_seconds_pendulum(g, x), G * X * X / 4));
     }
-    CAPTURE(speed, height, period, back, turns, gravity, seconds, seconds_height);
+    CAPTURE(speed, height, period, back, turns, gravity, seconds, seconds_height, from_turns);
     CHECK(speed <= 1.3);
     CHECK(height <= 1.0);
     CHECK(period <= 1.8);
     CHECK(back <= 2.1);
     CHECK(turns <= 1.8);
+    CHECK(from_turns <= 2.9);
     CHECK(gravity <= 2.1);
     CHECK(seconds <= 1.1);
     CHECK(seconds_height <= 1.0);

@@ -2,7 +2,10 @@
 // Greenhill (1908) §2: two plummets on one thread. In the paper P_1 is the lower plummet, P_2 the upper, l_1 the thread
 // between them, l_2 the one above; here these are links 1 and 2.
 #include "paper.hpp"
+#include "revchain/finite/two_links.hpp"
 #include "revchain/linear/assembly.hpp"
+#include "revchain/linear/buffer_impact.hpp"
+#include "revchain/linear/two_links.hpp"
 
 using paper::Quad;
 using revchain::Chain;
@@ -120,4 +123,354 @@ TEST_CASE("§2 text: two springs, of strengths W_1/l_1 and (W_1 + W_2)/l_2", "[p
         CHECK(discord((W1 + W2) / l2, lambda) < Quad(1e-32));
         CHECK(discord(W2 / l2, lambda) > Quad(0.1));  // as printed
     }
+}
+
+TEMPLATE_TEST_CASE("§2 (5): the quadratic without a chain, over twelve decades of every datum", "[paper][section_2]",
+                   float, double, long double) {
+    using T = TestType;
+    paper::Random random(206);
+    double worst = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const T W1 = static_cast<T>(random.log_between(1e-6, 1e6)), W2 = static_cast<T>(random.log_between(1e-6, 1e6));
+        const T l1 = static_cast<T>(random.log_between(1e-6, 1e6));
+        const T l2 = i % 2 == 0 ? static_cast<T>(random.log_between(1e-6, 1e6))
+                                : static_cast<T>(l1 * (1 + random.log_between(1e-12, 1.0)));
+        const auto found = revchain::two_plummets(W1, l1, W2, l2);
+        const auto truth = lagrange(W1, l1, W2, l2);
+        for (std::size_t k = 0; k < 2; ++k) worst = std::max(worst, paper::error_in_ulp(found[k], truth[k]));
+    }
+    CAPTURE(worst);
+    CHECK(worst <= 3.1);
+    // at the ends of the range
+    const T big = std::ldexp(T(1), std::numeric_limits<T>::max_exponent - 4),
+            small = std::numeric_limits<T>::min() * 16;
+    for (const T l : {big, small}) {
+        const auto found = revchain::two_plummets(big, l, big, l), one = revchain::two_plummets(T(1), T(1), T(1), T(1));
+        CHECK(found[0] == one[0] * l);
+        CHECK(found[1] == one[1] * l);
+    }
+}
+
+TEMPLATE_TEST_CASE("§2 (6): from the middle, and Stokes's float", "[paper][section_2]", float, double, long double) {
+    using T = TestType;
+    paper::Random random(207);
+    double worst = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const T a = static_cast<T>(random.log_between(1e-6, 1e6)),
+                x = static_cast<T>(a * random.between(-0.999, 0.999));
+        const T mu = static_cast<T>(random.log_between(1e-6, 1e6));
+        const Quad A = a, X = x, M = mu, larger = A + sqrtq((M * A * A + X * X) / (1 + M));
+        const auto found = revchain::two_plummets_from_the_middle(a, x, mu);
+        worst = std::max({worst, paper::error_in_ulp(found[0], larger),
+                          paper::error_in_ulp(found[1], (A - X) * (A + X) / (1 + M) / larger)});
+    }
+    CAPTURE(worst);
+    CHECK(worst <= 4.1);
+    // A float, mu < 0: real roots where |x| >= a sqrt(-mu) alone; at the limit both are a.
+    const auto limit = revchain::two_plummets_from_the_middle(T(2), T(1), T(-0.25));
+    CHECK(limit[0] == 2);
+    CHECK(limit[1] == 2);
+    for (const T x : {T(-1.5), T(1.25), T(1.75)}) {
+        const auto found = revchain::two_plummets_from_the_middle(T(2), x, T(-0.25));
+        for (const T height : found)
+            CHECK(fabsq(Quad(height) * height - 4 * Quad(height) + (4 - Quad(x) * x) / Quad(0.75)) <=
+                  Quad(64 * revchain::epsilon<T>()));
+    }
+    // next to the limit, where the heights depend on x as on a square root
+    double edge = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const T ratio = static_cast<T>(-random.log_between(1e-6, 0.999));
+        const T x = static_cast<T>(std::sqrt(static_cast<double>(-ratio)) * (1 + random.log_between(1e-7, 1e-3)));
+        if (!(x < 1)) continue;
+        const Quad square = (Quad(x) * x + Quad(ratio)) / (1 + Quad(ratio));
+        if (!(square > 0)) continue;
+        const auto found = revchain::two_plummets_from_the_middle(T(1), x, ratio);
+        edge = std::max(
+            {edge, paper::error_in_ulp(found[0], 1 + sqrtq(square)),
+             paper::error_in_ulp(found[1], (1 - Quad(x)) * (1 + Quad(x)) / (1 + Quad(ratio)) / (1 + sqrtq(square)))});
+    }
+    CAPTURE(edge);
+    CHECK(edge <= 4.1);
+    CHECK_THROWS_AS(revchain::two_plummets_from_the_middle(T(2), T(0.99), T(-0.25)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::two_plummets_from_the_middle(T(2), T(0), T(-0.25)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::two_plummets_from_the_middle(T(2), T(2), T(1)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::two_plummets_from_the_middle(T(2), T(1), T(-1)), revchain::InvalidArgument);
+}
+
+namespace {
+
+/// What (4) and its companion leave in units of the height: (A1 A2 - s l1 l2, A1 sin d1 - l2 sin d2), A = sec d - l, over
+/// the sizes of their terms, for the tangents of a shape.
+template <class T>
+double imbalance_of(const revchain::PairShape<T>& shape, Quad l1, Quad l2, Quad coupling, T height) {
+    const Quad t1 = Quad(shape.offset[0]) / height;  // lambda tan d1, the lowest offset
+    // near the horizontal the tension tells more of the inclination than its own digits do
+    const Quad d2 = shape.inclination[1], q = fabsq(d2) < 1 ? 1 / cosq(d2) : Quad(shape.tension[1]);
+    const Quad t2 = fabsq(d2) < 1 ? tanq(d2) : copysignq(sqrtq((q - 1) * (q + 1)), d2);
+    const Quad p = sqrtq(1 + t1 * t1);
+    const Quad second = (p - l1) * t1 / p - l2 * t2 / q, size = (p + fabsq(l1)) * fabsq(t1 / p) + l2 * fabsq(t2 / q);
+    // The product tells nothing that d1 and d2 together do not: moments about the joint and about the support.
+    const Quad first = (p - l1) * (q - l2) - coupling, first_size = (p + fabsq(l1)) * (q + l2) + fabsq(coupling);
+    return static_cast<double>(std::max(fabsq(first) / first_size, fabsq(second) / size));
+}
+
+/// How many hanging figures there are, counted another way: from the lowest inclination upwards, sec d2 from the balance of
+/// all below, the support's offset changes its sign at every figure.
+int figures_by_sweeping(double share, double l1, double l2) {
+    const auto end = [&](Quad t1) {
+        const Quad y0 = t1, y1 = y0 - l1 * t1 / sqrtq(1 + t1 * t1);  // y0 = lambda tan d1, lambda = 1
+        const Quad t2 = share * y0 + (1 - share) * y1;
+        return y1 - l2 * t2 / sqrtq(1 + t2 * t2);
+    };
+    int count = 0;
+    Quad last = 0;
+    const int steps = 40000;
+    for (int i = 0; i <= steps; ++i) {  // d1 towards the vertical and the horizontal alike
+        const Quad t1 = expq(Quad(-14) + Quad(28) * i / steps + (i == steps ? 0 : logq(Quad(l1 + l2))) * i / steps);
+        const Quad now = end(t1);
+        count += i > 0 && (now > 0) != (last > 0);
+        last = now;
+    }
+    return count;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("§2 (4): every hanging figure of two plummets", "[paper][section_2]", float, double, long double) {
+    using T = TestType;
+    paper::Random random(208);
+    double worst = 0;
+    std::array<int, 5> seen{};
+    for (int i = 0; i < 3000; ++i) {
+        const T W1 = static_cast<T>(random.log_between(1e-3, 1e3)), W2 = static_cast<T>(random.log_between(1e-3, 1e3));
+        const T l1 = static_cast<T>(random.log_between(1e-2, 1e2)), l2 = static_cast<T>(random.log_between(1e-2, 1e2));
+        const auto linear = revchain::two_plummets(W1, l1, W2, l2);
+        const T height = static_cast<T>(linear[0] * random.log_between(1e-4, 2.0));
+        const auto shapes = revchain::two_plummets_shapes(W1, l1, W2, l2, height);
+        ++seen[shapes.size()];
+        const Quad share = Quad(W1) / (Quad(W1) + W2), m1 = Quad(l1) / height, m2 = Quad(l2) / height;
+        int waves[2] = {0, 0};
+        for (const auto& shape : shapes) {
+            worst = std::max(worst, imbalance_of(shape, m1, m2, share * m1 * m2, height) /
+                                        static_cast<double>(revchain::epsilon<T>()));
+            ++waves[shape.half_waves() - 1];
+            const Quad d1 = shape.inclination[0], d2 = shape.inclination[1];
+            // what the rounding of d leaves of sec d: d tan d
+            CHECK(paper::error_in_ulp(shape.tension[0], share / cosq(d1)) <= 4 + 1.6 * static_cast<double>(tanq(d1)));
+            CHECK(paper::error_in_ulp(shape.tension[1], 1 / cosq(d2)) <=
+                  4 + 1.6 * static_cast<double>(fabsq(tanq(d2))));
+        }
+        CHECK(waves[0] == (height < linear[0] ? 1 : 0));
+        CHECK((waves[1] == (height < linear[1] ? 1 : 0) || (waves[1] == 3 && height < linear[1])));
+    }
+    CAPTURE(worst, seen[0], seen[1], seen[2], seen[4]);
+    CHECK(worst <= 4);
+    CHECK(seen[0] > 50);
+    CHECK(seen[1] > 50);
+    CHECK(seen[2] > 50);
+    CHECK(seen[4] > 10);
+}
+
+TEST_CASE("§2 (4): as many figures as a sweep finds, four where the lower thread is long", "[paper][section_2]") {
+    paper::Random random(209);
+    int four = 0;
+    for (int i = 0; i < 300; ++i) {
+        const double share = random.between(0.02, 0.6), l1 = random.log_between(2.0, 100.0),
+                     l2 = random.log_between(2.0, 100.0);
+        const auto shapes = revchain::two_plummets_shapes(share, l1, 1 - share, l2, 1.0);
+        CHECK(static_cast<int>(shapes.size()) == figures_by_sweeping(share, l1, l2));
+        four += shapes.size() == 4;
+    }
+    CHECK(four > 10);
+    // W = (1, 3), a = (2, 1), lambda = 1/64
+    CHECK(revchain::two_plummets_shapes(1.0, 2.0, 3.0, 1.0, 1.0 / 64).size() == 4);
+    // equal plummets on equal threads never have more than two
+    for (const double height : {0.25, 0.1, 1e-3, 1e-6})
+        CHECK(revchain::two_plummets_shapes(1.0, 1.0, 1.0, 1.0, height).size() == 2);
+}
+
+TEST_CASE("§2 (4): four figures however fast", "[paper][section_2]") {
+    for (int e = 6; e < 300; e += 3) {
+        const double height = std::ldexp(1.0, -e);
+        CAPTURE(height);
+        const auto shapes = revchain::two_plummets_shapes(1.0, 2.0, 3.0, 1.0, height);
+        REQUIRE(shapes.size() == 4);
+        for (const auto& shape : shapes)
+            CHECK(imbalance_of(shape, Quad(2) / height, Quad(1) / height, Quad(0.5) / height / height, height) <=
+                  4e-16);
+    }
+    CHECK_THROWS_AS(revchain::two_plummets_shapes(1.0, 2.0, 3.0, 1.0, 1e-150), revchain::InvalidArgument);
+    CHECK(revchain::two_plummets_shapes(1.0, 2.0, 3.0, 1.0, 1e150).empty());
+}
+
+TEST_CASE("§2 (4): a figure that has just left the vertical is the mode", "[paper][section_2]") {
+    paper::Random random(210);
+    for (int i = 0; i < 100; ++i) {
+        const double W1 = random.log_between(0.1, 10.0), W2 = random.log_between(0.1, 10.0);
+        const double l1 = random.log_between(0.1, 10.0), l2 = random.log_between(0.1, 10.0);
+        const auto m = revchain::modes(two_plummets(W1, l1, W2, l2));
+        for (paper::Index k = 0; k < 2; ++k) {
+            const double height = m.conical_height[k] * (1 - 1e-8);
+            const auto shapes = revchain::two_plummets_shapes(W1, l1, W2, l2, height);
+            // the one of least inclination with k + 1 half waves
+            const auto* shape = &shapes[0];
+            for (const auto& other : shapes)
+                if (other.half_waves() == k + 1 &&
+                    (shape->half_waves() != k + 1 || other.inclination[0] < shape->inclination[0]))
+                    shape = &other;
+            REQUIRE(shape->half_waves() == k + 1);
+            CHECK(shape->inclination[0] < 0.1);
+            CHECK(std::abs(shape->offset[1] / shape->offset[0] - m.shape(k, 1) / m.shape(k, 0)) < 1e-5);
+        }
+    }
+}
+
+TEMPLATE_TEST_CASE("§2 (8): a plummet that stands above the other, small and at any inclination", "[paper][section_2]",
+                   float, double, long double) {
+    using T = TestType;
+    paper::Random random(211);
+    double linear = 0, worst = 0;
+    int none = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const T W1 = static_cast<T>(random.log_between(1e-3, 1e3)), W2 = static_cast<T>(random.log_between(1e-3, 1e3));
+        const T l1 = static_cast<T>(random.log_between(1e-2, 1e2)), l2 = static_cast<T>(random.log_between(1e-2, 1e2));
+        const Quad share = Quad(W1) / (Quad(W1) + W2), rest = Quad(W2) / (Quad(W1) + W2) * l1 * l2;
+        const Quad half = (Quad(l1) - l2) / 2, root = sqrtq(half * half + rest);
+        const T found = revchain::standing_plummet(W1, l1, W2, l2);
+        linear = std::max(linear, paper::error_in_ulp(found, half > 0 ? rest / (half + root) : root - half));
+        const T height = static_cast<T>(found * random.log_between(1e-3, 1.5));
+        const auto shape = revchain::standing_plummet_shape(W1, l1, W2, l2, height);
+        CHECK(shape.has_value() == (height < found));
+        none += !shape;
+        if (!shape) continue;
+        // l1 turned round in (4)
+        const Quad m1 = Quad(l1) / height, m2 = Quad(l2) / height;
+        worst = std::max(worst, imbalance_of(*shape, -m1, m2, -share * m1 * m2, height) /
+                                    static_cast<double>(revchain::epsilon<T>()));
+        CHECK(shape->tension[0] < 0);
+    }
+    CAPTURE(linear, worst, none);
+    CHECK(linear <= 4);
+    CHECK(worst <= 4);
+    CHECK(none > 100);
+}
+
+namespace {
+
+/// The impact once more: Taylor series of the equations of motion in quadruple precision, ends of contact by Newton.
+struct Impact {
+    revchain::Carriages given;
+    Quad x1 = 0, x2 = 0, v1, v2, time = 0;
+    bool touching = true;
+    explicit Impact(const revchain::Carriages& c) : given(c), v1(c.speed), v2(c.speed) {}
+
+    struct State {
+        Quad x1, x2, v1, v2;
+    };
+    State after(Quad t) const {
+        const Quad buffer = touching ? Quad(given.buffer_stiffness) : Quad(0);
+        Quad a[30], b[30];
+        a[0] = x1, a[1] = v1, b[0] = x2, b[1] = v2;
+        for (int j = 0; j + 2 < 30; ++j) {
+            const Quad pull = given.coupling_stiffness * (b[j] - a[j]);
+            a[j + 2] = (pull - buffer * a[j]) / given.front_mass / ((j + 1) * (j + 2));
+            b[j + 2] = -pull / given.rear_mass / ((j + 1) * (j + 2));
+        }
+        State s{0, 0, 0, 0};
+        for (int j = 29; j > 0; --j) {
+            s.x1 = s.x1 * t + a[j], s.x2 = s.x2 * t + b[j];
+            s.v1 = s.v1 * t + j * a[j], s.v2 = s.v2 * t + j * b[j];
+        }
+        s.x1 = s.x1 * t + a[0], s.x2 = s.x2 * t + b[0];
+        return s;
+    }
+    /// On by `t`, or to where the front carriage comes to 0 before; true if it did.
+    bool step(Quad t) {
+        State s = after(t);
+        const bool crossed = touching ? s.x1 < 0 : s.x1 > 0;
+        if (crossed) {
+            Quad low = 0, high = t;
+            for (int i = 0; i < 110; ++i) {
+                const Quad middle = (low + high) / 2;
+                s = after(middle);
+                ((touching ? s.x1 < 0 : s.x1 > 0) ? high : low) = middle;
+            }
+            t = high;
+            s = after(t);
+            touching = !touching;
+        }
+        x1 = crossed ? 0 : s.x1, x2 = s.x2, v1 = s.v1, v2 = s.v2, time += t;
+        return crossed;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("§2 text: two carriages on a buffer stop, against integration", "[paper][section_2]") {
+    paper::Random random(212);
+    double places = 0, times = 0, momentum = 0;
+    std::array<int, 8> blows{};
+    for (int i = 0; i < 40; ++i) {
+        const revchain::Carriages given{.front_mass = random.log_between(0.1, 10.0),
+                                        .rear_mass = random.log_between(0.1, 10.0),
+                                        .buffer_stiffness = random.log_between(0.1, 10.0),
+                                        .coupling_stiffness = random.log_between(0.1, 10.0),
+                                        .speed = random.log_between(0.1, 10.0)};
+        const revchain::BufferImpact impact(given);
+        ++blows[std::min<std::size_t>(7, impact.blows().size())];
+        Impact truth(given);
+        std::vector<Quad> ends;
+        const double until = impact.blows().back().end * 1.5,
+                     step = 0.02 / std::sqrt(given.buffer_stiffness / given.front_mass +
+                                             given.coupling_stiffness / given.front_mass +
+                                             given.coupling_stiffness / given.rear_mass);
+        while (truth.time < until) {
+            if (truth.step(step)) ends.push_back(truth.time);
+            const double t = static_cast<double>(truth.time);
+            const auto s = impact(t);
+            const Quad reach = given.speed * std::max(t, 1e-3);
+            places = std::max({places, static_cast<double>(fabsq(s.front - truth.x1) / reach),
+                               static_cast<double>(fabsq(s.rear - truth.x2) / reach),
+                               static_cast<double>(fabsq(s.front_speed - truth.v1) / given.speed),
+                               static_cast<double>(fabsq(s.rear_speed - truth.v2) / given.speed)});
+            const Quad force = truth.touching ? truth.x1 * given.buffer_stiffness : Quad(0);
+            places =
+                std::max(places, static_cast<double>(fabsq(s.buffer_force - force) / given.buffer_stiffness / reach));
+        }
+        REQUIRE(ends.size() == 2 * impact.blows().size() - 1);
+        double whole = 0;
+        for (std::size_t j = 0; j < impact.blows().size(); ++j) {
+            const auto& blow = impact.blows()[j];
+            times = std::max(times, static_cast<double>(fabsq(blow.end - ends[2 * j]) / blow.end));
+            if (j > 0) times = std::max(times, static_cast<double>(fabsq(blow.start - ends[2 * j - 1]) / blow.start));
+            CHECK(blow.impulse > 0);
+            whole += blow.impulse;
+        }
+        const auto last = impact(until);
+        const double before = (given.front_mass + given.rear_mass) * given.speed;
+        const double after = given.front_mass * last.front_speed + given.rear_mass * last.rear_speed;
+        momentum = std::max(momentum, std::abs(before - whole - after) / before);
+    }
+    CAPTURE(places, times, momentum, blows[1], blows[2], blows[3]);
+    CHECK(places <= 1e-13);
+    CHECK(times <= 1e-13);
+    CHECK(momentum <= 1e-14);
+    CHECK(blows[1] > 3);
+    CHECK(blows[2] > 3);  // "the system is seen to deal a double blow"
+}
+
+TEST_CASE("§2: what cannot be is refused", "[paper][section_2]") {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    for (const double bad : {0.0, -1.0, nan, inf}) {
+        CHECK_THROWS_AS(revchain::two_plummets(bad, 1.0, 1.0, 1.0), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::two_plummets(1.0, 1.0, 1.0, bad), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::standing_plummet(1.0, bad, 1.0, 1.0), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::two_plummets_shapes(1.0, 1.0, 1.0, 1.0, bad), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::standing_plummet_shape(1.0, 1.0, bad, 1.0, 1.0), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::BufferImpact({bad, 1, 1, 1, 1}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::BufferImpact({1, 1, 1, 1, bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::spring_deflection(1.0, bad), revchain::InvalidArgument);
+    }
+    CHECK_THROWS_AS(revchain::BufferImpact({1, 1, 1, 1, 1})(-1), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::BufferImpact({1, 1, 1, 1, 1})(inf), revchain::InvalidArgument);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 // Greenhill (1908) §6: one compound link, and one on a thread (a boat on its davits, a bag in a hand).
 #include "paper.hpp"
+#include "revchain/finite/two_links.hpp"
 #include "revchain/linear/count.hpp"
+#include "revchain/linear/two_links.hpp"
 
 using paper::Index;
 using paper::Letters;
@@ -124,5 +126,173 @@ TEST_CASE("§6: at lambda - l small the bag follows the hand no more: the two he
         const double l = revchain::pendulum_length(davit.link);
         CHECK(m.conical_height[0] > std::max(l, davit.thread));
         if (m.size() == 2) CHECK(m.conical_height[1] < std::min(l, davit.thread));
+    }
+}
+
+namespace {
+
+template <class T>
+revchain::CompoundLink<T> random_body(paper::Random& random) {
+    const double h = random.log_between(1e-3, 1e3);
+    return {static_cast<T>(h), static_cast<T>(h * random.log_between(1e-3, 1e3))};
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("§6: two particles that are kinetically the link", "[paper][section_6]", float, double,
+                   long double) {
+    using T = TestType;
+    paper::Random random(611);
+    for (int i = 0; i < 1000; ++i) {
+        const auto link = random_body<T>(random);
+        const Quad h = link.centroid, k2 = Quad(link.radius_of_gyration) * link.radius_of_gyration, l = h + k2 / h;
+        CHECK(paper::error_in_ulp(link.pendulum_length(), l) <= 1.5);
+        CHECK(paper::error_in_ulp(link.square_over_centroid(), k2 / h) <= 1);
+        CHECK(paper::error_in_ulp(link.share_at_centre_of_oscillation(), h / l) <= 2);
+        // weight h/l at L and 1 - h/l at C: the same centre of gravity and moment of inertia about C
+        const Quad share = link.share_at_centre_of_oscillation(), length = link.pendulum_length();
+        CHECK(fabsq(share * length - h) <= 4 * h * revchain::epsilon<T>());
+        CHECK(fabsq(share * length * length - (h * h + k2)) <= 4 * (h * h + k2) * revchain::epsilon<T>());
+        // hung from L the centre of oscillation is C
+        const revchain::CompoundLink<T> turned{link.square_over_centroid(), link.radius_of_gyration};
+        CHECK(paper::error_in_ulp(turned.pendulum_length(), l) <= 3);
+    }
+}
+
+TEMPLATE_TEST_CASE("§6 (1), (2): a link swings round its axle as a plummet at L, its pull through E",
+                   "[paper][section_6]", float, double, long double) {
+    using T = TestType;
+    paper::Random random(612);
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const auto link = random_body<T>(random);
+        const T height = static_cast<T>(link.pendulum_length() * random.log_between(1e-6, 2.0));
+        const auto found = revchain::swung_link(link, height);
+        const Quad l = link.pendulum_length(), h = link.centroid, lambda = height;
+        const Quad cosine = lambda < l ? lambda / l : Quad(1), sine = sqrtq((1 - cosine) * (1 + cosine));
+        const Quad outwards = h / lambda * sine;
+        worst = std::max({worst, paper::error_in_ulp(found.inclination, atan2q(sine, cosine)),
+                          paper::error_in_ulp(found.reaction, sqrtq(1 + outwards * outwards)),
+                          paper::error_in_ulp(found.reaction_inclination, atanq(outwards))});
+        // E is below G and level with L: the line of the pull passes it, CE = (h sin d, l cos d)
+        if (lambda < l)
+            CHECK(fabsq(tanq(Quad(found.reaction_inclination)) - h * sine / (l * cosine)) <=
+                  8 * revchain::epsilon<T>() * (1 + outwards * outwards));
+    }
+    CAPTURE(worst);
+    CHECK(worst <= 4);
+}
+
+TEMPLATE_TEST_CASE("§6 (11)-(13): links on threads, hanging and standing, over twelve decades", "[paper][section_6]",
+                   float, double, long double) {
+    using T = TestType;
+    paper::Random random(613);
+    double hanging = 0, standing = 0, thread = 0, back = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const auto link = random_body<T>(random);
+        const T a = static_cast<T>(random.log_between(1e-6, 1e6));
+        const Quad h = link.centroid, rest = Quad(link.radius_of_gyration) * link.radius_of_gyration / h, l = h + rest,
+                   A = a;
+        const auto found = revchain::link_on_thread(a, link);
+        const Quad half = (l - A) / 2, root = sqrtq(half * half + A * h), larger = (l + A) / 2 + root;
+        hanging = std::max(
+            {hanging, paper::error_in_ulp(found[0], larger), paper::error_in_ulp(found[1], A * rest / larger)});
+        // lambda^2 + (l - a) lambda - a k^2/h = 0
+        const Quad wide = sqrtq(half * half + A * rest), height = half > 0 ? A * rest / (half + wide) : wide - half;
+        const T stands = revchain::standing_link(a, link);
+        standing = std::max(standing, paper::error_in_ulp(stands, height));
+        const Quad L = stands;
+        const T needs = revchain::thread_of_standing_link(stands, link);
+        thread = std::max(thread, paper::error_in_ulp(needs, L * (l + L) / (rest + L)));
+        // there and back, in the thread given: d ln a / d ln lambda stays between 1 and 2
+        back = std::max(back, paper::error_in_ulp(needs, A));
+    }
+    CAPTURE(hanging, standing, thread, back);
+    CHECK(hanging <= 4);
+    CHECK(standing <= 5);
+    CHECK(thread <= 3);
+    CHECK(back <= 8);
+    // (13), a uniform rod of length 2h: a = lambda (4h/3 + lambda)/(h/3 + lambda)
+    const T h = T(1.5), lambda = T(0.7);
+    const revchain::CompoundLink<T> rod{h, h / std::sqrt(T(3))};
+    CHECK(paper::error_in_ulp(revchain::thread_of_standing_link(lambda, rod),
+                              Quad(lambda) * (2 + Quad(lambda)) / (Quad(0.5) + Quad(lambda))) <= 3);
+}
+
+TEMPLATE_TEST_CASE("§6 (10): every hanging figure of a link on a thread, and the standing one", "[paper][section_6]",
+                   float, double, long double) {
+    using T = TestType;
+    paper::Random random(614);
+    double worst = 0;
+    std::array<int, 5> seen{};
+    int standing = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const T h = static_cast<T>(random.log_between(0.01, 100.0));
+        const revchain::CompoundLink<T> link{h, static_cast<T>(h * random.log_between(0.1, 10.0))};
+        const T a = static_cast<T>(random.log_between(0.01, 100.0));
+        const auto linear = revchain::link_on_thread(a, link);
+        const T height = static_cast<T>(linear[0] * random.log_between(1e-4, 1.5));
+        const Quad lambda = height, H = h, A = a, k2 = Quad(link.radius_of_gyration) * link.radius_of_gyration,
+                   l = H + k2 / H;
+        // Forces and moments of the body, with the weight as unit: outwards at its centroid (a sin p + h sin d)/lambda.
+        const auto check = [&](const revchain::PairShape<T>& shape, Quad up) {
+            const Quad td = Quad(shape.offset[0]) / lambda,
+                       sp = Quad(shape.offset[1]) / A;  // offset of L is lambda tan d
+            const Quad sd = td / sqrtq(1 + td * td), cd = up / sqrtq(1 + td * td), cp = 1 / Quad(shape.tension[1]);
+            const Quad across = A * sp + up * H * sd - lambda * sp / cp;  // = lambda tan phi
+            const Quad size = A * fabsq(sp) + H * fabsq(sd) + lambda * fabsq(sp / cp);
+            // about the joint: C.F. W (a sin p + l sin d)/lambda of the particle h/l at L, and its weight
+            const Quad moment = (A * sp + up * l * sd) / lambda * cd - up * sd;
+            const Quad moment_size = (A * fabsq(sp) + l * fabsq(sd)) / lambda * fabsq(cd) + fabsq(sd);
+            worst = std::max(worst, static_cast<double>(std::max(fabsq(across) / size, fabsq(moment) / moment_size)) /
+                                        static_cast<double>(revchain::epsilon<T>()));
+        };
+        const auto shapes = revchain::link_on_thread_shapes(a, link, height);
+        ++seen[shapes.size()];
+        for (const auto& shape : shapes) check(shape, 1);
+        const auto stands = revchain::standing_link_shape(a, link, height);
+        CHECK(stands.has_value() == (height < revchain::standing_link(a, link)));
+        standing += stands.has_value();
+        if (stands) check(*stands, -1);
+    }
+    CAPTURE(worst, seen[0], seen[1], seen[2], seen[4], standing);
+    CHECK(worst <= 8);
+    CHECK(seen[1] > 50);
+    CHECK(seen[2] > 50);
+    CHECK(standing > 50);
+}
+
+TEST_CASE("§2 text and §6: a support that yields, and the clock that hangs from it", "[paper][section_6]") {
+    paper::Random random(615);
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const auto link = random_body<double>(random);
+        const double c = link.pendulum_length() * random.log_between(1e-12, 10.0);
+        const Quad h = link.centroid, l = h + Quad(link.radius_of_gyration) * link.radius_of_gyration / h, C = c;
+        const Quad half = (l - C) / 2, height = (l + C) / 2 + sqrtq(half * half + C * h);
+        const double condition = 1 + static_cast<double>(l / sqrtq(half * half + C * h));  // what l tells of the gap
+        worst = std::max(
+            worst,
+            paper::error_in_ulp(revchain::seconds_lost_per_day(c, link), 86400 * (1 - sqrtq(l / height))) / condition);
+    }
+    CAPTURE(worst);
+    CHECK(worst <= 8);
+    // a plummet: exactly as if its thread were longer by the deflection, which the paper says of any pendulum
+    const auto plummet = revchain::link_on_spring(0.25, {1.0, 0.0});
+    CHECK(plummet[0] == 1.25);
+    CHECK(plummet[1] == 0.0);
+    const auto rod = revchain::link_on_spring(0.25, {1.0, 1.0});
+    CHECK(std::abs(rod[0] - 2.25) > 0.1);
+}
+
+TEST_CASE("§6: what cannot be is refused", "[paper][section_6]") {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    for (const double bad : {0.0, -1.0, nan, inf}) {
+        CHECK_THROWS_AS(revchain::swung_link<double>({bad, 1.0}, 1.0), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::link_on_thread<double>(1.0, {bad, 1.0}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::standing_link<double>(bad, {1.0, 1.0}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::thread_of_standing_link<double>(bad, {1.0, 1.0}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::link_on_thread_shapes<double>(1.0, {1.0, 1.0}, bad), revchain::InvalidArgument);
+        if (bad != 0) CHECK_THROWS_AS(revchain::swung_link<double>({1.0, bad}, 1.0), revchain::InvalidArgument);
     }
 }

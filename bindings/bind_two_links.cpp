@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings.hpp"
+#include "revchain/finite/two_links.hpp"
+#include "revchain/linear/buffer_impact.hpp"
+
+#include <sstream>
+
+namespace {
+
+using Link = revchain::CompoundLink<double>;
+using Shape = revchain::PairShape<double>;
+
+py::array pair(const std::array<double, 2>& values) { return frozen(py::array_t<double>(2, values.data())); }
+
+}  // namespace
+
+void bind_two_links(py::module_& module) {
+    module.def("pendulum_length", py::vectorize([](double h, double k) {
+                   return Link{h, k}.pendulum_length();
+               }),
+               "centroid"_a, "radius_of_gyration"_a);
+    module.def("share_at_centre_of_oscillation", py::vectorize([](double h, double k) {
+                   return Link{h, k}.share_at_centre_of_oscillation();
+               }),
+               "centroid"_a, "radius_of_gyration"_a);
+    module.def(
+        "swung_link",
+        [](const Array& centroid, const Array& radius_of_gyration, const Array& height) {
+            return columns<3>(
+                [](double h, double k, double lambda) {
+                    const auto s = revchain::swung_link(Link{h, k}, lambda);
+                    return std::array<double, 3>{s.inclination, s.reaction, s.reaction_inclination};
+                },
+                centroid, radius_of_gyration, height);
+        },
+        "centroid"_a, "radius_of_gyration"_a, "height"_a);
+    module.def(
+        "two_plummets",
+        [](const Array& lower_weight, const Array& lower_thread, const Array& upper_weight, const Array& upper_thread) {
+            return columns<2>(
+                [](double w1, double l1, double w2, double l2) { return revchain::two_plummets(w1, l1, w2, l2); },
+                lower_weight, lower_thread, upper_weight, upper_thread);
+        },
+        "lower_weight"_a, "lower_thread"_a, "upper_weight"_a, "upper_thread"_a);
+    module.def(
+        "two_plummets_from_the_middle",
+        [](const Array& half_length, const Array& x, const Array& weight_ratio) {
+            return columns<2>(
+                [](double a, double at, double mu) { return revchain::two_plummets_from_the_middle(a, at, mu); },
+                half_length, x, weight_ratio);
+        },
+        "half_length"_a, "x"_a, "weight_ratio"_a);
+    module.def(
+        "link_on_thread",
+        [](const Array& thread, const Array& centroid, const Array& radius_of_gyration) {
+            return columns<2>(
+                [](double a, double h, double k) {
+                    return revchain::link_on_thread(a, Link{h, k});
+                },
+                thread, centroid, radius_of_gyration);
+        },
+        "thread"_a, "centroid"_a, "radius_of_gyration"_a);
+    module.def("standing_link", py::vectorize([](double a, double h, double k) {
+                   return revchain::standing_link(a, Link{h, k});
+               }),
+               "thread"_a, "centroid"_a, "radius_of_gyration"_a);
+    module.def("thread_of_standing_link", py::vectorize([](double lambda, double h, double k) {
+                   return revchain::thread_of_standing_link(lambda, Link{h, k});
+               }),
+               "height"_a, "centroid"_a, "radius_of_gyration"_a);
+    module.def("standing_plummet", py::vectorize([](double w1, double l1, double w2, double l2) {
+                   return revchain::standing_plummet(w1, l1, w2, l2);
+               }),
+               "standing_weight"_a, "rod"_a, "hung_weight"_a, "thread"_a);
+    module.def("spring_deflection",
+               py::vectorize([](double weight, double e) { return revchain::spring_deflection(weight, e); }),
+               "weight"_a, "stiffness"_a);
+    module.def("seconds_lost_per_day", py::vectorize([](double c, double h, double k) {
+                   return revchain::seconds_lost_per_day(c, Link{h, k});
+               }),
+               "deflection"_a, "centroid"_a, "radius_of_gyration"_a);
+
+    py::class_<Shape> shape(module, "PairShape", "A steady figure of two links, the lower one first.");
+    shape
+        .def_property_readonly(
+            "inclination", [](const Shape& s) { return pair(s.inclination); }, "To the vertical, rad.")
+        .def_property_readonly(
+            "offset", [](const Shape& s) { return pair(s.offset); }, "From the axis.")
+        .def_property_readonly(
+            "tension", [](const Shape& s) { return pair(s.tension); }, "Over the whole weight.")
+        .def_property_readonly("half_waves", &Shape::half_waves, "Sign changes of the offsets, and one.");
+    shape.def("__repr__", [](const Shape& s) {
+        std::ostringstream text;
+        text.precision(6);
+        text << "PairShape: half_waves " << s.half_waves() << ", inclination [" << s.inclination[0] << ", "
+             << s.inclination[1] << "]";
+        return text.str();
+    });
+    module.def("two_plummets_shapes", &revchain::two_plummets_shapes<double>, "lower_weight"_a, "lower_thread"_a,
+               "upper_weight"_a, "upper_thread"_a, "height"_a);
+    module.def(
+        "link_on_thread_shapes",
+        [](double a, double h, double k, double lambda) {
+            return revchain::link_on_thread_shapes(a, Link{h, k}, lambda);
+        },
+        "thread"_a, "centroid"_a, "radius_of_gyration"_a, "height"_a);
+    module.def("standing_plummet_shape", &revchain::standing_plummet_shape<double>, "standing_weight"_a, "rod"_a,
+               "hung_weight"_a, "thread"_a, "height"_a);
+    module.def(
+        "standing_link_shape",
+        [](double a, double h, double k, double lambda) {
+            return revchain::standing_link_shape(a, Link{h, k}, lambda);
+        },
+        "thread"_a, "centroid"_a, "radius_of_gyration"_a, "height"_a);
+
+    using revchain::BufferImpact;
+    py::class_<BufferImpact>(module, "BufferImpact", "Two carriages that run against a buffer stop.")
+        .def(py::init([](double front_mass, double rear_mass, double buffer_stiffness, double coupling_stiffness,
+                         double speed) {
+                 return BufferImpact({front_mass, rear_mass, buffer_stiffness, coupling_stiffness, speed});
+             }),
+             "front_mass"_a, "rear_mass"_a, "buffer_stiffness"_a, "coupling_stiffness"_a, "speed"_a)
+        .def_property_readonly(
+            "blows",
+            [](const BufferImpact& impact) {
+                revchain::Table<double> table(static_cast<revchain::Index>(impact.blows().size()), 3);
+                for (revchain::Index i = 0; i < table.rows(); ++i) {
+                    const revchain::Blow& blow = impact.blows()[static_cast<std::size_t>(i)];
+                    table.row(i) << blow.start, blow.end, blow.impulse;
+                }
+                return to_numpy(table);
+            },
+            "Start, end and impulse of each.")
+        .def(
+            "state",
+            [](const BufferImpact& impact, const Array& time) {
+                return columns<5>(
+                    [&](double t) {
+                        const revchain::CarriageState s = impact(t);
+                        return std::array<double, 5>{s.front, s.rear, s.front_speed, s.rear_speed, s.buffer_force};
+                    },
+                    time);
+            },
+            "time"_a, "Places, speeds and the buffer's force.");
+}

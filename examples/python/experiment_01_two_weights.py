@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Experiment I: a chain that whirls, seen from the side, seems to swing. Two weights on a thread, and a watch chain.
+
+python experiment_01_two_weights.py [FOLDER]
+"""
+
+import numpy as np
+from _picture import COLOURS, hang, panels, save, side_view
+
+import revchain as rc
+
+THREAD = 0.5  # m, each of two, with equal weights
+CHAIN = 0.36  # m
+
+weights = rc.modes(rc.Chain.uniform_plummets(2, length=2 * THREAD))
+links = rc.modes(rc.Chain.uniform_rods(120, length=CHAIN), count=2)
+
+print("                      mode  turns a second  10 turns, s  lower/upper offset")
+for k in range(2):
+    turns = weights.revolutions_per_second()[k]
+    ratio = weights.shape[k, 0] / weights.shape[k, 1]
+    print(f"two weights, 2 x 0.5 m   {k + 1}          {turns:.4f}        {10 / turns:5.2f}             {ratio:+.4f}")
+for k, turns in enumerate(links.revolutions_per_second()):
+    print(f"watch chain, 0.36 m      {k + 1}          {turns:.4f}        {10 / turns:5.2f}")
+
+figure, axes = panels(4)
+views = np.cos(np.linspace(0, np.pi, 7))  # the same figure, seen from the side, at seven moments of half a turn
+for number, (name, result, height) in enumerate([("two weights", weights, 2 * THREAD), ("chain", links, CHAIN)]):
+    depth = height - np.concatenate([[0], np.cumsum(result.chain.length)])
+    dots = [40, 40] if name == "two weights" else []
+    for k in range(2):
+        panel = axes[2 * number + k]
+        tip = 0.15 * height
+        for view in views:
+            shape = tip * view * result.shape[k]
+            hang(panel, shape, depth, weights=dots, color=COLOURS[k], alpha=1 if view == 1 else 0.3)
+        turns = result.revolutions_per_second()[k]
+        title = f"{name}, mode {k + 1}\n{turns:.2f} turns/s"
+        side_view(panel, title, bottom=1.06 * height, top=0.05 * height, half_width=0.22 * height)
+        panel.locator_params(axis="x", nbins=3)
+axes[0].set_ylabel("below the support, m")
+figure.suptitle("Whirling chains seen from the side at seven moments of half a turn", fontsize=10)
+save(figure)

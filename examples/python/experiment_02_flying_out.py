@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Experiment II: a plummet on a thread leaves the vertical only where the conical height is less than the thread.
+
+python experiment_02_flying_out.py [FOLDER]
+"""
+
+import numpy as np
+from _picture import COLOURS, hang, panels, save, side_view
+
+import revchain as rc
+
+LONG, SHORT = 0.5, 0.3  # m, two threads
+
+leaves = {thread: rc.conical_pendulum.revolutions_per_second(thread) for thread in (LONG, SHORT)}
+for thread, turns in leaves.items():
+    print(f"thread {thread} m: leaves the vertical at {turns:.4f} turns a second")
+
+print("turns a second  conical height, m  inclination, degrees  radius, m  tension/weight   (thread 0.5 m)")
+table = np.array([0.6, 0.75, 0.9, 1.2, 2.0])
+height = rc.conical_pendulum.height(2 * np.pi * table)
+swing = rc.plummet.inclined_pendulum(LONG, height)
+for row in zip(table, height, np.degrees(swing.inclination), swing.radius, swing.tension, strict=True):
+    print("{:14.2f}  {:17.4f}  {:20.2f}  {:9.4f}  {:14.3f}".format(*row))
+
+figure, (side, curve) = panels(2, [1.45, 1])
+for turns, colour in zip(table[1:], COLOURS, strict=False):
+    level = rc.conical_pendulum.height(2 * np.pi * turns)
+    side.plot([-0.52, 0.52], [level, level], color=colour, linewidth=0.6, linestyle=":")
+    for thread, style in [(LONG, "-"), (SHORT, "--")]:
+        swung = rc.plummet.inclined_pendulum(thread, level)
+        sign = 1 if thread == LONG else -1
+        hang(side, [sign * swung.radius, 0], [swung.depth, 0], weights=[40], color=colour, linestyle=style)
+    side.annotate(f"{turns:.2f} turns/s", (0.54, level), color=colour, va="center")
+side_view(side, "right: thread 0.5 m; left: 0.3 m", bottom=0.56, half_width=0.82)
+side.set_ylabel("below the support, m")
+
+turns = np.linspace(0.4, 3, 600)
+for thread, style in [(LONG, "-"), (SHORT, "--")]:
+    swung = rc.plummet.inclined_pendulum(thread, rc.conical_pendulum.height(2 * np.pi * turns))
+    curve.plot(turns, np.degrees(swung.inclination), style, color="black", label=f"thread {thread} m")
+curve.set(xlabel="turns a second", ylabel="inclination, degrees", title="it stays vertical up to a certain speed")
+curve.legend(loc="lower right")
+save(figure)

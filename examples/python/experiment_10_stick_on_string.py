@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Experiment X: a stick whirled round at the end of a string, near the vertical and at any inclination.
+
+python experiment_10_stick_on_string.py [FOLDER]
+"""
+
+import numpy as np
+from _picture import COLOURS, hang, panels, save, side_view
+
+import revchain as rc
+
+STRING, STICK = 0.4, 0.6  # m
+GYRATION = STICK / 12**0.5  # about the middle of the stick
+
+print("string tied  turns a second at which it leaves the vertical")
+for tied in (0, 0.1, 0.2):
+    heights = rc.two_links.link_on_thread(STRING, centroid=STICK / 2 - tied, radius_of_gyration=GYRATION)
+    turns = rc.conical_pendulum.revolutions_per_second(heights)
+    print(f"{100 * tied:3.0f} cm from its end  {turns[0]:.4f} {turns[1]:.4f}")
+
+
+def figures(turns):
+    height = rc.conical_pendulum.height(2 * np.pi * turns)
+    return rc.two_links.link_on_thread_shapes(STRING, STICK / 2, GYRATION, height)
+
+
+print("tied to its end, inclinations in degrees:")
+print("turns a second  figure    stick   string  pull/weight")
+for turns in (0.6, 0.8, 1.5, 3.0):
+    for shape in figures(turns):
+        stick, string = np.degrees(shape.inclination)
+        print(f"{turns:14.1f}  {shape.half_waves:6}  {stick:7.2f}  {string:7.2f}  {shape.tension[1]:11.3f}")
+
+figure, (side, curve) = panels(2, [1.3, 1])
+for turns in (0.6, 0.8, 1.5, 3.0):
+    for shape in figures(turns):
+        stick, string = shape.inclination
+        joint, deep = shape.offset[1], STRING * np.cos(string)
+        colour = COLOURS[shape.half_waves - 1]
+        hang(side, [joint, 0], [deep, 0], color="0.4", linewidth=1)
+        end = [joint + STICK * np.sin(stick), joint], [deep + STICK * np.cos(stick), deep]
+        hang(side, *end, color=colour, linewidth=3)
+        side.annotate(f"{turns}", (end[0][0], end[1][0]), xytext=(5, -4), textcoords="offset points")
+side_view(side, "at 0.6, 0.8, 1.5, 3 turns/s; red: the other figure at 3", bottom=1.05, half_width=1)
+side.set(ylabel="below the hand, m", xlim=(-0.35, 1.1))
+
+speeds = np.linspace(0.4, 4, 700)
+for half_waves in (1, 2):
+    for number, style in [(0, "-"), (1, "--")]:
+        lean = [[s.inclination[number] for s in figures(n) if s.half_waves == half_waves] for n in speeds]
+        degrees = [np.degrees(x[0]) if x else np.nan for x in lean]
+        name = ["stick", "string"][number] if half_waves == 1 else None
+        curve.plot(speeds, degrees, style, color=COLOURS[half_waves - 1], label=name)
+curve.axhline(0, color="black", linewidth=0.6)
+curve.set(xlabel="turns a second", ylabel="inclination, degrees", yticks=range(-90, 91, 30), title="inclinations")
+curve.legend(loc="lower left")
+save(figure)

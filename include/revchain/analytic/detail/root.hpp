@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+
+#include <cmath>
+#include <memory>
+#include <new>
+#include <optional>
+
+namespace revchain::analytic::detail {
+
+/// A zero of `f` between `low` and `high`, by Brent's method (GSL), to the last digit of the argument; nothing where f has
+/// the same sign at both ends or is not finite there.
+template <class F>
+std::optional<double> root_between(const F& f, double low, double high) {
+    const double at_low = f(low), at_high = f(high);
+    if (at_low == 0) return low;
+    if (at_high == 0) return high;
+    if (!(at_low < 0 && at_high > 0) && !(at_low > 0 && at_high < 0)) return std::nullopt;
+    gsl_function function{[](double x, void* context) { return (*static_cast<const F*>(context))(x); },
+                          const_cast<F*>(&f)};
+    const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
+        gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
+    if (!solver) throw std::bad_alloc();
+    gsl_root_fsolver_set(solver.get(), &function, low, high);
+    for (int round = 0; round < 200; ++round) {
+        if (gsl_root_fsolver_iterate(solver.get()) != GSL_SUCCESS) break;
+        const double lower = gsl_root_fsolver_x_lower(solver.get()), upper = gsl_root_fsolver_x_upper(solver.get());
+        if (std::abs(upper - lower) <= 4e-16 * std::abs(lower)) break;
+    }
+    return gsl_root_fsolver_root(solver.get());
+}
+
+}  // namespace revchain::analytic::detail

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "revchain/core/double_double.hpp"
+#include "revchain/linear/compound_link.hpp"
+
+/// Two links, or one with something that yields: every case is a quadratic  lambda^2 - sum lambda + product = 0  in the
+/// conical height, its roots taken without a difference of like numbers. Greenhill (1908) §2 and §6. No square of a
+/// length leaves the range: lengths are counted in powers of two near the largest.
+/// Accuracy: 3 ulp for every root, measured (tests/cpp/paper/section_2.cpp). All throw InvalidArgument for lengths and
+/// weights that are not positive and finite, unless said otherwise.
+namespace revchain {
+
+/// Two conical heights, the larger (slower) first.
+template <Real T>
+using HeightPair = std::array<T, 2>;
+
+namespace detail {
+
+/// Roots of (lambda - p)(lambda - q) = coupling, p, q, coupling > 0 and coupling < p q given as  rest = p q - coupling.
+template <Real T>
+HeightPair<T> coupled_roots(const T& p, const T& q, const T& coupling, const T& rest) {
+    using std::sqrt;
+    const T half_difference = (p - q) / T(2), half_sum = (p + q) / T(2);
+    const T larger = half_sum + sqrt(half_difference * half_difference + coupling);
+    return {larger, rest / larger};
+}
+
+/// The positive root of (p + lambda)(q - lambda) = coupling,  rest = p q - coupling > 0.
+template <Real T>
+T standing_root(const T& p_less_q, const T& rest) {
+    using std::sqrt;
+    const T b = p_less_q / T(2), root = sqrt(b * b + rest);
+    return b > T(0) ? rest / (b + root) : root - b;
+}
+
+/// 2^-e with 2^e near x: what lengths are multiplied by before they are squared.
+template <Real T>
+T inverse_power_near(const T& x) {
+    using std::frexp;
+    using std::ldexp;
+    int exponent = 0;
+    frexp(x, &exponent);
+    return ldexp(T(1), -exponent);
+}
+
+}  // namespace detail
+
+/// Both heights of two plummets, the lower of weight `lower_weight` on `lower_thread`. (lambda - l1)(lambda - l2) =
+/// W1 l1 l2 / (W1 + W2), §2 (5).
+template <Real T>
+HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread, const T& upper_weight, const T& upper_thread) {
+    constexpr std::string_view place = "two_plummets";
+    detail::require_positive(place, "lower weight", lower_weight);
+    detail::require_positive(place, "lower thread", lower_thread);
+    detail::require_positive(place, "upper weight", upper_weight);
+    detail::require_positive(place, "upper thread", upper_thread);
+    using std::max;
+    const T unit = detail::inverse_power_near(max(lower_thread, upper_thread));
+    const T heavy = max(lower_weight, upper_weight);
+    const T w1 = lower_weight / heavy, w2 = upper_weight / heavy, share = w1 / (w1 + w2), rest = w2 / (w1 + w2);
+    const T l1 = lower_thread * unit, l2 = upper_thread * unit;
+    auto roots = detail::coupled_roots(l1, l2, share * l1 * l2, rest * l1 * l2);
+    for (T& root : roots) root = root / unit;
+    return roots;
+}
+
+/// The same from the total length of thread 2 a, the distance x of the upper plummet from its middle (either side) and
+/// mu = W1/W2. (lambda - a)^2 = (mu a^2 + x^2) / (1 + mu), §2 (6). mu < 0 is a float below, lighter than what it
+/// displaces, in a fluid that turns with it: then motion exists where |x| >= a sqrt(-mu) alone (Stokes). Throws
+/// InvalidArgument where it does not, for |x| >= a and for mu <= -1.
+template <Real T>
+HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, const T& weight_ratio) {
+    using std::abs;
+    using std::sqrt;
+    constexpr std::string_view place = "two_plummets_from_the_middle";
+    detail::require_positive(place, "half length", half_length);
+    if (!(abs(x) < half_length)) detail::refuse(place, "x must lie within the half length on either side", x);
+    if (!(weight_ratio > T(-1)) || !(weight_ratio <= std::numeric_limits<T>::max()))
+        detail::refuse(place, "weight ratio must be greater than -1 and finite", weight_ratio);
+    const T share = x / half_length, whole = T(1) + weight_ratio;
+    T square = (weight_ratio + share * share) / whole;
+    if (weight_ratio < T(0)) {  // a difference: formed in two words
+        using S = Wide<T>;
+        const T unit = detail::inverse_power_near(half_length);
+        const S half(static_cast<Narrow<S>>(T(half_length * unit))), at(static_cast<Narrow<S>>(T(x * unit)));
+        const S ratio(static_cast<Narrow<S>>(weight_ratio));
+        square = static_cast<T>(S((ratio * half * half + at * at) / (half * half))) / whole;
+    }
+    if (square < T(0))
+        detail::refuse(place,
+                       "x must be at least half length sqrt(-ratio) on either side, else both heights are complex", x);
+    const T larger = T(1) + sqrt(square);
+    return {half_length * larger, (half_length - x) / whole / larger * ((half_length + x) / half_length)};
+}
+
+/// Both heights of a compound link hung by a thread: a boat from its davits, a bag in the hand.
+/// (lambda - l)(lambda - a) = a h, §6 (11).
+template <Real T>
+HeightPair<T> link_on_thread(const T& thread, const CompoundLink<T>& link) {
+    detail::require_positive("link_on_thread", "thread", thread);
+    detail::check("link_on_thread", link);
+    using std::max;
+    const T l = link.pendulum_length(), unit = detail::inverse_power_near(max(thread, l));
+    const T a = thread * unit, h = link.centroid * unit;
+    auto roots = detail::coupled_roots(T(l * unit), a, T(a * h), T(a * (link.square_over_centroid() * unit)));
+    for (T& root : roots) root = root / unit;
+    return roots;
+}
+
+/// Height of the motion in which a link stands on its lowest point, balanced above a thread or a moving hand; h and l
+/// upwards from that point. (l + lambda)(a - lambda) = a h, §6 (12).
+template <Real T>
+T standing_link(const T& thread, const CompoundLink<T>& link) {
+    detail::require_positive("standing_link", "thread", thread);
+    detail::check("standing_link", link);
+    using std::max;
+    const T l = link.pendulum_length(), unit = detail::inverse_power_near(max(thread, l)), a = thread * unit;
+    const T k2_over_h = link.square_over_centroid() * unit;
+    return detail::standing_root(T((link.centroid * unit - a) + k2_over_h), T(a * k2_over_h)) / unit;
+}
+
+/// The thread on which a link stands at a given height lambda: a = lambda (l + lambda) / (l + lambda - h), §6 (13).
+template <Real T>
+T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
+    detail::require_positive("thread_of_standing_link", "height", height);
+    detail::check("thread_of_standing_link", link);
+    const T rest = link.square_over_centroid() + height;
+    return height * ((rest + link.centroid) / rest);
+}
+
+/// Height of a plummet that stands above another on a stiff weightless rod, the lower one hung by a thread:
+/// (l1 + lambda)(l2 - lambda) = W1 l1 l2 / (W1 + W2), §2 (8). For small inclinations there always is one.
+template <Real T>
+T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight, const T& thread) {
+    constexpr std::string_view place = "standing_plummet";
+    detail::require_positive(place, "standing weight", standing_weight);
+    detail::require_positive(place, "rod", rod);
+    detail::require_positive(place, "hung weight", hung_weight);
+    detail::require_positive(place, "thread", thread);
+    using std::max;
+    const T unit = detail::inverse_power_near(max(rod, thread)), heavy = max(standing_weight, hung_weight);
+    const T w1 = standing_weight / heavy, w2 = hung_weight / heavy, l1 = rod * unit, l2 = thread * unit;
+    return detail::standing_root(T(l1 - l2), T(w2 / (w1 + w2) * l1 * l2)) / unit;
+}
+
+/// What a spring of stiffness E yields to the weight hung from it, W/E: it moves as a thread of that length does, §2 (7).
+template <Real T>
+T spring_deflection(const T& weight, const T& stiffness) {
+    detail::require_positive("spring_deflection", "weight", weight);
+    detail::require_positive("spring_deflection", "stiffness", stiffness);
+    return weight / stiffness;
+}
+
+/// Both heights of a link whose support yields sideways: exactly those of a thread as long as the spring's deflection.
+/// The paper's lambda = l + c is the first order, and that for a plummet.
+template <Real T>
+HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
+    detail::require_positive("link_on_spring", "deflection", deflection);
+    detail::check("link_on_spring", link);
+    return link_on_thread(deflection, link);
+}
+
+/// By how much a clock is slow, seconds a day, whose pendulum hangs from a support that yields by `deflection` to its
+/// weight: 86400 (1 - sqrt(l / lambda)) for a clock right on a firm one. Accuracy: 8 ulp however small,
+/// and where deflection c and pendulum length l nearly agree as many times 1 + sqrt(l/h): that is how well l says it.
+template <Real T>
+T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
+    using std::max;
+    using std::sqrt;
+    detail::require_positive("seconds_lost_per_day", "deflection", deflection);
+    detail::check("seconds_lost_per_day", link);
+    const T unit = detail::inverse_power_near(max(deflection, link.pendulum_length()));
+    const T l = link.pendulum_length() * unit, c = deflection * unit, half = (c - l) / T(2);
+    const T coupling = c * (link.centroid * unit), root = sqrt(half * half + coupling);
+    const T whole_square = l + (half < T(0) ? coupling / (root - half) : half + root),
+            whole = sqrt(whole_square);  // lambda
+    const T over = whole * (whole + sqrt(l));
+    // 86400 (lambda - l) / over, the day first: what the rest is may be below the range
+    return half < T(0) ? T(86400) * c * (link.centroid * unit / (root - half)) / over
+                       : T(86400) * ((half + root) / over);
+}
+
+}  // namespace revchain

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""An endless chain that runs round in a circle, the rim of a wheel, a tyre; the nearly straight string.
+
+Tensions are given as the length of chain that weighs as much. Source: Greenhill (1908), section 5.
+All functions broadcast; numbers in give a number out.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from . import _core
+from ._arguments import STANDARD_GRAVITY, positives
+
+__all__ = ["speed", "string_revolutions_per_second", "tension"]
+
+
+def tension(speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
+    """Return the tension of a rim, ``speed**2 / gravity``, whatever the circle.
+
+    Parameters
+    ----------
+    speed : array_like
+        Along the rim, positive.
+    gravity : array_like, optional
+        In the same unit of length per s^2, positive; standard gravity in m/s^2 if left out.
+
+    Returns
+    -------
+    float or ndarray
+        A length, broadcast shape, within 3 ulp.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 5 (6). Along a rim that runs with ``speed`` transverse waves stand still
+    in space, or run with ``2 * speed``.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> float(rc.hoop.tension(20.0, gravity=10.0))
+    40.0
+    """
+    place = "revchain.hoop.tension"
+    return _core.hoop_tension(*positives(place, speed=speed, gravity=gravity))
+
+
+def speed(tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
+    """Return the speed of a rim under a tension, ``sqrt(gravity * tension)``.
+
+    Parameters
+    ----------
+    tension : array_like
+        A length, positive; the breaking length gives the speed at which the rim bursts.
+    gravity : array_like, optional
+        As in `tension`.
+
+    Returns
+    -------
+    float or ndarray
+        Also the speed of transverse waves along a string so stretched; broadcast shape, within 3 ulp.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 5 (3), (6): the speed of a fall through half the tension-length.
+
+    Examples
+    --------
+    A tyre of steel wire, 27 km of which hang by themselves:
+
+    >>> import revchain as rc
+    >>> round(float(rc.hoop.speed(27e3)))
+    515
+    """
+    place = "revchain.hoop.speed"
+    return _core.hoop_speed(*positives(place, tension=tension, gravity=gravity))
+
+
+def string_revolutions_per_second(span: ArrayLike, tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
+    """Return the turns in a second of a nearly straight string whirling in one half wave.
+
+    Parameters
+    ----------
+    span : array_like
+        Distance of its ends, positive.
+    tension : array_like
+        As a length of string, positive.
+    gravity : array_like, optional
+        As in `tension`.
+
+    Returns
+    -------
+    float or ndarray
+        ``sqrt(gravity * tension) / (2 * span)``, also of its vibrations to and fro; broadcast
+        shape, within 3 ulp.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 5 (3), whose ``a`` is half the span.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> round(float(rc.hoop.string_revolutions_per_second(2.0, tension=10.0, gravity=10.0)), 6)
+    2.5
+    """
+    place = "revchain.hoop.string_revolutions_per_second"
+    return _core.hoop_string_revolutions_per_second(*positives(place, span=span, tension=tension, gravity=gravity))
