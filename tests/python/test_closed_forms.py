@@ -922,3 +922,10 @@ def test_nothing_is_silently_not_a_number():
             if any(np.isnan(each).any() for each in numbers):
                 silent.append((function.__name__, name, value))
     assert not silent
+
+
+def test_waves_on_a_rim():
+    waves = hoop.wave_speeds([1.0, 2.5])
+    assert waves.standing.tolist() == [0.0, 0.0] and waves.running.tolist() == [2.0, 5.0]
+    with pytest.raises(ValueError, match=r"hoop\.wave_speeds: speed must be positive"):
+        hoop.wave_speeds(-1.0)
