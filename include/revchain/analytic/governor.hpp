@@ -124,7 +124,8 @@ inline GovernorMotion::GovernorMotion(const Governor& given) : angle_(given.angl
     const bool near_by = std::abs(excess) < 0.5 * n2;  // then the first forms, else the second are no differences
     const double cosine = (c - s) * (c + s);
     const double off = near_by ? -(excess + 2 * n2 * s * s) : n2 * cosine - G;  // n^2 (cos theta - lambda/l)
-    const double e = w * w + 4 * s * s * (near_by ? excess + n2 * s * s : G - n2 * c * c);
+    double e = w * w + 4 * s * s * (near_by ? excess + n2 * s * s : G - n2 * c * c);
+    if (G == 0 && std::abs(e) <= 1e-15 * w * w) e = 0;  // bottom and top at once: no further than the start is known
     const double f = G == 0 ? e : w * w - 4 * c * c * (G + n2 * s * s);
     const double b = w * w + (near_by ? 4 * n2 * s * s * s * s - 2 * excess * cosine
                                       : 2 * n2 * (s * s * s * s + c * c * c * c) - 2 * G * cosine);
