@@ -4,7 +4,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "revchain/linear/modes.hpp"
 #include "support/catch.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"
@@ -53,21 +52,6 @@ TEST_CASE("shapes, nodes and vertical points belong together", "[analytic]") {
             CHECK(nodes[i] < vertical[i]);
             if (i > 0) CHECK(vertical[i - 1] < nodes[i]);
         }
-    }
-}
-
-TEST_CASE("many links tend to the chain", "[analytic]") {
-    const Index n = 2000;
-    const auto rods = revchain::modes(revchain::Chain<double>::uniform_rods(n, 2.5), {.count = 4});
-    const auto heights = heavy_chain::conical_heights(4, 2.5);
-    for (Index k = 0; k < 4; ++k) {
-        CHECK(rods.conical_height[k] == Approx(heights[k]).epsilon(1e-5));
-        for (Index m = 0; m <= n; m += 100)
-            CHECK(rods.shape(k, m) ==
-                  Approx(heavy_chain::shape(2.5 * static_cast<double>(m) / n, k + 1, 2.5)).margin(2e-4));
-        for (Index i = 0; i < k; ++i)
-            CHECK(rods.nodes[static_cast<std::size_t>(k)][i] ==
-                  Approx(heavy_chain::nodes(k + 1, 2.5)[i]).epsilon(1e-4));
     }
 }
 

@@ -2,7 +2,6 @@
 #include "revchain/analytic/tapered_chain.hpp"
 
 #include "revchain/analytic/heavy_chain.hpp"
-#include "revchain/linear/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
