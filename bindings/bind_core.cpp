@@ -103,6 +103,17 @@ void bind_core(py::module_& module) {
     module.def("hoop_speed",
                py::vectorize([](double tension, double gravity) { return hoop::speed(tension, gravity); }), "tension"_a,
                "gravity"_a);
+    module.def(
+        "hoop_wave_speeds",
+        [](const Array& speed) {
+            return columns<2>(
+                [](double v) {
+                    const auto waves = hoop::wave_speeds(v);
+                    return std::array<double, 2>{waves.standing, waves.running};
+                },
+                speed);
+        },
+        "speed"_a);
     module.def("hoop_string_revolutions_per_second", py::vectorize([](double span, double tension, double gravity) {
                    return hoop::string_revolutions_per_second(span, tension, gravity);
                }),

@@ -88,7 +88,7 @@ void bind_governor(py::module_& module) {
 
 template <class Point>
 std::array<double, 5> row(const Point& p) {
-    return {p.x, p.arc, p.offset, p.slope, p.tension};
+    return {p.x, p.arc, p.offset, p.slope, p.tension_ratio};
 }
 
 void bind_ropes(py::module_& module) {
@@ -156,8 +156,8 @@ void bind_ropes(py::module_& module) {
                 return columns<7>(
                     [&](double at) {
                         const analytic::TortuousPoint p = r.at(at);
-                        return std::array<double, 7>{p.x,           p.arc,    p.radius, p.angle, p.radius_slope,
-                                                     p.angle_slope, p.tension};
+                        return std::array<double, 7>{p.x,           p.arc,          p.radius, p.angle, p.radius_slope,
+                                                     p.angle_slope, p.tension_ratio};
                     },
                     x);
             },

@@ -6,4 +6,6 @@
 #include "revchain/analytic/governor.hpp"       // IWYU pragma: export
 #include "revchain/analytic/heavy_chain.hpp"    // IWYU pragma: export
 #include "revchain/analytic/skipping_rope.hpp"  // IWYU pragma: export
+#include "revchain/analytic/tapered_chain.hpp"  // IWYU pragma: export
+#include "revchain/analytic/tip_mass.hpp"       // IWYU pragma: export
 #include "revchain/analytic/tortuous_rope.hpp"  // IWYU pragma: export

@@ -23,7 +23,7 @@ from contextlib import suppress
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, two_links
+from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
 from ._batch import conical_heights
 from ._chain import Chain
 from ._modes import Certificate, Modes
@@ -64,6 +64,8 @@ __all__ = [
     "plummet",
     "recurrence_matrices",
     "steady_shapes",
+    "tapered_chain",
+    "tip_mass",
     "two_links",
 ]
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them

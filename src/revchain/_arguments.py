@@ -58,6 +58,24 @@ def count(place: str, name: str, value: object) -> int:
     return number
 
 
+def counts(place: str, name: str, value: ArrayLike) -> Whole:
+    """`value` as an int64 array of numbers from 1 to 2**53."""
+    whole = np.asarray(value)
+    if whole.dtype.kind not in "iu":
+        raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
+    if whole.size and whole.min() < 1:
+        raise ValueError(f"{place}: {name} must be at least 1, got {whole.min()}")
+    if whole.size and whole.max() > 2**53:
+        raise ValueError(f"{place}: {name} is too large, got {whole.max()}")
+    return whole.astype(np.int64)
+
+
+def refuse_where(wrong: NDArray[np.bool_], array: Floats, message: str) -> None:
+    """A ValueError with the first of the wrong numbers."""
+    if wrong.any():
+        raise ValueError(f"{message}, got {array[wrong].flat[0]:g}")
+
+
 def real(place: str, name: str, value: object) -> float:
     """`value` as a float; anything but one real number is refused with a ValueError."""
     if type(value) is float:

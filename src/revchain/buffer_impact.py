@@ -14,23 +14,39 @@ __all__ = ["Blow", "BufferImpact", "CarriageState"]
 
 
 class Blow(NamedTuple):
-    """One contact with the buffer."""
+    """One contact with the buffer.
+
+    Attributes
+    ----------
+    start : float
+    end : float
+    impulse : float
+        What the buffer takes from the momentum.
+    """
 
     start: float
     end: float
     impulse: float
-    """What the buffer takes from the momentum."""
 
 
 class CarriageState(NamedTuple):
-    """Where the carriages are, towards the buffer from where they were at time 0, and how fast."""
+    """Where the carriages are, towards the buffer from where they were at time 0, and how fast.
+
+    Attributes
+    ----------
+    front : float or ndarray
+    rear : float or ndarray
+    front_speed : float or ndarray
+    rear_speed : float or ndarray
+    buffer_force : float or ndarray
+        0 where the buffer is left.
+    """
 
     front: Any
     rear: Any
     front_speed: Any
     rear_speed: Any
     buffer_force: Any
-    """0 where the buffer is left."""
 
 
 class BufferImpact:
@@ -50,13 +66,14 @@ class BufferImpact:
     Raises
     ------
     ValueError
-        If a number is not positive and finite.
+        If a number is not positive and finite, or for more than 100,000 blows.
 
     Notes
     -----
-    Accuracy: places to 1e-13 of speed times time, speeds to 1e-13 of the speed, times to 1e-13 of the
-    last (measured against integration), where no blow only grazes. Cost: 2 microseconds a blow, 0.1
-    for a state. Greenhill (1908) section 2, text after (7).
+    Accuracy, measured against integration: places to 1e-13 of speed times time, speeds to 1e-13 of
+    the speed and of acceleration times time, times to 1e-13 of the last, where no blow only grazes.
+    Cost: 2 microseconds a blow, 0.1 for a state. Carriages of about one mass deal one to three blows, a
+    heavy one behind a light one hundreds. Greenhill (1908) section 2, text after (7).
 
     Examples
     --------

@@ -21,7 +21,13 @@ __all__ = ["GovernorMotion", "GovernorState"]
 
 
 class GovernorState(NamedTuple):
-    """Angle and its rate at one time or many."""
+    """Angle and its rate at one time or many.
+
+    Attributes
+    ----------
+    angle : float or ndarray
+    angle_rate : float or ndarray
+    """
 
     angle: Any
     angle_rate: Any
@@ -50,9 +56,10 @@ class GovernorMotion:
 
     Notes
     -----
-    Accuracy: 1e-13 of the angle and of ``t`` times its rate (measured against integration in
-    quadruple precision); next to the motions that take for ever as far as the start, rounded to
-    double, says which side they are on. Cost: 2 microseconds, and 0.2 for each time.
+    Accuracy, measured against integration in quadruple precision: of angles 1e-13 of the greatest and of
+    ``t`` times the greatest rate, of rates 1e-13 of the greatest and of ``t`` times the greatest
+    acceleration; next to the motions that take for ever as far as the start, rounded to double, says
+    which side they are on. Cost: 2 microseconds, and 0.2 for each time.
 
     References
     ----------

@@ -7,14 +7,29 @@ All functions broadcast; numbers in give a number out.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, positives
 
-__all__ = ["speed", "string_revolutions_per_second", "tension"]
+__all__ = ["WaveSpeeds", "speed", "string_revolutions_per_second", "tension", "wave_speeds"]
+
+
+class WaveSpeeds(NamedTuple):
+    """In space, of transverse waves on a rim that runs round.
+
+    Attributes
+    ----------
+    standing : float or ndarray
+        Of those that run against the rim: 0, so that they are seen.
+    running : float or ndarray
+        Of those that run with it: twice its speed.
+    """
+
+    standing: Any
+    running: Any
 
 
 def tension(speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -39,8 +54,7 @@ def tension(speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
 
     Notes
     -----
-    Greenhill (1908) section 5 (6). Along a rim that runs with ``speed`` transverse waves stand still
-    in space, or run with ``2 * speed``.
+    Greenhill (1908) section 5 (6).
 
     Examples
     --------
@@ -86,6 +100,38 @@ def speed(tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
     """
     place = "revchain.hoop.speed"
     return _core.hoop_speed(*positives(place, tension=tension, gravity=gravity))
+
+
+def wave_speeds(speed: ArrayLike) -> WaveSpeeds:
+    """Return how fast transverse waves run in space along a rim that runs round.
+
+    Parameters
+    ----------
+    speed : array_like
+        Of the rim, positive.
+
+    Returns
+    -------
+    WaveSpeeds
+        Each of the shape of `speed`, exact.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite.
+
+    Notes
+    -----
+    Greenhill (1908) section 5, after (6): relative to the rim both run with its own speed.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> float(rc.hoop.wave_speeds(20.0).running)
+    40.0
+    """
+    standing, running = _core.hoop_wave_speeds(*positives("revchain.hoop.wave_speeds", speed=speed))
+    return WaveSpeeds(standing[()], running[()])
 
 
 def string_revolutions_per_second(span: ArrayLike, tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:

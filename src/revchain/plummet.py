@@ -29,33 +29,51 @@ __all__ = [
 
 
 class InclinedPendulum(NamedTuple):
-    """Where a plummet swings round, and how its thread pulls."""
+    """Where a plummet swings round, and how its thread pulls.
+
+    Attributes
+    ----------
+    inclination : float or ndarray
+        To the vertical, rad, 0 to pi/2.
+    radius : float or ndarray
+        Of the circle.
+    depth : float or ndarray
+        Below the point of support.
+    tension : float or ndarray
+        Over the weight.
+    """
 
     inclination: Any
-    """To the vertical, rad, 0 to pi/2."""
     radius: Any
-    """Of the circle."""
     depth: Any
-    """Below the point of support."""
     tension: Any
-    """Over the weight."""
 
 
 class HeldPlummet(NamedTuple):
-    """A plummet on two threads tied to the axis."""
+    """A plummet on two threads tied to the axis.
+
+    Attributes
+    ----------
+    radius : float or ndarray
+        Distance from the axis.
+    depth : float or ndarray
+        Below the upper point.
+    upper_tension : float or ndarray
+        Over the weight.
+    lower_tension : float or ndarray
+        Over the weight.
+    upper_taut : float or ndarray
+        Whether the tension is not negative: else that thread is slack, and the plummet swings on the other.
+    lower_taut : float or ndarray
+        Likewise.
+    """
 
     radius: Any
-    """Distance from the axis."""
     depth: Any
-    """Below the upper point."""
     upper_tension: Any
-    """Over the weight."""
     lower_tension: Any
-    """Over the weight."""
     upper_taut: Any
-    """Whether the tension is not negative; a slack thread does not hold, and the figure is another."""
     lower_taut: Any
-    """Likewise."""
 
 
 
@@ -263,8 +281,8 @@ def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike
     -------
     ndarray, shape (..., 3)
         Between -pi/2 and pi/2 rad, outwards positive, ascending: one, or three where
-        ``radius**(2/3) <= length**(2/3) - height**(2/3)``; the rest is nan. Within 4 ulp, next to
-        where two meet as the square root of that. Cost 1 microsecond a number.
+        ``radius**(2/3) <= length**(2/3) - height**(2/3)``; the rest is nan. Within 4 ulp, times
+        ``1 / (1 - (cos at which two meet / cos of the root)**3)`` next to where two meet. Cost 1 microsecond a number.
 
     Raises
     ------

@@ -17,37 +17,57 @@ __all__ = ["RopePoints", "SkippingRope", "TortuousPoints", "TortuousRope"]
 
 
 class RopePoints(NamedTuple):
-    """What there is at places of a skipping rope."""
+    """What there is at places of a skipping rope.
+
+    Attributes
+    ----------
+    x : float or ndarray
+        Distance from an end along the axis.
+    arc : float or ndarray
+        Distance from that end along the rope.
+    offset : float or ndarray
+        From the axis, of either sign.
+    slope : float or ndarray
+        ``d offset / dx``.
+    tension_ratio : float or ndarray
+        Of the tension to that in the middle of a half wave.
+    """
 
     x: Any
-    """Distance from an end along the axis."""
     arc: Any
-    """Distance from that end along the rope."""
     offset: Any
-    """From the axis, of either sign."""
     slope: Any
-    """``d offset / dx``."""
-    tension: Any
-    """Over that in the middle of a half wave."""
+    tension_ratio: Any
 
 
 class TortuousPoints(NamedTuple):
-    """What there is at places of a tortuous rope."""
+    """What there is at places of a tortuous rope.
+
+    Attributes
+    ----------
+    x : float or ndarray
+        Along the axis, from where the rope is nearest to it.
+    arc : float or ndarray
+        Along the rope.
+    radius : float or ndarray
+        Distance from the axis.
+    angle : float or ndarray
+        Round the axis, rad; of the plane rope -pi/2 and pi/2 on either side of ``x = 0``.
+    radius_slope : float or ndarray
+        ``d radius / dx``.
+    angle_slope : float or ndarray
+        ``d angle / dx``.
+    tension_ratio : float or ndarray
+        Of the tension to its part along the axis.
+    """
 
     x: Any
-    """Along the axis, from where the rope is nearest to it."""
     arc: Any
-    """Along the rope."""
     radius: Any
-    """Distance from the axis."""
     angle: Any
-    """Round the axis, rad."""
     radius_slope: Any
-    """``d radius / dx``."""
     angle_slope: Any
-    """``d angle / dx``."""
-    tension: Any
-    """Over what pulls along the axis."""
+    tension_ratio: Any
 
 
 class SkippingRope:

@@ -43,14 +43,21 @@ __all__ = [
 
 
 class SwungLink(NamedTuple):
-    """A link that swings round, hung from an axle on the axis."""
+    """A link that swings round, hung from an axle on the axis.
+
+    Attributes
+    ----------
+    inclination : float or ndarray
+        To the vertical, rad.
+    reaction : float or ndarray
+        At the axle, over the weight.
+    reaction_inclination : float or ndarray
+        Of its line, rad.
+    """
 
     inclination: Any
-    """To the vertical, rad."""
     reaction: Any
-    """At the axle, over the weight."""
     reaction_inclination: Any
-    """Of its line, rad."""
 
 
 
@@ -161,7 +168,7 @@ def pendulum_length(centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Any:
     Parameters
     ----------
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Of the link: positive, and not negative (0 is a plummet).
 
     Returns
     -------
@@ -193,7 +200,7 @@ def share_at_centre_of_oscillation(centroid: ArrayLike, radius_of_gyration: Arra
     Parameters
     ----------
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Of the link: positive, and not negative (0 is a plummet).
 
     Returns
     -------
@@ -225,7 +232,7 @@ def swung_link(centroid: ArrayLike, radius_of_gyration: ArrayLike, height: Array
     Parameters
     ----------
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Of the link: positive, and not negative (0 is a plummet).
     height : array_like
         Conical height of the speed, positive.
 
@@ -263,7 +270,7 @@ def link_on_thread(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: A
     thread : array_like
         Its length, positive.
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Of the link: positive, and not negative (0 is a plummet).
 
     Returns
     -------
@@ -297,7 +304,7 @@ def standing_link(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: Ar
     thread : array_like
         Its length, positive; a hand has to move as the end of that thread would.
     centroid, radius_of_gyration : array_like
-        Of the link, the centroid above its lowest point.
+        Of the link, the centroid above its lowest point: positive, and not negative.
 
     Returns
     -------
@@ -333,7 +340,7 @@ def thread_of_standing_link(height: ArrayLike, centroid: ArrayLike, radius_of_gy
     height : array_like
         Conical height, positive.
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Of the link: positive, and not negative (0 is a plummet).
 
     Returns
     -------
@@ -438,7 +445,7 @@ def link_on_spring(deflection: ArrayLike, centroid: ArrayLike, radius_of_gyratio
     deflection : array_like
         What the support would yield to the link's weight, positive: `spring_deflection`.
     centroid, radius_of_gyration : array_like
-        Of the link.
+        Of the link: positive, and not negative (0 is a plummet).
 
     Returns
     -------
@@ -473,12 +480,13 @@ def seconds_lost_per_day(deflection: ArrayLike, centroid: ArrayLike, radius_of_g
     deflection : array_like
         What the support yields sideways to the pendulum's weight, positive.
     centroid, radius_of_gyration : array_like
-        Of the pendulum.
+        Of the pendulum: positive, and not negative.
 
     Returns
     -------
     float or ndarray
-        Seconds a day, of a clock that is right on a firm support; within 8 ulp, however small.
+        Seconds a day, of a clock that is right on a firm support; within 8 ulp, however small, and
+        where deflection and pendulum length nearly agree ``1 + sqrt(l / centroid)`` times as much.
 
     Raises
     ------
@@ -525,7 +533,7 @@ def two_plummets_shapes(
     Raises
     ------
     ValueError
-        If a number is not positive and finite.
+        If a number is not positive and finite, or the lengths over `height` exceed 1e101.
 
     Notes
     -----
@@ -652,7 +660,8 @@ def standing_link_shape(
     Returns
     -------
     PairShape or None
-        The only one; none unless `height` is less than `standing_link`.
+        The only one; none unless `height` is less than `standing_link`. The first inclination is the
+        link's to the upward vertical, both tensions are that of the thread or hand.
 
     Raises
     ------

@@ -20,7 +20,7 @@ MODULES = [
 
 def public():
     """(name, object) of every public function, class and method."""
-    for module in (rc, rc.heavy_chain, rc.conical_pendulum, rc.elliptic, rc.hoop, rc.plummet, rc.two_links, revchain.scene):
+    for module in (rc, rc.heavy_chain, rc.conical_pendulum, rc.elliptic, rc.hoop, rc.plummet, rc.tapered_chain, rc.tip_mass, rc.two_links, revchain.scene):
         for name in module.__all__:
             thing = getattr(module, name)
             if inspect.isfunction(thing):

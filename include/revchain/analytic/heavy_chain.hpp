@@ -5,8 +5,9 @@
 #include "revchain/core/conical_pendulum.hpp"
 
 /// The uniform flexible chain hung from one end, at small amplitude: the limit of many links. Greenhill (1908) §4.
-/// x is the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length that is
-/// not positive and finite, and x outside [0, length].
+/// x is the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length or
+/// amplitude that is not positive and finite, and x outside [0, length]. With a particle at the free end: tip_mass.hpp;
+/// of varying density: tapered_chain.hpp.
 namespace revchain::analytic::heavy_chain {
 
 namespace detail {
@@ -14,6 +15,12 @@ inline void check(std::string_view place, std::string_view name, Index number, d
     const std::string where = "analytic::heavy_chain::" + std::string(place);
     if (number < 1) revchain::detail::refuse(where, std::string(name) + " must be at least 1", number);
     revchain::detail::require_positive(where, "length", length);
+}
+
+inline void check_place(std::string_view place, double x, double length) {
+    if (!(x >= 0.0 && x <= length))
+        revchain::detail::refuse("analytic::heavy_chain::" + std::string(place),
+                                 "x must lie between 0 (free end) and the length", x);
 }
 }  // namespace detail
 
@@ -33,10 +40,40 @@ inline Vector<double> conical_heights(Index count, double length) {
 /// Accuracy: absolute error 4e-16 (1 + j_{0,k}), the rounding of the argument.
 inline double shape(double x, Index mode, double length) {
     detail::check("shape", "mode", mode, length);
-    if (!(x >= 0.0 && x <= length))
-        revchain::detail::refuse("analytic::heavy_chain::shape", "x must lie between 0 (free end) and the length", x);
+    detail::check_place("shape", x, length);
     return analytic::detail::gsl_value(gsl_sf_bessel_J0_e, zero_of_j0(mode) * std::sqrt(x / length));
 }
+
+/// dy/dx = -J_1(z) / sqrt(x lambda_k), z = 2 sqrt(x/lambda_k), of that shape: -1/lambda_k at the free end. §4 (9).
+/// Accuracy: absolute error 4e-16 (1 + j_{0,k}) / lambda_k.
+inline double slope(double x, Index mode, double length) {
+    detail::check("slope", "mode", mode, length);
+    detail::check_place("slope", x, length);
+    const double half_end = 0.5 * zero_of_j0(mode), half = half_end * std::sqrt(x / length);
+    const double part = half > 0 ? analytic::detail::gsl_value(gsl_sf_bessel_J1_e, 2 * half) / half : 1.0;
+    return -part / (length / (half_end * half_end));
+}
+
+/// Tension at x, to first order in the offsets: the length of chain that hangs below. §4 (1).
+inline double tension(double x, double length) {
+    detail::check("tension", "mode", 1, length);
+    detail::check_place("tension", x, length);
+    return x;
+}
+
+/// Energies of the steady whirl of the chain of any length whose free end is `amplitude` off the axis, to the second
+/// order in it, over the chain's weight per length: kinetic (1/(2 lambda)) int y^2 dx and potential (1/2) int x y'^2
+/// dx, both amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. (The chain's angular momentum times the angular speed is 2 of
+/// either.) Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9): neither is in the paper.
+inline double kinetic_energy(Index mode, double amplitude) {
+    detail::check("kinetic_energy", "mode", mode, 1.0);
+    revchain::detail::require_positive("analytic::heavy_chain::kinetic_energy", "amplitude", amplitude);
+    const double j = zero_of_j0(mode), part = amplitude * (j * analytic::detail::gsl_value(gsl_sf_bessel_J1_e, j));
+    return 0.125 * part * part;
+}
+
+/// The same number.
+inline double potential_energy(Index mode, double amplitude) { return kinetic_energy(mode, amplitude); }
 
 /// Where mode `mode` crosses the axis, the support left out: length (j_{0,i} / j_{0,mode})^2, i < mode. §4 (12).
 /// Accuracy: 5 ulp.

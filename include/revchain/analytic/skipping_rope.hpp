@@ -26,10 +26,10 @@ struct RopeGiven {
 
 /// What there is at one place of the rope.
 struct RopePoint {
-    double x, arc;   ///< distance from an end along the axis, and along the rope
-    double offset;   ///< y
-    double slope;    ///< tan psi = dy/dx
-    double tension;  ///< over that in the middle of a half wave
+    double x, arc;         ///< distance from an end along the axis, and along the rope
+    double offset;         ///< y
+    double slope;          ///< tan psi = dy/dx
+    double tension_ratio;  ///< of the tension to that in the middle of a half wave
 };
 
 /// Accuracy: 1e-14 relative in what the two given determine well. Cost: 20 microseconds, a point 0.2, by its arc 10.
@@ -41,10 +41,11 @@ class SkippingRope {
 
     Index half_waves() const { return half_waves_; }
     EllipticModulus modulus() const { return functions_.modulus(); }
-    double span() const { return 2 * quarter_ * waves(); }
-    double slack() const { return span() * slack_ratio_; }
-    double length() const { return span() * (1 + slack_ratio_); }
-    double sag() const { return quarter_ * sag_ratio_; }
+    // What was given is kept as it was.
+    double span() const { return span_; }
+    double slack() const { return slack_; }
+    double length() const { return length_; }
+    double sag() const { return sag_; }
     double slope_at_ends() const { return 2 * (kappa() / complement()) / complement(); }
     double tension_ratio_at_ends() const { return 1 + kappa() * slope_at_ends(); }
     /// lambda h.
@@ -75,7 +76,7 @@ class SkippingRope {
     double strength() const { return quarter_ / (complement() * functions_.complete().K); }  // sqrt(lambda h)
     RopePoint at_argument(double u) const;
 
-    double quarter_ = 0, sag_ratio_ = 0, slack_ratio_ = 0, gravity_ = 0;
+    double span_ = 0, slack_ = 0, length_ = 0, sag_ = 0, quarter_ = 0, gravity_ = 0;
     std::optional<double> conical_height_;
     Index half_waves_ = 1;
     JacobiFunctions functions_{EllipticModulus::of(0)};
@@ -117,8 +118,7 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
     const int known = has_span + has_length + has_slack + has_sag + has_both;
     if (known != 2)
         revchain::detail::refuse(
-            place, "give two of span, length, slack, sag, and tension together with angular speed; the number given is",
-            known);
+            place, "two of span, length, slack, sag, and tension together with angular speed must be given", known);
     if (has_length && (has_span || has_slack)) {
         const double other = has_span ? *span : *slack;
         if (!(*length > other))
@@ -127,20 +127,24 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
         (has_span ? slack : span) = *length - other;
         length.reset();
     }
-    if (has_speed) conical_height_ = conical_pendulum::height(*given.angular_speed, gravity_);
+    if (has_speed) {
+        conical_height_ = conical_pendulum::height(*given.angular_speed, gravity_);
+        revchain::detail::require_positive(place, "gravity / angular speed^2", *conical_height_);
+    }
     if (has_both) strength = std::sqrt(*conical_height_) * std::sqrt(*given.tension);
 
     const auto require_less = [&](const std::optional<double>& a, const std::optional<double>& b, double factor,
-                                  std::string_view sentence) {
-        if (a && b && !(*a < factor * *b)) revchain::detail::refuse(place, sentence, *a);
+                                  std::string_view sentence, const std::optional<double>& shown) {
+        if (a && b && !(*a < factor * *b)) revchain::detail::refuse(place, sentence, *shown);
     };
-    require_less(given.sag, length, 0.5 / waves(), "sag must be less than half the length of a half wave");
-    require_less(slack, given.sag, 2 * waves(), "slack must be less than twice the sag of every half wave");
+    require_less(given.sag, length, 0.5 / waves(), "sag must be less than half the length of a half wave", given.sag);
+    require_less(slack, given.sag, 2 * waves(), "slack must be less than twice the sag of every half wave", slack);
     require_less(span, strength, std::numbers::pi * waves(),
-                 "too slow or too tight to bend: span must be less than pi sqrt(tension g) / n for each half wave");
-    require_less(
-        strength, length, 1 / (std::numbers::pi * waves()),
-        "too slow or too tight to bend: length must be greater than pi sqrt(tension g) / n for each half wave");
+                 "too slow or too tight to bend: span must be less than pi sqrt(tension g) / n for each half wave",
+                 span);
+    require_less(strength, length, 1 / (std::numbers::pi * waves()),
+                 "too slow or too tight to bend: length must be greater than pi sqrt(tension g) / n for each half wave",
+                 length);
 
     // Two equations  given = a * ratio(kappa): their quotient for kappa.
     struct Equation {
@@ -158,18 +162,26 @@ inline SkippingRope::SkippingRope(const RopeGiven& given) : gravity_(given.gravi
     add(given.sag, 1, [](const detail::RopeRatios& r) { return r.sag; });
     add(strength, 1, [](const detail::RopeRatios& r) { return r.strength; });
     add(length, half, [](const detail::RopeRatios& r) { return r.length; });
-    const double wanted = std::log(equation[0].value) - std::log(equation[1].value);
+    const auto logarithm_of_ratio = [](double x,
+                                       double y) {  // not a difference of two: that loses digits with the unit
+        int up = 0, down = 0;
+        const double ratio = std::frexp(x, &up) / std::frexp(y, &down);
+        return std::log(ratio) + (up - down) * std::numbers::ln2;
+    };
+    const double wanted = logarithm_of_ratio(equation[0].value, equation[1].value);
     const auto off = [&](double logarithm) {
         const detail::RopeRatios r(detail::RopeRatios::modulus(logarithm));
-        return std::log(equation[0].ratio(r)) - std::log(equation[1].ratio(r)) - wanted;
+        return logarithm_of_ratio(equation[0].ratio(r), equation[1].ratio(r)) - wanted;
     };
     constexpr double farthest = 340;  // kappa or kappa' = 1e-148
     const auto logarithm = detail::root_between(off, -farthest, farthest);
     if (!logarithm) revchain::detail::refuse(place, "no rope that double can hold has this form");
     functions_ = JacobiFunctions(detail::RopeRatios::modulus(*logarithm));
     const detail::RopeRatios r(modulus());
-    sag_ratio_ = r.sag, slack_ratio_ = r.slack;
     quarter_ = equation[0].value / equation[0].ratio(r);
+    const double along = 2 * quarter_ * waves();
+    span_ = given.span.value_or(along), slack_ = given.slack.value_or(along * r.slack);
+    length_ = given.length.value_or(along * r.length), sag_ = given.sag.value_or(quarter_ * r.sag);
     if (has_tension && !has_speed) conical_height_ = this->strength() / *given.tension * this->strength();
 }
 

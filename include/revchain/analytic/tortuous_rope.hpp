@@ -23,12 +23,12 @@ struct TortuousGiven {
 
 /// What there is at one place of the rope.
 struct TortuousPoint {
-    double x, arc;        ///< along the axis and along the rope, from where the rope is nearest to the axis
-    double radius;        ///< distance from the axis
-    double angle;         ///< round the axis, rad
-    double radius_slope;  ///< d radius / dx
-    double angle_slope;   ///< d angle / dx
-    double tension;       ///< over what pulls along the axis
+    double x, arc;         ///< along the axis and along the rope, from where the rope is nearest to the axis
+    double radius;         ///< distance from the axis
+    double angle;          ///< round the axis, rad; of the plane rope -pi/2 and pi/2 on either side of x = 0
+    double radius_slope;   ///< d radius / dx
+    double angle_slope;    ///< d angle / dx
+    double tension_ratio;  ///< of the tension to its part along the axis
 };
 
 /// Accuracy: 1e-14 relative each, of the angle 1e-14 (1 + |angle|). Cost: 2 microseconds, a point 1.
@@ -54,6 +54,9 @@ class TortuousRope {
     TortuousPoint at(double x) const;
 
    private:
+    /// Least and greatest radius so far apart that the angle is that of the plane rope to the last digit.
+    bool is_plane() const { return first_ <= 1e-100 * second_; }
+
     double first_, second_, third_;  // square roots of R1, R2, R3
     double height_, strength2_;      // lambda, c^2
     double root_, d_, scale_;        // r; d; x = scale u
@@ -67,6 +70,8 @@ inline TortuousRope::TortuousRope(const TortuousGiven& given)
     revchain::detail::require_positive(place, "greatest radius", second_);
     if (!(first_ <= second_)) revchain::detail::refuse(place, "least radius must not exceed the greatest", first_);
     revchain::detail::require_positive(place, "tension", given.tension);
+    revchain::detail::require_positive(place, "angular speed", given.angular_speed);
+    revchain::detail::require_positive(place, "gravity", given.gravity);
     height_ = conical_pendulum::height(given.angular_speed, given.gravity);
     strength2_ = height_ * given.tension;
     revchain::detail::require_positive(place, "tension times gravity / angular speed^2", strength2_);
@@ -87,7 +92,7 @@ inline double TortuousRope::half_wave_slack() const {
 }
 
 inline double TortuousRope::half_wave_angle() const {
-    if (first_ == 0) return std::numbers::pi;
+    if (is_plane()) return std::numbers::pi;
     const double ratio = second_ / first_;
     return 2 * ratio * (third_ / d_) * complete_pi((1 - ratio) * (1 + ratio), modulus());
 }
@@ -98,9 +103,10 @@ inline TortuousPoint TortuousRope::at(double x) const {
     TortuousPoint point{
         x, d_ * f.epsilon - root_ / d_ * (x / scale_), std::hypot(first_ * f.cn, second_ * f.sn), 0, 0, 0, 0};
     const double bend = f.dn / scale_;
-    if (first_ == 0) {  // through the axis: half a turn at once
-        const double crossings = std::floor(x / half_wave());
-        point.angle = (crossings + 0.5) * std::numbers::pi;
+    if (is_plane()) {  // through the axis, or so near that it turns there and nowhere else: half a turn
+        const double half_turns = std::nearbyint(f.amplitude / std::numbers::pi);
+        const double sign = std::fmod(half_turns, 2.0) == 0 ? 1 : -1;
+        point.angle = half_turns * std::numbers::pi + std::atan2(sign * second_ * f.sn, sign * first_ * f.cn);
         point.radius_slope = std::copysign(second_ * f.cn * bend, f.sn * f.cn * bend);
     } else {
         const double ratio = second_ / first_;
@@ -109,7 +115,7 @@ inline TortuousPoint TortuousRope::at(double x) const {
         point.angle_slope = first_ / point.radius * (second_ / point.radius) * (third_ / (2 * strength2_));
     }
     // (R1 + R2 + r - R) / 2 c^2
-    point.tension = (std::pow(std::hypot(first_ * f.sn, second_ * f.cn), 2) + root_) / (2 * strength2_);
+    point.tension_ratio = (std::pow(std::hypot(first_ * f.sn, second_ * f.cn), 2) + root_) / (2 * strength2_);
     return point;
 }
 

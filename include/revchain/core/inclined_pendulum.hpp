@@ -40,7 +40,8 @@ template <Real T>
 struct HeldPlummet {
     T radius, depth;  ///< of the plummet: from the axis, and below the upper point
     T upper_tension, lower_tension;
-    bool upper_taut, lower_taut;  ///< tensions not negative: a slack thread does not hold, and the figure is another
+    bool upper_taut,
+        lower_taut;  ///< tensions not negative: else that thread is slack, and the plummet swings on the other
 };
 
 /// `upper_thread` and `lower_thread` from two points of the axis, the lower `distance` below the upper; the equations of
@@ -62,12 +63,13 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     if (a < b) std::swap(a, b);
     const T slack = c - (a - b);
     if (!(slack >= T(0))) detail::refuse(place, "distance must make a triangle with the two threads", distance);
-    const T twice_area = sqrt((a + (b + c)) * slack * ((c + (a - b)) * (a + (b - c)))) / T(2);
-    const T along = (upper_thread - lower_thread) * ((upper_thread + lower_thread) / distance);
+    // No product of two lengths, which may leave the range.
+    const T radius = sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
+    const T along = (upper_thread - lower_thread) / distance * (upper_thread + lower_thread);
     const T depth = (distance + along) / T(2), above_lower = (along - distance) / T(2);  // depth - distance
-    const T upper = upper_thread * (height - above_lower) / (distance * height);
-    const T lower = lower_thread * (depth - height) / (distance * height);
-    return {twice_area / distance, depth, upper, lower, upper >= T(0), lower >= T(0)};
+    const T upper = upper_thread / distance * ((height - above_lower) / height);
+    const T lower = lower_thread / distance * ((depth - height) / height);
+    return {radius, depth, upper, lower, upper >= T(0), lower >= T(0)};
 }
 
 /// The whirling machine: a plummet whose thread hangs from an arm `arm` long, its length adjusted until the arm stands at

@@ -107,11 +107,16 @@ struct Pack {
     }
     [[gnu::always_inline]] friend Mask operator>(const Pack& x, const Pack& y) { return y < x; }
 
+    // Of bits as well as numbers: they wrap, which whole numbers with a sign must not.
     [[gnu::always_inline]] friend Mask operator+(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] + y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) {
+            r = Integers(Naturals(x.part[i]) + Naturals(y.part[i]));
+        });
     }
     [[gnu::always_inline]] friend Mask operator-(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] - y.part[i]; });
+        return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) {
+            r = Integers(Naturals(x.part[i]) - Naturals(y.part[i]));
+        });
     }
     [[gnu::always_inline]] friend Mask operator&(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i) __attribute__((always_inline)) { r = x.part[i] & y.part[i]; });

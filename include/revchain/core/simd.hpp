@@ -19,7 +19,9 @@ struct Registers {
 
 namespace detail {
 
-#if defined(__x86_64__) && !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
+// Under the address sanitizer one version is enough: three, each with its checks, take the compiler half an hour.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
+    !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
 template <class F>
 [[gnu::flatten, gnu::target("avx2,fma")]] auto for_avx2(const F& f) {
     return f(Registers<32, true>{});
@@ -68,7 +70,8 @@ template <class F>
 /// packs must not be handed across that border by value.
 template <class F>
 auto simd(const F& f) {
-#if defined(__x86_64__) && !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
+    !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
     const detail::Processor processor = detail::processor();
     if (processor == detail::Processor::avx512) return detail::for_avx512(f);
     if (processor == detail::Processor::avx2) return detail::for_avx2(f);

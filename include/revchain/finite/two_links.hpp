@@ -35,13 +35,17 @@ struct PairShape {
 
 namespace detail {
 
-/// Lengths in units of the conical height.
+/// Lengths in units of the conical height; `other` = 1 - s.
 template <Real T>
 struct Pair {
-    T l1, l2, share;
+    T l1, l2, share, other;
 
-    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5): negative between the two heights.
-    T characteristic() const { return (T(1) - l1) * (T(1) - l2) - share * l1 * l2; }
+    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights; of its two forms that with the smaller terms.
+    T characteristic() const {
+        using std::abs;
+        const T p = (T(1) - l1) * (T(1) - l2), q = share * l1 * l2, r = other * l1 * l2, rest = l1 + l2 - T(1);
+        return abs(p) + q < r + abs(rest) ? p - q : r - rest;
+    }
 };
 
 /// F/l2^2 and its slope along |A|. `versed` = sec d1 - 1, growing with |A| or falling as `direction` says; `arm` = |A|;
@@ -56,10 +60,17 @@ std::pair<T, T> balance(const Pair<T>& pair, int direction, const T& joint, cons
                     cosine2 * cosine2 * (joint * pair.l2 / lever) / arm)};
 }
 
-/// Where, from `low` to `high` in 0 ... width, a function of x and of what is left of the width goes through zero once,
-/// upwards (sign 1) or downwards (sign -1): x and what is left, each to its own last digit.
+/// A place within a width, told from both ends, each to its own last digit.
+template <Real T>
+struct Place {
+    T x, left;
+};
+
+/// Where, from `low` to `high`, a function of x and of what is left of the width goes through zero once, upwards (sign 1)
+/// or downwards (sign -1).
 template <Real T, class F>
-std::pair<T, T> zero_within(const T& width, const T& low, const T& high, const T& sign, const F& value_and_slope) {
+Place<T> zero_within(const T& width, const Place<T>& low, const Place<T>& high, const T& sign,
+                     const F& value_and_slope) {
     const T middle = width / T(2);
     const auto from_low = [&](const T& x) {
         const auto [value, slope] = value_and_slope(x, T(width - x));
@@ -69,11 +80,11 @@ std::pair<T, T> zero_within(const T& width, const T& low, const T& high, const T
         const auto [value, slope] = value_and_slope(T(width - left), left);
         return std::pair<T, T>(-sign * value, sign * slope);
     };
-    if (high > middle && (low >= middle || !(from_low(middle).first > T(0)))) {
-        const T left = zero_between(T(width - high), T(width - std::max(low, middle)), from_high);
+    if (high.x > middle && (low.x >= middle || !(from_low(middle).first > T(0)))) {
+        const T left = zero_between(high.left, std::min(low.left, middle), from_high);
         return {T(width - left), left};
     }
-    const T x = zero_between(low, std::min(high, middle), from_low);
+    const T x = zero_between(low.x, std::min(high.x, middle), from_low);
     return {x, T(width - x)};
 }
 
@@ -104,9 +115,9 @@ void add_same_side(const Pair<T>& pair, const T& height, std::vector<PairShape<T
     };
     if (pair.l2 < T(1)) {  // up to where d2 = 0
         const T falls = T(1) - pair.l2, width = rest0 / falls;
-        const auto [x, left] = zero_within(width, T(0), width, T(1), [&](const T& from_low, const T& from_high) {
-            return at(from_low, T(falls * from_high));
-        });
+        const auto [x, left] =
+            zero_within(width, {T(0), width}, {width, T(0)}, T(1),
+                        [&](const T& from_low, const T& from_high) { return at(from_low, T(falls * from_high)); });
         add(x, T(falls * left));
     } else {
         const auto rest = [&](const T& x) { return rest0 + (pair.l2 - T(1)) * x; };
@@ -127,39 +138,41 @@ void add_opposite_sides(const Pair<T>& pair, const T& height, std::vector<PairSh
     const auto at = [&](const T& x, const T& versed) {
         return balance(pair, -1, T(-pair.share * pair.l1), T(first + x), versed, T(rises * x));
     };
-    const auto add_between = [&](const T& low, const T& high, const T& sign) {
-        const auto [x, versed] = zero_within(width, low, high, sign, at);
+    const Place<T> start{T(0), width}, end{width, T(0)};
+    const auto add_between = [&](const Place<T>& low, const Place<T>& high, int sign) {
+        const auto [x, versed] = zero_within(width, low, high, T(sign), at);
         shapes.push_back(pair_shape(pair, -1, T(first + x), versed, T(rises * x), height));
     };
-    // Where F turns: zeros of 1 - l1/(l1-B)^3 - s l1/(B - s l1)^3, one on either side of its maximum.
-    const auto turning = [&](const T& b) {
-        const T p = pair.l1 - b, q = b - pair.share * pair.l1;
-        const T u = pair.l1 / (p * p * p), v = pair.share * pair.l1 / (q * q * q);
-        return std::pair<T, T>(T(1) - u - v, T(3) * (v / q - u / p));
-    };
-    const T root = sqrt(sqrt(pair.share)), top = root * pair.l1 * (T(1) - root + root * root);
-    T low = T(0), high = T(0);  // F grows between
-    if (turning(top).first > T(0)) {
-        const auto falling = [&](const T& b) {
-            const auto [value, slope] = turning(b);
-            return std::pair<T, T>(-value, -slope);
+    // F turns where  1 - l1/P^3 - s l1/Q^3 = 0,  P = l1 - B = 1 + versed and Q = B - s l1 = x + s l1/(l2 - 1): the bracket has
+    // its maximum at Q : P = s^(1/4), and a zero on either side.
+    const T both = pair.other * pair.l1, root = sqrt(sqrt(pair.share)), lower = pair.share * pair.l1;
+    const T top_p = both / (T(1) + root), top_q = root * top_p;
+    const auto turning = [&](const T& p, const T& q) { return T(1) - pair.l1 / (p * p * p) - lower / (q * q * q); };
+    Place<T> low = start, high = start;  // F grows between
+    if (turning(top_p, top_q) > T(0)) {
+        const auto slope = [&](const T& p, const T& q) {  // along Q
+            return T(3) * (lower / (q * q * q) / q - pair.l1 / (p * p * p) / p);
         };
-        const T start = pair.share * pair.l1;
-        low = detail::zero_between(start, top, turning) - first;
-        high = detail::zero_between(top, pair.l1, falling) - first;
-        low = std::clamp(low, T(0), width), high = std::clamp(high, T(0), width);
+        const T q = zero_between(T(0), top_q, [&](const T& at_q) {
+            return std::pair<T, T>(turning(T(both - at_q), at_q), slope(T(both - at_q), at_q));
+        });
+        const T p = zero_between(T(0), top_p, [&](const T& at_p) {
+            return std::pair<T, T>(turning(at_p, T(both - at_p)), -slope(at_p, T(both - at_p)));
+        });
+        const T x = std::clamp(T(q - lower / rises), T(0), width), versed = std::clamp(T(p - T(1)), T(0), width);
+        low = {x, T(width - x)}, high = {T(width - versed), versed};
     }
-    const bool three = low < high && at(low, T(width - low)).first < T(0) && at(high, T(width - high)).first > T(0);
-    if (three) {
-        add_between(high, width, T(-1));
-        add_between(low, high, T(1));
-        add_between(T(0), low, T(-1));
-    } else if (low < high && !(at(low, T(width - low)).first < T(0))) {
-        add_between(high, width, T(-1));
-    } else if (low < high) {
-        add_between(T(0), low, T(-1));
+    const auto value = [&](const Place<T>& place) { return at(place.x, place.left).first; };
+    if (!(low.x < high.x)) {
+        add_between(start, end, -1);
+    } else if (!(value(low) < T(0))) {
+        add_between(high, end, -1);
+    } else if (!(value(high) > T(0))) {
+        add_between(start, low, -1);
     } else {
-        add_between(T(0), width, T(-1));
+        add_between(high, end, -1);
+        add_between(low, high, 1);
+        add_between(start, low, -1);
     }
 }
 
@@ -175,6 +188,25 @@ std::optional<PairShape<T>> standing_shape(const Pair<T>& pair, const T& height)
     auto shape = pair_shape(pair, 1, T(arm0 + x), x, T(rest0 + (pair.l2 - T(1)) * x), height);
     shape.tension[0] = -shape.tension[0];
     return shape;
+}
+
+/// Lengths over the height. Throws where cubes of them would leave the range.
+template <Real T>
+Pair<T> pair_of(std::string_view place, const T& lower, const T& upper, const T& share, const T& other,
+                const T& height) {
+    using std::ldexp;
+    const Pair<T> pair{lower / height, upper / height, share, other};
+    const T limit = ldexp(T(1), std::numeric_limits<T>::max_exponent / 3 - 2);
+    if (!(pair.l1 <= limit && pair.l2 <= limit))
+        refuse(place, "height must not be smaller than the lengths by more than a third of the range", height);
+    return pair;
+}
+
+template <Real T>
+Pair<T> pair_of(std::string_view place, const CompoundLink<T>& link, const T& thread, const T& height) {
+    const T length = link.pendulum_length();
+    return pair_of(place, length, thread, link.share_at_centre_of_oscillation(),
+                   T(link.square_over_centroid() / length), height);
 }
 
 template <Real T>
@@ -201,7 +233,8 @@ std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lo
     detail::require_positive(place, "upper thread", upper_thread);
     detail::require_positive(place, "height", height);
     const T heavy = std::max(lower_weight, upper_weight), w1 = lower_weight / heavy, w2 = upper_weight / heavy;
-    return detail::pair_shapes<T>({lower_thread / height, upper_thread / height, w1 / (w1 + w2)}, height);
+    return detail::pair_shapes(
+        detail::pair_of(place, lower_thread, upper_thread, T(w1 / (w1 + w2)), T(w2 / (w1 + w2)), height), height);
 }
 
 /// All hanging figures of a compound link on a thread, §6 (10): likewise.
@@ -211,8 +244,7 @@ std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundL
     detail::require_positive(place, "thread", thread);
     detail::check(place, link);
     detail::require_positive(place, "height", height);
-    auto shapes = detail::pair_shapes<T>(
-        {link.pendulum_length() / height, thread / height, link.share_at_centre_of_oscillation()}, height);
+    auto shapes = detail::pair_shapes(detail::pair_of(place, link, thread, height), height);
     for (PairShape<T>& shape : shapes) shape.tension[0] = shape.tension[1];
     return shapes;
 }
@@ -230,7 +262,8 @@ std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, con
     detail::require_positive(place, "thread", thread);
     detail::require_positive(place, "height", height);
     const T heavy = std::max(standing_weight, hung_weight), w1 = standing_weight / heavy, w2 = hung_weight / heavy;
-    return detail::standing_shape<T>({rod / height, thread / height, w1 / (w1 + w2)}, height);
+    return detail::standing_shape(detail::pair_of(place, rod, thread, T(w1 / (w1 + w2)), T(w2 / (w1 + w2)), height),
+                                  height);
 }
 
 /// The same of a compound link that stands on its lowest point, §6 (12) with the secants of (10): both tensions are that
@@ -241,8 +274,7 @@ std::optional<PairShape<T>> standing_link_shape(const T& thread, const CompoundL
     detail::require_positive(place, "thread", thread);
     detail::check(place, link);
     detail::require_positive(place, "height", height);
-    auto shape = detail::standing_shape<T>(
-        {link.pendulum_length() / height, thread / height, link.share_at_centre_of_oscillation()}, height);
+    auto shape = detail::standing_shape(detail::pair_of(place, link, thread, height), height);
     if (shape) shape->tension[0] = shape->tension[1];
     return shape;
 }

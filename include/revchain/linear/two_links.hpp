@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "revchain/core/double_double.hpp"
 #include "revchain/linear/compound_link.hpp"
 
 /// Two links, or one with something that yields: every case is a quadratic  lambda^2 - sum lambda + product = 0  in the
@@ -82,13 +83,16 @@ HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, con
         detail::refuse(place, "weight ratio must be greater than -1 and finite", weight_ratio);
     const T share = x / half_length, whole = T(1) + weight_ratio;
     T square = (weight_ratio + share * share) / whole;
-    if (weight_ratio < T(0)) {  // a difference: of the roots, which is exact where they agree
-        const T limit = sqrt(-weight_ratio);
-        square = (abs(share) - limit) * (abs(share) + limit) / whole;
-        if (square < T(0))
-            detail::refuse(
-                place, "x must be at least half length sqrt(-ratio) on either side, else both heights are complex", x);
+    if (weight_ratio < T(0)) {  // a difference: formed in two words
+        using S = Wide<T>;
+        const T unit = detail::inverse_power_near(half_length);
+        const S half(static_cast<Narrow<S>>(T(half_length * unit))), at(static_cast<Narrow<S>>(T(x * unit)));
+        const S ratio(static_cast<Narrow<S>>(weight_ratio));
+        square = static_cast<T>(S((ratio * half * half + at * at) / (half * half))) / whole;
     }
+    if (square < T(0))
+        detail::refuse(place,
+                       "x must be at least half length sqrt(-ratio) on either side, else both heights are complex", x);
     const T larger = T(1) + sqrt(square);
     return {half_length * larger, (half_length - x) / whole / larger * ((half_length + x) / half_length)};
 }
@@ -155,6 +159,8 @@ T spring_deflection(const T& weight, const T& stiffness) {
 /// The paper's lambda = l + c is the first order, and that for a plummet.
 template <Real T>
 HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
+    detail::require_positive("link_on_spring", "deflection", deflection);
+    detail::check("link_on_spring", link);
     return link_on_thread(deflection, link);
 }
 
@@ -170,9 +176,12 @@ T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     const T unit = detail::inverse_power_near(max(deflection, link.pendulum_length()));
     const T l = link.pendulum_length() * unit, c = deflection * unit, half = (c - l) / T(2);
     const T coupling = c * (link.centroid * unit), root = sqrt(half * half + coupling);
-    const T longer = half < T(0) ? coupling / (root - half) : half + root,
-            whole = sqrt(l + longer);  // lambda - l; lambda
-    return T(86400) * (longer / (whole * (whole + sqrt(l))));
+    const T whole_square = l + (half < T(0) ? coupling / (root - half) : half + root),
+            whole = sqrt(whole_square);  // lambda
+    const T over = whole * (whole + sqrt(l));
+    // 86400 (lambda - l) / over, the day first: what the rest is may be below the range
+    return half < T(0) ? T(86400) * c * (link.centroid * unit / (root - half)) / over
+                       : T(86400) * ((half + root) / over);
 }
 
 }  // namespace revchain

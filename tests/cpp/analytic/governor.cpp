@@ -201,3 +201,22 @@ TEST_CASE("§7: random starts", "[analytic]") {
         REQUIRE(worst <= 2e-13);
     }
 }
+
+TEST_CASE("a governor of about the conical height starts where it was put", "[analytic]") {
+    support::Random random(77);
+    for (int i = 0; i < 600; ++i) {
+        const double n = random.log_between(0.1, 10.0), gravity = 9.80665;
+        const double off = i % 3 == 0 ? 0.0 : random.log_between(1e-16, 1e-2) * (i % 2 == 0 ? 1 : -1);
+        const Governor given{.angular_speed = n,
+                             .pendulum_length = gravity / (n * n) * (1 + off),
+                             .gravity = gravity,
+                             .angle = random.log_between(1e-8, 1.0),
+                             .angle_rate = i % 4 == 0 ? 0 : n * random.log_between(1e-12, 1e-3)};
+        const GovernorMotion motion(given);
+        CAPTURE(n, off, given.angle, given.angle_rate);
+        CHECK(std::abs(motion(0).angle - given.angle) <= 1e-14 * std::min(motion.greatest_angle(), 7.0));
+        CHECK(std::abs(motion(0).angle_rate - given.angle_rate) <= 1e-14 * (given.angle_rate + n * given.angle));
+        CHECK(motion.least_angle() <= given.angle * (1 + 1e-14));
+        CHECK(motion.greatest_angle() >= given.angle * (1 - 1e-14));
+    }
+}

@@ -49,7 +49,7 @@ TEST_CASE("§5 (1): the skipping rope balances its forces", "[analytic]") {
             CHECK(relative(point.arc, truth.arc) <= 3e-13);
             CHECK(std::abs(point.slope - static_cast<double>(truth.slope)) <= 2e-12 * rope.slope_at_ends());
             // T / (w h) = ds/dx: the tension's part along the axis is the same everywhere.
-            CHECK(relative(point.tension, std::sqrt(1 + point.slope * point.slope)) <= 2e-15);
+            CHECK(relative(point.tension_ratio, std::sqrt(1 + point.slope * point.slope)) <= 2e-15);
         }
         CHECK(relative(rope.at(1.0).offset, sag) <= 1e-15);
         CHECK(relative(2 * rope.at(1.0).arc, rope.length()) <= 1e-15);

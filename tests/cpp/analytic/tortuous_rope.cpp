@@ -70,10 +70,10 @@ TEST_CASE("§5 text: the tortuous rope balances its forces", "[analytic]") {
             worst = std::max({worst, relative(point.radius, radius), relative(point.arc, truth.arc),
                               static_cast<double>(fabsq(point.angle - angle - 2 * pi * turns))});
             CHECK(turns <= share + 0.5);
-            CHECK(relative(point.tension, sqrtq(1 + (truth.force_y / h) * (truth.force_y / h) +
-                                                (truth.force_z / h) * (truth.force_z / h))) <= 1e-12);
+            CHECK(relative(point.tension_ratio, sqrtq(1 + (truth.force_y / h) * (truth.force_y / h) +
+                                                      (truth.force_z / h) * (truth.force_z / h))) <= 1e-12);
             const Quad slope = (truth.y * truth.force_y + truth.z * truth.force_z) / (radius * h);
-            CHECK(std::abs(point.radius_slope - static_cast<double>(slope)) <= 1e-12 * (1 + point.tension));
+            CHECK(std::abs(point.radius_slope - static_cast<double>(slope)) <= 1e-12 * (1 + point.tension_ratio));
             const Quad twist = (truth.y * truth.force_z - truth.z * truth.force_y) / (radius * radius * h);
             CHECK(relative(point.angle_slope, twist) <= 1e-12);
         }
@@ -96,13 +96,12 @@ TEST_CASE("§5 text: the tortuous rope between plane rope and helix", "[analytic
         CHECK(plane.half_wave_angle() == std::numbers::pi);
         const double x = random.between(0.01, 0.99) * plane.half_wave();
         CHECK(relative(plane.at(x).radius, skipping.at(std::min(x, skipping.span())).offset) <= 1e-11);
-        CHECK(relative(plane.at(x).tension, skipping.at(std::min(x, skipping.span())).tension) <= 1e-12);
+        CHECK(relative(plane.at(x).tension_ratio, skipping.at(std::min(x, skipping.span())).tension_ratio) <= 1e-12);
         CHECK(plane.at(x).angle == std::numbers::pi / 2);
         CHECK(plane.at(-x).angle == -std::numbers::pi / 2);
         // all but plane: half a turn at each passage of the axis
         const double least = 1e-12 * std::min(b, plane.height_times_tension() / b);
-        const TortuousRope near_plane(
-            {.least_radius = least, .greatest_radius = b, .angular_speed = n, .tension = h});
+        const TortuousRope near_plane({.least_radius = least, .greatest_radius = b, .angular_speed = n, .tension = h});
         CHECK(relative(near_plane.half_wave_angle(), Quad(std::numbers::pi)) <= 1e-9);
         CHECK(relative(near_plane.half_wave(), plane.half_wave()) <= 1e-14);
         // helix: T theta'^2 = w/lambda along the rope, all of it at one distance
@@ -110,13 +109,13 @@ TEST_CASE("§5 text: the tortuous rope between plane rope and helix", "[analytic
         const auto point = helix.at(0.7 * helix.half_wave());
         CHECK(relative(point.radius, Quad(b)) <= 1e-15);
         CHECK(std::abs(point.radius_slope) == 0);
-        const Quad twist = Quad(point.angle_slope) / point.tension;  // per length of rope, ds/dx = T/(w h)
-        CHECK(relative(static_cast<double>(point.tension * Quad(h) * twist * twist),
+        const Quad twist = Quad(point.angle_slope) / point.tension_ratio;  // per length of rope, ds/dx = T/(w h)
+        CHECK(relative(static_cast<double>(point.tension_ratio * Quad(h) * twist * twist),
                        1 / Quad(helix.conical_height())) <= 1e-14);
         CHECK(relative(point.angle, Quad(point.angle_slope) * point.x) <= 1e-14);
         // ds^2 = dx^2 (1 + (radius angle')^2)
-        CHECK(relative(point.tension, sqrtq(1 + Quad(b) * b * point.angle_slope * point.angle_slope)) <= 1e-14);
-        CHECK(relative(point.arc, Quad(point.tension) * point.x) <= 1e-14);
+        CHECK(relative(point.tension_ratio, sqrtq(1 + Quad(b) * b * point.angle_slope * point.angle_slope)) <= 1e-14);
+        CHECK(relative(point.arc, Quad(point.tension_ratio) * point.x) <= 1e-14);
     }
 }
 
@@ -140,7 +139,8 @@ TEST_CASE("The tortuous rope: half waves repeat, slopes are consistent, wrong ca
         CHECK(here.radius <= second * (1 + 1e-15));
         // (ds/dx)^2 = 1 + radius'^2 + (radius angle')^2 = tension^2
         const Quad twist = Quad(here.radius) * here.angle_slope;
-        CHECK(relative(here.tension, sqrtq(1 + Quad(here.radius_slope) * here.radius_slope + twist * twist)) <= 1e-13);
+        CHECK(relative(here.tension_ratio, sqrtq(1 + Quad(here.radius_slope) * here.radius_slope + twist * twist)) <=
+              1e-13);
     }
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     for (const double bad : {-1.0, nan, inf}) {

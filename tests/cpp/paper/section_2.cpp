@@ -176,6 +176,21 @@ TEMPLATE_TEST_CASE("§2 (6): from the middle, and Stokes's float", "[paper][sect
             CHECK(fabsq(Quad(height) * height - 4 * Quad(height) + (4 - Quad(x) * x) / Quad(0.75)) <=
                   Quad(64 * revchain::epsilon<T>()));
     }
+    // next to the limit, where the heights depend on x as on a square root
+    double edge = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const T ratio = static_cast<T>(-random.log_between(1e-6, 0.999));
+        const T x = static_cast<T>(std::sqrt(static_cast<double>(-ratio)) * (1 + random.log_between(1e-7, 1e-3)));
+        if (!(x < 1)) continue;
+        const Quad square = (Quad(x) * x + Quad(ratio)) / (1 + Quad(ratio));
+        if (!(square > 0)) continue;
+        const auto found = revchain::two_plummets_from_the_middle(T(1), x, ratio);
+        edge = std::max(
+            {edge, paper::error_in_ulp(found[0], 1 + sqrtq(square)),
+             paper::error_in_ulp(found[1], (1 - Quad(x)) * (1 + Quad(x)) / (1 + Quad(ratio)) / (1 + sqrtq(square)))});
+    }
+    CAPTURE(edge);
+    CHECK(edge <= 4.1);
     CHECK_THROWS_AS(revchain::two_plummets_from_the_middle(T(2), T(0.99), T(-0.25)), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::two_plummets_from_the_middle(T(2), T(0), T(-0.25)), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::two_plummets_from_the_middle(T(2), T(2), T(1)), revchain::InvalidArgument);
@@ -272,6 +287,20 @@ TEST_CASE("§2 (4): as many figures as a sweep finds, four where the lower threa
     // equal plummets on equal threads never have more than two
     for (const double height : {0.25, 0.1, 1e-3, 1e-6})
         CHECK(revchain::two_plummets_shapes(1.0, 1.0, 1.0, 1.0, height).size() == 2);
+}
+
+TEST_CASE("§2 (4): four figures however fast", "[paper][section_2]") {
+    for (int e = 6; e < 300; e += 3) {
+        const double height = std::ldexp(1.0, -e);
+        CAPTURE(height);
+        const auto shapes = revchain::two_plummets_shapes(1.0, 2.0, 3.0, 1.0, height);
+        REQUIRE(shapes.size() == 4);
+        for (const auto& shape : shapes)
+            CHECK(imbalance_of(shape, Quad(2) / height, Quad(1) / height, Quad(0.5) / height / height, height) <=
+                  4e-16);
+    }
+    CHECK_THROWS_AS(revchain::two_plummets_shapes(1.0, 2.0, 3.0, 1.0, 1e-150), revchain::InvalidArgument);
+    CHECK(revchain::two_plummets_shapes(1.0, 2.0, 3.0, 1.0, 1e150).empty());
 }
 
 TEST_CASE("§2 (4): a figure that has just left the vertical is the mode", "[paper][section_2]") {

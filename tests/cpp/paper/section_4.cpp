@@ -6,8 +6,12 @@
 
 #include "paper.hpp"
 #include "revchain/analytic/heavy_chain.hpp"
+#include "revchain/analytic/tapered_chain.hpp"
+#include "revchain/analytic/tip_mass.hpp"
 
 namespace heavy_chain = revchain::analytic::heavy_chain;
+namespace tapered_chain = revchain::analytic::tapered_chain;
+namespace tip_mass = revchain::analytic::tip_mass;
 using paper::Index;
 using paper::Quad;
 
@@ -206,6 +210,151 @@ TEST_CASE("§4 (13), (14): where the chain is vertical, the chain below has its 
     CAPTURE(worst_slope * 1e15, worst_centroid * 1e15);
     CHECK(worst_slope <= 4e-15);     // measured 2.8e-15
     CHECK(worst_centroid <= 2e-16);  // measured 1.5e-16
+}
+
+TEST_CASE("§4 (4), (9): slope and tension close the balance of forces", "[paper][section_4]") {
+    // tension dy/dx + (1/lambda) integral of y dx = 0, dx = lambda z dz / 2
+    double worst = 0;
+    for (Index k = 1; k <= modes_tried; ++k) {
+        const Profile y(k);
+        CHECK(heavy_chain::slope(0.0, k, 1.0) == -1 / y.height);
+        CHECK(heavy_chain::slope(1e-300, k, 1.0) == Approx(-1 / y.height).epsilon(1e-15));
+        for (int i = 1; i <= 20; ++i) {
+            const double z = y.end * i / 20, x = y.x(z);
+            const double below = integral(0, z, [&](double t) { return y(t) * t / 2; });
+            worst = std::max(worst, std::abs(heavy_chain::tension(x, 1.0) * heavy_chain::slope(x, k, 1.0) + below));
+        }
+        for (const double x : {0.3, 0.8}) {  // and is the derivative of the offset
+            const double h = 1e-3 / static_cast<double>(k);
+            const auto at = [&](double place) { return heavy_chain::shape(place, k, 1.0); };
+            const double difference =
+                (4.0 / 5 * (at(x + h) - at(x - h)) - 1.0 / 5 * (at(x + 2 * h) - at(x - 2 * h)) +
+                 4.0 / 105 * (at(x + 3 * h) - at(x - 3 * h)) - 1.0 / 280 * (at(x + 4 * h) - at(x - 4 * h))) /
+                h;
+            CHECK(std::abs(heavy_chain::slope(x, k, 1.0) - difference) < 1e-11);
+        }
+        for (const Index i : {Index(1), k - 1})  // vertical where the paper says
+            if (k > 1)
+                CHECK(std::abs(heavy_chain::slope(heavy_chain::vertical_points(k, 1.0)[i - 1], k, 1.0)) * y.height <
+                      1e-15);
+    }
+    CAPTURE(worst * 1e15);
+    CHECK(worst <= 4.5e-15);  // of tensions times slopes up to 2.8; measured 3.9e-15
+}
+
+TEST_CASE("§4: energies of the steady whirl, kinetic and potential alike", "[paper][section_4]") {
+    double worst = 0;
+    for (Index k = 1; k <= 3 * modes_tried; ++k) {
+        const double b = 0.3, length = 1.7, height = heavy_chain::conical_heights(k, length)[k - 1];
+        const double end = 2 * std::sqrt(length / height);
+        const auto x = [&](double z) { return std::min(height * (z * z) / 4, length); };
+        const double kinetic = integral(0, end,
+                                        [&](double z) {
+                                            const double y = b * heavy_chain::shape(x(z), k, length);
+                                            return y * y * z;
+                                        }) /
+                               4;  // 1/(2 lambda), dx = lambda z dz / 2
+        const double potential = integral(0, end,
+                                          [&](double z) {
+                                              const double slope = b * heavy_chain::slope(x(z), k, length);
+                                              return heavy_chain::tension(x(z), length) * slope * slope * z;
+                                          }) *
+                                 height / 4;
+        worst = std::max({worst, std::abs(kinetic / heavy_chain::kinetic_energy(k, b) - 1),
+                          std::abs(potential / heavy_chain::potential_energy(k, b) - 1)});
+    }
+    CAPTURE(worst * 1e15);
+    CHECK(worst <= 1.5e-15);  // measured 1.4e-15
+    // (b^2/8) (j J_1(j))^2 for mode 1
+    CHECK(heavy_chain::kinetic_energy(1, 1.0) ==
+          Approx(0.125 * std::pow(2.404825557695773 * 0.5191474972894669, 2)).epsilon(1e-15));
+    // Far up every mode holds b^2 j/(4 pi).
+    const double j = revchain::analytic::zero_of_j0(100'000);
+    CHECK(heavy_chain::kinetic_energy(100'000, 2.0) == Approx(j / std::numbers::pi).epsilon(1e-9));
+}
+
+TEST_CASE("§4 with a tip mass: the balance of forces, and many plummets", "[paper][section_4]") {
+    // (tip + x) dy/dx + (tip y(0) + integral of y dx) / lambda = 0: the weight below leans on the link above.
+    double worst = 0;
+    for (const double tip : {1e-9, 0.01, 0.3, 2.0, 40.0, 1e3}) {
+        for (Index k = 1; k <= modes_tried; ++k) {
+            const tip_mass::Mode mode(k, 1.0, tip);
+            const double height = mode.conical_height(), largest = k == 1 ? 1 : std::sqrt(1 + tip / height);
+            for (const double x : {0.1, 0.35, 0.8, 1.0}) {
+                const double below = integral(0, std::sqrt(x), [&](double t) {  // x = t^2
+                    return 2 * t * mode.shape(std::min(t * t, x));
+                });
+                const double left = (tip + x) * mode.slope(x) * height, right = tip * mode.shape(0) + below;
+                worst = std::max(worst, std::abs(left + right) / (largest * (tip + x)));
+            }
+        }
+    }
+    CAPTURE(worst * 1e15);
+    CHECK(worst <= 4e-16);  // measured 3.2e-16
+
+    // Equal plummets, half of one at either end, and the tip with the lowest.
+    for (const double tip : {0.02, 1.0, 50.0}) {
+        std::array<double, 2> worst_height{};
+        const auto height = tip_mass::conical_heights(4, 1.0, tip);
+        for (std::size_t run = 0; run < 2; ++run) {
+            const Index size = run == 0 ? 300 : 600;
+            const double step = 1 / static_cast<double>(size);
+            const auto chain = support::chain_of(
+                size, [&](Index m) { return revchain::plummet(m == 0 ? tip + step / 2 : step, step); });
+            const auto m = revchain::modes(chain, {.count = 4});
+            for (Index k = 0; k < 4; ++k) {
+                worst_height[run] = std::max(worst_height[run], std::abs(m.conical_height[k] / height[k] - 1));
+                const tip_mass::Mode mode(k + 1, 1.0, tip);
+                CHECK(m.nodes[static_cast<std::size_t>(k)].size() == mode.nodes().size());
+                const double scale = m.shape(k, 0);
+                for (Index pin = 0; pin <= size; pin += 50)
+                    CHECK(std::abs(m.shape(k, pin) -
+                                   scale * mode.shape(std::min(static_cast<double>(pin) * step, 1.0))) < 1e-3);
+            }
+        }
+        CAPTURE(tip, worst_height);
+        CHECK(worst_height[1] < 1e-4);  // measured 9.6e-5
+        CHECK(std::log2(worst_height[0] / worst_height[1]) > 1.99);
+    }
+}
+
+TEST_CASE("§4 with another density: the balance of forces, and many plummets", "[paper][section_4]") {
+    // x^(p+1)/(p+1) dy/dx + (1/lambda) integral of s^p y ds = 0; s = x t^2
+    double worst = 0;
+    for (const double p : {-0.5, 0.5, 1.0, 3.0, 7.5}) {
+        for (Index k = 1; k <= modes_tried; ++k) {
+            const tapered_chain::Mode mode(k, 1.0, p);
+            for (const double x : {0.1, 0.35, 0.8, 1.0}) {
+                const double below = integral(0, 1, [&](double t) {
+                    return 2 * (p + 1) * std::pow(t, 2 * p + 1) * mode.shape(std::min(x * t * t, x));
+                });
+                worst = std::max(worst, std::abs(mode.slope(x) * mode.conical_height() + below));
+            }
+        }
+    }
+    CAPTURE(worst * 1e15);
+    CHECK(worst <= 8e-16);  // measured 6.7e-16
+
+    for (const double p : {-0.5, 1.0, 4.0}) {
+        std::array<double, 2> worst_height{};
+        const auto height = tapered_chain::conical_heights(4, 1.0, p);
+        for (std::size_t run = 0; run < 2; ++run) {
+            const Index size = run == 0 ? 300 : 600;
+            const double step = 1 / static_cast<double>(size);
+            const auto below = [&](double x) { return std::pow(std::max(x, 0.0), p + 1); };
+            const auto chain = support::chain_of(size, [&](Index m) {
+                const double at = static_cast<double>(m) * step;
+                return revchain::plummet(below(at + step / 2) - below(at - step / 2), step);
+            });
+            const auto m = revchain::modes(chain, {.count = 4});
+            for (Index k = 0; k < 4; ++k)
+                worst_height[run] = std::max(worst_height[run], std::abs(m.conical_height[k] / height[k] - 1));
+        }
+        CAPTURE(p, worst_height);
+        CHECK(worst_height[1] < 7.5e-4);  // measured 7.1e-4 (p = -1/2), 9.8e-5, 8.4e-5
+        CHECK(std::log2(worst_height[0] / worst_height[1]) >
+              1.6);  // 1.64 where the density is infinite at the free end, else 2.00
+    }
 }
 
 TEST_CASE("§4: a chain of many links tends to the continuous chain", "[paper][section_4]") {

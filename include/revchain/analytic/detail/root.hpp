@@ -4,7 +4,9 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -12,15 +14,19 @@
 namespace revchain::analytic::detail {
 
 /// A zero of `f` between `low` and `high`, by Brent's method (GSL), to the last digit of the argument; nothing where f has
-/// the same sign at both ends or is not finite there.
+/// the same sign at both ends or is not a number there. f must not throw.
 template <class F>
 std::optional<double> root_between(const F& f, double low, double high) {
     const double at_low = f(low), at_high = f(high);
     if (at_low == 0) return low;
     if (at_high == 0) return high;
     if (!(at_low < 0 && at_high > 0) && !(at_low > 0 && at_high < 0)) return std::nullopt;
-    gsl_function function{[](double x, void* context) { return (*static_cast<const F*>(context))(x); },
-                          const_cast<F*>(&f)};
+    const auto finite = [](double x, void* context) {  // GSL ends the process where f is not
+        const double y = (*static_cast<const F*>(context))(x);
+        return std::isnan(y) ? 0.0
+                             : std::clamp(y, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
+    };
+    gsl_function function{finite, const_cast<F*>(&f)};
     const std::unique_ptr<gsl_root_fsolver, void (*)(gsl_root_fsolver*)> solver(
         gsl_root_fsolver_alloc(gsl_root_fsolver_brent), gsl_root_fsolver_free);
     if (!solver) throw std::bad_alloc();
