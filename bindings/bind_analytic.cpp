@@ -23,20 +23,20 @@ py::array_t<double> rows(Index count, Row row, const Array& length, const Arrays
     return result;
 }
 
-/// Offsets and slopes of chains told apart by one number beside their length: a mode is computed where it changes.
-template <class Mode>
-py::tuple profile(const Array& x, const Array& mode, const Array& length, const Array& other) {
+/// Offsets or slopes of chains told apart by one number beside their length: a mode is computed where it changes.
+template <class Mode, double (Mode::*value)(double) const>
+py::object along(const Array& x, const Array& mode, const Array& length, const Array& other) {
     std::optional<Mode> known;
     std::array<double, 3> of{};
-    return columns<2>(
+    return columns<1>(
         [&](double at, double number, double l, double o) {
             if (const std::array<double, 3> asked{number, l, o}; !known || of != asked) {
                 known.emplace(static_cast<Index>(number), l, o);
                 of = asked;
             }
-            return std::array<double, 2>{known->shape(at), known->slope(at)};
+            return std::array<double, 1>{((*known).*value)(at)};
         },
-        x, mode, length, other);
+        x, mode, length, other)[0];
 }
 
 void bind_tip_mass(py::module_& module) {
@@ -48,11 +48,13 @@ void bind_tip_mass(py::module_& module) {
                 count, [=](double l, double t) { return tip_mass::conical_heights(count, l, t); }, length, tip);
         },
         "count"_a, "length"_a, "tip"_a);
-    module.def("tip_mass_profile", profile<tip_mass::Mode>, "x"_a, "mode"_a, "length"_a, "tip"_a);
+    using tip_mass::Mode;
+    module.def("tip_mass_shape", along<Mode, &Mode::shape>, "x"_a, "mode"_a, "length"_a, "tip"_a);
+    module.def("tip_mass_slope", along<Mode, &Mode::slope>, "x"_a, "mode"_a, "length"_a, "tip"_a);
     module.def(
         "tip_mass_nodes",
-        [](Index mode, double length, double tip) { return to_numpy(tip_mass::Mode(mode, length, tip).nodes()); },
-        "mode"_a, "length"_a, "tip"_a);
+        [](Index mode, double length, double tip) { return to_numpy(Mode(mode, length, tip).nodes()); }, "mode"_a,
+        "length"_a, "tip"_a);
 }
 
 void bind_tapered_chain(py::module_& module) {
@@ -65,12 +67,12 @@ void bind_tapered_chain(py::module_& module) {
                 exponent);
         },
         "count"_a, "length"_a, "exponent"_a);
-    module.def("tapered_chain_profile", profile<tapered_chain::Mode>, "x"_a, "mode"_a, "length"_a, "exponent"_a);
+    using tapered_chain::Mode;
+    module.def("tapered_chain_shape", along<Mode, &Mode::shape>, "x"_a, "mode"_a, "length"_a, "exponent"_a);
+    module.def("tapered_chain_slope", along<Mode, &Mode::slope>, "x"_a, "mode"_a, "length"_a, "exponent"_a);
     module.def(
         "tapered_chain_nodes",
-        [](Index mode, double length, double exponent) {
-            return to_numpy(tapered_chain::Mode(mode, length, exponent).nodes());
-        },
+        [](Index mode, double length, double exponent) { return to_numpy(Mode(mode, length, exponent).nodes()); },
         "mode"_a, "length"_a, "exponent"_a);
 }
 }  // namespace

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from numbers import Real
 from typing import Any
@@ -89,9 +90,7 @@ def real(place: str, name: str, value: object) -> float:
 def positive(place: str, name: str, value: ArrayLike) -> Floats:
     """`value` as a float64 array of positive finite numbers."""
     array = floats(place, name, value)
-    wrong = ~((array > 0) & (array < math.inf))
-    if wrong.any():
-        raise ValueError(f"{place}: {name} must be positive and finite, got {array[wrong].flat[0]:g}")
+    refuse_where(~((array > 0) & (array < math.inf)), array, f"{place}: {name} must be positive and finite")
     return array
 
 
@@ -107,6 +106,19 @@ def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
 def positives(place: str, **given: ArrayLike) -> list[Floats]:
     """Positive finite numbers, broadcast to one shape."""
     return together(place, **{name: positive(place, name, value) for name, value in given.items()})
+
+
+def places(place: str, x: ArrayLike, mode: ArrayLike, **chain: Floats) -> list[NDArray[Any]]:
+    """Places on a chain, numbers of modes and the chain's own numbers, length first, broadcast to one shape."""
+    arrays = together(place, x=floats(place, "x", x), mode=counts(place, "mode", mode), **chain)
+    at, length = arrays[0], arrays[2]
+    refuse_where(~((at >= 0) & (at <= length)), at, f"{place}: x must lie between 0 and length")
+    return arrays
+
+
+def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
+    """The arrays, or their numbers where they have no axis."""
+    return (array[()] for array in arrays)
 
 
 def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import floats, real
+from ._arguments import floats, numbers, real
 
 __all__ = ["Blow", "BufferImpact", "CarriageState"]
 
@@ -135,7 +135,7 @@ class BufferImpact:
         1.87221
         """
         values = self._compiled.state(floats("revchain.BufferImpact.state", "time", time))
-        return CarriageState(*(x[()] for x in values))
+        return CarriageState(*numbers(values))
 
     def __repr__(self) -> str:
         blows = self.blows

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, floats, real, together
+from ._arguments import Floats, floats, numbers, real, refuse_where, together
 
 __all__ = [
     "Complete",
@@ -95,25 +95,23 @@ def _modulus(place: str, modulus: Any, complementary_modulus: Any) -> dict[str, 
         raise ValueError(f"{place}: give exactly one of modulus and complementary_modulus")
     result = {}
     for name, value in (("modulus", modulus), ("complementary_modulus", complementary_modulus)):
-        array = np.asarray(nan) if value is None else floats(place, name, value)
-        wrong = ~((array >= 0) & (array <= 1)) if value is not None else np.zeros((), bool)
-        if wrong.any():
-            raise ValueError(f"{place}: {name} must lie between 0 and 1, got {array[wrong].flat[0]:g}")
+        array = np.asarray(nan)
+        if value is not None:
+            array = floats(place, name, value)
+            refuse_where(~((array >= 0) & (array <= 1)), array, f"{place}: {name} must lie between 0 and 1")
         result[name] = array
     return result
 
 
 def _finite(place: str, name: str, value: ArrayLike) -> Floats:
     array = floats(place, name, value)
-    if not np.isfinite(array).all():
-        raise ValueError(f"{place}: {name} must be finite, got {array[~np.isfinite(array)].flat[0]:g}")
+    refuse_where(~np.isfinite(array), array, f"{place}: {name} must be finite")
     return array
 
 
 def _characteristic(place: str, value: ArrayLike) -> Floats:
     array = floats(place, "characteristic", value)
-    if not (array < 1).all():
-        raise ValueError(f"{place}: characteristic must be less than 1, got {array[~(array < 1)].flat[0]:g}")
+    refuse_where(~(array < 1), array, f"{place}: characteristic must be less than 1")
     return array
 
 
@@ -151,8 +149,8 @@ def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus:
     """
     place = "revchain.elliptic.jacobi"
     given = _modulus(place, modulus, complementary_modulus)
-    numbers = [real(place, name, value) for name, value in given.items()]
-    return Jacobi(*(x[()] for x in _core.elliptic_jacobi(_finite(place, "u", u), *numbers)))
+    moduli = [real(place, name, value) for name, value in given.items()]
+    return Jacobi(*numbers(_core.elliptic_jacobi(_finite(place, "u", u), *moduli)))
 
 
 def complete(*, modulus: ArrayLike | None = None, complementary_modulus: ArrayLike | None = None) -> Complete:
@@ -185,8 +183,9 @@ def complete(*, modulus: ArrayLike | None = None, complementary_modulus: ArrayLi
     >>> round(float(rc.elliptic.complete(complementary_modulus=1e-100).K), 10)
     231.6448036605
     """
-    given = _modulus("revchain.elliptic.complete", modulus, complementary_modulus)
-    return Complete(*(x[()] for x in _core.elliptic_complete(*together("revchain.elliptic.complete", **given))))
+    place = "revchain.elliptic.complete"
+    arrays = together(place, **_modulus(place, modulus, complementary_modulus))
+    return Complete(*numbers(_core.elliptic_complete(*arrays)))
 
 
 def incomplete(
@@ -224,7 +223,7 @@ def incomplete(
     place = "revchain.elliptic.incomplete"
     given = _modulus(place, modulus, complementary_modulus)
     arrays = together(place, amplitude=_finite(place, "amplitude", amplitude), **given)
-    return Incomplete(*(x[()] for x in _core.elliptic_incomplete(*arrays)))
+    return Incomplete(*numbers(_core.elliptic_incomplete(*arrays)))
 
 
 def complete_pi(

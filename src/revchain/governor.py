@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, floats, real
+from ._arguments import STANDARD_GRAVITY, floats, numbers, real
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -208,7 +208,7 @@ class GovernorMotion:
         array([1.5   , 1.2026])
         """
         values = self._compiled.state(floats("revchain.GovernorMotion.state", "time", time))
-        return GovernorState(*(x[()] for x in values))
+        return GovernorState(*numbers(values))
 
     def plot(self, ax: Axes | None = None, *, duration: float | None = None) -> Axes:
         """Draw the angle against time, and the turning angles.

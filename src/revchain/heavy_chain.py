@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, Whole, counts, floats, positive, real, refuse_where, together
+from ._arguments import STANDARD_GRAVITY, Floats, counts, places, positive, real, together
 from ._arguments import count as checked_count
 
 __all__ = [
@@ -29,15 +29,6 @@ __all__ = [
     "tension",
     "vertical_points",
 ]
-
-
-def _places(place: str, x: ArrayLike, length: ArrayLike, mode: ArrayLike = 1) -> tuple[Floats, Whole, Floats]:
-    """All three in one shape, `x` between 0 and `length`."""
-    at, number, long = together(
-        place, x=floats(place, "x", x), mode=counts(place, "mode", mode), length=positive(place, "length", length)
-    )
-    refuse_where(~((at >= 0) & (at <= long)), at, f"{place}: x must lie between 0 and length")
-    return at, number, long
 
 
 def conical_heights(count: int, length: ArrayLike = 1.0) -> Floats:
@@ -108,7 +99,7 @@ def shape(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
     array([1.    , 0.3977, 0.    ])
     """
     place = "revchain.heavy_chain.shape"
-    return _core.heavy_chain_shape(*_places(place, x, length, mode))
+    return _core.heavy_chain_shape(*places(place, x, mode, length=positive(place, "length", length)))
 
 
 def slope(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
@@ -145,7 +136,7 @@ def slope(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
     array([-1.4458, -0.9825, -0.6242])
     """
     place = "revchain.heavy_chain.slope"
-    return _core.heavy_chain_slope(*_places(place, x, length, mode))
+    return _core.heavy_chain_slope(*places(place, x, mode, length=positive(place, "length", length)))
 
 
 def tension(x: ArrayLike, length: ArrayLike = 1.0) -> Any:
@@ -178,7 +169,8 @@ def tension(x: ArrayLike, length: ArrayLike = 1.0) -> Any:
     >>> rc.heavy_chain.tension([0.0, 0.25], length=0.5)
     array([0.  , 0.25])
     """
-    return _places("revchain.heavy_chain.tension", x, length)[0].copy()[()]
+    place = "revchain.heavy_chain.tension"
+    return places(place, x, 1, length=positive(place, "length", length))[0].copy()[()]
 
 
 def _energy(place: str, mode: ArrayLike, amplitude: ArrayLike) -> Any:

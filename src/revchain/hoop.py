@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, positives
+from ._arguments import STANDARD_GRAVITY, numbers, positives
 
 __all__ = ["WaveSpeeds", "speed", "string_revolutions_per_second", "tension", "wave_speeds"]
 
@@ -130,8 +130,7 @@ def wave_speeds(speed: ArrayLike) -> WaveSpeeds:
     >>> float(rc.hoop.wave_speeds(20.0).running)
     40.0
     """
-    standing, running = _core.hoop_wave_speeds(*positives("revchain.hoop.wave_speeds", speed=speed))
-    return WaveSpeeds(standing[()], running[()])
+    return WaveSpeeds(*numbers(_core.hoop_wave_speeds(*positives("revchain.hoop.wave_speeds", speed=speed))))
 
 
 def string_revolutions_per_second(span: ArrayLike, tension: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, positives
+from ._arguments import Floats, numbers, positives
 
 __all__ = [
     "HeldPlummet",
@@ -76,12 +76,6 @@ class HeldPlummet(NamedTuple):
     lower_taut: Any
 
 
-
-def _plain(values: tuple[Floats, ...]) -> tuple[Any, ...]:
-    """Numbers where arrays have no axis."""
-    return tuple(value[()] for value in values)
-
-
 def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
     """Return how a plummet on a thread swings round at a given speed.
 
@@ -116,7 +110,7 @@ def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
     (1.047198, 2.0)
     """
     place = "revchain.plummet.inclined_pendulum"
-    return InclinedPendulum(*_plain(_core.inclined_pendulum(*positives(place, length=length, height=height))))
+    return InclinedPendulum(*numbers(_core.inclined_pendulum(*positives(place, length=length, height=height))))
 
 
 def held_plummet(
@@ -159,7 +153,7 @@ def held_plummet(
     given = positives(
         place, upper_thread=upper_thread, lower_thread=lower_thread, distance=distance, height=height
     )
-    radius, depth, upper, lower = _plain(_core.held_plummet(*given))
+    radius, depth, upper, lower = numbers(_core.held_plummet(*given))
     return HeldPlummet(radius, depth, upper, lower, np.greater_equal(upper, 0), np.greater_equal(lower, 0))
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, count, floats, positive, real
+from ._arguments import STANDARD_GRAVITY, count, floats, numbers, positive, real
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -251,7 +251,7 @@ class SkippingRope:
         >>> rope.at([0.0, 0.5, 1.0]).offset.round(6)
         array([0.      , 0.359451, 0.5     ])
         """
-        return RopePoints(*(v[()] for v in self._compiled.at(floats("revchain.SkippingRope.at", "x", x))))
+        return RopePoints(*numbers(self._compiled.at(floats("revchain.SkippingRope.at", "x", x))))
 
     def at_arc(self, arc: ArrayLike) -> RopePoints:
         """Return what there is at distances along the rope.
@@ -278,7 +278,7 @@ class SkippingRope:
         >>> round(float(rope.at_arc(1.5).offset - rope.sag), 12)
         0.0
         """
-        return RopePoints(*(v[()] for v in self._compiled.at_arc(floats("revchain.SkippingRope.at_arc", "arc", arc))))
+        return RopePoints(*numbers(self._compiled.at_arc(floats("revchain.SkippingRope.at_arc", "arc", arc))))
 
     def drawn_to(self, span: float) -> SkippingRope:
         """Return the rope with its ends at another distance, its length and angular momentum kept.
@@ -473,7 +473,7 @@ class TortuousRope:
         >>> rope.at([0.0, rope.half_wave / 2]).radius.round(12)
         array([0.5, 1. ])
         """
-        return TortuousPoints(*(v[()] for v in self._compiled.at(floats("revchain.TortuousRope.at", "x", x))))
+        return TortuousPoints(*numbers(self._compiled.at(floats("revchain.TortuousRope.at", "x", x))))
 
     def plot(
         self, ax: Axes | None = None, *, half_waves: float = 4.0, length_unit: str = "m"

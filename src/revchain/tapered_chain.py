@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, counts, floats, positive, real, refuse_where, together
+from ._arguments import Floats, floats, places, positive, real, refuse_where, together
 from ._arguments import count as checked_count
 
 __all__ = ["conical_heights", "nodes", "shape", "slope"]
@@ -67,20 +66,6 @@ def conical_heights(count: int, *, exponent: ArrayLike, length: ArrayLike = 1.0)
     return _core.tapered_chain_conical_heights(number, long, other)
 
 
-def _profile(
-    place: str, x: ArrayLike, mode: ArrayLike, exponent: ArrayLike, length: ArrayLike
-) -> tuple[Floats, Floats]:
-    """Offset and slope, broadcast."""
-    at, number, long, other = together(
-        place,
-        x=floats(place, "x", x),
-        mode=counts(place, "mode", mode).astype(np.float64),
-        **_chain(place, exponent, length),
-    )
-    refuse_where(~((at >= 0) & (at <= long)), at, f"{place}: x must lie between 0 and length")
-    return _core.tapered_chain_profile(at, number, long, other)
-
-
 def shape(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLike = 1.0) -> Any:
     """Return the offset of the chain from its axis, 1 at the free end.
 
@@ -117,7 +102,8 @@ def shape(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLi
     >>> rc.tapered_chain.shape([0.0, 0.5, 1.0], mode=1, exponent=1.0).round(4) + 0.0
     array([1.    , 0.3238, 0.    ])
     """
-    return _profile("revchain.tapered_chain.shape", x, mode, exponent, length)[0][()]
+    place = "revchain.tapered_chain.shape"
+    return _core.tapered_chain_shape(*places(place, x, mode, **_chain(place, exponent, length)))[()]
 
 
 def slope(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLike = 1.0) -> Any:
@@ -155,7 +141,8 @@ def slope(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLi
     >>> rc.tapered_chain.slope([0.0, 0.5, 1.0], mode=1, exponent=1.0).round(4)
     array([-1.8352, -0.9409, -0.4028])
     """
-    return _profile("revchain.tapered_chain.slope", x, mode, exponent, length)[1][()]
+    place = "revchain.tapered_chain.slope"
+    return _core.tapered_chain_slope(*places(place, x, mode, **_chain(place, exponent, length)))[()]
 
 
 def nodes(mode: int, *, exponent: float, length: float = 1.0) -> Floats:

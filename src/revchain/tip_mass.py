@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, counts, floats, positive, real, refuse_where, together
+from ._arguments import Floats, floats, places, positive, real, refuse_where, together
 from ._arguments import count as checked_count
 
 __all__ = ["conical_heights", "nodes", "shape", "slope"]
@@ -69,18 +68,6 @@ def conical_heights(count: int, *, tip: ArrayLike, length: ArrayLike = 1.0) -> F
     return _core.tip_mass_conical_heights(number, long, other)
 
 
-def _profile(place: str, x: ArrayLike, mode: ArrayLike, tip: ArrayLike, length: ArrayLike) -> tuple[Floats, Floats]:
-    """Offset and slope, broadcast."""
-    at, number, long, other = together(
-        place,
-        x=floats(place, "x", x),
-        mode=counts(place, "mode", mode).astype(np.float64),
-        **_chain(place, tip, length),
-    )
-    refuse_where(~((at >= 0) & (at <= long)), at, f"{place}: x must lie between 0 and length")
-    return _core.tip_mass_profile(at, number, long, other)
-
-
 def shape(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 1.0) -> Any:
     """Return the offset of the chain from its axis, 1 at the free end.
 
@@ -118,7 +105,8 @@ def shape(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 
     >>> rc.tip_mass.shape([0.0, 0.5, 1.0], mode=1, tip=1.0).round(4) + 0.0
     array([1.    , 0.4608, 0.    ])
     """
-    return _profile("revchain.tip_mass.shape", x, mode, tip, length)[0][()]
+    place = "revchain.tip_mass.shape"
+    return _core.tip_mass_shape(*places(place, x, mode, **_chain(place, tip, length)))[()]
 
 
 def slope(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 1.0) -> Any:
@@ -156,7 +144,8 @@ def slope(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 
     >>> rc.tip_mass.slope([0.0, 0.5, 1.0], mode=1, tip=1.0).round(4)
     array([-1.116 , -1.0141, -0.8226])
     """
-    return _profile("revchain.tip_mass.slope", x, mode, tip, length)[1][()]
+    place = "revchain.tip_mass.slope"
+    return _core.tip_mass_slope(*places(place, x, mode, **_chain(place, tip, length)))[()]
 
 
 def nodes(mode: int, *, tip: float, length: float = 1.0) -> Floats:

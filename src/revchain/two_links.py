@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, floats, positive, positives, real, together
+from ._arguments import Floats, floats, numbers, positive, positives, real, refuse_where, together
 from ._core import PairShape
 
 __all__ = [
@@ -60,15 +60,14 @@ class SwungLink(NamedTuple):
     reaction_inclination: Any
 
 
-
 def _link(place: str, centroid: ArrayLike, radius_of_gyration: ArrayLike, **given: ArrayLike) -> list[Floats]:
     """`given`, positive, then the link's numbers, all of one shape."""
     arrays = {name: positive(place, name, value) for name, value in given.items()}
     arrays["centroid"] = positive(place, "centroid", centroid)
     radius = arrays["radius_of_gyration"] = floats(place, "radius_of_gyration", radius_of_gyration)
-    wrong = ~((radius >= 0) & (radius < inf))
-    if wrong.any():
-        raise ValueError(f"{place}: radius_of_gyration must not be negative, and finite, got {radius[wrong].flat[0]:g}")
+    refuse_where(
+        ~((radius >= 0) & (radius < inf)), radius, f"{place}: radius_of_gyration must not be negative, and finite"
+    )
     return together(place, **arrays)
 
 
@@ -259,7 +258,7 @@ def swung_link(centroid: ArrayLike, radius_of_gyration: ArrayLike, height: Array
     """
     place = "revchain.two_links.swung_link"
     lambda_, h, k = _link(place, centroid, radius_of_gyration, height=height)
-    return SwungLink(*(x[()] for x in _core.swung_link(h, k, lambda_)))
+    return SwungLink(*numbers(_core.swung_link(h, k, lambda_)))
 
 
 def link_on_thread(thread: ArrayLike, centroid: ArrayLike, radius_of_gyration: ArrayLike) -> Floats:

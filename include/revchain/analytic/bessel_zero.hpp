@@ -18,7 +18,7 @@ inline double mcmahon(int order, double k) {
     // beta = (k + order/2 - 1/4) pi with pi in two words: the product alone would cost half an ulp more.
     const double turns = k + 0.5 * order - 0.25;
     const double high = turns * std::numbers::pi;
-    const double low = std::fma(turns, std::numbers::pi, -high) + turns * 1.2246467991473532e-16;
+    const double low = std::fma(turns, std::numbers::pi, -high) + turns * two_word_pi.low;
     const double e = 1.0 / (8.0 * high);
     const double e2 = e * e;
     const double c1 = mu - 1.0;

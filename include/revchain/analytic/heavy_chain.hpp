@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/analytic/bessel_zero.hpp"
+#include "revchain/analytic/detail/chain_arguments.hpp"
 #include "revchain/core/conical_pendulum.hpp"
 
 /// The uniform flexible chain hung from one end, at small amplitude: the limit of many links. Greenhill (1908) §4.
@@ -12,15 +13,11 @@ namespace revchain::analytic::heavy_chain {
 
 namespace detail {
 inline void check(std::string_view place, std::string_view name, Index number, double length) {
-    const std::string where = "analytic::heavy_chain::" + std::string(place);
-    if (number < 1) revchain::detail::refuse(where, std::string(name) + " must be at least 1", number);
-    revchain::detail::require_positive(where, "length", length);
+    analytic::detail::check_number_and_length("analytic::heavy_chain::" + std::string(place), name, number, length);
 }
 
 inline void check_place(std::string_view place, double x, double length) {
-    if (!(x >= 0.0 && x <= length))
-        revchain::detail::refuse("analytic::heavy_chain::" + std::string(place),
-                                 "x must lie between 0 (free end) and the length", x);
+    analytic::detail::check_place("analytic::heavy_chain::" + std::string(place), x, length);
 }
 }  // namespace detail
 

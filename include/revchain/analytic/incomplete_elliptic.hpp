@@ -5,6 +5,7 @@
 #include <array>
 
 #include "revchain/analytic/jacobi.hpp"
+#include "revchain/core/double_double.hpp"
 
 namespace revchain::analytic {
 
@@ -64,7 +65,7 @@ struct Amplitude {
     double sine, cosine, delta, half_turns;
 
     Amplitude(double angle, const EllipticModulus& modulus) : half_turns(std::nearbyint(angle / std::numbers::pi)) {
-        constexpr double rest_of_pi = 1.2246467991473532e-16;
+        constexpr double rest_of_pi = std::numbers::pi_v<DoubleDouble>.low();
         const double within = std::fma(-half_turns, std::numbers::pi, angle) - half_turns * rest_of_pi;
         sine = std::sin(within), cosine = std::cos(within);
         delta = std::hypot(cosine, modulus.complementary_modulus() * sine);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/analytic/bessel_zero.hpp"
+#include "revchain/analytic/detail/chain_arguments.hpp"
 
 /// The chain of Greenhill (1908) §4 with line density proportional to x^exponent, x the distance from the free end, at
 /// small amplitude: (x^(p+1) y')' + (p+1) x^p y/lambda = 0, solved by z^-p J_p(z), z = 2 sqrt((p+1) x/lambda). Exponent
@@ -13,8 +14,7 @@ namespace revchain::analytic::tapered_chain {
 namespace detail {
 inline void check(std::string_view place, std::string_view name, Index number, double length, double exponent) {
     const std::string where = "analytic::tapered_chain::" + std::string(place);
-    if (number < 1) revchain::detail::refuse(where, std::string(name) + " must be at least 1", number);
-    revchain::detail::require_positive(where, "length", length);
+    analytic::detail::check_number_and_length(where, name, number, length);
     if (!(exponent > -1 && exponent <= 1e4))
         revchain::detail::refuse(where, "exponent must be above -1 and at most 1e4", exponent);
 }
@@ -68,9 +68,7 @@ class Mode {
 
    private:
     double place(double x, std::string_view name) const {
-        if (!(x >= 0 && x <= length_))
-            revchain::detail::refuse("analytic::tapered_chain::Mode::" + std::string(name),
-                                     "x must lie between 0 (free end) and the length", x);
+        analytic::detail::check_place("analytic::tapered_chain::Mode::" + std::string(name), x, length_);
         return end_ * std::sqrt(x / length_);
     }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "revchain/analytic/bessel_zero.hpp"
+#include "revchain/analytic/detail/chain_arguments.hpp"
 
 /// The uniform chain of Greenhill (1908) §4 with a particle at its free end, at small amplitude. `tip` is the length of
 /// chain that weighs as much as the particle, x the distance from the free end, the tension that of tip + x of chain.
@@ -81,8 +82,7 @@ struct Excess {
 
 inline void check(std::string_view place, std::string_view name, Index number, double length, double tip) {
     const std::string where = "analytic::tip_mass::" + std::string(place);
-    if (number < 1) revchain::detail::refuse(where, std::string(name) + " must be at least 1", number);
-    revchain::detail::require_positive(where, "length", length);
+    analytic::detail::check_number_and_length(where, name, number, length);
     if (!(tip >= 0 && tip / length <= 1e250))
         revchain::detail::refuse(where, "tip must lie between 0 and 1e250 lengths", tip);
 }
@@ -235,9 +235,7 @@ class Mode {
 
     /// z - z_0 at x, without the difference.
     double apart_at(double x, std::string_view place) const {
-        if (!(x >= 0 && x <= length_))
-            revchain::detail::refuse("analytic::tip_mass::Mode::" + std::string(place),
-                                     "x must lie between 0 (free end) and the length", x);
+        analytic::detail::check_place("analytic::tip_mass::Mode::" + std::string(place), x, length_);
         const double r = ends_.ratio.high, share = x / length_;
         if (!(share > 0)) return 0;
         const double root = std::sqrt(r * r + share * ends_.share.high);

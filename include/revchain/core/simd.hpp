@@ -19,6 +19,24 @@ struct Registers {
 
 namespace detail {
 
+#if defined(__FP_FAST_FMA) || defined(__FMA__)
+inline constexpr bool own_fused = true;
+#else
+inline constexpr bool own_fused = false;
+#endif
+#if defined(__AVX512F__)
+using OwnRegisters = Registers<64, own_fused>;
+#elif defined(__AVX__)
+using OwnRegisters = Registers<32, own_fused>;
+#else
+using OwnRegisters = Registers<16, own_fused>;
+#endif
+
+template <class F>
+[[gnu::flatten]] auto for_own(const F& f) {
+    return f(OwnRegisters{});
+}
+
 // Under the address sanitizer one version is enough: three, each with its checks, take the compiler half an hour.
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
     !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
@@ -40,25 +58,19 @@ inline Processor processor() {
     }();
     return found;
 }
-#endif
-
-#if defined(__FP_FAST_FMA) || defined(__FMA__)
-inline constexpr bool own_fused = true;
-#else
-inline constexpr bool own_fused = false;
-#endif
-#if defined(__AVX512F__)
-using OwnRegisters = Registers<64, own_fused>;
-#elif defined(__AVX__)
-using OwnRegisters = Registers<32, own_fused>;
-#else
-using OwnRegisters = Registers<16, own_fused>;
-#endif
-
 template <class F>
-[[gnu::flatten]] auto for_own(const F& f) {
-    return f(OwnRegisters{});
+auto for_this(const F& f) {
+    const Processor found = processor();
+    if (found == Processor::avx512) return for_avx512(f);
+    if (found == Processor::avx2) return for_avx2(f);
+    return for_own(f);
 }
+#else
+template <class F>
+auto for_this(const F& f) {
+    return for_own(f);
+}
+#endif
 
 }  // namespace detail
 
@@ -70,13 +82,7 @@ template <class F>
 /// packs must not be handed across that border by value.
 template <class F>
 auto simd(const F& f) {
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
-    !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
-    const detail::Processor processor = detail::processor();
-    if (processor == detail::Processor::avx512) return detail::for_avx512(f);
-    if (processor == detail::Processor::avx2) return detail::for_avx2(f);
-#endif
-    return detail::for_own(f);
+    return detail::for_this(f);
 }
 
 }  // namespace revchain

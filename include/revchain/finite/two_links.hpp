@@ -227,14 +227,11 @@ template <Real T>
 std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lower_thread, const T& upper_weight,
                                               const T& upper_thread, const T& height) {
     constexpr std::string_view place = "two_plummets_shapes";
-    detail::require_positive(place, "lower weight", lower_weight);
-    detail::require_positive(place, "lower thread", lower_thread);
-    detail::require_positive(place, "upper weight", upper_weight);
-    detail::require_positive(place, "upper thread", upper_thread);
+    const auto share =
+        detail::shares_of(place, detail::plummet_names, lower_weight, lower_thread, upper_weight, upper_thread);
     detail::require_positive(place, "height", height);
-    const T heavy = std::max(lower_weight, upper_weight), w1 = lower_weight / heavy, w2 = upper_weight / heavy;
-    return detail::pair_shapes(
-        detail::pair_of(place, lower_thread, upper_thread, T(w1 / (w1 + w2)), T(w2 / (w1 + w2)), height), height);
+    return detail::pair_shapes(detail::pair_of(place, lower_thread, upper_thread, share.lower, share.upper, height),
+                               height);
 }
 
 /// All hanging figures of a compound link on a thread, §6 (10): likewise.
@@ -256,14 +253,9 @@ template <Real T>
 std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, const T& rod, const T& hung_weight,
                                                    const T& thread, const T& height) {
     constexpr std::string_view place = "standing_plummet_shape";
-    detail::require_positive(place, "standing weight", standing_weight);
-    detail::require_positive(place, "rod", rod);
-    detail::require_positive(place, "hung weight", hung_weight);
-    detail::require_positive(place, "thread", thread);
+    const auto share = detail::shares_of(place, detail::standing_names, standing_weight, rod, hung_weight, thread);
     detail::require_positive(place, "height", height);
-    const T heavy = std::max(standing_weight, hung_weight), w1 = standing_weight / heavy, w2 = hung_weight / heavy;
-    return detail::standing_shape(detail::pair_of(place, rod, thread, T(w1 / (w1 + w2)), T(w2 / (w1 + w2)), height),
-                                  height);
+    return detail::standing_shape(detail::pair_of(place, rod, thread, share.lower, share.upper, height), height);
 }
 
 /// The same of a compound link that stands on its lowest point, §6 (12) with the secants of (10): both tensions are that

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "revchain/core/double_double.hpp"
+#include "revchain/core/double_word.hpp"
 #include "revchain/linear/compound_link.hpp"
 
 /// Two links, or one with something that yields: every case is a quadratic  lambda^2 - sum lambda + product = 0  in the
@@ -37,6 +37,28 @@ T standing_root(const T& p_less_q, const T& rest) {
     return b > T(0) ? rest / (b + root) : root - b;
 }
 
+/// Of two weights, what share of both each is.
+template <Real T>
+struct Shares {
+    T lower, upper;
+};
+
+/// Two plummets as they are asked with, checked: `lower` and `upper` say what weight and thread are called.
+template <Real T>
+Shares<T> shares_of(std::string_view place, const std::array<std::string_view, 4>& names, const T& lower_weight,
+                    const T& lower_thread, const T& upper_weight, const T& upper_thread) {
+    require_positive(place, names[0], lower_weight);
+    require_positive(place, names[1], lower_thread);
+    require_positive(place, names[2], upper_weight);
+    require_positive(place, names[3], upper_thread);
+    using std::max;
+    const T heavy = max(lower_weight, upper_weight), w1 = lower_weight / heavy, w2 = upper_weight / heavy;
+    return {w1 / (w1 + w2), w2 / (w1 + w2)};
+}
+inline constexpr std::array<std::string_view, 4> plummet_names{"lower weight", "lower thread", "upper weight",
+                                                               "upper thread"};
+inline constexpr std::array<std::string_view, 4> standing_names{"standing weight", "rod", "hung weight", "thread"};
+
 /// 2^-e with 2^e near x: what lengths are multiplied by before they are squared.
 template <Real T>
 T inverse_power_near(const T& x) {
@@ -53,17 +75,12 @@ T inverse_power_near(const T& x) {
 /// W1 l1 l2 / (W1 + W2), §2 (5).
 template <Real T>
 HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread, const T& upper_weight, const T& upper_thread) {
-    constexpr std::string_view place = "two_plummets";
-    detail::require_positive(place, "lower weight", lower_weight);
-    detail::require_positive(place, "lower thread", lower_thread);
-    detail::require_positive(place, "upper weight", upper_weight);
-    detail::require_positive(place, "upper thread", upper_thread);
+    const auto share = detail::shares_of("two_plummets", detail::plummet_names, lower_weight, lower_thread,
+                                         upper_weight, upper_thread);
     using std::max;
     const T unit = detail::inverse_power_near(max(lower_thread, upper_thread));
-    const T heavy = max(lower_weight, upper_weight);
-    const T w1 = lower_weight / heavy, w2 = upper_weight / heavy, share = w1 / (w1 + w2), rest = w2 / (w1 + w2);
     const T l1 = lower_thread * unit, l2 = upper_thread * unit;
-    auto roots = detail::coupled_roots(l1, l2, share * l1 * l2, rest * l1 * l2);
+    auto roots = detail::coupled_roots(l1, l2, T(share.lower * l1 * l2), T(share.upper * l1 * l2));
     for (T& root : roots) root = root / unit;
     return roots;
 }
@@ -97,18 +114,26 @@ HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, con
     return {half_length * larger, (half_length - x) / whole / larger * ((half_length + x) / half_length)};
 }
 
+namespace detail {
+/// Of a link on a thread, or on what yields as one, by `name`.
+template <Real T>
+HeightPair<T> hung_link(std::string_view place, std::string_view name, const T& thread, const CompoundLink<T>& link) {
+    require_positive(place, name, thread);
+    check(place, link);
+    using std::max;
+    const T l = link.pendulum_length(), unit = inverse_power_near(max(thread, l));
+    const T a = thread * unit, h = link.centroid * unit;
+    auto roots = coupled_roots(T(l * unit), a, T(a * h), T(a * (link.square_over_centroid() * unit)));
+    for (T& root : roots) root = root / unit;
+    return roots;
+}
+}  // namespace detail
+
 /// Both heights of a compound link hung by a thread: a boat from its davits, a bag in the hand.
 /// (lambda - l)(lambda - a) = a h, §6 (11).
 template <Real T>
 HeightPair<T> link_on_thread(const T& thread, const CompoundLink<T>& link) {
-    detail::require_positive("link_on_thread", "thread", thread);
-    detail::check("link_on_thread", link);
-    using std::max;
-    const T l = link.pendulum_length(), unit = detail::inverse_power_near(max(thread, l));
-    const T a = thread * unit, h = link.centroid * unit;
-    auto roots = detail::coupled_roots(T(l * unit), a, T(a * h), T(a * (link.square_over_centroid() * unit)));
-    for (T& root : roots) root = root / unit;
-    return roots;
+    return detail::hung_link("link_on_thread", "thread", thread, link);
 }
 
 /// Height of the motion in which a link stands on its lowest point, balanced above a thread or a moving hand; h and l
@@ -136,15 +161,11 @@ T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
 /// (l1 + lambda)(l2 - lambda) = W1 l1 l2 / (W1 + W2), §2 (8). For small inclinations there always is one.
 template <Real T>
 T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight, const T& thread) {
-    constexpr std::string_view place = "standing_plummet";
-    detail::require_positive(place, "standing weight", standing_weight);
-    detail::require_positive(place, "rod", rod);
-    detail::require_positive(place, "hung weight", hung_weight);
-    detail::require_positive(place, "thread", thread);
+    const auto share =
+        detail::shares_of("standing_plummet", detail::standing_names, standing_weight, rod, hung_weight, thread);
     using std::max;
-    const T unit = detail::inverse_power_near(max(rod, thread)), heavy = max(standing_weight, hung_weight);
-    const T w1 = standing_weight / heavy, w2 = hung_weight / heavy, l1 = rod * unit, l2 = thread * unit;
-    return detail::standing_root(T(l1 - l2), T(w2 / (w1 + w2) * l1 * l2)) / unit;
+    const T unit = detail::inverse_power_near(max(rod, thread)), l1 = rod * unit, l2 = thread * unit;
+    return detail::standing_root(T(l1 - l2), T(share.upper * l1 * l2)) / unit;
 }
 
 /// What a spring of stiffness E yields to the weight hung from it, W/E: it moves as a thread of that length does, §2 (7).
@@ -159,9 +180,7 @@ T spring_deflection(const T& weight, const T& stiffness) {
 /// The paper's lambda = l + c is the first order, and that for a plummet.
 template <Real T>
 HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
-    detail::require_positive("link_on_spring", "deflection", deflection);
-    detail::check("link_on_spring", link);
-    return link_on_thread(deflection, link);
+    return detail::hung_link("link_on_spring", "deflection", deflection, link);
 }
 
 /// By how much a clock is slow, seconds a day, whose pendulum hangs from a support that yields by `deflection` to its

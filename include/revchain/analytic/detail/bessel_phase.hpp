@@ -5,14 +5,13 @@
 #include <array>
 #include <cmath>
 
-#include "revchain/core/double_word.hpp"
+#include "revchain/core/double_double.hpp"
 
 namespace revchain::analytic::detail {
 
 using TwoDoubles = DoubleWord<double>;
 
-/// pi to 32 digits.
-inline constexpr TwoDoubles two_word_pi{3.141592653589793, 1.2246467991473532e-16};
+inline constexpr TwoDoubles two_word_pi = std::numbers::pi_v<DoubleDouble>.word();
 
 /// J_order + i Y_order = M exp(i theta) far out: theta = z - (order/2 + 1/4) pi - lag(z), M^2 = 2 density(z) / (pi z).
 /// DLMF 10.18.17-18, the coefficients by recurrence: theta' = 1 / density, so that one series is the other's
