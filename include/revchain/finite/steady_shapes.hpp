@@ -170,9 +170,10 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 /// arithmetic with first and second derivatives, 0 ... the farthest tangent split until every part holds no zero or one;
 /// Newton's method on all pins in two words; two signs that bound what is left.
 /// Accuracy: every inclination within `error_bound`, proved: mostly 2.2e-16, and 2 ulp of itself (measured). `complete` is
-/// proved too. It is false, `undecided` saying where, for chains with a link above the lowest whose l > a and
-/// lambda <= W h (l - a)/(W h + a S), which can then hang at three inclinations under one load, and at exactly a critical speed or a fold it is false and `undecided` says where. Cost: 4 microseconds and more
-/// a cell, 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s.
+/// proved too. It is false, `undecided` saying where, at exactly a critical speed or a fold, where the budget ends, and for
+/// chains with a link above the lowest whose l > a and lambda <= W h (l - a)/(W h + a S), which can then hang at three
+/// inclinations under one load. Cost: 4 microseconds and more a cell, 10 to 500 cells for a shape: 84 shapes of eight
+/// plummets take 15 ms, 6466 of twelve 1.3 s.
 /// Throws InvalidArgument for a height not positive and finite.
 inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options = {}) {
     detail::require_positive("steady_shapes", "conical height", height);
