@@ -64,6 +64,13 @@ struct Part {
     int low_sign, high_sign;
 };
 
+/// Whether what a function is seen to do over a cell is not much wider than at its centre alone, where nothing but rounding
+/// makes it wide (or is not known at all): splitting the cell would show no more.
+template <Real T>
+bool rounding_rules(const Interval<T>& over, const Interval<T>& centre) {
+    return !(T(4) * centre.width() < over.width());
+}
+
 /// Splits 0 ... `last` until each cell is seen to hold no shape or one, or is narrower than `narrowest` of its upper end,
 /// or of `last` next to 0. The straight chain, at 0, is left out.
 template <Real T>
@@ -99,7 +106,8 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
         const bool narrow = from_zero
                                 ? part.high < narrowest * whole.high
                                 : part.high - part.low < narrowest * part.high || !(part.low < cut && cut < part.high);
-        if (narrow) {
+        if (narrow ||
+            rounding_rules(from_zero ? end.slope : end.value, from_zero ? end.centre_slope : end.centre_value)) {
             found.undecided.push_back({part.low, part.high});
             continue;
         }

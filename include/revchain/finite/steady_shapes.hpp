@@ -4,9 +4,10 @@
 #include <optional>
 
 #include "revchain/core/double_double.hpp"
-#include "revchain/finite/isolation.hpp"
+#include "revchain/finite/scan.hpp"
 #include "revchain/finite/steady_shape.hpp"
 #include "revchain/finite/sweep.hpp"
+#include "revchain/finite/verification.hpp"
 
 namespace revchain {
 
@@ -16,7 +17,7 @@ struct InclinationRange {
 };
 
 struct SteadyShapesOptions {
-    long budget = 2'000'000;  ///< cells to look at, 1 to 10 microseconds each
+    long budget = 3'000'000;  ///< links to look at, 0.5 microseconds each, 2 where l < a, more in two words
 };
 
 /// The shapes found, and whether there are more.
@@ -49,13 +50,15 @@ bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T
     });
 }
 
-/// Isolated in double, where that leaves cells open in two words.
+/// Isolated in double, where that leaves cells open in two words; what the proof leaves open is scanned.
 inline Isolation<DoubleDouble> isolated(const std::vector<Link<Wide<double>>>& links, const Wide<double>& height,
-                                        long budget) {
+                                        long links_to_look_at) {
     using Far = DoubleDouble;
+    const long budget = links_to_look_at / static_cast<long>(links.size());
     const auto narrow = enclosed<double>(links);
     const Interval<double> lambda = enclosed<double>(height);
     const double last = farthest_tangent(narrow, lambda);
+    if (!single_valued(narrow, lambda)) return {{}, {{Far(0), Far(last)}}, 0};
     const Isolation<double> first =
         detail::isolate<double>(narrow, lambda, {0.0, last, 0, detail::sign_at(narrow, lambda, last)}, 1e-14, budget);
     Isolation<Far> found;
@@ -74,8 +77,19 @@ inline Isolation<DoubleDouble> isolated(const std::vector<Link<Wide<double>>>& l
                                  Far(1e-26), std::max(0L, budget - found.cells));
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
-        found.undecided.insert(found.undecided.end(), again.undecided.begin(), again.undecided.end());
+        for (const Bracket<Far>& b : again.undecided) {
+            if (!found.undecided.empty() && found.undecided.back().high == b.low)
+                found.undecided.back().high = b.high;
+            else
+                found.undecided.push_back(b);
+        }
     }
+    if (found.undecided.empty()) return found;
+    const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
+        const int sign = detail::sign_at(narrow, lambda, static_cast<double>(t));
+        return sign != 0 ? sign : detail::sign_at(wide, height_wide, t);
+    });
+    found.shapes.insert(found.shapes.end(), more.begin(), more.end());
     return found;
 }
 
@@ -102,7 +116,7 @@ inline std::optional<Finished> finished(const std::vector<Link<Wide<double>>>& l
         if (found.converged) {
             const S d = found.offset[0] - found.offset[1];
             const S tangent = d / (links[0].length * detail::cosine_of(links[0].length, d));
-            if (bracket.low.word() <= tangent && tangent <= bracket.high.word())
+            if (bracket.low.word() < tangent && tangent < bracket.high.word())
                 return Finished{std::move(found), tangent};
         }
         for (int i = 0; i < 6; ++i) halve();
@@ -128,7 +142,7 @@ inline double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>&
             const double change = width / (1 + near * near);
             worst = std::max(worst, change == change ? change : std::numeric_limits<double>::infinity());
         }
-        return worst * 1.01 + 0x1p-52;  // and two roundings of an angle below pi/2
+        return worst * 1.01;
     }
 }
 
@@ -146,13 +160,21 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
     };
     for (const auto& bracket : isolation.undecided) leave_open(bracket);
     for (const auto& bracket : isolation.shapes) {
-        const auto found = finished(links.links, scaled, bracket);
+        auto found = finished(links.links, scaled, bracket);
         if (!found) {
             leave_open(bracket);
             continue;
         }
-        result.shapes.push_back(described(links, scaled, found->shape));
-        result.shapes.back().error_bound = inclination_error(narrow, scaled, bracket, DoubleDouble(found->tangent));
+        const Verified proved =
+            verified(narrow, enclosed<DoubleDouble>(scaled), {found->shape.offset.begin(), found->shape.offset.end()});
+        std::transform(proved.offset.begin(), proved.offset.end(), found->shape.offset.begin(),
+                       [](const DoubleDouble& y) { return y.word(); });
+        SteadyShape& shape = result.shapes.emplace_back(described(links, scaled, found->shape));
+        double error = proved.inclination_error;
+        if (error > 1e-16)  // all but horizontal, or all but critical: the sweep may say more
+            error = std::min(error, inclination_error(narrow, scaled, bracket, DoubleDouble(found->tangent)));
+        shape.error_bound = error + 0x1p-52;  // and two roundings of an angle below pi/2
+        shape.condition = proved.condition;
     }
     std::sort(result.shapes.begin(), result.shapes.end(), [](const SteadyShape& x, const SteadyShape& y) {
         return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
@@ -168,12 +190,13 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 ///
 /// Method: the offset of the support as a function of the lowest link's tangent, Greenhill (1908) §8 (4), (12), in interval
 /// arithmetic with first and second derivatives, 0 ... the farthest tangent split until every part holds no zero or one;
-/// Newton's method on all pins in two words; two signs that bound what is left.
-/// Accuracy: every inclination within `error_bound`, proved: mostly 2.2e-16, and 2 ulp of itself (measured). `complete` is
-/// proved too. It is false, `undecided` saying where, at exactly a critical speed or a fold, where the budget ends, and for
-/// chains with a link above the lowest whose l > a and lambda <= W h (l - a)/(W h + a S), which can then hang at three
-/// inclinations under one load. Cost: 4 microseconds and more a cell, 10 to 500 cells for a shape: 84 shapes of eight
-/// plummets take 15 ms, 6466 of twelve 1.3 s.
+/// Newton's method and then Krawczyk's test on all pins in two words.
+/// Accuracy: every inclination within `error_bound`, proved: mostly 2.3e-16, and 2 ulp of itself (measured). `complete` is
+/// proved too. Where it is false, `undecided` says where shapes may be missing; those that a scan finds there are in the
+/// list: at exactly a critical speed or a fold; where the budget ends, as it does for chains of 20 links and more at some
+/// 300 times their total length over the height; and for chains with a link above the lowest whose l > a and
+/// lambda <= W h (l - a)/(W h + a S), which can then hang at three inclinations under one load. Cost: 10 to 500 cells for
+/// a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000 plummets 0.02 s.
 /// Throws InvalidArgument for a height not positive and finite.
 inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options = {}) {
     detail::require_positive("steady_shapes", "conical height", height);
