@@ -5,6 +5,7 @@
 
 #include "revchain/core/double_double.hpp"
 #include "revchain/finite/isolation.hpp"
+#include "revchain/finite/several_inclinations.hpp"
 #include "revchain/finite/steady_shape.hpp"
 #include "revchain/finite/sweep.hpp"
 
@@ -17,6 +18,7 @@ struct InclinationRange {
 
 struct SteadyShapesOptions {
     long budget = 2'000'000;  ///< cells to look at, 1 to 10 microseconds each
+    bool hanging_only = true;  ///< only shapes with every link within a right angle of the downward vertical
 };
 
 /// The shapes found, and whether there are more.
@@ -32,12 +34,13 @@ namespace finite {
 /// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the chain
 /// reaches.  y0 = lambda t + (a X/moment) s.
 template <class T>
-T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
+T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool either_posture = false) {
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
     using std::max;
-    const Interval<T> far = (reach + Interval<T>(max(T(0), T(-turning.low)))) / height;
+    const T least = either_posture ? T(-max(T(-turning.low), turning.high)) : turning.low;
+    const Interval<T> far = (reach + Interval<T>(max(T(0), T(-least)))) / height;
     return far.high;
 }
 
@@ -132,13 +135,11 @@ inline double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>&
     }
 }
 
-inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
-                                  const SteadyShapesOptions& options) {
-    const auto links = links_of(chain);
+/// Of the lists made one link at a time, where each hangs at one inclination.
+inline void add_single_valued(const Links<Wide<double>>& links, const Wide<double>& height, long budget,
+                              SteadyShapes& result) {
     const auto narrow = enclosed<DoubleDouble>(links.links);
-    const Wide<double> scaled = ldexp(height, -links.units.length_exponent);
-    const auto isolation = isolated(links.links, scaled, options.budget);
-    SteadyShapes result;
+    const auto isolation = isolated(links.links, height, budget);
     result.cells = isolation.cells;
     const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
         const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
@@ -146,14 +147,46 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
     };
     for (const auto& bracket : isolation.undecided) leave_open(bracket);
     for (const auto& bracket : isolation.shapes) {
-        const auto found = finished(links.links, scaled, bracket);
+        auto found = finished(links.links, height, bracket);
         if (!found) {
             leave_open(bracket);
             continue;
         }
-        result.shapes.push_back(described(links, scaled, found->shape));
-        result.shapes.back().error_bound = inclination_error(narrow, scaled, bracket, DoubleDouble(found->tangent));
+        if (found->shape.offset[0] < Wide<double>(0.0))  // the lowest link's l > a: its free end across the axis
+            for (Wide<double>& y : found->shape.offset) y = -y;
+        result.shapes.push_back(described(links, height, found->shape));
+        result.shapes.back().error_bound = inclination_error(narrow, height, bracket, DoubleDouble(found->tangent));
     }
+}
+
+/// And of the others.
+inline void add_several_valued(const Links<Wide<double>>& links, const Wide<double>& height,
+                               const SteadyShapesOptions& options, SteadyShapes& result) {
+    const double last = farthest_tangent(enclosed<double>(links.links), enclosed<double>(height), !options.hanging_only);
+    const auto found = several_inclinations(links.links, height, last, options.hanging_only, options.budget);
+    result.cells = found.cells;
+    for (const Settled& settled : found.shapes) {
+        result.shapes.push_back(described(links, height, settled.shape));
+        result.shapes.back().error_bound = settled.error;
+    }
+    for (const auto& part : found.open) {
+        const double low = std::atan(part.low), high = std::atan(part.high);
+        if (part.lowest == Posture::hangs)
+            result.undecided.push_back({low, high});
+        else
+            result.undecided.push_back({std::numbers::pi - high, std::numbers::pi - low});
+    }
+}
+
+inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
+                                  const SteadyShapesOptions& options) {
+    const auto links = links_of(chain);
+    const Wide<double> scaled = ldexp(height, -links.units.length_exponent);
+    SteadyShapes result;
+    if (options.hanging_only && single_valued(enclosed<double>(links.links), enclosed<double>(scaled)))
+        add_single_valued(links, scaled, options.budget, result);
+    else
+        add_several_valued(links, scaled, options, result);
     std::sort(result.shapes.begin(), result.shapes.end(), [](const SteadyShape& x, const SteadyShape& y) {
         return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
     });
