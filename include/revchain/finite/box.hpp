@@ -153,8 +153,7 @@ class WholeBalance {
     Box<T> scaled(const std::vector<double>& a, const Box<T>& x) const {
         Box<T> result(size_, Interval<T>(T(0)));
         for (std::size_t m = 0; m < size_; ++m)
-            for (std::size_t r = 0; r < size_; ++r)
-                result[m] = result[m] + Interval<T>(T(a[m * size_ + r])) * x[r];
+            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(T(a[m * size_ + r])) * x[r];
         return result;
     }
 
@@ -169,7 +168,7 @@ template <Real T>
 class Zeros {
    public:
     struct Zero {
-        Box<T> near;       ///< holds it, narrow
+        Box<T> near;  ///< holds it, narrow
         bool straight = false;
     };
 

@@ -10,8 +10,8 @@ template <class S>
 struct Balanced {
     std::vector<S> offset;
     std::vector<Posture> posture;  ///< of each link; empty where all hang
-    double residual = 0;   ///< largest force left over at a pin, over the sum of sizes of its terms
-    double condition = 0;  ///< largest change of an inclination for a relative change 1 of forces, as tried
+    double residual = 0;           ///< largest force left over at a pin, over the sum of sizes of its terms
+    double condition = 0;          ///< largest change of an inclination for a relative change 1 of forces, as tried
     bool converged = false;
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }

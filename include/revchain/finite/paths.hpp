@@ -88,11 +88,11 @@ class PathSearch {
             }
             cells += cells_of_tests_;
             const T share = T(0.45 + 0.1 * static_cast<double>(random()) / static_cast<double>(random.max()));
-            const T cut = from_zero              ? high / T(16)
+            const T cut = from_zero           ? high / T(16)
                           : high > T(2) * low ? sqrt(low) * sqrt(high) * (T(1) + (share - T(0.5)) / T(4))
                                               : low + share * (high - low);
-            const bool narrow = from_zero ? high < narrowest * last
-                                          : high - low < narrowest * high || !(low < cut && cut < high);
+            const bool narrow =
+                from_zero ? high < narrowest * last : high - low < narrowest * high || !(low < cut && cut < high);
             if (narrow) {
                 open_.push_back({whole.path, low, high});
                 continue;

@@ -61,8 +61,7 @@ class Response {
         for (int round = 0; round < 3 && near > T(0); ++round) {  // to the digits of T
             const T secant_squared = T(1) + near * near, cosine = T(1) / sqrt(secant_squared);
             const T slope = stiffness_.low + turning_.low * cosine / secant_squared;
-            near = near + slope * sqrt(secant_squared) * secant_squared * secant_squared /
-                              (T(3) * turning_.low * near);
+            near = near + slope * sqrt(secant_squared) * secant_squared * secant_squared / (T(3) * turning_.low * near);
             if (!(near > T(0))) near = T(0);
         }
         joint_ = Interval<T>(near);
@@ -101,7 +100,7 @@ class Response {
     }
 
     Met<T> right_of_joint(const Interval<T>& R) const {
-        if (R.high < least_.low) return {{}, false, false};
+        if (least_.low > R.high) return {{}, false, false};
         const T k = stiffness_.low;
         const auto from_right = [&](const T& wanted) {
             return near(T((wanted - turning_.low) / k + joint_.high), wanted);
@@ -139,7 +138,7 @@ class Response {
     }
 
     Met<T> between_joints(const Interval<T>& R) const {
-        if (R.high < least_.low || R.low > -least_.low) return {{}, false, false};
+        if (least_.low > R.high || R.low > -least_.low) return {{}, false, false};
         const auto [high, high_inside] = last_between(R.low);
         const auto [low, low_inside] = last_between(T(-R.high));
         return {{T(-low), high}, true, high_inside && low_inside};

@@ -17,7 +17,7 @@ struct InclinationRange {
 };
 
 struct SteadyShapesOptions {
-    long budget = 2'000'000;  ///< cells to look at, 1 to 10 microseconds each
+    long budget = 2'000'000;   ///< cells to look at, 1 to 10 microseconds each
     bool hanging_only = true;  ///< only shapes with every link within a right angle of the downward vertical
 };
 
@@ -34,7 +34,8 @@ namespace finite {
 /// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the chain
 /// reaches.  y0 = lambda t + (a X/moment) s.
 template <class T>
-T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool either_posture = false) {
+T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
+                   bool either_posture = false) {
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
@@ -162,7 +163,8 @@ inline void add_single_valued(const Links<Wide<double>>& links, const Wide<doubl
 /// And of the others.
 inline void add_several_valued(const Links<Wide<double>>& links, const Wide<double>& height,
                                const SteadyShapesOptions& options, SteadyShapes& result) {
-    const double last = farthest_tangent(enclosed<double>(links.links), enclosed<double>(height), !options.hanging_only);
+    const double last =
+        farthest_tangent(enclosed<double>(links.links), enclosed<double>(height), !options.hanging_only);
     const auto found = several_inclinations(links.links, height, last, options.hanging_only, options.budget);
     result.cells = found.cells;
     for (const Settled& settled : found.shapes) {
