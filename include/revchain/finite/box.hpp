@@ -127,6 +127,34 @@ class WholeBalance {
         return true;
     }
 
+    /// Largest moment left over, over the sizes of its terms, and largest change of an inclination for a relative change 1
+    /// of those terms.
+    struct Quality {
+        double residual = 0, condition = 0;
+    };
+    std::optional<Quality> quality(const std::vector<T>& t) const {
+        const auto inverse = inverse_at(t);
+        if (!inverse) return std::nullopt;
+        using std::abs;
+        const Box<T> left = value(t);
+        std::vector<double> terms(size_);
+        Quality result;
+        for (std::size_t m = 0; m < size_; ++m) {
+            terms[m] = std::abs(static_cast<double>(stiffness_[m].middle() * t[m]));
+            for (std::size_t r = 0; r < size_; ++r)
+                terms[m] += std::abs(middle_[m * size_ + r] * static_cast<double>(sine(r, Interval<T>(t[r])).middle()));
+            const double off = static_cast<double>(abs(left[m].middle()));
+            if (terms[m] > 0) result.residual = std::max(result.residual, off / terms[m]);
+        }
+        for (std::size_t m = 0; m < size_; ++m) {
+            double change = 0;
+            for (std::size_t r = 0; r < size_; ++r) change += std::abs((*inverse)[m * size_ + r]) * terms[r];
+            const double tangent = static_cast<double>(t[m]);
+            result.condition = std::max(result.condition, change / (1 + tangent * tangent));
+        }
+        return result;
+    }
+
    private:
     Interval<T> signed_(std::size_t m, const Interval<T>& x) const { return posture_[m] == Posture::hangs ? x : -x; }
 
@@ -203,14 +231,24 @@ class Zeros {
             }
             if (!less) break;
         }
-        using std::abs;
+        // A zero on the edge of the box, or of a box narrowed to rounding, needs room about it.
         Box<T> wider = box;
-        for (Interval<T>& t : wider) {
-            const T off = t.width() / T(2) + T(64) * epsilon<T>() * std::max(abs(t.low), abs(t.high)) +
-                          std::numeric_limits<T>::min();
-            t = {t.low - off, t.high + off};
+        for (int round = 0; round < 3; ++round) {
+            using std::abs;
+            for (Interval<T>& t : wider) {
+                const T off = t.width() / T(2) + T(64) * epsilon<T>() * std::max(abs(t.low), abs(t.high)) +
+                              std::numeric_limits<T>::min();
+                t = {t.low - off, t.high + off};
+            }
+            const auto narrow = balance_.narrowed(wider);
+            if (!narrow) return false;
+            if (strictly_within(*narrow, wider)) return add(wider, *narrow);
+            for (std::size_t m = 0; m < box.size(); ++m) {
+                if (!((*narrow)[m].width() < T(4) * wider[m].width())) return false;
+                wider[m] = hull(wider[m], (*narrow)[m]);
+            }
         }
-        return add(wider);
+        return false;
     }
 
    private:
@@ -225,24 +263,22 @@ class Zeros {
         return std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) { return within(box, zone.box); });
     }
 
-    /// Puts the one zero of the box on the list; false if it is not seen to hold one, or not to be a new one or an old.
-    bool add(const Box<T>& box) {
-        auto near = balance_.narrowed(box);
-        if (!near || !strictly_within(*near, box)) return false;
+    /// Puts the one zero of the box, `narrow` in it, on the list; false if it cannot be told from those there.
+    bool add(const Box<T>& box, Box<T> near) {
         for (int round = 0; round < 20; ++round) {
-            const auto again = balance_.narrowed(*near);
+            const auto again = balance_.narrowed(near);
             if (!again) break;
             T before(0), now(0);
             for (std::size_t m = 0; m < box.size(); ++m) {
-                before = before + (*near)[m].width();
-                (*near)[m] = common((*near)[m], (*again)[m]);
-                now = now + (*near)[m].width();
+                before = before + near[m].width();
+                near[m] = common(near[m], (*again)[m]);
+                now = now + near[m].width();
             }
             if (!(now < T(0.5) * before)) break;
         }
-        const Box<T> other = mirrored(*near);
+        const Box<T> other = mirrored(near);
         for (const Zone& zone : zones_) {
-            if (!within(*near, zone.box) && !within(other, zone.box)) continue;
+            if (!within(near, zone.box) && !within(other, zone.box)) continue;
             zones_.push_back({box, zone.zero});
             return true;
         }
@@ -251,9 +287,9 @@ class Zeros {
                 zones_.push_back({box, i});
                 return true;
             }
-            if (!apart(*near, found_[i].near) || !apart(other, found_[i].near)) return false;
+            if (!apart(near, found_[i].near) || !apart(other, found_[i].near)) return false;
         }
-        found_.push_back({*near, false});
+        found_.push_back({near, false});
         zones_.push_back({box, found_.size() - 1});
         return true;
     }

@@ -10,6 +10,13 @@ namespace revchain::finite {
 /// t = +-sqrt((|turning|/stiffness)^(2/3) - 1).
 enum class Piece { whole, right, middle, left };
 
+/// Whether R grows with t, and nowhere at less than a hundredth of `stiffness`. Where it is flatter about t = 0 than that, it
+/// is taken by pieces, the middle one of them without width.
+template <Real T>
+bool grows_fast(const Interval<T>& stiffness, const Interval<T>& turning) {
+    return turning.low >= T(0) || (Interval<T>(T(0.99)) * stiffness + turning).positive();
+}
+
 /// Tangents of a piece under a load R; `smooth` where all of R is met away from the joints, so that derivatives exist.
 template <Real T>
 struct Met {
@@ -25,7 +32,7 @@ class Response {
         : stiffness_(height * link.pull), turning_(link.length * link.cross) {
         if (posture == Posture::stands) turning_ = -turning_;
         plummet_ = turning_.low == T(0) && turning_.high == T(0);
-        single_ = plummet_ || (stiffness_ + turning_).positive() || turning_.low >= T(0);
+        single_ = grows_fast(stiffness_, turning_);
         if (!single_) find_joint();
     }
 
@@ -93,7 +100,7 @@ class Response {
         return t;
     }
 
-    static constexpr int tries = 45;
+    static constexpr int tries = 60;
     static T first_step(const T& t) {
         using std::abs;
         return T(2) * epsilon<T>() * abs(t) + std::numeric_limits<T>::denorm_min();
@@ -112,7 +119,7 @@ class Response {
         T step = first_step(high);
         for (int round = 0; !(at(high).low >= R.high); ++round, step = step * T(2)) {
             high = high + step;
-            if (round == 2 * tries) return nothing_known();
+            if (round == tries + 60) return nothing_known();
         }
         T& low = met.tangent.low;
         low = met.smooth ? from_right(R.low) : joint_.low;

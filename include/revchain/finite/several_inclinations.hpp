@@ -50,6 +50,19 @@ inline std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDoubl
     return std::nullopt;
 }
 
+/// Whether offsets found by Newton's method are those of the zero in a box.
+inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
+                   const Box<DoubleDouble>& box) {
+    for (std::size_t m = 0; m < box.size(); ++m) {
+        const Wide<double> d = found.offset[m] - found.offset[m + 1];
+        const double t = static_cast<double>(d / (links[m].length * cosine_of(links[m].length, d, found.stands(m))));
+        const double low = static_cast<double>(box[m].low), high = static_cast<double>(box[m].high);
+        const double off = std::max(low - t, t - high) / (1 + t * t);
+        if (!(off <= 1e-16 * std::min(1.0, std::abs(t)))) return false;
+    }
+    return true;
+}
+
 /// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link that
 /// is inclined) is at a positive offset.
 inline std::optional<Settled> settled(const std::vector<Link<Wide<double>>>& links, const Wide<double>& height,
@@ -66,8 +79,14 @@ inline std::optional<Settled> settled(const std::vector<Link<Wide<double>>>& lin
         if (!(*box)[m].contains(DoubleDouble(0))) lowest_inclined = sine;
     }
     Settled result;
-    result.shape = finite::balance(links, height, std::move(offset), 60, balance.posture());
-    if (!result.shape.converged) return std::nullopt;
+    result.shape = finite::balance(links, height, offset, 60, balance.posture());
+    if (!result.shape.converged || !agrees(links, result.shape, *box)) {  // links too near the horizontal for offsets
+        std::vector<DoubleDouble> tangents;
+        for (const Interval<DoubleDouble>& t : *box) tangents.push_back(t.middle());
+        const auto quality = balance.quality(tangents);
+        if (!quality) return std::nullopt;
+        result.shape = {std::move(offset), balance.posture(), quality->residual, quality->condition, true};
+    }
     const S tip = result.shape.offset[0];
     if (abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0))
         for (S& y : result.shape.offset) y = -y;

@@ -33,6 +33,16 @@ struct SteadyShape {
 
 namespace finite {
 
+namespace detail {
+
+/// An angle and pi, or less pi, rounded once.
+inline double beyond(double angle, bool backwards) {
+    const DoubleWord<double> sum = two_sum(backwards ? -std::numbers::pi : std::numbers::pi, angle);
+    return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
+}
+
+}  // namespace detail
+
 /// Everything about a shape from the offsets of its pins.
 inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& height,
                              const Balanced<Wide<double>>& found) {
@@ -63,9 +73,7 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
         }
         const S d = lower - upper, cosine = detail::cosine_of(link.length, d, found.stands(m));
         const double inclination = std::atan(static_cast<double>(d / (link.length * cosine)));
-        shape.inclination[i] = !found.stands(m) ? inclination
-                               : d < S(0)       ? inclination - std::numbers::pi
-                                                : inclination + std::numbers::pi;
+        shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
         sideways = sideways + link.moment * lower + link.rest * upper;
         hung += static_cast<double>(link.moment + link.rest);
         const double across = static_cast<double>(sideways / height);

@@ -49,7 +49,7 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
 template <class T>
 bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
     return std::all_of(links.begin() + 1, links.end(), [&](const Link<Interval<T>>& link) {
-        return (height * link.pull + link.length * link.cross).positive() || link.cross.low >= T(0);
+        return grows_fast(height * link.pull, link.length * link.cross);
     });
 }
 
