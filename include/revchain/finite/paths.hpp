@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "revchain/finite/box.hpp"
+#include "revchain/finite/zeros.hpp"
 
 namespace revchain::finite {
 

@@ -32,8 +32,13 @@ inline std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDoubl
     using Far = DoubleDouble;
     std::vector<Far> t;
     for (const Interval<Far>& x : near) t.push_back(x.middle());
-    for (int round = 0; round < 6; ++round)
-        if (!balance.improve(t)) return std::nullopt;
+    double last = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 20; ++round) {
+        const auto change = balance.improve(t);
+        if (!change) return std::nullopt;
+        if (*change < 1e-30 || (*change < 1e-20 && !(*change < 0.25 * last))) break;
+        last = *change;
+    }
     Box<Far> point(t.begin(), t.end());
     const auto first = balance.narrowed(point);
     if (!first) return std::nullopt;
@@ -55,10 +60,10 @@ inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<
                    const Box<DoubleDouble>& box) {
     for (std::size_t m = 0; m < box.size(); ++m) {
         const Wide<double> d = found.offset[m] - found.offset[m + 1];
-        const double t = static_cast<double>(d / (links[m].length * cosine_of(links[m].length, d, found.stands(m))));
-        const double low = static_cast<double>(box[m].low), high = static_cast<double>(box[m].high);
-        const double off = std::max(low - t, t - high) / (1 + t * t);
-        if (!(off <= 1e-16 * std::min(1.0, std::abs(t)))) return false;
+        const DoubleDouble t(d / (links[m].length * cosine_of(links[m].length, d, found.stands(m))));
+        const double size = std::abs(static_cast<double>(t));
+        const double off = static_cast<double>(std::max(box[m].low - t, t - box[m].high)) / (1 + size * size);
+        if (!(off <= 1e-18 * std::min(1.0, size))) return false;
     }
     return true;
 }
@@ -90,11 +95,11 @@ inline std::optional<Settled> settled(const std::vector<Link<Wide<double>>>& lin
     const S tip = result.shape.offset[0];
     if (abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0))
         for (S& y : result.shape.offset) y = -y;
-    for (const Interval<DoubleDouble>& t : *box) {
-        const double middle = static_cast<double>(t.middle());
-        result.error = std::max(result.error, static_cast<double>(t.width()) / (1 + middle * middle));
+    for (std::size_t m = 0; m < n; ++m) {
+        const double middle = static_cast<double>((*box)[m].middle()), width = static_cast<double>((*box)[m].width());
+        const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;  // of an angle below pi, below pi/2
+        result.error = std::max(result.error, width * 1.01 / (1 + middle * middle) + rounded);
     }
-    result.error = result.error * 1.01 + 0x1p-51;  // and the roundings of an angle below pi
     return result;
 }
 

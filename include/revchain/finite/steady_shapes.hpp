@@ -198,16 +198,23 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 
 }  // namespace finite
 
-/// All hanging shapes (every link within a right angle of the vertical) of a chain that whirls steadily at the speed of
-/// conical height `height`, the straight one left out, of two mirror images that with the free end at a positive offset.
+/// All hanging shapes (every link within a right angle of the downward vertical) of a chain that whirls steadily at the
+/// speed of conical height `height`, or all shapes in any posture; straight ones left out, of two mirror images that with
+/// the free end at a positive offset (if it is on the axis, the lowest link that is inclined).
 ///
 /// Method: the offset of the support as a function of the lowest link's tangent, Greenhill (1908) §8 (4), (12), in interval
 /// arithmetic with first and second derivatives, 0 ... the farthest tangent split until every part holds no zero or one;
-/// Newton's method on all pins in two words; two signs that bound what is left.
-/// Accuracy: every inclination within `error_bound`, proved: mostly 2.2e-16, and 2 ulp of itself (measured). `complete` is
-/// proved too. It is false, `undecided` saying where, for chains with a link above the lowest whose l > a and
-/// lambda <= W h (l - a)/(W h + a S), which can then hang at three inclinations under one load, and at exactly a critical speed or a fold it is false and `undecided` says where. Cost: 4 microseconds and more
-/// a cell, 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s.
+/// Newton's method on all pins in two words; two signs that bound what is left. Links that stand, or hang at several
+/// inclinations under one load (l > a and lambda <= W h (l - a)/(W h + a S)), are followed along each of them; there a
+/// part ends in a box about the tangents of all links that is proved to hold no zero or one (Krawczyk).
+/// Accuracy: every inclination within `error_bound`, proved: mostly 2.2e-16 (4.4e-16 of links that stand), and 2 ulp of
+/// itself (measured). `complete` is proved too; at exactly a critical speed, or where two shapes are born, it is false and
+/// `undecided` says where.
+/// Cost: 4 microseconds and more a cell, 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve
+/// 1.3 s. In any posture: at most 4 ms for three links and 40 ms for four, heights down to 1e-3 of the length; 868 shapes of
+/// six plummets 0.5 s.
+/// No shape in any posture exists above the first critical height: with E = +-1 for the postures and D = lambda diag(kappa
+/// |sec d|) > G, E D s = G s would give |E w| = |D^-1/2 G D^-1/2 w| < |w|.
 /// Throws InvalidArgument for a height not positive and finite.
 inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options = {}) {
     detail::require_positive("steady_shapes", "conical height", height);
