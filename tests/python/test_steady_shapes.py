@@ -78,7 +78,7 @@ def test_two_shapes_are_born_at_the_fold() -> None:
 
 
 def test_two_unequal_plummets_have_four_shapes() -> None:
-    chain = Chain([rc.plummet(1.0, 2.0), rc.plummet(3.0, 1.0)])
+    chain = Chain(weight=[1.0, 3.0], length=[2.0, 1.0], centroid=[2.0, 1.0], radius_of_gyration=0.0)
     found = rc.steady_shapes(chain, conical_height=1 / 64)
     assert found.complete
     assert len(found) == 4
@@ -101,8 +101,12 @@ def test_three_rods_hanging_and_standing(ratio: float, hanging: int, every: int)
 
 @pytest.mark.parametrize("height", [0.02, 0.1, 0.5, 1.5])
 def test_links_with_three_inclinations_under_one_load(height: float) -> None:
-    heavy = rc.compound_pendulum(weight=1.0, length=1.0, centroid=0.6, pendulum_length=4.0)
-    chain = Chain([rc.plummet(0.5, 0.8), heavy, rc.uniform_rod(1.5, 1.2)])
+    chain = Chain(  # a plummet, a link with l = 4 a, a rod
+        weight=[0.5, 1.0, 1.5],
+        length=[0.8, 1.0, 1.2],
+        centroid=[0.8, 0.6, 0.6],
+        pendulum_length=[0.8, 4.0, 0.8],
+    )
     others = fallen_upon(chain, height, 4000)
     for only in (False, True):
         found = rc.steady_shapes(chain, conical_height=height, hanging_only=only)
