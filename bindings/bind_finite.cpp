@@ -64,16 +64,17 @@ void bind_finite(py::module_& module) {
         "chain"_a, "shape"_a, "driven"_a);
     module.def(
         "steady_shapes",
-        [](const Chain& chain, double height, long budget) {
+        [](const Chain& chain, double height, long budget, bool hanging_only) {
             const py::gil_scoped_release release;
-            return revchain::steady_shapes(chain, height, {.budget = budget});
+            return revchain::steady_shapes(chain, height, {.budget = budget, .hanging_only = hanging_only});
         },
-        "chain"_a, "height"_a, "budget"_a);
+        "chain"_a, "height"_a, "budget"_a, "hanging_only"_a);
     module.def(
         "steady_shapes_at_speed",
-        [](const Chain& chain, double angular_speed, double gravity, long budget) {
+        [](const Chain& chain, double angular_speed, double gravity, long budget, bool hanging_only) {
             const py::gil_scoped_release release;
-            return revchain::steady_shapes_at_speed(chain, angular_speed, gravity, {.budget = budget});
+            return revchain::steady_shapes_at_speed(chain, angular_speed, gravity,
+                                                    {.budget = budget, .hanging_only = hanging_only});
         },
-        "chain"_a, "angular_speed"_a, "gravity"_a, "budget"_a);
+        "chain"_a, "angular_speed"_a, "gravity"_a, "budget"_a, "hanging_only"_a);
 }

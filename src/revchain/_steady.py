@@ -86,7 +86,7 @@ class SteadyShape:
 
     @property
     def inclination(self) -> Floats:
-        """Of each link to the vertical, rad, shape (N,)."""
+        """Of each link to the downward vertical, rad, shape (N,): within (-pi, pi]."""
         return self._compiled.inclination
 
     @property
@@ -325,6 +325,7 @@ def steady_shapes(
     angular_speed: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     budget: int = 2_000_000,
+    hanging_only: bool = True,
 ) -> SteadyShapes:
     """Find all shapes in which a chain whirls steadily at a given speed, at any inclination.
 
@@ -340,15 +341,19 @@ def steady_shapes(
         For `angular_speed`; standard gravity, in metres, if left out.
     budget : int, optional
         How many parts of the range of the lowest link's inclination to look at, at the most.
+    hanging_only : bool, optional
+        Whether to leave out shapes with links that stand: more than a right angle from the downward
+        vertical.
 
     Returns
     -------
     SteadyShapes
         A sequence of `SteadyShape`: every hanging shape (all links within a right angle of the
-        vertical), the straight one left out, of two mirror images that with the free end at a positive
-        offset; by half waves, then inclination of the lowest link. ``complete`` is true where it is
-        proved that none is missing. Inclinations within ``error_bound``, proved, mostly 2.2e-16.
-        Empty and complete where the height is not less than the first of `modes`.
+        downward vertical) or, if `hanging_only` is false, every shape; straight ones left out, of two
+        mirror images that with the free end at a positive offset (if it is on the axis, the lowest
+        inclined link); by half waves, then inclination of the lowest link. ``complete`` is true where it
+        is proved that none is missing. Inclinations within ``error_bound``, proved, mostly 2.2e-16.
+        Empty and complete where the height is greater than the first of `modes`, in any posture.
 
     Raises
     ------
@@ -359,10 +364,12 @@ def steady_shapes(
     Notes
     -----
     Interval arithmetic with first and second derivatives of the upward sweep, Greenhill (1908) section
-    8 (4), (12); Newton's method on all pins in two words. Not complete: at exactly a critical speed or
-    where two shapes are born; where the budget ends; where a link above the lowest is so heavy off its
-    pins (``pendulum_length > length``) that it hangs at three inclinations under one load. Cost: 15
-    milliseconds for 84 shapes of eight plummets; shapes, and time, about double with each link.
+    8 (4), (12); Newton's method on all pins in two words. A link that stands, or is so heavy off its
+    pins (``pendulum_length > length``) that it hangs at three inclinations under one load, is followed
+    along every one of them. Not complete: at exactly a critical speed or where two shapes are born, and
+    where the budget ends. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for
+    all 64 shapes of four; shapes, and time, about double with each link, and grow fourfold if links may
+    stand.
 
     Examples
     --------
@@ -370,14 +377,20 @@ def steady_shapes(
     >>> shapes = rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=1 / 35.4025)
     >>> shapes
     SteadyShapes: 84, proved complete
+    >>> rods = rc.Chain.uniform_rods(3, length=3.0)
+    >>> [len(rc.steady_shapes(rods, conical_height=0.05, hanging_only=only)) for only in (True, False)]
+    [3, 14]
     """
     place = "revchain.steady_shapes"
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give exactly one of conical_height and angular_speed")
     cells = integer(place, "budget", budget)
+    if not isinstance(hanging_only, (bool, np.bool_)):
+        raise TypeError(f"{place}: hanging_only must be True or False, got {hanging_only!r}")
+    hanging = bool(hanging_only)
     if conical_height is not None:
         height = float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
-        return SteadyShapes._wrap(_core.steady_shapes(chain._compiled, height, cells), chain)
+        return SteadyShapes._wrap(_core.steady_shapes(chain._compiled, height, cells, hanging), chain)
     speed = float(positive(place, "angular_speed", real(place, "angular_speed", angular_speed)))
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-    return SteadyShapes._wrap(_core.steady_shapes_at_speed(chain._compiled, speed, g, cells), chain)
+    return SteadyShapes._wrap(_core.steady_shapes_at_speed(chain._compiled, speed, g, cells, hanging), chain)

@@ -22,6 +22,10 @@ struct Link {
     S rest;    ///< W (a - h)/a
 };
 
+/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0). Its sine is then +- that of
+/// its tangent, and its balance  lambda pull t +- length cross t/sqrt(1 + t^2) = R.
+enum class Posture { hangs = 1, stands = -1 };
+
 /// Links in units of 2^length_exponent and 2^weight_exponent.
 template <class S>
 struct Links {

@@ -9,18 +9,22 @@ namespace revchain::finite {
 template <class S>
 struct Balanced {
     std::vector<S> offset;
-    double residual = 0;   ///< largest force left over at a pin, over the sum of sizes of its terms
-    double condition = 0;  ///< largest change of an inclination for a relative change 1 of forces, as tried
+    std::vector<Posture> posture;  ///< of each link; empty where all hang
+    double residual = 0;           ///< largest force left over at a pin, over the sum of sizes of its terms
+    double condition = 0;          ///< largest change of an inclination for a relative change 1 of forces, as tried
     bool converged = false;
+
+    bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
 };
 
 namespace detail {
 
 /// cos d of sin d = d/a, from (a - d)(a + d): the inclination may be all but a right angle.
 template <class S>
-S cosine_of(const S& length, const S& difference) {
+S cosine_of(const S& length, const S& difference, bool stands = false) {
     using std::sqrt;
-    return sqrt((length - difference) * (length + difference)) / length;
+    const S size = sqrt((length - difference) * (length + difference)) / length;
+    return stands ? -size : size;
 }
 
 /// A symmetric tridiagonal matrix as the product of its factors, from the first row down.
@@ -70,14 +74,15 @@ double condition(const std::vector<Link<S>>& links, const std::vector<S>& y, con
 
 }  // namespace detail
 
-/// Newton's method on all pins at once, from offsets near a steady shape: the balance of forces at each pin in S, its
-/// derivative, the tridiagonal tangent stiffness  lambda k sec^3 [1 -1; -1 1] - M  of the elements, in double. What is
-/// small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N) a step.
+/// Newton's method on all pins at once, from offsets near a steady shape, each link in its posture: the balance of forces
+/// at each pin in S, its derivative, the tridiagonal tangent stiffness  lambda k sec^3 [1 -1; -1 1] - M  of the elements,
+/// in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N) a step.
 template <class S>
-Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int most_steps = 60) {
+Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int most_steps = 60,
+                    std::vector<Posture> posture = {}) {
     using std::abs;
     const std::size_t n = links.size();
-    Balanced<S> result{std::move(start)};
+    Balanced<S> result{std::move(start), std::move(posture)};
     std::vector<S>& y = result.offset;
     y[n] = S(0);
     std::vector<double> diagonal(n), upper(n), force(n), size(n);
@@ -90,7 +95,7 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
             const Link<S>& link = links[m];
             const S d = y[m] - y[m + 1];
             if (!(abs(d) < link.length)) return result;
-            const S cosine = detail::cosine_of(link.length, d), tangent = d / (link.length * cosine);
+            const S cosine = detail::cosine_of(link.length, d, result.stands(m)), tangent = d / (link.length * cosine);
             const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
                     at_upper = link.rest * y[m + 1];
             // Forces times lambda on the lower pin: pull - W h/a (its own offset) + X d ..., on the upper the opposite.

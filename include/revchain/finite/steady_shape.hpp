@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <numbers>
+
 #include "revchain/core/conical_pendulum.hpp"
 #include "revchain/finite/newton.hpp"
 
@@ -8,7 +10,7 @@ namespace revchain {
 
 /// One steady shape of a whirling chain, links lowest first, pins free end first, in the units of the chain.
 struct SteadyShape {
-    Vector<double> inclination;           ///< (N) of each link to the vertical, rad, within (-pi/2, pi/2)
+    Vector<double> inclination;           ///< (N) of each link to the downward vertical, rad, within (-pi, pi]
     Vector<double> offset;                ///< (N + 1) of each pin from the axis; the support's 0 last
     Vector<double> height;                ///< (N + 1) of each pin above the support: negative where it hangs
     Vector<double> tension;               ///< (N) size of the reaction at each link's upper pin
@@ -31,6 +33,16 @@ struct SteadyShape {
 
 namespace finite {
 
+namespace detail {
+
+/// An angle and pi, or less pi, rounded once.
+inline double beyond(double angle, bool backwards) {
+    const DoubleWord<double> sum = two_sum(backwards ? -std::numbers::pi : std::numbers::pi, angle);
+    return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
+}
+
+}  // namespace detail
+
 /// Everything about a shape from the offsets of its pins.
 inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& height,
                              const Balanced<Wide<double>>& found) {
@@ -45,7 +57,8 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
     std::vector<S> up(n + 1);
     for (std::size_t m = n; m-- > 0;)
         up[m] = up[m + 1] -
-                detail::cosine_of(chain.links[m].length, found.offset[m] - found.offset[m + 1]) * chain.links[m].length;
+                detail::cosine_of(chain.links[m].length, found.offset[m] - found.offset[m + 1], found.stands(m)) *
+                    chain.links[m].length;
     S sideways(0), energy(0), inertia(0);  // sideways: lambda times the pull at the upper pin
     double hung = 0, last_sign = 0;
     for (std::size_t m = 0; m <= n; ++m) {
@@ -58,8 +71,9 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
             if (y * last_sign < 0) ++shape.half_waves;
             last_sign = y > 0 ? 1 : -1;
         }
-        const S d = lower - upper, cosine = detail::cosine_of(link.length, d);
-        shape.inclination[i] = std::atan(static_cast<double>(d / (link.length * cosine)));
+        const S d = lower - upper, cosine = detail::cosine_of(link.length, d, found.stands(m));
+        const double inclination = std::atan(static_cast<double>(d / (link.length * cosine)));
+        shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
         sideways = sideways + link.moment * lower + link.rest * upper;
         hung += static_cast<double>(link.moment + link.rest);
         const double across = static_cast<double>(sideways / height);

@@ -5,6 +5,7 @@
 
 #include "revchain/core/double_double.hpp"
 #include "revchain/finite/scan.hpp"
+#include "revchain/finite/several_inclinations.hpp"
 #include "revchain/finite/steady_shape.hpp"
 #include "revchain/finite/sweep.hpp"
 #include "revchain/finite/verification.hpp"
@@ -17,7 +18,8 @@ struct InclinationRange {
 };
 
 struct SteadyShapesOptions {
-    long budget = 3'000'000;  ///< links to look at, 0.5 microseconds each, 2 where l < a, more in two words
+    long budget = 3'000'000;   ///< links to look at, 0.5 microseconds each, 2 where l < a, more in two words
+    bool hanging_only = true;  ///< only shapes with every link within a right angle of the downward vertical
 };
 
 /// The shapes found, and whether there are more.
@@ -33,12 +35,14 @@ namespace finite {
 /// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the chain
 /// reaches.  y0 = lambda t + (a X/moment) s.
 template <class T>
-T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
+T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
+                   bool either_posture = false) {
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
     using std::max;
-    const Interval<T> far = (reach + Interval<T>(max(T(0), T(-turning.low)))) / height;
+    const T least = either_posture ? T(-max(T(-turning.low), turning.high)) : turning.low;
+    const Interval<T> far = (reach + Interval<T>(max(T(0), T(-least)))) / height;
     return far.high;
 }
 
@@ -46,7 +50,7 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
 template <class T>
 bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
     return std::all_of(links.begin() + 1, links.end(), [&](const Link<Interval<T>>& link) {
-        return (height * link.pull + link.length * link.cross).positive() || link.cross.low >= T(0);
+        return grows_fast(height * link.pull, link.length * link.cross);
     });
 }
 
@@ -58,7 +62,6 @@ inline Isolation<DoubleDouble> isolated(const std::vector<Link<Wide<double>>>& l
     const auto narrow = enclosed<double>(links);
     const Interval<double> lambda = enclosed<double>(height);
     const double last = farthest_tangent(narrow, lambda);
-    if (!single_valued(narrow, lambda)) return {{}, {{Far(0), Far(last)}}, 0};
     const Isolation<double> first =
         detail::isolate<double>(narrow, lambda, {0.0, last, 0, detail::sign_at(narrow, lambda, last)}, 1e-14, budget);
     Isolation<Far> found;
@@ -146,13 +149,11 @@ inline double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>&
     }
 }
 
-inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
-                                  const SteadyShapesOptions& options) {
-    const auto links = links_of(chain);
+/// Of the lists made one link at a time, where each hangs at one inclination.
+inline void add_single_valued(const Links<Wide<double>>& links, const Wide<double>& height, long budget,
+                              SteadyShapes& result) {
     const auto narrow = enclosed<DoubleDouble>(links.links);
-    const Wide<double> scaled = ldexp(height, -links.units.length_exponent);
-    const auto isolation = isolated(links.links, scaled, options.budget);
-    SteadyShapes result;
+    const auto isolation = isolated(links.links, height, budget);
     result.cells = isolation.cells;
     const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
         const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
@@ -160,22 +161,56 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
     };
     for (const auto& bracket : isolation.undecided) leave_open(bracket);
     for (const auto& bracket : isolation.shapes) {
-        auto found = finished(links.links, scaled, bracket);
+        auto found = finished(links.links, height, bracket);
         if (!found) {
             leave_open(bracket);
             continue;
         }
         const Verified proved =
-            verified(narrow, enclosed<DoubleDouble>(scaled), {found->shape.offset.begin(), found->shape.offset.end()});
+            verified(narrow, enclosed<DoubleDouble>(height), {found->shape.offset.begin(), found->shape.offset.end()});
         std::transform(proved.offset.begin(), proved.offset.end(), found->shape.offset.begin(),
                        [](const DoubleDouble& y) { return y.word(); });
-        SteadyShape& shape = result.shapes.emplace_back(described(links, scaled, found->shape));
         double error = proved.inclination_error;
         if (error > 1e-16)  // all but horizontal, or all but critical: the sweep may say more
-            error = std::min(error, inclination_error(narrow, scaled, bracket, DoubleDouble(found->tangent)));
+            error = std::min(error, inclination_error(narrow, height, bracket, DoubleDouble(found->tangent)));
+        if (found->shape.offset[0] < Wide<double>(0.0))  // the lowest link's l > a: its free end across the axis
+            for (Wide<double>& y : found->shape.offset) y = -y;
+        SteadyShape& shape = result.shapes.emplace_back(described(links, height, found->shape));
         shape.error_bound = error + 0x1p-52;  // and two roundings of an angle below pi/2
         shape.condition = proved.condition;
     }
+}
+
+/// And of the others.
+inline void add_several_valued(const Links<Wide<double>>& links, const Wide<double>& height,
+                               const SteadyShapesOptions& options, SteadyShapes& result) {
+    const double last =
+        farthest_tangent(enclosed<double>(links.links), enclosed<double>(height), !options.hanging_only);
+    const auto found = several_inclinations(links.links, height, last, options.hanging_only,
+                                            options.budget / static_cast<long>(links.links.size()));
+    result.cells = found.cells;
+    for (const Settled& settled : found.shapes) {
+        result.shapes.push_back(described(links, height, settled.shape));
+        result.shapes.back().error_bound = settled.error;
+    }
+    for (const auto& part : found.open) {
+        const double low = std::atan(part.low), high = std::atan(part.high);
+        if (part.lowest == Posture::hangs)
+            result.undecided.push_back({low, high});
+        else
+            result.undecided.push_back({std::numbers::pi - high, std::numbers::pi - low});
+    }
+}
+
+inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
+                                  const SteadyShapesOptions& options) {
+    const auto links = links_of(chain);
+    const Wide<double> scaled = ldexp(height, -links.units.length_exponent);
+    SteadyShapes result;
+    if (options.hanging_only && single_valued(enclosed<double>(links.links), enclosed<double>(scaled)))
+        add_single_valued(links, scaled, options.budget, result);
+    else
+        add_several_valued(links, scaled, options, result);
     std::sort(result.shapes.begin(), result.shapes.end(), [](const SteadyShape& x, const SteadyShape& y) {
         return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
     });
@@ -185,18 +220,24 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 
 }  // namespace finite
 
-/// All hanging shapes (every link within a right angle of the vertical) of a chain that whirls steadily at the speed of
-/// conical height `height`, the straight one left out, of two mirror images that with the free end at a positive offset.
+/// All hanging shapes (every link within a right angle of the downward vertical) of a chain that whirls steadily at the
+/// speed of conical height `height`, or all shapes in any posture; straight ones left out, of two mirror images that with
+/// the free end at a positive offset (if it is on the axis, the lowest link that is inclined).
 ///
 /// Method: the offset of the support as a function of the lowest link's tangent, Greenhill (1908) §8 (4), (12), in interval
 /// arithmetic with first and second derivatives, 0 ... the farthest tangent split until every part holds no zero or one;
-/// Newton's method and then Krawczyk's test on all pins in two words.
-/// Accuracy: every inclination within `error_bound`, proved: mostly 2.3e-16, and 2 ulp of itself (measured). `complete` is
-/// proved too. Where it is false, `undecided` says where shapes may be missing; those that a scan finds there are in the
-/// list: at exactly a critical speed or a fold; where the budget ends, as it does for chains of 20 links and more at some
-/// 300 times their total length over the height; and for chains with a link above the lowest whose l > a and
-/// lambda <= W h (l - a)/(W h + a S), which can then hang at three inclinations under one load. Cost: 10 to 500 cells for
-/// a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000 plummets 0.02 s.
+/// Newton's method and then Krawczyk's test on all pins in two words. Links that stand, or hang at several inclinations
+/// under one load (l > a and lambda <= W h (l - a)/(W h + a S)), are followed along each of them; there a part ends in a
+/// box about the tangents of all links that is proved to hold no zero or one (Krawczyk).
+/// Accuracy: every inclination within `error_bound`, proved: mostly 2.3e-16 (4.4e-16 of links that stand), and 2 ulp of
+/// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at exactly
+/// a critical speed or a fold, and where the budget ends, as it does for chains of 20 links and more at heights of some
+/// 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one inclination).
+/// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
+/// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of
+/// equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.
+/// No shape in any posture exists above the first critical height: with E = +-1 for the postures and D = lambda diag(kappa
+/// |sec d|) > G, E D s = G s would give |E w| = |D^-1/2 G D^-1/2 w| < |w|.
 /// Throws InvalidArgument for a height not positive and finite.
 inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options = {}) {
     detail::require_positive("steady_shapes", "conical height", height);
