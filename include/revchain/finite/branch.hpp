@@ -108,6 +108,23 @@ struct BranchRoot {
     }
 };
 
+/// Whether a step passes the point where a loop began, going the same way.
+inline bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPoint& start) {
+    const double reach = here.arc - before.arc;
+    if (!(before.arc > start.arc) || inner(here.tangent, start.tangent) < 0.5) return false;
+    const BranchState from_before = moved(start.state, -1, before.state),
+                      from_here = moved(start.state, -1, here.state);
+    return inner(from_before, from_before) < 2 * reach * reach && inner(from_before, before.tangent) >= 0 &&
+           inner(from_here, here.tangent) < 0;
+}
+
+/// Whether a step goes through the straight chain to the mirror image.
+inline bool mirrored(const BranchPoint& before, const BranchPoint& here) {
+    double sum = 0;
+    for (std::size_t m = 0; m < here.state.rise.size(); ++m) sum += before.state.rise[m] * here.state.rise[m];
+    return sum < 0;
+}
+
 /// Goes on with a branch until it first comes down to `log_end`; folds are put in where they lie.
 inline BranchEnd follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t most_points) {
     const HeightMeasure to_end{log_end};
@@ -115,7 +132,9 @@ inline BranchEnd follow(Branch& branch, BranchWalk& walk, double log_end, std::s
     while (branch.size() < most_points) {
         if (!walk.advance()) return BranchEnd::stuck;
         const BranchPoint &before = walk.before(), &here = walk.here();
-        const auto crossings = crossings_of(walk, to_end);
+        if (mirrored(before, here)) return BranchEnd::vertical;
+        auto crossings = crossings_of(walk, to_end);
+        std::erase_if(crossings, [](const WithinStep& each) { return each.point.tangent.log_height > 0; });
         const double until = crossings.empty() ? 1.0 : crossings.front().share;
         if (before.tangent.log_height * here.tangent.log_height < 0)
             if (const auto fold = turning_of(walk, to_end); fold && fold->share < until) {
@@ -127,6 +146,10 @@ inline BranchEnd follow(Branch& branch, BranchWalk& walk, double log_end, std::s
             return BranchEnd::height;
         }
         if (here.state.log_height < log_end) return BranchEnd::stuck;  // passed the end unseen
+        if (returned(here, before, start)) {
+            append(branch, start);
+            return BranchEnd::closed;
+        }
         append(branch, here);
     }
     return BranchEnd::budget;
@@ -176,7 +199,7 @@ inline Branch branch(const Chain<double>& chain, Index mode, double conical_heig
         return result;
     }
     finite::BranchPoint vertical = *start;
-    vertical.arc = 0;
+    vertical.arc = 0, vertical.half_waves = root.onset.half_waves;
     std::fill(vertical.state.rise.begin(), vertical.state.rise.end(), 0.0);
     vertical.state.log_height = std::log(root.onset.height);
     finite::append(result, vertical);

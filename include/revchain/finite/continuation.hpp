@@ -18,6 +18,13 @@ class BranchWalk {
     BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05)
         : corrector_(&corrector), before_(start), here_(std::move(start)), step_(step) {}
 
+    /// The step between two neighbouring points that were walked before.
+    static BranchWalk between(Corrector& corrector, const BranchPoint& before, const BranchPoint& here) {
+        BranchWalk walk(corrector, here);
+        walk.before_ = before;
+        return walk;
+    }
+
     const BranchPoint& before() const { return before_; }
     const BranchPoint& here() const { return here_; }
     double longest = 0.5;        ///< along the arc
@@ -83,18 +90,21 @@ struct BranchOnset {
     double height = 0;          ///< lambda_k
     double curvature = 0;
     double steepest = 0;  ///< largest |sin delta|/A
+    int half_waves = 1;   ///< of the mode
 
     /// `mode`: offsets of the N + 1 pins, free end first.
     template <class Offsets>
     BranchOnset(const std::vector<Link<double>>& links, const Offsets& mode, double height_of_mode)
         : height(height_of_mode) {
-        double second = 0, fourth = 0;
+        double second = 0, fourth = 0, last = 0;
         for (std::size_t m = 0; m < links.size(); ++m) {
             const auto i = static_cast<Index>(m);
             const double d = mode[i] - mode[i + 1], s = d / links[m].length;
             reach.push_back(d);
             second += links[m].pull * d * s, fourth += links[m].pull * d * s * s * s;
             steepest = std::max(steepest, std::abs(s));
+            half_waves += mode[i] * last < 0;
+            if (mode[i] != 0) last = mode[i] < 0 ? -1 : 1;
         }
         curvature = fourth / (2 * second);
     }
@@ -119,7 +129,8 @@ struct BranchOnset {
             across = moved(std::move(across), 1 / length - 1, BranchState(across));
             auto found = corrector.corrected(std::move(at), across, 0.1 * length);
             if (!found || found->state.log_height >= std::log(height)) continue;
-            found->arc = std::sqrt(inner(across, across)) * length;  // from the vertical, to second order
+            found->arc = length;  // from the vertical, to second order
+            if (found->half_waves == 0) found->half_waves = half_waves;
             return found;
         }
         return std::nullopt;

@@ -64,14 +64,14 @@ class Corrector {
 
     struct Change {
         BranchState correction, tangent;
-        int half_waves;
     };
     /// One step of Newton's method at a state, and the direction of the branch, both by the same factors: the correction
     /// at right angles to `across`, the tangent of length 1 and on the same side as it.
     Change step(const BranchState& at, const BranchState& across) {
         const std::size_t n = links_.size();
         const double height = std::exp(at.log_height), share = 1 / static_cast<double>(n);
-        Change change{{std::vector<double>(n), 0}, {std::vector<double>(n), 0}, balance_at(at, height)};
+        Change change{{std::vector<double>(n), 0}, {std::vector<double>(n), 0}};
+        balance_at(at, height);
         for (std::size_t m = 0; m < n; ++m) row_[m] = share * across.rise[m] * growth_[m];
         border_.factor(
             n, [&](std::size_t m) { return stiffness_[m]; }, links_, [&](std::size_t m) { return pull_[m]; },
@@ -104,21 +104,34 @@ class Corrector {
             if (round > 5 && !small) return std::nullopt;
             start = moved(std::move(start), 1, change.correction);
             // quadratic: what is left after a step of 1e-7 is rounding
-            if (small) return BranchPoint{std::move(start), std::move(change.tangent), 0, change.half_waves};
+            if (small) {
+                const int waves = half_waves(start);
+                return BranchPoint{std::move(start), std::move(change.tangent), 0, waves};
+            }
             last = size;
         }
         return std::nullopt;
     }
-    long steps() const { return steps_; }
+
+    /// Sign changes of the offsets, and one; 0 where rounding leaves a sign open.
+    int half_waves(const BranchState& at) const {
+        double y = 0, last = 0, reached = 0;
+        int waves = 1;
+        for (std::size_t m = links_.size(); m-- > 0;) {
+            const double d = links_[m].length * std::tanh(at.rise[m]);
+            y += d, reached += std::abs(d);
+            if (!(std::abs(y) > 1e-13 * reached)) return 0;
+            waves += y * last < 0;
+            last = y;
+        }
+        return waves;
+    }
 
    private:
-    /// Forces left, in sums from the free end, and stiffnesses; returns the half waves.
-    int balance_at(const BranchState& at, double height) {
+    /// Forces left, in sums from the free end, and stiffnesses.
+    void balance_at(const BranchState& at, double height) {
         const std::size_t n = links_.size();
-        ++steps_;
-        double y = 0, last = 0, reached = 0;
-        int half_waves = 1;
-        bool told = true;
+        double y = 0;
         for (std::size_t m = n; m-- > 0;) {
             const Link<double>& link = links_[m];
             // sinh and cosh from e^|tau| - 1: small inclinations keep their digits
@@ -134,24 +147,18 @@ class Corrector {
             y += sine_[m];
             // moments of the link's own weight, to be summed from the free end
             row_[m] = link.moment * y, reach_[m] = link.rest * upper;
-            reached += std::abs(sine_[m]);
-            told = told && std::abs(y) > 1e-14 * reached;
-            if (y * last < 0) ++half_waves;
-            last = y;
         }
         double sum = 0;
         for (std::size_t m = 0; m < n; ++m) {
             left_[m] += sum + row_[m];
             sum += row_[m] + reach_[m];
         }
-        return told ? half_waves : 0;
     }
 
     std::vector<Link<double>> links_;
     BorderedChain border_;
     std::vector<double> sine_, growth_, pull_, stiffness_, left_, row_, reach_;
     bool counts_ = true;
-    long steps_ = 0;
 };
 
 }  // namespace revchain::finite

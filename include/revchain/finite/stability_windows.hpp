@@ -16,7 +16,7 @@ struct StabilityWindow {
 struct StabilityWindowsOptions {
     StabilityFrame frame = StabilityFrame::free;
     double tolerance = 1e-6;  ///< of the edges, relative in conical height and absolute in arc
-    int samples = 4;          ///< looked at between two points of the branch
+    int samples = 8;          ///< looked at between two points of the branch
 };
 
 namespace finite {
