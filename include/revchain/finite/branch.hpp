@@ -168,7 +168,7 @@ inline SteadyShape Branch::shape(std::size_t point) const {
 
 struct BranchOptions {
     std::size_t most_points = 10'000;
-    double longest_step = 0.5;  ///< along the arc
+    double longest_step = 0.1;  ///< along the arc
 };
 
 /// The branch of steady shapes that leaves the vertical at mode `mode` (1 the slowest), followed by its arc through every
