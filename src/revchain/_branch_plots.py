@@ -25,7 +25,7 @@ QUANTITIES = {
     "moment_of_inertia": "moment of inertia (weight x length^2)",
     "effective_energy": "effective energy (weight x length)",
 }
-MOST_NAMED = 8  # births written out: more do not stay legible
+CLOSEST = 0.03  # of the width, between births that are written out
 
 
 def plot_branches(
@@ -38,7 +38,7 @@ def plot_branches(
         ax = new_axes(7.2, 5.0)
     first = float(modes(chain, count=1, shapes=False).conical_height[0])
     named: set[int] = set()
-    births: list[tuple[float, float, int]] = []
+    births: list[tuple[float, int]] = []
     for branch in branches:
         waves = int(branch.half_waves[0])
         speed = np.sqrt(first / branch.conical_height)
@@ -54,18 +54,26 @@ def plot_branches(
         ax.plot(speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="white", zorder=3)
         if branch.mode is None and folds.size:
             born = int(folds[np.argmin(speed[folds])])
-            births.append((float(speed[born]), float(value[born]), waves))
-    births.sort()
-    for at, value_there, waves in births[:MOST_NAMED]:
-        ax.annotate(
-            f"born at {at:.5g}",
-            (at, value_there),
-            xytext=(-8, 0),
-            textcoords="offset points",
-            ha="right",
+            births.append((float(speed[born]), waves))
+    left, right = ax.get_xlim()
+    last = -np.inf
+    for at, waves in sorted(births):
+        colour = f"C{(waves - 1) % 10}"
+        ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
+        if at - last < CLOSEST * (right - left):
+            continue
+        last = at
+        ax.text(
+            at,
+            0.5,
+            f"pair born at {at:.5g}",
+            transform=ax.get_xaxis_transform(),
+            rotation=90,
+            ha="center",
             va="center",
             fontsize="small",
-            color=f"C{(waves - 1) % 10}",
+            color=colour,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
         )
     ax.set(xlabel="speed over the first critical speed", ylabel=QUANTITIES[quantity])
     ax.grid(color="0.9", linewidth=0.6)
@@ -73,7 +81,7 @@ def plot_branches(
     if named:
         handles, labels = ax.get_legend_handles_labels()
         order = sorted(range(len(labels)), key=lambda i: int(labels[i].split()[0]))
-        ax.legend([handles[i] for i in order], [labels[i] for i in order])
+        ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="upper left")
     return ax
 
 

@@ -63,7 +63,11 @@ class Branch:
 
     @property
     def arc(self) -> Floats:
-        """Along the branch: the root of the mean square of the links' ``d arsinh(tan(inclination))`` and ``d log(height)``."""
+        """Along the branch, from its first point.
+
+        Measured by the root of the mean square of the links' ``d arsinh(tan(inclination))`` and the square of
+        ``d log(conical_height)``.
+        """
         return self._compiled.arc
 
     @property
@@ -142,7 +146,8 @@ class Branch:
         """
         place = "revchain.Branch.angular_speed"
         g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-        return np.sqrt(g) / np.sqrt(self.conical_height)
+        speed: Floats = np.sqrt(g) / np.sqrt(self.conical_height)
+        return speed
 
     def shape(self, point: int) -> SteadyShape:
         """Return the whole shape at a point.
@@ -167,7 +172,7 @@ class Branch:
         >>> import revchain as rc
         >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
         >>> branch.shape(-1)
-        SteadyShape: half_waves 1, lowest link at 86.7001 degrees
+        SteadyShape: half_waves 1, lowest link at 87.1326 degrees
         """
         place = "revchain.Branch.shape"
         wanted = integer(place, "point", point)
@@ -209,7 +214,7 @@ class Branch:
         >>> import revchain as rc
         >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
         >>> branch.at(conical_height=0.2)
-        (SteadyShape: half_waves 1, lowest link at 83.3823 degrees,)
+        (SteadyShape: half_waves 1, lowest link at 84.2496 degrees,)
         """
         height = _height("revchain.Branch.at", conical_height, angular_speed, gravity)
         return tuple(SteadyShape._wrap(s, self._chain._compiled) for s in self._compiled.states_at(height))
@@ -590,7 +595,7 @@ def steady_shape(
     >>> chain = rc.Chain.uniform_rods(120, length=0.36)
     >>> shape = rc.steady_shape(chain, mode=2, angular_speed=20.0)
     >>> shape
-    SteadyShape: half_waves 2, lowest link at 72.2727 degrees
+    SteadyShape: half_waves 2, lowest link at 75.0262 degrees
     >>> again = rc.steady_shape(chain, mode=2, tip_radius=shape.offset[0])
     >>> round((9.80665 / again.conical_height) ** 0.5, 9)
     20.0

@@ -196,7 +196,7 @@ class SteadyShape:
         Examples
         --------
         >>> import revchain as rc
-        >>> pair = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.2)
+        >>> pair = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.1)
         >>> [shape.stability().verdict for shape in pair]
         ['minimum', 'unstable']
         """
