@@ -81,7 +81,7 @@ def plot_branches(
     if named:
         handles, labels = ax.get_legend_handles_labels()
         order = sorted(range(len(labels)), key=lambda i: int(labels[i].split()[0]))
-        ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="upper left")
+        ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="upper left", bbox_to_anchor=(1.01, 1.0))
     return ax
 
 

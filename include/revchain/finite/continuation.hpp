@@ -129,6 +129,9 @@ struct BranchOnset {
             across = moved(std::move(across), 1 / length - 1, BranchState(across));
             auto found = corrector.corrected(std::move(at), across, 0.1 * length);
             if (!found || found->state.log_height >= std::log(height)) continue;
+            // modes close to one another: the neighbour's branch
+            if (corrector.half_waves_are_kept() && found->half_waves != 0 && found->half_waves != half_waves) continue;
+            if (inner(found->tangent, across) < 0.8) continue;
             found->arc = length;  // from the vertical, to second order
             if (found->half_waves == 0) found->half_waves = half_waves;
             return found;

@@ -52,16 +52,6 @@ struct TopPullMeasure {
         const double height = std::exp(p.state.log_height), sign = sum < 0 ? -1 : 1;
         return {sign * sum / height - wanted, sign * (slope - sum * p.tangent.log_height) / height};
     }
-    /// Of weights times offsets of their centroids.
-    double sum(const BranchState& state) const {
-        double y = 0, total = 0;
-        for (std::size_t m = links->size(); m-- > 0;) {
-            total += (*links)[m].rest * y;
-            y += (*links)[m].length * std::tanh(state.rise[m]);
-            total += (*links)[m].moment * y;
-        }
-        return total;
-    }
 };
 
 /// A point inside a step, at a share of its arc.

@@ -71,7 +71,7 @@ struct GivenTipRadius : Condition<S> {
 /// sign.
 template <class S>
 struct GivenTopTension : Condition<S> {
-    S across;      ///< the sideways part
+    S across;      ///< the sideways part, positive
     double share;  ///< its relative change for one of the whole
     GivenTopTension(S sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
     std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& y, const S& height,
@@ -83,7 +83,7 @@ struct GivenTopTension : Condition<S> {
             row[m] = weights + static_cast<double>(links[m].moment);
             weights = row[m] + static_cast<double>(links[m].rest);
         }
-        const S pull = height * across;
+        const S pull = sum < S(0) ? -(height * across) : height * across;
         return {pull - sum, -static_cast<double>(pull)};
     }
     double size(const S& height) const override { return share * std::abs(static_cast<double>(height * across)); }

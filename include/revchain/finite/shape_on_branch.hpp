@@ -86,11 +86,14 @@ class BranchSearch {
     /// The state of the condition next to one of the branch: no link farther from it than `farthest`, rad.
     std::optional<SteadyShape> close(const BranchState& near, double farthest) const {
         auto shape = shape_at(root_.chain, near, condition_);
-        if (!shape) return std::nullopt;
-        for (std::size_t m = 0; m < near.rise.size(); ++m)
-            if (!(std::abs(shape->inclination[static_cast<Index>(m)] - std::atan(std::sinh(near.rise[m]))) <=
-                  0.3 * farthest))
-                return std::nullopt;
+        if (!shape || !(shape->conical_height < root_.height)) return std::nullopt;
+        if (root_.corrector.half_waves_are_kept() && shape->half_waves != root_.onset.half_waves) return std::nullopt;
+        double same = 0, mirrored = 0;  // the shape is given with its free end at a positive offset
+        for (std::size_t m = 0; m < near.rise.size(); ++m) {
+            const double here = shape->inclination[static_cast<Index>(m)], there = std::atan(std::sinh(near.rise[m]));
+            same = std::max(same, std::abs(here - there)), mirrored = std::max(mirrored, std::abs(here + there));
+        }
+        if (!(std::min(same, mirrored) <= 0.3 * farthest)) return std::nullopt;
         return shape;
     }
 
@@ -190,13 +193,9 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
     const S pull = ldexp(sqrt((S(tension) - weight) * (S(tension) + weight)), -root.chain.units.weight_exponent);
     const double narrow = static_cast<double>(pull);
     const finite::TopPullMeasure measure{links, narrow};
-    const double amplitude = finite::amplitude_of(root, measure, narrow);
-    // the sign that the sum has on the way: the mode's own, until it changes
-    const auto state = root.onset.state(*links, std::min(amplitude, 0.1 / root.onset.steepest));
-    const bool negative = measure.sum(state) < 0;
     const double share = std::pow(std::ldexp(tension, -root.chain.units.weight_exponent) / narrow, 2);
-    return finite::searched(root, measure, finite::GivenTopTension<S>(negative ? -pull : pull, share), amplitude,
-                            log_end, given.all);
+    return finite::searched(root, measure, finite::GivenTopTension<S>(pull, share),
+                            finite::amplitude_of(root, measure, narrow), log_end, given.all);
 }
 
 /// The first of them along the arc. Throws InvalidArgument also where the number is not met.

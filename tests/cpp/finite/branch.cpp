@@ -200,6 +200,27 @@ TEST_CASE("long chains: 100,000 rods, and where a mode is all but zero at the ti
     CHECK(last.end == BranchEnd::height);
 }
 
+TEST_CASE("modes that all but coincide, weights 1e12 apart, pendulum lengths beyond the links", "[finite]") {
+    for (const auto& family : support::families())
+        for (const Index n : {2, 5, 12}) {
+            const auto chain = family.make(n);
+            const support::QuadChain truth(chain);
+            const bool counted = family.name.find("upward") != std::string::npos;
+            for (Index mode = 1; mode <= chain.mode_count(); ++mode) {
+                const double critical = height_of(chain, mode);
+                CAPTURE(family.name, n, mode);
+                CHECK(revchain::branch(chain, mode, 0.01 * critical).end == BranchEnd::height);
+                for (const double ratio : {1 - 1e-8, 0.9, 0.3, 0.02}) {
+                    const auto shape = revchain::steady_shape(chain, mode, {.conical_height = critical * ratio});
+                    CAPTURE(ratio);
+                    if (counted) CHECK(shape.half_waves == mode);
+                    CHECK(shape.offset[0] > 0);
+                    CHECK(worst_error(truth, shape, critical * ratio) <= 2.3e-16);
+                }
+            }
+        }
+}
+
 TEST_CASE("a branch that is none: errors", "[finite]") {
     const auto chain = plummets(3);
     const double first = height_of(chain, 1), nan = std::numeric_limits<double>::quiet_NaN();
