@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
 from ._batch import conical_heights
+from ._branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
 from ._chain import Chain
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Branch",
+    "Branches",
     "BufferImpact",
     "Certificate",
     "Chain",
@@ -49,10 +52,13 @@ __all__ = [
     "SceneError",
     "SkippingRope",
     "Stability",
+    "StabilityWindow",
     "SteadyShape",
     "SteadyShapes",
     "TortuousRope",
     "__version__",
+    "branch",
+    "branches",
     "conical_heights",
     "conical_pendulum",
     "count_modes",
@@ -63,6 +69,7 @@ __all__ = [
     "modes",
     "plummet",
     "recurrence_matrices",
+    "steady_shape",
     "steady_shapes",
     "tapered_chain",
     "tip_mass",

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings.hpp"
+#include "revchain/finite/branches.hpp"
+#include "revchain/finite/shape_on_branch.hpp"
+#include "revchain/finite/stability_windows.hpp"
+
+namespace {
+
+using Chain = revchain::Chain<double>;
+using revchain::Branch;
+using revchain::Branches;
+using revchain::Index;
+
+py::array numbers(const std::vector<double>& values) {
+    return frozen(py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data()));
+}
+
+template <class Whole>
+py::array whole_numbers(const std::vector<Whole>& values) {
+    py::array_t<std::int64_t> result(static_cast<py::ssize_t>(values.size()));
+    std::transform(values.begin(), values.end(), result.mutable_data(),
+                   [](Whole x) { return static_cast<std::int64_t>(x); });
+    return frozen(std::move(result));
+}
+
+revchain::ShapeGiven given(const std::string& name, double value, double gravity, std::optional<double> down_to,
+                           bool all) {
+    revchain::ShapeGiven result{.gravity = gravity, .down_to = down_to, .all = all};
+    if (name == "conical_height") result.conical_height = value;
+    if (name == "angular_speed") result.angular_speed = value;
+    if (name == "tip_inclination") result.tip_inclination = value;
+    if (name == "tip_radius") result.tip_radius = value;
+    if (name == "top_tension") result.top_tension = value;
+    return result;
+}
+
+std::vector<revchain::SteadyShape> states_at(const Branch& branch, double height) {
+    if (branch.size() == 0) return {};
+    revchain::finite::Corrector corrector(revchain::finite::rounded<double>(branch.links->links));
+    return revchain::finite::states_at(branch, corrector, height);
+}
+
+}  // namespace
+
+void bind_branches(py::module_& module) {
+    const auto column = [](std::vector<double> Branch::*member) {
+        return [member](const Branch& branch) { return numbers(branch.*member); };
+    };
+    py::class_<Branch>(module, "Branch", "A branch of steady shapes, point by point.")
+        .def_readonly("mode", &Branch::mode)
+        .def_property_readonly("arc", column(&Branch::arc))
+        .def_property_readonly("conical_height", column(&Branch::conical_height))
+        .def_property_readonly("tip_inclination", column(&Branch::tip_inclination))
+        .def_property_readonly("tip_radius", column(&Branch::tip_radius))
+        .def_property_readonly("top_tension", column(&Branch::top_tension))
+        .def_property_readonly("moment_of_inertia", column(&Branch::moment_of_inertia))
+        .def_property_readonly("effective_energy", column(&Branch::effective_energy))
+        .def_property_readonly("half_waves", [](const Branch& b) { return whole_numbers(b.half_waves); })
+        .def_property_readonly("folds", [](const Branch& b) { return whole_numbers(b.folds); })
+        .def_property_readonly("end", [](const Branch& b) { return std::string(to_string(b.end)); })
+        .def("shape", &Branch::shape, "point"_a)
+        .def("states_at", &states_at, "height"_a);
+    py::class_<Branches>(module, "Branches", "All branches found above one conical height.")
+        .def_readonly("branches", &Branches::branches)
+        .def_readonly("consistent", &Branches::consistent)
+        .def_property_readonly("looked_at", [](const Branches& b) { return numbers(b.looked_at); })
+        .def_readonly("remark", &Branches::remark);
+    module.def(
+        "branch",
+        [](const Chain& chain, Index mode, double height, std::size_t most_points, double longest_step) {
+            const py::gil_scoped_release release;
+            return revchain::branch(chain, mode, height, {.most_points = most_points, .longest_step = longest_step});
+        },
+        "chain"_a, "mode"_a, "height"_a, "most_points"_a, "longest_step"_a);
+    module.def(
+        "branches",
+        [](const Chain& chain, double height, int lists, long budget) {
+            const py::gil_scoped_release release;
+            return revchain::branches(chain, height, {.lists = lists, .budget = budget});
+        },
+        "chain"_a, "height"_a, "lists"_a, "budget"_a);
+    module.def(
+        "shapes_on_branch",
+        [](const Chain& chain, Index mode, const std::string& name, double value, double gravity,
+           std::optional<double> down_to) {
+            const py::gil_scoped_release release;
+            return revchain::shapes_on_branch(chain, mode, given(name, value, gravity, down_to, true)).shapes;
+        },
+        "chain"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "down_to"_a);
+    module.def(
+        "steady_shape",
+        [](const Chain& chain, Index mode, const std::string& name, double value, double gravity,
+           std::optional<double> down_to) {
+            const py::gil_scoped_release release;
+            return revchain::steady_shape(chain, mode, given(name, value, gravity, down_to, false));
+        },
+        "chain"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "down_to"_a);
+    module.def(
+        "stability_windows",
+        [](const Chain& chain, const Branch& branch, bool driven, double tolerance, int samples) {
+            using revchain::StabilityFrame;
+            std::vector<revchain::StabilityWindow> found;
+            {
+                const py::gil_scoped_release release;
+                found = revchain::stability_windows(chain, branch,
+                                                    {.frame = driven ? StabilityFrame::driven : StabilityFrame::free,
+                                                     .tolerance = tolerance,
+                                                     .samples = samples});
+            }
+            std::vector<std::tuple<double, double, double, double, std::string>> result;
+            for (const auto& w : found)
+                result.emplace_back(w.arc_from, w.arc_to, w.height_from, w.height_to,
+                                    std::string(to_string(w.verdict)));
+            return result;
+        },
+        "chain"_a, "branch"_a, "driven"_a, "tolerance"_a, "samples"_a);
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/corrector.hpp"
+
+namespace revchain::finite {
+
+/// Follows one branch of steady shapes by its arc, through folds.
+///
+/// A step goes along the tangent and is corrected across it. It is kept only if Newton's method contracts at once, the
+/// direction turns by less than 26 degrees, the state half way, predicted from both ends, is on the branch too (a jump to
+/// a neighbour fails here: the curve through both ends with their tangents is then none), the half waves are the same
+/// (where l <= a for all links) and the chain has not come to the vertical. Else half the step is tried. This is a check,
+/// not a proof. Cost: 4 to 7 Newton steps of O(N) a step kept.
+class BranchWalk {
+   public:
+    /// From a point on the branch, its tangent the way to go.
+    BranchWalk(Corrector& corrector, BranchPoint start, double step = 0.05)
+        : corrector_(&corrector), before_(start), here_(std::move(start)), step_(step) {}
+
+    /// The step between two neighbouring points that were walked before.
+    static BranchWalk between(Corrector& corrector, const BranchPoint& before, const BranchPoint& here) {
+        BranchWalk walk(corrector, here);
+        walk.before_ = before;
+        return walk;
+    }
+
+    const BranchPoint& before() const { return before_; }
+    const BranchPoint& here() const { return here_; }
+    double longest = 0.5;        ///< along the arc
+    double longest_rise = 0.75;  ///< change of any link's tau in a step
+
+    /// One step on; false if none down to 1e-9 of arc passes.
+    bool advance() {
+        for (; step_ > least; step_ /= 2) {
+            const double reach = std::min({step_, longest, longest_rise / (largest_rise(here_.tangent) + 1e-300)});
+            step_ = reach;
+            auto next = at(here_, reach);
+            if (!next) continue;
+            const double cosine = inner(next->tangent, here_.tangent);
+            if (!(cosine > 0.9) || !on_the_way(*next)) continue;
+            if (corrector_->half_waves_are_kept() && next->half_waves != here_.half_waves) continue;
+            before_ = std::move(here_);
+            here_ = std::move(*next);
+            step_ = reach * (cosine > 0.98 ? 1.6 : cosine > 0.95 ? 1.1 : 0.8);
+            return true;
+        }
+        return false;
+    }
+
+    /// The point of the branch at an arc beyond one of its points, in the plane across the direction there.
+    std::optional<BranchPoint> at(const BranchPoint& from, double reach) const {
+        auto next =
+            corrector_->corrected(moved(from.state, reach, from.tangent), from.tangent, 0.3 * std::abs(reach) + 1e-9);
+        if (!next) return next;
+        next->arc = from.arc + reach;
+        if (next->half_waves == 0) next->half_waves = from.half_waves;
+        return next;
+    }
+
+    /// The point at `share` of the step from before() to here().
+    std::optional<BranchPoint> within(double share) const { return at(before_, share * (here_.arc - before_.arc)); }
+
+   private:
+    static constexpr double least = 1e-9;
+
+    /// The middle of the cubic through both ends and their tangents lies on the branch.
+    bool on_the_way(const BranchPoint& next) const {
+        const double reach = next.arc - here_.arc;
+        BranchState middle = moved(here_.state, reach / 8, here_.tangent);
+        for (std::size_t m = 0; m < middle.rise.size(); ++m)
+            middle.rise[m] += (next.state.rise[m] - here_.state.rise[m]) / 2 - reach / 8 * next.tangent.rise[m];
+        middle.log_height += (next.state.log_height - here_.state.log_height) / 2 - reach / 8 * next.tangent.log_height;
+        BranchState across = moved(here_.tangent, 1, next.tangent);
+        const auto change = corrector_->step(middle, across);
+        const double off =
+            std::max(std::sqrt(inner(change.correction, change.correction)), largest_rise(change.correction) / 4);
+        return off <= 0.02 * reach + 1e-9;
+    }
+
+    Corrector* corrector_;
+    BranchPoint before_, here_;
+    double step_;
+};
+
+/// The branch near the vertical, to leading order in its amplitude: with phi the mode, lambda_k its height,
+///     y = A phi,   lambda = lambda_k/(1 + A^2 curvature),   curvature = sum sigma d^4/a^3 / (2 sum sigma d^2/a).
+struct BranchOnset {
+    std::vector<double> reach;  ///< a sin delta of each link over A: differences of the mode
+    double height = 0;          ///< lambda_k
+    double curvature = 0;
+    double steepest = 0;  ///< largest |sin delta|/A
+    int half_waves = 1;   ///< of the mode
+
+    /// `mode`: offsets of the N + 1 pins, free end first.
+    template <class Offsets>
+    BranchOnset(const std::vector<Link<double>>& links, const Offsets& mode, double height_of_mode)
+        : height(height_of_mode) {
+        double second = 0, fourth = 0, last = 0;
+        for (std::size_t m = 0; m < links.size(); ++m) {
+            const auto i = static_cast<Index>(m);
+            const double d = mode[i] - mode[i + 1], s = d / links[m].length;
+            reach.push_back(d);
+            second += links[m].pull * d * s, fourth += links[m].pull * d * s * s * s;
+            steepest = std::max(steepest, std::abs(s));
+            half_waves += mode[i] * last < 0;
+            if (mode[i] != 0) last = mode[i] < 0 ? -1 : 1;
+        }
+        curvature = fourth / (2 * second);
+    }
+    double amplitude_at(double conical_height) const {
+        return std::sqrt((height - conical_height) / (conical_height * curvature));
+    }
+    BranchState state(const std::vector<Link<double>>& links, double amplitude) const {
+        BranchState result;
+        for (std::size_t m = 0; m < links.size(); ++m)
+            result.rise.push_back(std::atanh(amplitude * reach[m] / links[m].length));
+        result.log_height = std::log(height) - std::log1p(amplitude * amplitude * curvature);
+        return result;
+    }
+    /// A point of the branch with the largest inclination about `steepness`; smaller where that does not do.
+    std::optional<BranchPoint> start(Corrector& corrector, double steepness) const {
+        for (; steepness > 1e-7; steepness /= 4) {
+            const double amplitude = steepness / steepest;
+            BranchState at = state(corrector.links(), amplitude);
+            BranchState across = at;
+            across.log_height = -2 * curvature * amplitude * amplitude;
+            const double length = std::sqrt(inner(across, across));
+            across = moved(std::move(across), 1 / length - 1, BranchState(across));
+            auto found = corrector.corrected(std::move(at), across, 0.1 * length);
+            if (!found || found->state.log_height >= std::log(height)) continue;
+            // modes close to one another: the neighbour's branch
+            if (corrector.half_waves_are_kept() && found->half_waves != 0 && found->half_waves != half_waves) continue;
+            if (inner(found->tangent, across) < 0.8) continue;
+            found->arc = length;  // from the vertical, to second order
+            if (found->half_waves == 0) found->half_waves = half_waves;
+            return found;
+        }
+        return std::nullopt;
+    }
+};
+
+}  // namespace revchain::finite

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "revchain/finite/branches.hpp"
+
+#include "support/catch.hpp"
+#include "support/chains.hpp"
+
+using revchain::Branch;
+using revchain::BranchEnd;
+using revchain::Branches;
+using revchain::Chain;
+using revchain::Index;
+using revchain::SteadyShape;
+
+namespace {
+
+Chain<double> plummets(Index n) { return Chain<double>::uniform_plummets(n, static_cast<double>(n), 1.0); }
+
+/// At heights of its own choice: each shape of the proved list is on one branch, once, and branches have no others.
+void check_at(const Chain<double>& chain, const Branches& found, double height) {
+    const auto list = revchain::steady_shapes(chain, height);
+    REQUIRE(list.complete);
+    revchain::finite::Corrector corrector(revchain::finite::rounded<double>(revchain::finite::links_of(chain).links));
+    std::vector<int> met(list.shapes.size(), 0);
+    std::size_t crossings = 0;
+    for (const Branch& branch : found.branches)
+        for (const SteadyShape& state : revchain::finite::states_at(branch, corrector, height)) {
+            ++crossings;
+            for (std::size_t j = 0; j < met.size(); ++j)
+                met[j] += (list.shapes[j].inclination - state.inclination).cwiseAbs().maxCoeff() <=
+                          1e-14 * std::max(1.0, state.condition);
+        }
+    CAPTURE(height);
+    CHECK(crossings == list.shapes.size());
+    CHECK(std::all_of(met.begin(), met.end(), [](int each) { return each == 1; }));
+}
+
+}  // namespace
+
+TEST_CASE("three equal plummets: the third branch's companions are born at n = 3.90376215692 sqrt(g/a)", "[finite]") {
+    const auto found = revchain::branches(plummets(3), 1 / 25.0);
+    CHECK(found.consistent);
+    REQUIRE(found.branches.size() == 4);
+    const Branch& born = found.branches[3];
+    CHECK(born.mode == 0);
+    REQUIRE(born.folds.size() == 1);
+    CHECK(born.half_waves[0] == 3);
+    CHECK(born.end == BranchEnd::height);
+    const double speed = 1 / std::sqrt(born.conical_height[born.folds[0]]);
+    CHECK(std::abs(speed - 3.90376215692) <= 1e-11);
+    // the proved lists say the same: three shapes below, five beyond
+    for (const double off : {1e-11, 1e-9}) {
+        CHECK(revchain::steady_shapes(plummets(3), 1 / std::pow(speed * (1 - off), 2)).shapes.size() == 3);
+        CHECK(revchain::steady_shapes(plummets(3), 1 / std::pow(speed * (1 + off), 2)).shapes.size() == 5);
+    }
+}
+
+TEST_CASE("branches and proved lists agree, at heights that were not looked at before", "[finite]") {
+    support::Random random(141);
+    int isolated = 0;
+    for (int i = 0; i < 20; ++i) {
+        const Index n = 2 + i % 5;
+        const auto chain = i < 5    ? plummets(n)
+                           : i < 10 ? Chain<double>::uniform_rods(n, static_cast<double>(n), 1.0)
+                                    : support::chain_of(n, [&](Index) {
+                                          const double weight = random.log_between(1.0, 30.0);
+                                          const double length = random.log_between(1.0, 5.0);
+                                          return i % 2 == 0 ? revchain::uniform_rod<double>(weight, length)
+                                                            : revchain::plummet<double>(weight, length);
+                                      });
+        const double lowest = chain.total_length() * random.log_between(3e-3, 1e-2);
+        const Branches found = revchain::branches(chain, lowest);
+        CAPTURE(i, n, lowest);
+        CHECK(found.consistent);
+        const Index count = revchain::count_modes(chain, lowest);
+        REQUIRE(static_cast<Index>(found.branches.size()) >= count);
+        isolated += static_cast<Index>(found.branches.size()) > count;
+        for (const Branch& branch : found.branches)
+            for (const int waves : branch.half_waves) CHECK(waves == branch.half_waves[0]);
+        const double first = revchain::modes(chain, {.count = 1}).conical_height[0];
+        for (int j = 0; j < 5; ++j) check_at(chain, found, lowest * random.log_between(1.0, first / lowest));
+    }
+    CHECK(isolated > 5);
+}
+
+TEST_CASE("eight plummets at n = 5.95 sqrt(g/a): all 84 shapes are on 8 branches and 38 isolated ones", "[finite]") {
+    const auto found = revchain::branches(plummets(8), 1 / 35.4025, {.lists = 4});
+    CHECK(found.consistent);
+    Index ends = 0;
+    for (const Branch& branch : found.branches) ends += branch.mode > 0 ? 1 : 2;
+    CHECK(ends == 84);
+}
+
+TEST_CASE("no branch at all; errors", "[finite]") {
+    const auto none = revchain::branches(plummets(3), 3.0);
+    CHECK(none.branches.empty());
+    CHECK(none.remark == "no shape leaves the vertical at this height or above");
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double bad : {0.0, -1.0, nan})
+        CHECK_THROWS_AS(revchain::branches(plummets(3), bad), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::branches(plummets(3), 0.1, {.lists = 0}), revchain::InvalidArgument);
+}

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Branches of steady shapes, single shapes on them, and the diagram."""
+
+import math
+
+import numpy as np
+import pytest
+import revchain as rc
+
+
+def equal(links: int) -> rc.Chain:
+    """Plummets of length 1 each."""
+    return rc.Chain.uniform_plummets(links, length=float(links))
+
+
+def test_one_link_is_the_conical_pendulum():
+    chain = rc.Chain.uniform_plummets(1, length=2.0)
+    for cosine in (1 - 1e-8, 0.9, 0.1, 1e-3):
+        shape = rc.steady_shape(chain, conical_height=2.0 * cosine)
+        assert abs(shape.inclination[0] - math.acos(cosine)) <= 1e-15 * max(1.0, shape.condition)
+    branch = rc.branch(chain, 1, conical_height=0.2)
+    assert np.allclose(np.cos(branch.tip_inclination), branch.conical_height / 2, rtol=0, atol=1e-13)
+    assert np.allclose(branch.tip_radius, 2 * np.sin(branch.tip_inclination), rtol=0, atol=1e-13)
+    assert np.allclose(branch.top_tension, 2 / branch.conical_height, rtol=1e-12)  # W sec d
+    assert np.allclose(branch.moment_of_inertia, branch.tip_radius**2, rtol=1e-12)
+
+
+def test_speed_and_height_are_two_words_for_one():
+    chain = rc.Chain.uniform_rods(20, length=1.0)
+    by_speed = rc.steady_shape(chain, mode=2, angular_speed=12.0)
+    by_height = rc.steady_shape(chain, mode=2, conical_height=9.80665 / 144)
+    assert np.abs(by_speed.inclination - by_height.inclination).max() <= 1e-14
+    assert rc.branch(chain, 2, angular_speed=12.0).angular_speed()[-1] == pytest.approx(12.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("links", [2, 3, 7, 60])
+@pytest.mark.parametrize("mode", [1, 2])
+def test_what_is_asked_comes_back(links, mode):
+    chain = rc.Chain.uniform_rods(links, length=1.0)
+    height = 0.8 * rc.modes(chain, count=mode).conical_height[mode - 1]
+    shape = rc.steady_shape(chain, mode=mode, conical_height=height)
+    asked = {
+        "tip_inclination": shape.inclination[0],
+        "tip_radius": shape.offset[0],
+        "top_tension": shape.tension[-1],
+    }
+    for name, value in asked.items():
+        again = rc.steady_shape(chain, mode=mode, **{name: value})
+        assert again.conical_height == pytest.approx(height, rel=1e-13), name
+        assert np.abs(again.inclination - shape.inclination).max() <= 1e-13, name
+
+
+@pytest.mark.parametrize("links", [2, 3, 4, 5])
+def test_the_diagram_holds_every_shape_there_is(links):
+    chain = equal(links)
+    diagram = rc.branches(chain, conical_height=0.015)
+    assert diagram.consistent
+    for height in (0.5, 0.1, 0.05, 0.03, 0.0201):
+        listed = rc.steady_shapes(chain, conical_height=height)
+        assert listed.complete
+        on_branches = [shape for branch in diagram for shape in branch.at(conical_height=height)]
+        assert len(on_branches) == len(listed)
+        tips = sorted(shape.inclination[0] for shape in on_branches)
+        assert np.allclose(tips, sorted(shape.inclination[0] for shape in listed), rtol=0, atol=1e-13)
+
+
+def test_a_pair_is_born_on_no_branch_of_the_vertical():
+    diagram = rc.branches(equal(3), up_to=5.0, gravity=1.0)
+    born = diagram[-1]
+    assert born.mode is None
+    assert [branch.mode for branch in diagram] == [1, 2, 3, None]
+    assert abs(born.angular_speed(1.0)[born.folds[0]] - 3.90376215692) <= 1e-11
+    assert set(born.half_waves.tolist()) == {3}
+    assert len(born.at(angular_speed=4.5, gravity=1.0)) == 2
+    assert born.at(angular_speed=3.9, gravity=1.0) == ()
+
+
+def test_all_states_of_one_branch():
+    out_and_back = rc.steady_shape(equal(3), mode=2, tip_radius=0.53, all=True)
+    assert len(out_and_back) == 2
+    assert out_and_back[0].conical_height > out_and_back[1].conical_height
+    assert rc.steady_shape(equal(3), mode=2, tip_radius=0.53).conical_height == out_and_back[0].conical_height
+    assert rc.steady_shape(equal(3), mode=3, tip_radius=2.5, all=True) == ()
+
+
+def test_windows_of_stability():
+    chain = equal(2)
+    second = rc.modes(chain).conical_height[1]
+    branch = rc.branch(chain, 2, conical_height=0.1 * second)
+    stable, unstable = branch.stability_windows(tolerance=1e-9)
+    assert (stable.verdict, unstable.verdict) == ("spectrally stable", "unstable")
+    assert stable.conical_height[1] / second == pytest.approx(0.463321, abs=6e-7)
+    assert stable.arc[1] == unstable.arc[0]
+    assert {window.verdict for window in branch.stability_windows(frame="driven")} == {"unstable"}
+
+
+def test_points_and_shapes_agree():
+    branch = rc.branch(rc.Chain.uniform_rods(6, length=1.0), 3, conical_height=0.005)
+    assert branch.end == "height"
+    assert len(branch) == branch.arc.size == branch.half_waves.size
+    assert (np.diff(branch.arc) > 0).all()
+    for point in (1, 5, -1):
+        shape = branch.shape(point)
+        assert shape.inclination[0] == pytest.approx(branch.tip_inclination[point], abs=1e-12)
+        assert shape.offset[0] == pytest.approx(branch.tip_radius[point], abs=1e-12)
+        assert shape.conical_height == pytest.approx(branch.conical_height[point], rel=1e-12)
+    with pytest.raises(ValueError, match="straight chain"):
+        branch.shape(0)
+    with pytest.raises(ValueError, match="point must be from"):
+        branch.shape(len(branch))
+
+
+def test_pictures():
+    pytest.importorskip("matplotlib")
+    diagram = rc.branches(equal(3), up_to=5.0, gravity=1.0)
+    ax = diagram.plot()
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == [
+        "1 half wave",
+        "2 half waves",
+        "3 half waves",
+    ]
+    assert [text.get_text() for text in ax.texts] == ["pair born at 6.0542"]
+    assert diagram[0].plot(quantity="tip_radius").get_ylabel().startswith("tip radius")
+    with pytest.raises(ValueError, match="quantity must be one of"):
+        diagram.plot(quantity="colour")
+
+
+def test_wrong_calls():
+    chain = equal(3)
+    first = rc.modes(chain).conical_height[0]
+    with pytest.raises(ValueError, match="exactly one of conical_height, angular_speed, tip_inclination"):
+        rc.steady_shape(chain, mode=1)
+    with pytest.raises(ValueError, match="exactly one of"):
+        rc.steady_shape(chain, mode=1, conical_height=0.1, tip_radius=1.0)
+    with pytest.raises(ValueError, match="mode 1 leaves the vertical at the conical height"):
+        rc.steady_shape(chain, mode=1, conical_height=first)
+    with pytest.raises(ValueError, match="mode must be from 1 to the number of modes, 3"):
+        rc.steady_shape(chain, mode=4, conical_height=0.1)
+    with pytest.raises(ValueError, match="mode must be at least 1"):
+        rc.branch(chain, 0, conical_height=0.1)
+    with pytest.raises(ValueError, match="mode must be a whole number"):
+        rc.branch(chain, 1.5, conical_height=0.1)
+    with pytest.raises(ValueError, match="exactly one of conical_height and angular_speed"):
+        rc.branch(chain, 1)
+    with pytest.raises(ValueError, match="exactly one of conical_height and up_to"):
+        rc.branches(chain, conical_height=0.1, up_to=3.0)
+    with pytest.raises(ValueError, match="not met on the branch of mode 3"):
+        rc.steady_shape(chain, mode=3, tip_radius=2.5)
+    with pytest.raises(ValueError, match="tip inclination must lie between 0 and pi/2"):
+        rc.steady_shape(chain, mode=1, tip_inclination=1.6)
+    with pytest.raises(ValueError, match="top tension must be finite and more than the weight"):
+        rc.steady_shape(chain, mode=1, top_tension=0.5)
+    with pytest.raises(ValueError, match="frame must be"):
+        rc.branch(chain, 1, conical_height=0.1).stability_windows(frame="fixed")
+    with pytest.raises(ValueError, match="tolerance must be positive"):
+        rc.branch(chain, 1, conical_height=0.1).stability_windows(tolerance=0.0)
