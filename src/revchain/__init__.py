@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
 from ._batch import conical_heights
 from ._chain import Chain
+from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
@@ -44,6 +45,8 @@ __all__ = [
     "BufferImpact",
     "Certificate",
     "Chain",
+    "ForceDiagram",
+    "FunicularPolygon",
     "GovernorMotion",
     "Modes",
     "SceneError",
@@ -52,11 +55,13 @@ __all__ = [
     "SteadyShape",
     "SteadyShapes",
     "TortuousRope",
+    "TransverseModes",
     "__version__",
     "conical_heights",
     "conical_pendulum",
     "count_modes",
     "elliptic",
+    "funicular_polygon",
     "heavy_chain",
     "hoop",
     "load",
@@ -66,6 +71,7 @@ __all__ = [
     "steady_shapes",
     "tapered_chain",
     "tip_mass",
+    "transverse_modes",
     "two_links",
 ]
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them

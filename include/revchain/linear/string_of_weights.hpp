@@ -72,8 +72,9 @@ TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& pl
     for (Index k = 0; k < found.size(); ++k) {
         result.conical_height[k] = found.conical_height[k] * string.factor;
         result.error_bound[k] += T(3) * epsilon<T>();
-        result.shape(k, 0) = T(0);  // the heavy weight: less than 2^-digits
         if (result.shape(k, 1) < T(0)) result.shape.row(k) = -result.shape.row(k);
+        result.shape(k, 0) = T(0);  // the heavy weight: less than 2^-digits
+        result.shape(k, result.shape.cols() - 1) = T(0);
     }
     return result;
 }
