@@ -30,7 +30,7 @@ struct ForceDiagram {
 };
 
 /// The diagram of a shape of this chain. Rays are sums of the loads from below, not taken from the inclinations: that they
-/// are parallel to the links is the proof of the figure, and holds to rounding: to 4 ulp of the sum of all loads' sizes,
+/// are parallel to the links is the proof of the figure, and holds to rounding: to 5 ulp of the sum of all loads' sizes,
 /// measured (tests/cpp/finite/force_diagram.cpp). Cost O(N). Throws InvalidArgument if the shape has other links than
 /// the chain.
 inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape) {
@@ -73,8 +73,7 @@ inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape&
 /// The chain's links, each as long only as it reaches down, hung along the axis: its weights transferred to the axis, level
 /// with where they were. Small whirling of that straight chain obeys the very equations of the shape: the shape's conical
 /// height is one of its heights and the shape's offsets are that mode, at any inclination and for links of any kind.
-/// Perpendicular to the turning plane, too, links and tensions of the shape are as stiff as this chain: its heights above
-/// the shape's count the directions in which the energy in the turning frame falls, out of the plane.
+/// Perpendicular to the turning plane, too, weights and tensions of the shape are as stiff as this chain.
 /// Accuracy: lengths to 2 ulp of the shape's heights. Throws InvalidArgument as `force_diagram`.
 inline Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape) {
     if (shape.inclination.size() != chain.size())
