@@ -56,6 +56,7 @@ void bind_linear(py::module_& module);
 void bind_finite(py::module_& module);
 void bind_branches(py::module_& module);
 void bind_two_links(py::module_& module);
+void bind_diagrams(py::module_& module);
 void bind_batch(py::module_& module);
 void bind_analytic(py::module_& module);
 void bind_elliptic(py::module_& module);

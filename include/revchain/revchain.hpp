@@ -4,15 +4,19 @@
 // Everything that needs Eigen alone, but for the dense reference solvers (revchain/linear/reference.hpp), which cost
 // seconds of compile time. What needs GSL is in revchain/analytic.hpp.
 
-#include "revchain/chain/chain.hpp"             // IWYU pragma: export
-#include "revchain/core/carried_support.hpp"    // IWYU pragma: export
-#include "revchain/core/conical_pendulum.hpp"   // IWYU pragma: export
-#include "revchain/core/double_double.hpp"      // IWYU pragma: export
-#include "revchain/core/hoop.hpp"               // IWYU pragma: export
-#include "revchain/core/inclined_pendulum.hpp"  // IWYU pragma: export
-#include "revchain/finite/two_links.hpp"        // IWYU pragma: export
-#include "revchain/linear/buffer_impact.hpp"    // IWYU pragma: export
-#include "revchain/linear/count.hpp"            // IWYU pragma: export
-#include "revchain/linear/modes.hpp"            // IWYU pragma: export
-#include "revchain/linear/recurrence.hpp"       // IWYU pragma: export
-#include "revchain/linear/two_links.hpp"        // IWYU pragma: export
+#include "revchain/chain/chain.hpp"               // IWYU pragma: export
+#include "revchain/core/carried_support.hpp"      // IWYU pragma: export
+#include "revchain/core/conical_pendulum.hpp"     // IWYU pragma: export
+#include "revchain/core/double_double.hpp"        // IWYU pragma: export
+#include "revchain/core/hoop.hpp"                 // IWYU pragma: export
+#include "revchain/core/inclined_pendulum.hpp"    // IWYU pragma: export
+#include "revchain/finite/funicular_polygon.hpp"  // IWYU pragma: export
+#include "revchain/finite/jointed_links.hpp"      // IWYU pragma: export
+#include "revchain/finite/two_links.hpp"          // IWYU pragma: export
+#include "revchain/linear/buffer_impact.hpp"      // IWYU pragma: export
+#include "revchain/linear/count.hpp"              // IWYU pragma: export
+#include "revchain/linear/jointed_links.hpp"      // IWYU pragma: export
+#include "revchain/linear/modes.hpp"              // IWYU pragma: export
+#include "revchain/linear/recurrence.hpp"         // IWYU pragma: export
+#include "revchain/linear/string_of_weights.hpp"  // IWYU pragma: export
+#include "revchain/linear/two_links.hpp"          // IWYU pragma: export

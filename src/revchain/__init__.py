@@ -27,6 +27,7 @@ from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_ch
 from ._batch import conical_heights
 from ._branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
 from ._chain import Chain
+from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
@@ -47,6 +48,8 @@ __all__ = [
     "BufferImpact",
     "Certificate",
     "Chain",
+    "ForceDiagram",
+    "FunicularPolygon",
     "GovernorMotion",
     "Modes",
     "SceneError",
@@ -56,6 +59,7 @@ __all__ = [
     "SteadyShape",
     "SteadyShapes",
     "TortuousRope",
+    "TransverseModes",
     "__version__",
     "branch",
     "branches",
@@ -63,6 +67,7 @@ __all__ = [
     "conical_pendulum",
     "count_modes",
     "elliptic",
+    "funicular_polygon",
     "heavy_chain",
     "hoop",
     "load",
@@ -73,6 +78,7 @@ __all__ = [
     "steady_shapes",
     "tapered_chain",
     "tip_mass",
+    "transverse_modes",
     "two_links",
 ]
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, integer, positive, real
+from ._diagrams import ForceDiagram
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -203,6 +204,56 @@ class SteadyShape:
         if frame not in ("free", "driven"):
             raise ValueError(f"revchain.SteadyShape.stability: frame must be 'free' or 'driven', got {frame!r}")
         return Stability._wrap(_core.stability(self._chain, self._compiled, frame == "driven"), frame)
+
+    def force_diagram(self) -> ForceDiagram:
+        """Return the graphical construction of the shape: force diagram and funicular polygon.
+
+        Returns
+        -------
+        ForceDiagram
+            Rays are sums of weights and centrifugal forces from below: that they are parallel to the
+            links proves the shape anew.
+
+        Notes
+        -----
+        Greenhill (1908) section 3, figures 3 and 5.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import revchain as rc
+        >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.5)[0]
+        >>> diagram = shape.force_diagram()
+        >>> side = diagram.pin[1:] - diagram.pin[:-1]
+        >>> bool(np.allclose(side[:, 0] / side[:, 1], diagram.ray[:, 0] / diagram.ray[:, 1], rtol=1e-14))
+        True
+        """
+        return ForceDiagram._wrap(_core.force_diagram(self._chain, self._compiled))
+
+    def transferred_to_axis(self) -> Chain:
+        """Return the straight chain whose weights hang on the axis, level with where they are in the shape.
+
+        Returns
+        -------
+        Chain
+            Each link as long only as it reaches down. One of its conical heights is the shape's, and that
+            mode the shape's offsets, for links of any kind; of plummets it is mode ``half_waves``.
+
+        Notes
+        -----
+        Greenhill (1908) section 8 (21): inclinations enter through ``conical_height / cos(inclination)``
+        alone. Perpendicular to the turning plane the shape is as stiff as this chain.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> shape = rc.steady_shapes(rc.Chain.uniform_plummets(2, length=2.0), conical_height=0.5)[0]
+        >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
+        array([0.5       , 0.08366581])
+        """
+        from ._chain import Chain
+
+        return Chain._wrap(_core.transferred_to_axis(self._chain, self._compiled))
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw the shape, true to scale.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Two links, or one with something that yields: closed forms of Greenhill (1908), sections 2 and 6.
+"""Two links, or one with something that yields: closed forms of Greenhill (1908), sections 2, 6 and 8.
 
 Conical heights are the roots of a quadratic, taken without a difference of like numbers; the figures
 at any inclination are all there are. Lengths are in one unit of the user's, heights in the same; of
@@ -23,10 +23,14 @@ from ._core import PairShape
 __all__ = [
     "PairShape",
     "SwungLink",
+    "joint_without_bending",
+    "jointed_links",
+    "jointed_links_shapes",
     "link_on_spring",
     "link_on_thread",
     "link_on_thread_shapes",
     "pendulum_length",
+    "pin_of_silent_clapper",
     "seconds_lost_per_day",
     "share_at_centre_of_oscillation",
     "spring_deflection",
@@ -681,3 +685,219 @@ def standing_link_shape(
     return _core.standing_link_shape(
         *_reals(place, thread=thread, centroid=centroid, radius_of_gyration=radius_of_gyration, height=height)
     )
+
+
+def jointed_links(
+    *,
+    lower_weight: ArrayLike,
+    lower_centroid: ArrayLike,
+    lower_radius_of_gyration: ArrayLike,
+    upper_weight: ArrayLike,
+    upper_length: ArrayLike,
+    upper_centroid: ArrayLike,
+    upper_radius_of_gyration: ArrayLike,
+) -> Floats:
+    """Return both conical heights of any two links jointed together, a bell and its clapper among them.
+
+    Parameters
+    ----------
+    lower_weight, upper_weight : array_like
+        Positive.
+    lower_centroid, lower_radius_of_gyration : array_like
+        Of the lower link, from the joint: positive, and not negative (0 is a plummet).
+    upper_length : array_like
+        From the support to the joint, positive.
+    upper_centroid, upper_radius_of_gyration : array_like
+        Of the upper link, from the support: of any sign as long as the link hangs, and not negative.
+
+    Returns
+    -------
+    ndarray, shape (..., 2)
+        The larger (slower) first, within 3 ulp. Cost O(1) a pair.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range, or the upper link would stand.
+
+    Notes
+    -----
+    ``a2 h1 / (x - l1) = (m + 1)(x - l2) + l2 - a2``, ``m = W2 h2 / (W1 a2)``, Greenhill (1908) section 8
+    (14); where l2 = a2, (15).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> clapper = dict(lower_weight=1.0, lower_centroid=0.75, lower_radius_of_gyration=0.1875**0.5)
+    >>> bell = dict(upper_weight=1.0, upper_length=0.25, upper_centroid=0.125, upper_radius_of_gyration=0.203125**0.5)
+    >>> rc.two_links.jointed_links(**clapper, **bell).round(6)
+    array([1.25, 0.5 ])
+    """
+    place = "revchain.two_links.jointed_links"
+    arrays = together(
+        place,
+        lower_weight=positive(place, "lower_weight", lower_weight),
+        lower_centroid=positive(place, "lower_centroid", lower_centroid),
+        lower_radius_of_gyration=floats(place, "lower_radius_of_gyration", lower_radius_of_gyration),
+        upper_weight=positive(place, "upper_weight", upper_weight),
+        upper_length=positive(place, "upper_length", upper_length),
+        upper_centroid=floats(place, "upper_centroid", upper_centroid),
+        upper_radius_of_gyration=floats(place, "upper_radius_of_gyration", upper_radius_of_gyration),
+    )
+    return np.stack(_core.jointed_links(*arrays), axis=-1)
+
+
+def jointed_links_shapes(
+    *,
+    lower_weight: float,
+    lower_centroid: float,
+    lower_radius_of_gyration: float,
+    upper_weight: float,
+    upper_length: float,
+    upper_centroid: float,
+    upper_radius_of_gyration: float,
+    height: float,
+) -> list[PairShape]:
+    """Return all hanging figures of two jointed links at a given speed, at any inclination.
+
+    Parameters
+    ----------
+    lower_weight, lower_centroid, lower_radius_of_gyration : float
+        As in `jointed_links`.
+    upper_weight, upper_length, upper_centroid, upper_radius_of_gyration : float
+        As in `jointed_links`.
+    height : float
+        Conical height of the speed, positive.
+
+    Returns
+    -------
+    list of PairShape
+        By half waves, then inclination of the lower link: all there are, four at the most, for any
+        pendulum lengths. The first offset is that of the lower link's centre of oscillation; tensions
+        are the sizes of the reactions at the upper pins over the whole weight.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range, or the upper link would stand.
+
+    Notes
+    -----
+    Greenhill (1908) section 8 (14) with its secants.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> clapper = dict(lower_weight=1.0, lower_centroid=0.75, lower_radius_of_gyration=0.1875**0.5)
+    >>> bell = dict(upper_weight=1.0, upper_length=0.25, upper_centroid=0.125, upper_radius_of_gyration=0.203125**0.5)
+    >>> rc.two_links.jointed_links_shapes(**clapper, **bell, height=1.0)[0].inclination.round(6)
+    array([0.643501, 0.643501])
+    """
+    place = "revchain.two_links.jointed_links_shapes"
+    return _core.jointed_links_shapes(
+        *_reals(
+            place,
+            lower_weight=lower_weight,
+            lower_centroid=lower_centroid,
+            lower_radius_of_gyration=lower_radius_of_gyration,
+            upper_weight=upper_weight,
+            upper_length=upper_length,
+            upper_centroid=upper_centroid,
+            upper_radius_of_gyration=upper_radius_of_gyration,
+            height=height,
+        )
+    )
+
+
+def pin_of_silent_clapper(
+    *,
+    bell_weight: ArrayLike,
+    bell_centroid: ArrayLike,
+    bell_radius_of_gyration: ArrayLike,
+    clapper_weight: ArrayLike,
+    clapper_centroid: ArrayLike,
+    clapper_radius_of_gyration: ArrayLike,
+) -> Any:
+    """Return how far below its support a bell must carry its clapper's pin to stay silent.
+
+    Parameters
+    ----------
+    bell_weight, clapper_weight : array_like
+        Positive.
+    bell_centroid, bell_radius_of_gyration : array_like
+        Of the bell, from its support: positive, and not negative.
+    clapper_centroid, clapper_radius_of_gyration : array_like
+        Of the clapper, from its pin: positive, and not negative.
+
+    Returns
+    -------
+    float or ndarray
+        The distance at which both swing, or whirl at any inclination, in one line as if clamped. The
+        conical height of that motion is the distance and the clapper's `pendulum_length`. Within 2 ulp,
+        times the sum of both pendulum lengths over their difference.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range, or the clapper's pendulum length is not less than the bell's:
+        then the bell rings wherever its pin is.
+
+    Notes
+    -----
+    ``h1 = (m + 1) l1 + m (a2 - l2)``, Greenhill (1908) section 8 (16), solved for a2.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> bell = dict(bell_weight=1.0, bell_centroid=0.125, bell_radius_of_gyration=0.203125**0.5)
+    >>> clapper = dict(clapper_weight=1.0, clapper_centroid=0.75, clapper_radius_of_gyration=0.1875**0.5)
+    >>> round(float(rc.two_links.pin_of_silent_clapper(**bell, **clapper)), 12)
+    0.25
+    """
+    place = "revchain.two_links.pin_of_silent_clapper"
+    return _core.pin_of_silent_clapper(
+        *together(
+            place,
+            bell_weight=positive(place, "bell_weight", bell_weight),
+            bell_centroid=positive(place, "bell_centroid", bell_centroid),
+            bell_radius_of_gyration=floats(place, "bell_radius_of_gyration", bell_radius_of_gyration),
+            clapper_weight=positive(place, "clapper_weight", clapper_weight),
+            clapper_centroid=positive(place, "clapper_centroid", clapper_centroid),
+            clapper_radius_of_gyration=floats(place, "clapper_radius_of_gyration", clapper_radius_of_gyration),
+        )
+    )
+
+
+def joint_without_bending(length: ArrayLike, pin: ArrayLike) -> Any:
+    """Return where a uniform rod, hung off its middle, may be jointed and still swing as one straight rod.
+
+    Parameters
+    ----------
+    length : array_like
+        Of the rod, positive.
+    pin : array_like
+        Distance of the pin from the middle of the rod: more than a sixth of the length, less than half.
+
+    Returns
+    -------
+    float or ndarray
+        Distance of the joint below the pin: there the rod, swinging or whirling at any inclination, does
+        not bend. Within 2.5 ulp for pins up to 0.49 of the length.
+
+    Raises
+    ------
+    ValueError
+        If a number is out of its range.
+
+    Notes
+    -----
+    CG.CD = CA^2, Greenhill (1908) section 8 (17): C the pin, G the middle, D the joint, A the end above.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> float(rc.two_links.joint_without_bending(2.0, 0.5))
+    0.5
+    """
+    place = "revchain.two_links.joint_without_bending"
+    return _core.joint_without_bending(*positives(place, length=length, pin=pin))

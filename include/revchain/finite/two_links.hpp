@@ -10,7 +10,7 @@
 #include "revchain/linear/two_links.hpp"
 
 /// Two links at any inclination: every hanging figure of two plummets, or of a compound link on a thread, at a given
-/// speed. Greenhill (1908) §2 (4), (8), §6 (10).
+/// speed. Greenhill (1908) §2 (4), (8), §6 (10). Of any two links: finite/jointed_links.hpp.
 ///
 /// In units of the conical height, l1 and l2 the lengths, s l1 l2 the coupling (s = W1/(W1+W2), or h/l) and
 /// A = sec d1 - l1, the paper's (4) and (A) sin d1 = l2 sin d2 leave one equation in A,
@@ -19,6 +19,10 @@
 /// none. A < 0, B = -A: dF/dB is 2B (1 - l1/(l1-B)^3 - s l1/(B - s l1)^3), whose bracket is concave with its maximum at
 /// B = s^(1/4) l1 (1 - s^(1/4) + s^(1/2)): between its two zeros F grows, elsewhere it falls, so that there are one or
 /// three figures if the height lies below the second of (5), else none. All are found, and no more exist.
+///
+/// Where l2 in sec d2 is not the length a2 between the pins (jointed links), a2 stands for l2 in front of (1 - cos^2 d2), the
+/// bracket is 1 - l1/(l1-B)^3 - (a2/l2)^2 s l1/(B - s l1)^3 with its maximum at B - s l1 : l1 - B = (s (a2/l2)^2)^(1/4) : 1,
+/// and all else is the same.
 namespace revchain {
 
 /// A steady figure, lowest link first; of two mirror images that with the free end (or lowest centre of oscillation) at a
@@ -35,10 +39,10 @@ struct PairShape {
 
 namespace detail {
 
-/// Lengths in units of the conical height; `other` = 1 - s.
+/// Lengths in units of the conical height; `other` = 1 - s; `upper` = a2, between the pins of the upper link.
 template <Real T>
 struct Pair {
-    T l1, l2, share, other;
+    T l1, l2, share, other, upper = l2;
 
     /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights; of its two forms that with the smaller terms.
     T characteristic() const {
@@ -48,15 +52,15 @@ struct Pair {
     }
 };
 
-/// F/l2^2 and its slope along |A|. `versed` = sec d1 - 1, growing with |A| or falling as `direction` says; `arm` = |A|;
+/// F/a2^2 and its slope along |A|. `versed` = sec d1 - 1, growing with |A| or falling as `direction` says; `arm` = |A|;
 /// `rest` = arm (sec d2 - 1); `joint` = +- s l1, so that arm sec d2 = l2 (arm + joint).
 template <Real T>
 std::pair<T, T> balance(const Pair<T>& pair, int direction, const T& joint, const T& arm, const T& versed,
                         const T& rest) {
     const T cosine1 = T(1) / (T(1) + versed), sine1_squared = versed * cosine1 * (T(1) + cosine1);
-    const T lever = arm + rest, cosine2 = arm / lever, ratio = arm / pair.l2;
+    const T lever = arm + rest, cosine2 = arm / lever, ratio = arm / pair.upper;
     return {ratio * ratio * sine1_squared - rest / lever * (T(1) + cosine2),
-            T(2) * (ratio / pair.l2 * (sine1_squared + T(direction) * arm * cosine1 * cosine1 * cosine1) +
+            T(2) * (ratio / pair.upper * (sine1_squared + T(direction) * arm * cosine1 * cosine1 * cosine1) +
                     cosine2 * cosine2 * (joint * pair.l2 / lever) / arm)};
 }
 
@@ -95,7 +99,7 @@ PairShape<T> pair_shape(const Pair<T>& pair, int side, const T& arm, const T& ve
     const T excess = rest / arm, secant2 = T(1) + excess;
     const T tangent1 = sqrt(versed) * sqrt(T(2) + versed), tangent2 = T(side) * sqrt(excess) * sqrt(T(2) + excess);
     return {{atan(tangent1), atan(tangent2)},
-            {height * tangent1, height * (pair.l2 * (tangent2 / secant2))},
+            {height * tangent1, height * (pair.upper * (tangent2 / secant2))},
             {pair.share * (T(1) + versed), secant2}};
 }
 
@@ -122,7 +126,7 @@ void add_same_side(const Pair<T>& pair, const T& height, std::vector<PairShape<T
     } else {
         const auto rest = [&](const T& x) { return rest0 + (pair.l2 - T(1)) * x; };
         const T x =
-            zero_between(T(0), T(pair.l1 + pair.l2 + T(1)), [&](const T& from) { return at(from, rest(from)); });
+            zero_between(T(0), T(pair.l1 + pair.upper + T(1)), [&](const T& from) { return at(from, rest(from)); });
         add(x, rest(x));
     }
 }
@@ -143,15 +147,16 @@ void add_opposite_sides(const Pair<T>& pair, const T& height, std::vector<PairSh
         const auto [x, versed] = zero_within(width, low, high, T(sign), at);
         shapes.push_back(pair_shape(pair, -1, T(first + x), versed, T(rises * x), height));
     };
-    // F turns where  1 - l1/P^3 - s l1/Q^3 = 0,  P = l1 - B = 1 + versed and Q = B - s l1 = x + s l1/(l2 - 1): the bracket has
-    // its maximum at Q : P = s^(1/4), and a zero on either side.
-    const T both = pair.other * pair.l1, root = sqrt(sqrt(pair.share)), lower = pair.share * pair.l1;
+    // F turns where  1 - l1/P^3 - r^2 s l1/Q^3 = 0,  r = a2/l2, P = l1 - B = 1 + versed and Q = B - s l1 = x + s l1/(l2 - 1):
+    // the bracket has its maximum at Q : P = (r^2 s)^(1/4), and a zero on either side.
+    const T both = pair.other * pair.l1, lower = pair.share * pair.l1, ratio = pair.upper / pair.l2;
+    const T root = sqrt(sqrt(pair.share) * ratio), pull = ratio * lower * ratio;
     const T top_p = both / (T(1) + root), top_q = root * top_p;
-    const auto turning = [&](const T& p, const T& q) { return T(1) - pair.l1 / (p * p * p) - lower / (q * q * q); };
+    const auto turning = [&](const T& p, const T& q) { return T(1) - pair.l1 / (p * p * p) - pull / (q * q * q); };
     Place<T> low = start, high = start;  // F grows between
     if (turning(top_p, top_q) > T(0)) {
         const auto slope = [&](const T& p, const T& q) {  // along Q
-            return T(3) * (lower / (q * q * q) / q - pair.l1 / (p * p * p) / p);
+            return T(3) * (pull / (q * q * q) / q - pair.l1 / (p * p * p) / p);
         };
         const T q = zero_between(T(0), top_q, [&](const T& at_q) {
             return std::pair<T, T>(turning(T(both - at_q), at_q), slope(T(both - at_q), at_q));

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
-// Greenhill (1908) §8: jointed links, every equation with sec delta = 1 and coded here by hand from the corrected text,
-// in quadruple precision. Links and pins are numbered as in the paper: link m joins P_m (upper) and P_{m-1}.
+// Greenhill (1908) §8: jointed links, every equation with sec delta = 1. At finite inclinations: section_8_finite.cpp.
 #include <functional>
 
-#include "paper.hpp"
 #include "revchain/linear/assembly.hpp"
 #include "revchain/linear/recurrence.hpp"
+#include "section_8.hpp"
 
 using paper::Index;
 using paper::Letters;
@@ -13,105 +12,9 @@ using paper::Quad;
 using revchain::Chain;
 using revchain::compound_pendulum;
 using revchain::Link;
+using namespace paper::section_8;
 
 namespace {
-
-using Letterses = std::vector<Letters>;  // [1] the lowest link
-using Offsets = std::vector<Quad>;       // [0] the free end
-
-/// A sum that remembers the size of its terms, and of its coefficients.
-struct Balance {
-    Quad sum = 0, size = 0, coefficients = 0;
-    void add(Quad coefficient, Quad offset) {
-        sum += coefficient * offset;
-        size += fabsq(coefficient * offset);
-        coefficients += fabsq(coefficient);
-    }
-    /// For offsets of at most 1: what is left, in ulp of the largest offset.
-    double in_ulp() const {
-        return static_cast<double>(fabsq(sum) / coefficients) / std::numeric_limits<double>::epsilon();
-    }
-};
-
-std::size_t at(Index m) { return static_cast<std::size_t>(m); }
-
-// (7): moment about P_m of link m's own centrifugal force and weight.
-Quad own_moment(const Letterses& link, Index m, Quad lambda, const Offsets& y) {
-    const auto [W, a, h, l, rho2] = link[at(m)];
-    return W * h / lambda * (y[at(m)] - (lambda - l) / a * (y[at(m - 1)] - y[at(m)]));
-}
-
-// (8) for link r, (9) for r = 1: moment about P_m of a link below, acting at P_{m-1}.
-Quad moment_below(const Letterses& link, Index m, Index r, Quad lambda, const Offsets& y) {
-    const auto [W, a, h, l, rho2] = link[at(r)];
-    const Quad lever = link[at(m)].a, drop = y[at(m - 1)] - y[at(m)];
-    if (r == 1) return W * lever / lambda * (1 + h / (lambda - l)) * y[1] - W * drop;
-    return W * lever / lambda * (y[at(r)] + h / a * (y[at(r - 1)] - y[at(r)])) - W * drop;
-}
-
-// (10): nothing hangs below the lowest link.
-Balance relation_10(const Letterses& link, Quad lambda, const Offsets& y) {
-    const auto [W, a, h, l, rho2] = link[1];
-    Balance b;
-    b.add(W * h / a * (1 + (lambda - l) / a), y[1]);
-    b.add(-W * h / a * (lambda - l) / a, y[0]);
-    return b;
-}
-
-Balance relation_12(const Letterses& link, Quad lambda, const Offsets& y) {
-    const auto [W1, a1, h1, l1, rho1] = link[1];
-    const auto [W2, a2, h2, l2, rho2] = link[2];
-    Balance b;
-    b.add(W1 * lambda / a2 + W2 * h2 / a2 * (1 + (lambda - l2) / a2), y[2]);
-    b.add(W1 * (1 + h1 / (lambda - l1)) - W1 * lambda / a2 - W2 * h2 / a2 * (lambda - l2) / a2, y[1]);
-    return b;
-}
-
-Balance relation_19(const Letterses& link, Quad lambda, const Offsets& y) {
-    const auto [W1, a1, h1, l1, rho1] = link[1];
-    const auto [W2, a2, h2, l2, rho2] = link[2];
-    const auto [W3, a3, h3, l3, rho3] = link[3];
-    Balance b;
-    b.add((W1 + W2) * lambda / a3 + W3 * h3 / a3 * (1 + (lambda - l3) / a3), y[3]);
-    b.add(W2 * (1 - h2 / a2) - (W1 + W2) * lambda / a3 - W3 * h3 / a3 * (lambda - l3) / a3, y[2]);
-    b.add(W1 * (1 + h1 / (lambda - l1)) + W2 * h2 / a2, y[1]);
-    return b;
-}
-
-enum class Form {
-    corrected,
-    printed,   // with h_{m-2}/a_{m-1} where h_{m-2}/a_{m-2} belongs
-    with_y_0,  // corrected, with (y_0 - y_1)/a_1 for y_1/(lambda - l_1), which is of no use at lambda = l_1
-};
-
-// (21) for m >= 3.
-Balance relation_21(const Letterses& link, Index m, Quad lambda, const Offsets& y, Form form = Form::corrected) {
-    const auto ratio = [&](Index r) { return link[at(r)].h / link[at(r)].a; };
-    const auto [W, a, h, l, rho2] = link[at(m)];
-    Quad below = 0;
-    for (Index r = 1; r < m; ++r) below += link[at(r)].W;
-    Balance b;
-    b.add(below * lambda / a + W * h / a * (1 + (lambda - l) / a), y[at(m)]);
-    b.add(link[at(m - 1)].W * (1 - ratio(m - 1)) - below * lambda / a - W * h / a * (lambda - l) / a, y[at(m - 1)]);
-    for (Index r = m - 2; r >= 2; --r) {
-        const Quad lower = form == Form::printed && r == m - 2 ? link[at(r)].h / link[at(m - 1)].a : ratio(r);
-        b.add(link[at(r)].W * (1 - lower) + link[at(r + 1)].W * ratio(r + 1), y[at(r)]);
-    }
-    if (form == Form::with_y_0) {
-        b.add(link[1].W * (1 - ratio(1)) + link[2].W * ratio(2), y[1]);
-        b.add(link[1].W * ratio(1), y[0]);
-    } else {
-        b.add(link[1].W * (1 + link[1].h / (lambda - link[1].l)) + link[2].W * ratio(2), y[1]);
-    }
-    return b;
-}
-
-Balance relation(const Letterses& link, Index m, Quad lambda, const Offsets& y) {
-    return m == 1   ? relation_10(link, lambda, y)
-           : m == 2 ? relation_12(link, lambda, y)
-           : m == 3 ? relation_19(link, lambda, y)
-                    : relation_21(link, m, lambda, y);
-}
 
 /// Any offsets that satisfy (10), so that y_0 may be eliminated as the paper does; the support on the axis.
 Offsets random_offsets(paper::Random& random, const Letterses& link, Quad lambda) {
@@ -412,57 +315,13 @@ TEST_CASE("§8 (17): a uniform rod hung at C and jointed at D, CG.CD = CA^2", "[
     CHECK(1 / 0.33 - 2 > 1);   // and C within the middle third has its D beyond the rod
 }
 
-namespace {
-
-/// Polynomials in lambda, lowest power first.
-using Polynomial = std::vector<Quad>;
-
-Polynomial operator*(const Polynomial& p, const Polynomial& q) {
-    Polynomial r(p.size() + q.size() - 1, 0);
-    for (std::size_t i = 0; i < p.size(); ++i)
-        for (std::size_t j = 0; j < q.size(); ++j) r[i + j] += p[i] * q[j];
-    return r;
-}
-
-Polynomial plus(const Polynomial& p, Quad factor, const Polynomial& q) {
-    Polynomial r(std::max(p.size(), q.size()), 0);
-    for (std::size_t i = 0; i < p.size(); ++i) r[i] += p[i];
-    for (std::size_t j = 0; j < q.size(); ++j) r[j] += factor * q[j];
-    return r;
-}
-
-/// The root near x.
-Quad root(const Polynomial& p, Quad x) {
-    for (int i = 0; i < 20; ++i) {
-        Quad value = 0, derivative = 0;
-        for (std::size_t j = p.size(); j-- > 0;) {
-            derivative = derivative * x + value;
-            value = value * x + p[j];
-        }
-        x -= value / derivative;
-    }
-    return x;
-}
-
-}  // namespace
-
 TEMPLATE_TEST_CASE("§8 (20): three links, a cubic", "[paper][section_8]", float, double, long double) {
     using T = TestType;
     paper::Random random(820);
     for (int i = 0; i < 200; ++i) {
         const auto chain = paper::random_chain<T>(random, 3);
         const auto link = paper::letters(chain);
-        const auto [W1, a1, h1, l1, rho1] = link[1];
-        const auto [W2, a2, h2, l2, rho2] = link[2];
-        const auto [W3, a3, h3, l3, rho3] = link[3];
-        const Polynomial u{-l1, 1};                  // lambda - l_1, by which the fractions are cleared
-        const Polynomial first{W1 * (h1 - l1), W1};  // W_1 (1 + h_1/(lambda - l_1)), cleared
-        // (20), left: -d_2/d_1 from (19); right: -c_2/c_1 from (12)
-        const Polynomial d2{W2 * (1 - h2 / a2) + W3 * h3 * l3 / (a3 * a3), -(W1 + W2) / a3 - W3 * h3 / (a3 * a3)};
-        const Polynomial d1 = plus(first, W2 * h2 / a2, u);
-        const Polynomial c2{W2 * h2 / a2 * (1 - l2 / a2), W1 / a2 + W2 * h2 / (a2 * a2)};
-        const Polynomial c1 = plus(first, 1, u * Polynomial{W2 * h2 * l2 / (a2 * a2), -W1 / a2 - W2 * h2 / (a2 * a2)});
-        const Polynomial cubic = plus(d2 * c1, -1, c2 * d1);
+        const Polynomial cubic = cubic_20(link, {0, 1, 1, 1});
         REQUIRE(cubic.size() == 4);
         const auto m = revchain::modes(chain);
         std::vector<Quad> truth;

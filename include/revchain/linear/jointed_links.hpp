@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linear/two_links.hpp"
+
+/// Any two links jointed together, a bell and its clapper among them. Greenhill (1908) §8 (13)-(17).
+namespace revchain {
+
+/// Two jointed links; weights and lengths in any units. Suffix 1 of the paper is `lower`, 2 `upper`.
+template <Real T>
+struct JointedLinks {
+    T lower_weight;              ///< W1 > 0
+    CompoundLink<T> lower;       ///< h1, k1
+    T upper_weight;              ///< W2 > 0
+    T upper_length;              ///< a2 > 0, from the support to the joint
+    T upper_centroid;            ///< h2, from the support; negative where it lies above, as a bell's may
+    T upper_radius_of_gyration;  ///< k2 >= 0, about the centroid
+};
+
+namespace detail {
+
+/// With m = W2 h2/(W1 a2), (14) is  (lambda sec d1 - l1)(lambda sec d2 - p) = c,  p = (m l2 + a2)/(m + 1),
+/// c = a2 h1/(m + 1). Lengths times `unit`, a power of two.
+template <Real T>
+struct JointedNumbers {
+    T unit, l1, p;
+    T share, other;  ///< c/(l1 p) and 1 - c/(l1 p), without a difference
+};
+
+template <Real T>
+JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>& links) {
+    using std::abs;
+    using std::isfinite;
+    using std::max;
+    require_positive(place, "lower weight", links.lower_weight);
+    check(place, links.lower);
+    require_positive(place, "upper weight", links.upper_weight);
+    require_positive(place, "upper length", links.upper_length);
+    if (!isfinite(links.upper_centroid)) refuse(place, "upper centroid must be finite", links.upper_centroid);
+    if (!(links.upper_radius_of_gyration >= T(0)) || !isfinite(links.upper_radius_of_gyration))
+        refuse(place, "upper radius of gyration must be finite and not negative", links.upper_radius_of_gyration);
+    const T largest = max(max(links.lower.pendulum_length(), links.upper_length),
+                          max(abs(links.upper_centroid), links.upper_radius_of_gyration));
+    const T unit = inverse_power_near(largest);
+    const T by = inverse_power_near(max(links.lower_weight, links.upper_weight));
+    const T w1 = links.lower_weight * by, w2 = links.upper_weight * by;
+    const T a2 = links.upper_length * unit, h2 = links.upper_centroid * unit,
+            k2 = links.upper_radius_of_gyration * unit;
+    using S = Wide<T>;  // of a bell hung below its centroid the moment is a difference
+    const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
+    const T hung = static_cast<T>(S(wide(w1) * wide(a2) + wide(w2) * wide(h2)));  // W1 a2 (m + 1)
+    if (!(hung > T(0)))
+        refuse(place,
+               "the upper link would stand, not hang: upper weight x upper centroid + upper length x lower weight "
+               "must be positive, with an upper centroid of",
+               links.upper_centroid);
+    const T l1 = links.lower.pendulum_length() * unit, turn = w2 * (h2 * h2 + k2 * k2), pull = w1 * a2 * a2;
+    const T behind = links.lower.square_over_centroid() * unit;  // l1 - h1
+    return {unit, l1, (turn + pull) / hung, pull / (turn + pull) * links.lower.share_at_centre_of_oscillation(),
+            (turn + pull * (behind / l1)) / (turn + pull)};
+}
+
+}  // namespace detail
+
+/// Both conical heights of two jointed links: of a2 h1/(lambda - l1) = (m + 1)(lambda - l2) + l2 - a2, §8 (14), and where
+/// l2 = a2, of (lambda - l1)(lambda - l2) = l2 h1/(m + 1), (15). The lower is 0 where neither link has a radius of gyration
+/// and the upper one's centroid is at its support. Accuracy: 3 ulp for every root, measured
+/// (tests/cpp/finite/jointed_links.cpp).
+/// Throws InvalidArgument for numbers out of range, and where W2 h2 + W1 a2 is not positive.
+template <Real T>
+HeightPair<T> jointed_links(const JointedLinks<T>& links) {
+    const auto n = detail::jointed_numbers("jointed_links", links);
+    const T product = n.l1 * n.p;
+    auto roots = detail::coupled_roots(n.l1, n.p, T(n.share * product), T(n.other * product));
+    for (T& root : roots) root = root / n.unit;
+    return roots;
+}
+
+/// How far below its support a bell must carry its clapper's pin so that both swing, or whirl at any inclination, in one
+/// line as if clamped, and the bell never rings:  h1 = (m + 1) l1 + m (a2 - l2), §8 (16), is
+/// a2 = w (l2 - l1)/(w + l1 - h1),  w = W2 h2/W1. The height of that motion is l1 + a2.
+/// Accuracy: 2 ulp, times (l1 + l2)/(l2 - l1). Throws InvalidArgument for numbers out of range, and where the clapper's
+/// pendulum length is not the shorter: then every pin lets it ring.
+template <Real T>
+T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const T& clapper_weight,
+                        const CompoundLink<T>& clapper) {
+    constexpr std::string_view place = "pin_of_silent_clapper";
+    detail::require_positive(place, "bell weight", bell_weight);
+    detail::check(place, bell);
+    detail::require_positive(place, "clapper weight", clapper_weight);
+    detail::check(place, clapper);
+    using std::max;
+    const T longer = bell.pendulum_length() - clapper.pendulum_length();
+    if (!(longer > T(0)))
+        detail::refuse(place, "the clapper's pendulum length must be less than the bell's", clapper.pendulum_length());
+    const T heavy = max(bell_weight, clapper_weight), w1 = clapper_weight / heavy, w2 = bell_weight / heavy;
+    return w2 * bell.centroid / (w2 * bell.centroid + w1 * clapper.square_over_centroid()) * longer;
+}
+
+/// How far below its pin C a uniform rod, hung at C off its middle G, may be jointed at D and still swing, or whirl, as one
+/// straight rod: CG.CD = CA^2, A the end above C, §8 (17). `pin` is CG. At D the rod does not bend.
+/// Accuracy: 2.5 ulp for pins up to 0.49 length. Throws InvalidArgument unless length/6 < pin < length/2: with C
+/// within the middle third, D would lie beyond the rod.
+template <Real T>
+T joint_without_bending(const T& length, const T& pin) {
+    constexpr std::string_view place = "joint_without_bending";
+    detail::require_positive(place, "length", length);
+    const T above = length / T(2) - pin;  // CA
+    if (!(above > T(0) && pin > length / T(6)))
+        detail::refuse(place, "the pin must lie outside the middle third of the rod and within the rod", pin);
+    return above / pin * above;
+}
+
+}  // namespace revchain

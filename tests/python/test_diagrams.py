@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Force diagrams, funicular polygons, strings of weights, two jointed links."""
+
+import numpy as np
+import pytest
+import revchain as rc
+from revchain import two_links
+
+RNG = np.random.default_rng(3)
+
+
+def plummets(count):
+    return rc.Chain(weight=RNG.uniform(0.5, 2, count), length=RNG.uniform(0.5, 2, count))
+
+
+def compound(count):
+    length = RNG.uniform(0.5, 2, count)
+    return rc.Chain(
+        weight=RNG.uniform(0.5, 2, count),
+        length=length,
+        centroid=length * RNG.uniform(0.2, 0.8, count),
+        radius_of_gyration=length * RNG.uniform(0.05, 0.3, count),
+    )
+
+
+def shapes_of(chain, share):
+    return rc.steady_shapes(chain, conical_height=share * rc.modes(chain, modes=[1]).conical_height[0], budget=20_000)
+
+
+def sine(first, second):
+    """Of the angle between rows."""
+    across = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    return across / np.linalg.norm(first, axis=1) / np.linalg.norm(second, axis=1)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 8])
+@pytest.mark.parametrize("share", [0.9, 0.3, 0.08])
+def test_plummets_as_the_paper_draws_them(count, share):
+    chain = plummets(count)
+    for shape in shapes_of(chain, share):
+        diagram = shape.force_diagram()
+        x, height = shape.offset[:-1], shape.conical_height
+        assert np.array_equal(diagram.pin, np.stack([shape.offset, shape.height], axis=1))
+        # line of load and rays, from weights and offsets alone
+        np.testing.assert_allclose(diagram.load[:, 1], -chain.weight, rtol=1e-15)
+        np.testing.assert_allclose(diagram.load[:, 0], chain.weight * x / height, rtol=1e-15)
+        np.testing.assert_allclose(diagram.ray, np.cumsum(diagram.load * [-1, -1], axis=0), rtol=1e-12)
+        assert np.array_equal(diagram.ray, diagram.reaction)
+        np.testing.assert_allclose(np.hypot(*diagram.ray.T), shape.tension, rtol=1e-12)
+        # OQ_m is parallel to thread m, and so is G_m K_m; P lifted lies below O by lambda
+        assert abs(sine(np.diff(diagram.pin, axis=0), diagram.ray)).max() < 1e-12
+        to_k = np.stack([-diagram.centre_of_gravity[:, 0], np.full(count, height)], axis=1)
+        assert abs(sine(to_k, diagram.ray)).max() < 1e-12
+        np.testing.assert_allclose(diagram.lifted, x, rtol=1e-15)
+        # N_1 C_1 = lambda
+        assert diagram.crossing[0] - diagram.pin[0, 1] == pytest.approx(height, rel=1e-12)
+        # built from below, the figure ends at the support
+        steps = chain.length[:, None] * diagram.ray / np.linalg.norm(diagram.ray, axis=1)[:, None]
+        assert abs(diagram.pin[0] + steps.sum(axis=0)).max() < 1e-11
+
+
+@pytest.mark.parametrize("count", [1, 2, 4, 7])
+def test_links_of_any_kind(count):
+    chain = compound(count)
+    for shape in shapes_of(chain, 0.2):
+        diagram = shape.force_diagram()
+        assert abs(sine(np.diff(diagram.pin, axis=0), diagram.ray)).max() < 1e-12
+        np.testing.assert_allclose(np.hypot(*diagram.reaction.T), shape.tension, rtol=1e-12)
+        np.testing.assert_allclose(
+            np.arctan2(-diagram.reaction[:, 0], diagram.reaction[:, 1]), shape.reaction_inclination, atol=1e-13
+        )
+        straight = shape.transferred_to_axis()
+        assert straight.total_length == pytest.approx(-shape.height[0], rel=1e-14)
+        modes = rc.modes(straight)
+        k = abs(modes.conical_height - shape.conical_height).argmin()
+        assert modes.conical_height[k] == pytest.approx(shape.conical_height, rel=1e-13)
+        np.testing.assert_allclose(modes.shape[k], shape.offset / abs(shape.offset).max(), atol=1e-12)
+
+
+def test_funicular_polygon_and_its_oscillation_against_a_dense_solver():
+    scipy_linalg = pytest.importorskip("scipy.linalg")
+    for count in (1, 2, 6, 20):
+        weight = RNG.uniform(0.2, 3, count)
+        place = np.concatenate([[0.0], np.cumsum(RNG.uniform(0.2, 2, count + 1))])
+        polygon = rc.funicular_polygon(weight, place, 1.7, first_height=0.5, last_height=-1.0)
+        assert polygon.height[0] == 0.5 and polygon.height[-1] == -1.0
+        np.testing.assert_array_equal(polygon.weight, weight)
+        # forces at every weight
+        side = np.stack([np.diff(polygon.place), np.diff(polygon.height)], axis=1)
+        pull = polygon.tension[:, None] * side / np.linalg.norm(side, axis=1)[:, None]
+        np.testing.assert_allclose(np.diff(pull, axis=0), np.stack([np.zeros(count), weight], axis=1), atol=1e-12)
+        rays = np.stack([np.full(count + 1, 1.7), polygon.rise], axis=1)
+        np.testing.assert_allclose(pull, rays, rtol=1e-12, atol=1e-12)
+        # sides of tension T and length a, weights that move across
+        k = polygon.tension / np.linalg.norm(side, axis=1)
+        stiffness = np.diag(k[:-1] + k[1:]) - np.diag(k[1:-1], 1) - np.diag(k[1:-1], -1)
+        inverse, vectors = scipy_linalg.eigh(stiffness, np.diag(weight))
+        modes = polygon.transverse_modes()
+        np.testing.assert_allclose(modes.conical_height, 1 / inverse, rtol=1e-12)
+        assert (modes.error_bound < 2e-15).all()
+        vectors = (vectors / abs(vectors).max(axis=0) * np.sign(vectors[0])).T
+        np.testing.assert_allclose(modes.shape[:, 1:-1], vectors, atol=1e-10)
+        assert not modes.shape[:, [0, -1]].any()
+        np.testing.assert_allclose(modes.period(9.81), 2 * np.pi / np.sqrt(9.81 * inverse), rtol=1e-12)
+
+
+def lowest_energy(weight, length, span):
+    """Potential energy of a thread between level supports, of given lengths of sides seen from above, at rest."""
+    optimize = pytest.importorskip("scipy.optimize")
+
+    def ends(unknown):
+        pull, lift = unknown
+        rise = -lift + np.concatenate([[0.0], np.cumsum(weight)])
+        size = np.hypot(pull, rise)
+        return np.stack([length * pull / size, length * rise / size], axis=1)
+
+    root = optimize.root(lambda u: ends(u).sum(axis=0) - [span, 0.0], [1.0, weight.sum() / 2], tol=1e-14)
+    assert abs(root.fun).max() < 1e-14
+    return float(weight @ np.cumsum(ends(root.x)[:, 1])[:-1]), root.x[0], ends(root.x)
+
+
+def test_the_energy_of_weights_swung_sideways():
+    # Threads do not stretch: weights swung out by z have sides sqrt(a^2 - dz^2) long in the plane, and hang anew. What
+    # that lifts them by is the energy of the string of weights, with no word about tension.
+    weight = np.array([1.0, 0.4, 2.0, 0.7])
+    length = np.array([1.0, 0.8, 1.3, 0.6, 1.1])
+    energy, pull, sides = lowest_energy(weight, length, 3.5)
+    place = np.concatenate([[0.0], np.cumsum(sides[:, 0])])
+    modes = rc.transverse_modes(weight, place, pull)
+    for k, height in enumerate(modes.conical_height):
+        z = modes.shape[k]
+        scaled = []
+        for amplitude in (0.02, 0.01):
+            shorter = np.sqrt(length**2 - (amplitude * np.diff(z)) ** 2)
+            gain = (lowest_energy(weight, shorter, 3.5)[0] - energy) / amplitude**2
+            scaled.append(gain / (0.5 * weight @ z[1:-1] ** 2 / height))
+        assert scaled[1] + (scaled[1] - scaled[0]) / 3 == pytest.approx(1, abs=1e-6)
+
+
+def test_pictures(tmp_path):
+    pytest.importorskip("matplotlib")
+    shape = shapes_of(plummets(4), 0.15)[0]
+    figure, forces = shape.force_diagram().plot(length_unit="ft", weight_unit="lb")
+    assert figure.get_xlabel() == "from the axis (ft)" and forces.get_ylabel() == "upwards (lb)"
+    letters = {text.get_text() for text in forces.texts}
+    assert {"$O$", "$N$", "$Q_1$", "$Q_4$", "$P_1$", "$W_4$"} <= letters
+    assert figure.figure is forces.figure
+    figure.figure.savefig(tmp_path / "plummets.png")
+    again = shapes_of(compound(3), 0.2)[0].force_diagram().plot((figure, forces))
+    assert again == (figure, forces)
+    many = rc.steady_shapes(rc.Chain.uniform_plummets(30, length=1.0), conical_height=0.4)[0].force_diagram()
+    many.plot()[0].figure.savefig(tmp_path / "many.png")
+    line = rc.funicular_polygon([1, 2, 1], [0, 1, 2, 3, 4], 2.0)
+    polygon, rays = line.plot()
+    assert rays.get_title() == "diagram of force"
+    polygon.figure.savefig(tmp_path / "line.png")
+
+
+def test_words():
+    shape = shapes_of(plummets(2), 0.5)[0]
+    assert repr(shape.force_diagram()).startswith("ForceDiagram: 2 links, conical height ")
+    assert repr(rc.funicular_polygon([1.0], [0, 1, 2], 2.0)) == "FunicularPolygon: 1 weights, horizontal tension 2"
+    for array in (shape.force_diagram().ray, rc.funicular_polygon([1.0], [0, 1, 2], 2.0).height):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1
+
+
+@pytest.mark.parametrize(
+    ("weight", "place", "pull", "message"),
+    [
+        ([1, -1], [0, 1, 2, 3], 1.0, "weight must be positive and finite"),
+        ([1, 1], [0, 1, 2], 1.0, "places must be two more than weights"),
+        ([1, 1], [0, 1, 1, 2], 1.0, "places must be finite and increase"),
+        ([1, 1], [0, 1, np.nan, 2], 1.0, "places must be finite and increase"),
+        ([1, 1], [0, 1, 2, 3], 0.0, "tension must be positive"),
+        ([1, 1], [[0, 1, 2, 3]], 1.0, "place must be a list of numbers"),
+    ],
+)
+def test_wrong_polygons(weight, place, pull, message):
+    with pytest.raises(ValueError, match=message):
+        rc.funicular_polygon(weight, place, pull)
+    with pytest.raises(ValueError, match=message):
+        rc.transverse_modes(weight, place, pull)
+
+
+BELL = dict(upper_weight=3.0, upper_length=0.4, upper_centroid=0.1, upper_radius_of_gyration=0.6)
+CLAPPER = dict(lower_weight=0.2, lower_centroid=0.7, lower_radius_of_gyration=0.25)
+
+
+def test_jointed_links_are_a_chain_of_two():
+    chain = rc.Chain(
+        weight=[CLAPPER["lower_weight"], BELL["upper_weight"]],
+        length=[1.0, BELL["upper_length"]],
+        centroid=[CLAPPER["lower_centroid"], BELL["upper_centroid"]],
+        radius_of_gyration=[CLAPPER["lower_radius_of_gyration"], BELL["upper_radius_of_gyration"]],
+    )
+    heights = two_links.jointed_links(**CLAPPER, **BELL)
+    np.testing.assert_allclose(heights, rc.modes(chain).conical_height, rtol=1e-15)
+    clappers, bells = {**CLAPPER, "lower_weight": [[0.2], [0.3]]}, {**BELL, "upper_weight": [1.0, 3.0]}
+    table = two_links.jointed_links(**clappers, **bells)
+    assert table.shape == (2, 2, 2)
+    np.testing.assert_array_equal(table[0, 1], heights)
+    height = 0.95 * heights[0]
+    (figure,) = two_links.jointed_links_shapes(**CLAPPER, **BELL, height=height)
+    steady = [s for s in rc.steady_shapes(chain, conical_height=height, budget=5000) if s.half_waves == 1]
+    np.testing.assert_allclose(figure.inclination, steady[0].inclination, rtol=1e-12)
+    np.testing.assert_allclose(figure.tension * chain.total_weight, steady[0].tension, rtol=1e-12)
+    assert two_links.jointed_links_shapes(**CLAPPER, **BELL, height=1.01 * heights[0]) == []
+
+
+def test_a_silent_bell_is_silent_at_any_inclination():
+    pin = two_links.pin_of_silent_clapper(
+        bell_weight=3.0, bell_centroid=0.1, bell_radius_of_gyration=0.6,
+        clapper_weight=0.2, clapper_centroid=0.7, clapper_radius_of_gyration=0.25,
+    )  # fmt: skip
+    bell = {**BELL, "upper_length": float(pin)}
+    straight = float(pin) + two_links.pendulum_length(0.7, 0.25)
+    assert abs(two_links.jointed_links(**CLAPPER, **bell) / straight - 1).min() < 1e-15
+    for share in (0.99, 0.5, 0.05):
+        figures = two_links.jointed_links_shapes(**CLAPPER, **bell, height=share * straight)
+        assert min(abs(f.inclination - np.arccos(share)).max() for f in figures) < 1e-14
+
+
+def test_a_jointed_rod():
+    np.testing.assert_allclose(two_links.joint_without_bending(2.0, [0.5, 0.8]), [0.5, 0.05], rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"lower_weight": 0.0}, "lower_weight must be positive"),
+        ({"upper_centroid": -0.1}, "would stand"),
+        ({"upper_radius_of_gyration": -1.0}, "upper radius of gyration must be finite"),
+        ({"lower_radius_of_gyration": -1.0}, "radius of gyration must not be negative"),
+    ],
+)
+def test_wrong_links(change, message):
+    links = {**CLAPPER, **BELL, **change}
+    with pytest.raises(ValueError, match=message):
+        two_links.jointed_links(**links)
+    with pytest.raises(ValueError, match=message.replace("lower_weight", "lower weight")):
+        two_links.jointed_links_shapes(**links, height=0.1)
+
+
+def test_wrong_bells_and_rods():
+    with pytest.raises(ValueError, match="pendulum length must be less than the bell's"):
+        two_links.pin_of_silent_clapper(
+            bell_weight=1, bell_centroid=0.5, bell_radius_of_gyration=0.1,
+            clapper_weight=1, clapper_centroid=0.7, clapper_radius_of_gyration=0.1,
+        )  # fmt: skip
+    for pin in (0.1, 1.0):
+        with pytest.raises(ValueError, match="outside the middle third"):
+            two_links.joint_without_bending(2.0, pin)
