@@ -7,6 +7,7 @@
 #include "revchain/finite/crossing.hpp"
 #include "revchain/finite/polish.hpp"
 #include "revchain/finite/steady_shape.hpp"
+#include "revchain/finite/verification.hpp"
 #include "revchain/linear/modes.hpp"
 
 namespace revchain {
@@ -58,7 +59,12 @@ inline std::optional<SteadyShape> shape_at(const Links<Wide<double>>& chain, con
     if (found.shape.offset[0] < Wide<double>(0))
         for (auto& y : found.shape.offset) y = -y;
     SteadyShape shape = described(chain, found.height, found.shape);
-    shape.error_bound = shape.condition * (shape.residual + 1e-30) + 0x1p-52;
+    const Verified proved =
+        verified(enclosed<DoubleDouble>(chain.links), Interval<DoubleDouble>(DoubleDouble(found.height)),
+                 {found.shape.offset.begin(), found.shape.offset.end()});
+    const double moved =
+        shape.condition * (shape.residual + 1e-30);  // with the height, where that is not what is given
+    shape.error_bound = (proved.inclination_error < 1 ? proved.inclination_error : 0.0) + moved + 0x1p-52;
     return shape;
 }
 

@@ -124,7 +124,7 @@ template <class S>
 Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start, const Condition<S>& condition) {
     using std::abs;
     const std::size_t n = links.size();
-    Polished<S> result{{std::vector<S>(n + 1), 0, 0, false}, S(std::exp(start.log_height))};
+    Polished<S> result{{std::vector<S>(n + 1), {}, 0, 0, false}, S(std::exp(start.log_height))};
     std::vector<S>& y = result.shape.offset;
     S& height = result.height;
     for (std::size_t m = n; m-- > 0;) {  // a - a sin, not a sin, told in double: the link may be all but horizontal

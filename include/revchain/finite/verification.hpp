@@ -113,9 +113,10 @@ inline Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links,
     detail::Forces at = forces();
     if (!at.known) return {offset, unproved, 0};
     const auto size = [](const Far& x) { return std::abs(static_cast<double>(x)); };
+    detail::Inverse inverse(at);
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 4; ++round) {
-        const std::vector<Far> step = detail::Inverse(at).step(at.force);
+        const std::vector<Far> step = inverse.step(at.force);
         double largest = 0;
         for (std::size_t m = 0; m < n; ++m)
             if (const double y = size(offset[m]); y > 0) largest = std::max(largest, size(step[m]) / y);
@@ -124,8 +125,9 @@ inline Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links,
         last = largest;
         at = forces();
         if (!at.known) return {offset, unproved, 0};
+        inverse = detail::Inverse(at);
     }
-    const auto [p, q, w] = detail::Inverse(at);
+    const auto& [p, q, w] = inverse;
 
     // Sizes, a little more for rounding.
     const double share = 1.0000001 / size(w);
