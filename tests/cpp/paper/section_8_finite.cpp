@@ -191,7 +191,7 @@ TEST_CASE("§8 (10): as printed its first term lacks the secant", "[paper][secti
     for_random_figures([&](const Figure& f) {
         const auto [W, a, h, l, rho2] = f.link[1];
         const Quad printed = W * h * (f.y[1] + l * f.sin(1)) / f.lambda, turning = W * h * f.sin(1);
-        const double left = static_cast<double>((printed - turning) / (fabsq(printed) + fabsq(turning)));
+        const double left = static_cast<double>((printed - turning) / (printed + turning));
         const double predicted = static_cast<double>((f.sec(1) - 1) / (f.sec(1) + 1));
         CHECK(std::abs(left - predicted) < 1e-12);
         least = std::min(least, left), greatest = std::max(greatest, left);
