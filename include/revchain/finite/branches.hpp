@@ -19,7 +19,7 @@ struct Branches {
 struct BranchesOptions {
     BranchOptions branch{};
     int lists = 16;           ///< proved lists of all shapes, at so many heights evenly spread in their logarithm
-    long budget = 2'000'000;  ///< of each list, see SteadyShapesOptions
+    long budget = 3'000'000;  ///< of each list, see SteadyShapesOptions
 };
 
 namespace finite {
