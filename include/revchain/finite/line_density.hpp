@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "revchain/core/status.hpp"
+
+namespace revchain {
+
+/// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
+///
+/// Method: the length is halved, and the halves, until a polynomial of degree 12 through Chebyshev points gives the function
+/// to its rounding, or a piece is 2^-40 of the length: so jumps and corners cost about forty pieces each. At the free end a
+/// piece that short stands for c s^p, as a power law has it, whose weight grows like s^(p+1).
+/// Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/continuous_chain.cpp).
+class LineDensity {
+   public:
+    static constexpr int degree = 12;
+    static constexpr int most_halvings = 40;
+    static constexpr std::size_t most_pieces = 20'000;
+
+    /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a function
+    /// that is rough at too many places.
+    LineDensity(const std::function<double(double)>& weight_per_length, double length) : length_(length) {
+        detail::require_positive("LineDensity", "length", length);
+        divide(weight_per_length, 0, length, 0);
+        std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
+        for (Piece& piece : pieces_) {
+            piece.below = total_;
+            if (piece.power == 0) {
+                total_ += weight_within(piece, 1);
+            } else {
+                total_ += piece.factor[0] * 2 * piece.half / (piece.power + 1);
+            }
+        }
+    }
+
+    double length() const { return length_; }
+    double total() const { return total_; }
+    std::size_t pieces() const { return pieces_.size(); }
+
+    /// Where the piece that holds s ends; beyond the chain: infinity.
+    double end_of_piece(double s) const {
+        return s >= length_ ? std::numeric_limits<double>::infinity() : end(piece_at(s));
+    }
+    /// Coefficients of the density about s in powers of (distance from s): the piece to its right.
+    std::array<double, degree + 1> about(double s) const {
+        std::array<double, degree + 1> c{};
+        if (s >= length_) {
+            c[0] = at_end();
+            return c;
+        }
+        const Piece& piece = piece_at(s);
+        const double t = (s - piece.middle) / piece.half;
+        c = piece.factor;
+        for (int i = 0; i < degree; ++i)
+            for (int k = degree - 1; k >= i; --k)
+                c[static_cast<std::size_t>(k)] += t * c[static_cast<std::size_t>(k) + 1];
+        double scale = 1;
+        for (double& x : c) x *= scale, scale /= piece.half;
+        return c;
+    }
+    /// Weight of what hangs below s; beyond the chain it goes on as it ended.
+    double weight_below(double s) const {
+        if (s >= length_) return total_ + at_end() * (s - length_);
+        const Piece& piece = piece_at(s);
+        if (piece.power != 0)
+            return piece.factor[0] * s / (piece.power + 1) * std::pow(s / (2 * piece.half), piece.power);
+        return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
+    }
+    /// A place near the free end where the density is known to go like a power of s, and its first moment below that
+    /// place over weight times place.
+    double first_place() const { return std::min(end(pieces_.front()), 0x1p-34 * length_); }
+    double first_moment() const {
+        const double s = first_place(), p = about_first(s) * s / weight_below(s) - 1;
+        return (p + 1) / (p + 2);
+    }
+
+   private:
+    struct Piece {
+        double middle, half;
+        std::array<double, degree + 1> factor;  // of powers of (s - middle)/half
+        double power = 0;                       // not 0: this much of a power law, factor[0] its value at the right end
+        double below = 0;                       // weight of the chain below the piece
+    };
+
+    static double end(const Piece& piece) { return piece.middle + piece.half; }
+    const Piece& piece_at(double s) const {
+        const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), s,
+                                            [](double x, const Piece& piece) { return x < end(piece); });
+        return after == pieces_.end() ? pieces_.back() : *after;
+    }
+    static double value(const Piece& piece, double t) {
+        double sum = 0;
+        for (std::size_t k = degree + 1; k-- > 0;) sum = sum * t + piece.factor[k];
+        return sum;
+    }
+    /// Of the piece, from its left end to t.
+    static double weight_within(const Piece& piece, double t) {
+        double right = 0, left = 0;
+        for (std::size_t k = degree + 1; k-- > 0;) {
+            const double c = piece.factor[k] / static_cast<double>(k + 1);
+            right = right * t + c;
+            left = -left + c;
+        }
+        return piece.half * (right * t + left);
+    }
+    double at_end() const { return value(pieces_.back(), 1); }
+    double about_first(double s) const {
+        const Piece& piece = pieces_.front();
+        return piece.power != 0 ? piece.factor[0] : value(piece, (s - piece.middle) / piece.half);
+    }
+
+    void divide(const std::function<double(double)>& f, double low, double high, int halvings) {
+        constexpr std::size_t count = degree + 1;
+        Piece piece{low + (high - low) / 2, (high - low) / 2, {}};
+        std::array<double, count> sample{}, chebyshev{};
+        double largest = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / count);
+            const double s = piece.middle + piece.half * x;
+            sample[i] = f(s);
+            if (!(sample[i] > 0 && std::isfinite(sample[i])))
+                detail::refuse("LineDensity",
+                               "weight per length must be positive and finite; at " + detail::in_digits(s), sample[i]);
+            largest = std::max(largest, sample[i]);
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            double sum = 0;
+            for (std::size_t i = 0; i < count; ++i)
+                sum += sample[i] *
+                       std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / count);
+            chebyshev[k] = sum * (k == 0 ? 1.0 : 2.0) / count;
+        }
+        const double tail = std::max(std::abs(chebyshev[count - 1]), std::abs(chebyshev[count - 2]));
+        if (tail > 2e-15 * largest && halvings < most_halvings) {
+            divide(f, low, piece.middle, halvings + 1);
+            divide(f, piece.middle, high, halvings + 1);
+            return;
+        }
+        if (pieces_.size() == most_pieces)
+            detail::refuse("LineDensity", "weight per length is rough at too many places");
+        if (low == 0 && tail > 2e-15 * largest) {
+            piece.factor[0] = f(high);
+            piece.power = std::log2(f(high) / f(high / 2));
+            if (!(piece.power > -1))
+                detail::refuse("LineDensity", "the weight near the free end must be finite; weight per length goes like s^p, p",
+                               piece.power);
+            if (piece.power == 0) piece.power = 1e-30;
+        } else {
+            piece.factor = in_powers(chebyshev);
+        }
+        pieces_.push_back(piece);
+    }
+
+    /// From Chebyshev polynomials to powers: stable enough at this degree, as the coefficients fall.
+    static std::array<double, degree + 1> in_powers(const std::array<double, degree + 1>& chebyshev) {
+        constexpr std::size_t count = degree + 1;
+        std::array<double, count> sum{}, before{}, now{};
+        before[0] = 1, now[1] = 1;
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto& t = k == 0 ? before : now;
+            for (std::size_t i = 0; i < count; ++i) sum[i] += chebyshev[k] * t[i];
+            if (k == 0) continue;
+            std::array<double, count> next{};
+            for (std::size_t i = 0; i < count; ++i) next[i] = (i > 0 ? 2 * now[i - 1] : 0.0) - before[i];
+            before = now, now = next;
+        }
+        return sum;
+    }
+
+    double length_, total_ = 0;
+    std::vector<Piece> pieces_;
+};
+
+}  // namespace revchain
