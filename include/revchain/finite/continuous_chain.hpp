@@ -1,16 +1,34 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
-
 #include "revchain/finite/continuous_shape.hpp"
+#include "revchain/finite/tip_offset.hpp"
 
+/// Steady shapes of a whirling chain without links, of any density and with a weight at its free end or none, at any
+/// inclination: Greenhill (1908) §4 without its small angles. A path is followed up from the free end, whose offset eta_0 is
+/// the one unknown; a shape of j half waves is a path whose crossing number j is at the support. What is known of
+/// s_j(eta_0), the place of that crossing (equations at `finite::PathState`):
+///   - s_j(eta_0) > s_j(0), that of small amplitude: the path solves (V y')' ... with T >= V in V's place, and Sturm's
+///     comparison does the rest. So there is no shape of j half waves at or above the conical height lambda_j.
+///   - s_j grows beyond any bound, as s_1 >= eta_0: so there is one for every lambda < lambda_j.
+///   - s_1 rises everywhere: with v = du/deta_0, (u v' - v u')' > 0 by V as long as u and v have one sign. So there is one
+///     shape without nodes at most.
+///   - s_j rises everywhere for the uniform chain without tip weight, I. I. Kolodner, Heavy rotating string - a nonlinear
+///     eigenvalue problem, Comm. Pure Appl. Math. 8 (1955) 395-408, doi:10.1002/cpa.3160080307: exactly k shapes for
+///     lambda_{k+1} <= lambda < lambda_k; and for densities s^p: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
+/// It is false in general: three heavy beads on a light thread have five shapes where the three heights of small amplitude
+/// promise three (tests/cpp/finite/continuous_chain.cpp). With one shape at most, and for the uniform chain without tip
+/// weight, `complete` is therefore true; elsewhere s_j is looked at for many eta_0, and `complete` is false.
 namespace revchain {
 
 /// The shapes found, and whether there are more.
 struct ContinuousShapes {
-    std::vector<ContinuousShape> shapes;  ///< by half waves
+    std::vector<ContinuousShape> shapes;  ///< by half waves, then the free end's offset
     bool complete = false;                ///< a theorem says that there are no others
+};
+
+struct ContinuousShapesOptions {
+    int scanned = 200;  ///< offsets of the free end looked at where no theorem counts the shapes
 };
 
 namespace finite {
@@ -18,90 +36,19 @@ namespace finite {
 inline void check(std::string_view place, const ContinuousChain& chain) {
     detail::require_positive(place, "length", chain.length);
     if (!(chain.tip_weight >= 0 && std::isfinite(chain.tip_weight)))
-        detail::refuse(place, "tip weight must not be negative, and finite", chain.tip_weight);
+        detail::refuse(place, "tip weight must be finite and not negative", chain.tip_weight);
     if (chain.density != nullptr && chain.density->length() != chain.length)
         detail::refuse(place, "the line density must be given over the length of the chain, not over",
                        chain.density->length());
 }
 
-inline double weight_unit(const ContinuousChain& chain) {
-    return chain.density == nullptr ? 1.0 : chain.density->total() / chain.length;
-}
-
+/// The chain over lengths of `height`; bend 0: at small amplitude.
 inline PathKind kind_of(const ContinuousChain& chain, double height, double bend) {
-    const double unit = weight_unit(chain);
+    const double unit = chain.density == nullptr ? 1.0 : chain.density->total() / chain.length;
     return {chain.tip_weight / unit / height, height, unit, chain.density, bend};
 }
 
-/// What is known of how the place s of one crossing depends on the offset eta_0 of the free end: s(0), and elsewhere
-/// s - s(0) = c eta_0^2/(1 + b eta_0), which is quadratic and then linear, as the chain is.
-struct CrossingLaw {
-    double quadratic, bend;
-
-    /// The uniform chain's: c from the shapes of small amplitude, c/b = 2 j - 1 half waves of length eta_0 when the chain is
-    /// stretched out. D within 20 percent.
-    static CrossingLaw uniform(int crossing) {
-        const double c = 0.502 * crossing - 0.15;
-        return {c, c / (2 * crossing - 1)};
-    }
-    /// Through a value and a slope.
-    static CrossingLaw through(double tip_offset, double rise, double rate, const CrossingLaw& otherwise) {
-        const double power = rate * tip_offset / rise;  // of eta_0 in the rise there: from 2 down to 1
-        if (!(power > 1.0001 && power < 2)) return otherwise;
-        const double b = (2 - power) / (power - 1);
-        return {rise * (1 + b) / (tip_offset * tip_offset), b / tip_offset};
-    }
-    double tip_offset(double rise) const {
-        const double half = 0.5 * bend * rise;
-        return (half + std::sqrt(half * half + quadratic * rise)) / quadratic;
-    }
-};
-
-/// The free end's offset for which crossing number j lies at `length`, between 0 and `most`: its place grows with the
-/// offset. The law above is fitted to each path tried, and kept within what the signs leave. What is found is within
-/// `near` of the offset, relatively; paths whose step is greater than that are followed no better than they need.
-class TipOffset {
-   public:
-    static constexpr double near = 1e-8;
-
-    TipOffset(const PathKind& kind, int crossing, double place_at_rest, double length, double most, const CrossingLaw& law)
-        : law_(law), low_(0), high_(most) {
-        const double rise = length - place_at_rest;
-        double tip = inside(law_.tip_offset(rise)), last = 0.03;
-        for (int round = 0; round < 200; ++round) {
-            // The rise is what must be known: near a critical height it is a small part of the place.
-            const double tolerance = std::clamp(1e-3 * last * last * rise / length, PathSeries::rounding, 1e-7);
-            const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
-            ++rounds;
-            const Path::Crossing& found = path.crossings().back();
-            const double off = found.arc - length;
-            (off < 0 ? low_ : high_) = tip;
-            law_ = CrossingLaw::through(tip, found.arc - place_at_rest, found.rate, law_);
-            const double newton = tip - off / found.rate, fitted = law_.tip_offset(rise);
-            const double next = std::abs(fitted - newton) < std::abs(newton - tip) ? fitted : newton;
-            last = std::abs(next / tip - 1);
-            // Either step leaves less than its square, mostly a tenth of it; and what the tolerance left.
-            const bool enough = last * last < near && tolerance * length < near * rise;
-            tip = inside(next);
-            if (enough || tip == low_ || tip == high_) break;
-        }
-        value_ = tip;
-    }
-    double value() const { return value_; }
-    const CrossingLaw& law() const { return law_; }
-    int rounds = 0;
-
-   private:
-    double inside(double tip) const {
-        if (tip > low_ && tip < high_) return tip;
-        return low_ > 0 ? std::sqrt(low_ * high_) : 0.1 * high_;
-    }
-
-    CrossingLaw law_;
-    double low_, high_, value_ = 0;
-};
-
-/// Places of the crossings of the chain at small amplitude below `farthest`, over the conical height.
+/// Places of the crossings of the chain at small amplitude up to `farthest`, over the conical height.
 inline std::vector<double> crossings_at_rest(const ContinuousChain& chain, double height, double farthest) {
     const Path path(kind_of(chain, height, 0), 1, {.farthest = farthest, .with_change = false});
     std::vector<double> places;
@@ -110,36 +57,63 @@ inline std::vector<double> crossings_at_rest(const ContinuousChain& chain, doubl
     return places;
 }
 
-inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height) {
+/// The shape next to a path all but right.
+inline ContinuousShape finished(const PathKind& kind, double tip_offset, int crossing, double length, double height) {
+    for (int round = 0;; ++round) {
+        ShapeSamples samples(kind, tip_offset);
+        const Path path(kind, tip_offset, {.crossings = crossing}, samples);
+        const Path::Crossing& support = path.crossings().back();
+        const double step = (length / height - support.arc) / support.rate;  // smaller each time
+        if (std::abs(step) < TipOffset::near * tip_offset || round == 3)
+            return samples.finish(path, crossing, length, height);
+        tip_offset += step;
+    }
+}
+
+/// Of each crossing, ranges of the free end's offset at whose ends it lies on different sides of the support.
+inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length,
+                                                  int count) {
+    std::vector<std::vector<TipRange>> ranges(crossings);
+    std::vector<bool> below(crossings, true);  // at rest, the crossing lies below the support
+    double last = 0;
+    for (int i = 1; i <= count; ++i) {
+        const double x = static_cast<double>(i) / count, tip = i == count ? length : length * x * x * x;
+        const Path path(
+            kind, tip,
+            {.crossings = static_cast<int>(crossings), .farthest = length, .tolerance = 1e-12, .with_change = false});
+        for (std::size_t j = 0; j < crossings; ++j) {
+            const bool now = i < count && j < path.crossings().size() && path.crossings()[j].arc < length;
+            if (now != below[j]) ranges[j].push_back({last, tip, below[j]});
+            below[j] = now;
+        }
+        last = tip;
+    }
+    return ranges;
+}
+
+inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height,
+                                          const ContinuousShapesOptions& options) {
+    const double undecided = 32 * epsilon<double>();  // of a length: on which side of a critical height, nobody can say
     const double length = chain.length / height;
     const PathKind kind = kind_of(chain, height, 1);
-    const std::vector<double> at_rest = crossings_at_rest(chain, height, length * (1 + 64 * epsilon<double>()));
+    const std::vector<double> at_rest = crossings_at_rest(chain, height, length * (1 + undecided));
+    const auto decided = [&](double place) { return place < length * (1 - undecided); };
+    std::size_t count = at_rest.size();
+    while (count > 0 && !decided(at_rest[count - 1])) --count;
     ContinuousShapes result;
-    const bool theorem = chain.density == nullptr && chain.tip_weight == 0;
-    result.complete = theorem || at_rest.size() <= 1;
-    CrossingLaw law = CrossingLaw::uniform(static_cast<int>(at_rest.size()));
-    for (std::size_t j = at_rest.size(); j-- > 0;) {
+    const bool theorem = (chain.density == nullptr && chain.tip_weight == 0) || at_rest.size() <= 1;
+    result.complete = theorem && count == at_rest.size();
+    std::vector<std::vector<TipRange>> ranges(count, {{0, length, true}});
+    if (!theorem && count > 0) ranges = scanned(kind, count, length, options.scanned);
+    CrossingLaw law = CrossingLaw::uniform(static_cast<int>(count));
+    for (std::size_t j = count; j-- > 0;) {
         const int crossing = static_cast<int>(j) + 1;
-        if (!(at_rest[j] < length * (1 - 16 * epsilon<double>()))) {  // which side of the critical height, nobody can say
-            result.complete = false;
-            continue;
+        for (std::size_t i = ranges[j].size(); i-- > 0;) {
+            const TipOffset tip(kind, crossing, at_rest[j], length, ranges[j][i], law);
+            result.shapes.push_back(finished(kind, tip.value(), crossing, chain.length, height));
+            law = tip.law();
         }
-        const TipOffset tip(kind, crossing, at_rest[j], length, length, law);
-        double value = tip.value();
-        for (int round = 0; round < 4; ++round) {
-            ShapeSamples samples(kind, value);
-            const Path path(kind, value, {.crossings = crossing}, samples);
-            const Path::Crossing& support = path.crossings().back();
-            const double step = (length - support.arc) / support.rate;
-            if (std::abs(step) < TipOffset::near * value || round == 3) {
-                result.shapes.push_back(samples.finish(path, crossing, chain.length, height));
-                break;
-            }
-            value += step;
-        }
-        // The next law: the uniform chain's, corrected as this one was.
-        const CrossingLaw here = CrossingLaw::uniform(crossing), next = CrossingLaw::uniform(crossing - 1);
-        law = {tip.law().quadratic * next.quadratic / here.quadratic, tip.law().bend * next.bend / here.bend};
+        law = law.of_next(crossing);
     }
     std::reverse(result.shapes.begin(), result.shapes.end());
     return result;
@@ -147,10 +121,65 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
 
 }  // namespace finite
 
-inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height) {
-    finite::check("continuous_shapes", chain);
-    detail::require_positive("continuous_shapes", "conical height", height);
-    return finite::continuous_shapes(chain, height);
+/// All steady shapes of a chain that whirls at the speed of conical height `height`, the straight one left out, of two
+/// mirror images that with the free end at a positive offset. Where `complete` is false there may be more (see above).
+///
+/// Method: power series of order 24 in the time that makes the equations polynomials (`finite::PathSeries`), Newton's method
+/// on the place of crossing j, its derivative by the series of the change; crossings told by quadrants within every step.
+/// Accuracy: inclinations, and offsets and heights over the length, within `error_bound`: measured against 22 digits for
+/// length/height from 1.4458 to 1e4, tip weights to 1e3 and four densities, never above half of it. The bound is an
+/// estimate, from how much the shape turns with its data and along its length: 1.1e-13 to 2.6e-13 at length/height 500, where
+/// the sharpest corner turns over a radian in a thousandth of the length. It grows near a critical height as the
+/// amplitude there is ill determined. `residual`: of the first integral of the uniform chain, of the tension carried by its
+/// own series against that of its parts with a density. Cost: a microsecond a step, four steps and more a half wave: 2 ms
+/// for the fourteen shapes at length/height 500 (bench/continuous.cpp).
+/// Throws InvalidArgument for a length or height not positive and finite, a negative tip weight, and a density over another
+/// length.
+inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height,
+                                          const ContinuousShapesOptions& options = {}) {
+    constexpr std::string_view place = "continuous_shapes";
+    finite::check(place, chain);
+    detail::require_positive(place, "conical height", height);
+    if (!(chain.length / height <= 1e6))
+        detail::refuse(place, "length / conical height must be at most 1e6", chain.length / height);
+    if (options.scanned < 1) detail::refuse(place, "scanned must be at least 1", options.scanned);
+    return finite::continuous_shapes(chain, height, options);
+}
+
+/// The same at an angular speed n, lambda = g/n^2.
+inline ContinuousShapes continuous_shapes_at_speed(const ContinuousChain& chain, double angular_speed,
+                                                   double gravity = conical_pendulum::standard_gravity,
+                                                   const ContinuousShapesOptions& options = {}) {
+    return continuous_shapes(chain, conical_pendulum::height(angular_speed, gravity), options);
+}
+
+/// The `count` greatest conical heights at which shapes leave the vertical, descending: those of small amplitude, by the
+/// same series with T = V. Method: the place of crossing j of a chain that goes on beyond its support falls as the height
+/// does: bisection, then the secant within what is left. Accuracy: 4e-15 relative (tests/cpp/finite/continuous_chain.cpp).
+/// Cost: ten paths each, but one for all where the chain is uniform without tip weight.
+/// Throws InvalidArgument as continuous_shapes does, and for a count below 1 or above 1e5.
+inline Vector<double> continuous_critical_heights(const ContinuousChain& chain, Index count) {
+    constexpr std::string_view place = "continuous_critical_heights";
+    finite::check(place, chain);
+    if (count < 1 || count > 100'000) detail::refuse(place, "count must be from 1 to 100000", count);
+    Vector<double> heights(count);
+    const auto place_of = [&](double height, Index crossing) {
+        const finite::Path path(finite::kind_of(chain, height, 0), 1,
+                                {.crossings = static_cast<int>(crossing), .with_change = false});
+        return path.crossings();
+    };
+    if (chain.density == nullptr && chain.tip_weight == 0) {
+        const auto crossings = place_of(1, count);
+        for (Index j = 0; j < count; ++j) heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
+        return heights;
+    }
+    for (Index j = 1; j <= count; ++j) {
+        const auto excess = [&](double height) {
+            return std::log(place_of(height, j).back().arc * height / chain.length);
+        };
+        heights[j - 1] = finite::height_where(excess, j == 1 ? chain.length : heights[j - 2]);
+    }
+    return heights;
 }
 
 }  // namespace revchain

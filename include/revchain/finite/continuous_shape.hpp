@@ -33,9 +33,9 @@ struct ContinuousShape {
     int half_waves = 1;          ///< crossings of the axis, the support among them
     double length = 0;
     double conical_height = 0;  ///< of the speed
-    double residual = 0;        ///< of the first integral at the support, over the largest tension; see continuous_shapes
-    double error_bound = 0;     ///< of every inclination, rad, and of every offset and height over the length
-    double condition = 0;       ///< largest change of an inclination for a relative change 1 of the length alone
+    double residual = 0;     ///< of the first integral at the support, over the largest tension; see continuous_shapes
+    double error_bound = 0;  ///< of every inclination, rad, and of every offset and height over the length
+    double condition = 0;    ///< largest change of an inclination for a relative change 1 of the length alone
 
     /// The place at an arc length from the free end. Cost: 1 microsecond.
     /// Throws InvalidArgument outside 0 ... length.
@@ -54,7 +54,8 @@ namespace finite {
 
 inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x) {
     const double below = shape.kind.weight_below(x.arc), lambda = shape.conical_height;
-    return {x.arc * lambda, x.offset * lambda, (x.height - shape.support_height) * lambda, -std::atan2(x.pull, below),
+    const double inclination = below == 0 ? std::atan(x.offset) : -std::atan2(x.pull, below);  // the free end's limit
+    return {x.arc * lambda, x.offset * lambda, (x.height - shape.support_height) * lambda, inclination,
             std::hypot(x.pull, below) * lambda * shape.kind.per_length};
 }
 
@@ -112,6 +113,7 @@ class ShapeSamples {
         shape.arc_length[count - 1] = length, shape.offset[count - 1] = 0;
         shape.residual = kind_.density == nullptr ? first_integral() : path.discrepancy();
         judge(shape, scaled, support.rate);
+        if (!(std::abs(by) <= 1e-6 * tip_offset_)) shape.error_bound = std::numeric_limits<double>::infinity();
         return shape;
     }
 
@@ -147,7 +149,8 @@ class ShapeSamples {
                 turned = std::max(turned, 1 / (1 + x.offset * x.offset)), moved = std::max(moved, 1.0);
                 continue;
             }
-            const double density = kind_.density_at(x.arc);  // at a fixed place: what the change of arc does is taken out
+            const double density =
+                kind_.density_at(x.arc);  // at a fixed place: what the change of arc does is taken out
             turned = std::max(turned, std::abs(change.pull + density * x.offset * change.arc) * below / squared);
             moved = std::max(moved, std::abs(change.offset - x.pull / std::sqrt(squared) * change.arc));
             steepest = std::max(steepest, density * std::abs(x.offset * below + x.pull) / squared);
@@ -155,7 +158,8 @@ class ShapeSamples {
         shape.condition = turned * length / rate;
         // Places, and the length, to a few roundings of the length; calibrated in
         // tests/cpp/finite/continuous_chain.cpp.
-        shape.error_bound = epsilon<double>() * (2 + 4 * std::max(shape.condition, moved / rate) + 2 * steepest * length);
+        shape.error_bound =
+            epsilon<double>() * (2 + 4 * std::max(shape.condition, moved / rate) + 2 * steepest * length);
     }
 
     PathKind kind_;

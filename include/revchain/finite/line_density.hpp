@@ -14,13 +14,14 @@ namespace revchain {
 /// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
 ///
 /// Method: the length is halved, and the halves, until a polynomial of degree 12 through Chebyshev points gives the function
-/// to its rounding, or a piece is 2^-40 of the length: so jumps and corners cost about forty pieces each. At the free end a
+/// to its rounding, looked at between them too, or a piece is 2^-40 of the length: so jumps and corners cost about forty pieces each. At the free end a
 /// piece that short stands for c s^p, as a power law has it, whose weight grows like s^(p+1).
 /// Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/continuous_chain.cpp).
 class LineDensity {
    public:
     static constexpr int degree = 12;
-    static constexpr int most_halvings = 40;
+    static constexpr double rounding = 8e-15;  // below what functions of a dozen operations give
+    static constexpr int least_halvings = 2, most_halvings = 40;
     static constexpr std::size_t most_pieces = 20'000;
 
     /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a function
@@ -41,17 +42,18 @@ class LineDensity {
 
     double length() const { return length_; }
     double total() const { return total_; }
+    double mean() const { return total_ / length_; }
     std::size_t pieces() const { return pieces_.size(); }
 
     /// Where the piece that holds s ends; beyond the chain: infinity.
     double end_of_piece(double s) const {
-        return s >= length_ ? std::numeric_limits<double>::infinity() : end(piece_at(s));
+        return nudged(s) >= length_ ? std::numeric_limits<double>::infinity() : end(piece_at(s));
     }
     /// Coefficients of the density about s in powers of (distance from s): the piece to its right.
     std::array<double, degree + 1> about(double s) const {
         std::array<double, degree + 1> c{};
-        if (s >= length_) {
-            c[0] = at_end();
+        if (nudged(s) >= length_) {
+            c[0] = mean();
             return c;
         }
         const Piece& piece = piece_at(s);
@@ -64,20 +66,19 @@ class LineDensity {
         for (double& x : c) x *= scale, scale /= piece.half;
         return c;
     }
-    /// Weight of what hangs below s; beyond the chain it goes on as it ended.
+    /// Weight of what hangs below s; beyond the chain it goes on with its mean density.
     double weight_below(double s) const {
-        if (s >= length_) return total_ + at_end() * (s - length_);
+        if (nudged(s) >= length_) return total_ + mean() * (s - length_);
         const Piece& piece = piece_at(s);
         if (piece.power != 0)
             return piece.factor[0] * s / (piece.power + 1) * std::pow(s / (2 * piece.half), piece.power);
         return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
     }
-    /// A place near the free end where the density is known to go like a power of s, and its first moment below that
-    /// place over weight times place.
-    double first_place() const { return std::min(end(pieces_.front()), 0x1p-34 * length_); }
-    double first_moment() const {
-        const double s = first_place(), p = about_first(s) * s / weight_below(s) - 1;
-        return (p + 1) / (p + 2);
+    /// First moment of the chain below s about the free end, over weight below times s, as of a power of s: to first order
+    /// near the free end.
+    double first_moment(double s) const {
+        const double power = about(s)[0] * s / weight_below(s) - 1;
+        return (power + 1) / (power + 2);
     }
 
    private:
@@ -89,8 +90,10 @@ class LineDensity {
     };
 
     static double end(const Piece& piece) { return piece.middle + piece.half; }
+    /// A place at the end of a piece to rounding belongs to the next, so that paths go on.
+    static double nudged(double s) { return s * (1 + 0x1p-50); }
     const Piece& piece_at(double s) const {
-        const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), s,
+        const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
                                             [](double x, const Piece& piece) { return x < end(piece); });
         return after == pieces_.end() ? pieces_.back() : *after;
     }
@@ -108,11 +111,6 @@ class LineDensity {
             left = -left + c;
         }
         return piece.half * (right * t + left);
-    }
-    double at_end() const { return value(pieces_.back(), 1); }
-    double about_first(double s) const {
-        const Piece& piece = pieces_.front();
-        return piece.power != 0 ? piece.factor[0] : value(piece, (s - piece.middle) / piece.half);
     }
 
     void divide(const std::function<double(double)>& f, double low, double high, int halvings) {
@@ -137,21 +135,31 @@ class LineDensity {
             chebyshev[k] = sum * (k == 0 ? 1.0 : 2.0) / count;
         }
         const double tail = std::max(std::abs(chebyshev[count - 1]), std::abs(chebyshev[count - 2]));
-        if (tail > 2e-15 * largest && halvings < most_halvings) {
+        bool good = halvings >= least_halvings && tail <= rounding * largest;
+        if (good) {
+            piece.factor = in_powers(chebyshev);
+            for (std::size_t i = 1; i < count; ++i) {  // what is narrow may lie between
+                const double x = std::cos(std::numbers::pi * static_cast<double>(i) / count);
+                good = good && std::abs(value(piece, x) - f(piece.middle + piece.half * x)) <= 10 * rounding * largest;
+            }
+        }
+        if (!good && halvings < most_halvings) {
             divide(f, low, piece.middle, halvings + 1);
             divide(f, piece.middle, high, halvings + 1);
             return;
         }
         if (pieces_.size() == most_pieces)
             detail::refuse("LineDensity", "weight per length is rough at too many places");
-        if (low == 0 && tail > 2e-15 * largest) {
+        if (low == 0 && !good) {
+            piece.factor.fill(0);
             piece.factor[0] = f(high);
             piece.power = std::log2(f(high) / f(high / 2));
             if (!(piece.power > -1))
-                detail::refuse("LineDensity", "the weight near the free end must be finite; weight per length goes like s^p, p",
+                detail::refuse("LineDensity",
+                               "the weight near the free end must be finite; weight per length goes like s^p, p",
                                piece.power);
             if (piece.power == 0) piece.power = 1e-30;
-        } else {
+        } else if (!good) {
             piece.factor = in_powers(chebyshev);
         }
         pieces_.push_back(piece);

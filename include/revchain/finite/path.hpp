@@ -23,7 +23,7 @@ class Path {
         std::size_t step;
         double time;
     };
-    static constexpr std::size_t most_steps = 200'000;
+    static constexpr std::size_t most_steps = 50'000;
 
     struct Options {
         int crossings = std::numeric_limits<int>::max();
@@ -81,12 +81,13 @@ class Path {
     double discrepancy() const { return discrepancy_ / largest_tension_; }
 
    private:
-    /// A chain whose density goes like s^p, a little above its free end: the error is of second order.
+    /// A chain whose density goes like s^p near its free end, a little above it: the error is of second order in that little.
     static PathState near_tip(const PathKind& kind, double tip_offset) {
-        const double s = kind.density->first_place() / kind.unit;
+        const double s = 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit);
         const double slope = -tip_offset / std::sqrt(1 + kind.bend * tip_offset * tip_offset);
         const double below = kind.weight_below(s);
-        return {s, tip_offset + slope * s, -below * (tip_offset + slope * s * kind.density->first_moment()),
+        return {s, tip_offset + slope * s,
+                -below * (tip_offset + slope * s * kind.density->first_moment(s * kind.unit)),
                 s / std::sqrt(1 + kind.bend * tip_offset * tip_offset)};
     }
     double within_piece(const PathSeries& series, double duration) const {
@@ -111,9 +112,7 @@ class Path {
         if (x.offset < 0) return x.pull >= 0 ? 2 : 1;
         return x.pull <= 0 ? 1 : 3;
     }
-    static int quadrants(const PathState& from, const PathState& to) {
-        return (quadrant(to) - quadrant(from) + 4) % 4;
-    }
+    static int quadrants(const PathState& from, const PathState& to) { return (quadrant(to) - quadrant(from) + 4) % 4; }
     /// Quadrants 1 and 3 are entered through the axis.
     static int crossings_in(const PathState& from, int passed) {
         const int first = quadrant(from);
@@ -140,7 +139,8 @@ class Path {
         Crossing crossing{PathSeries::at(series.arc, t), 0, steps_.size(), t};
         if (with_change) {
             const PathChange change = series.change(t);
-            crossing.rate = change.arc - PathSeries::at(series.tension, t) * change.offset / PathSeries::at(series.pull, t);
+            crossing.rate =
+                change.arc - PathSeries::at(series.tension, t) * change.offset / PathSeries::at(series.pull, t);
         }
         crossings_.push_back(crossing);
     }

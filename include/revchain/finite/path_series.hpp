@@ -33,7 +33,9 @@ struct PathKind {
     double weight_below(double arc) const {
         return tip + (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
     }
-    double density_at(double arc) const { return density == nullptr ? 1.0 : density->about(arc * unit)[0] / per_length; }
+    double density_at(double arc) const {
+        return density == nullptr ? 1.0 : density->about(arc * unit)[0] / per_length;
+    }
     double tension(double pull, double below) const { return bend == 0 ? below : std::hypot(pull, below); }
 };
 
@@ -116,7 +118,7 @@ class PathSeries {
         return x;
     }
 
-    Coefficients arc, offset, pull, height, tension, below;
+    Coefficients arc{}, offset, pull, height, tension, below;
     Coefficients arc_change, offset_change, pull_change, height_change, tension_change;
 
    private:
@@ -143,8 +145,8 @@ class PathSeries {
     template <bool change>
     void uniform(double bend) {
         constexpr std::size_t size = order + 1, block = 4, room = 2 * order + 2 * block;
-        std::array<double, room> e{}, w{}, de{}, dw{};               // eta, T and their changes
-        std::array<double, room> eT{}, ee{}, d_eT{}, d_ee{};         // eta T, eta^2/2 and their changes
+        std::array<double, room> e{}, w{}, de{}, dw{};        // eta, T and their changes
+        std::array<double, room> eT{}, ee{}, d_eT{}, d_ee{};  // eta T, eta^2/2 and their changes
         const auto spread = [&](std::size_t n, double en, double wn, double den, double dwn) {
             const std::size_t last = std::min(n, order - n);
             w[n] = wn;
@@ -189,8 +191,7 @@ class PathSeries {
                 arc_change[n + 1] = dwn * inverse;
                 height_change[n + 1] = arc_change[n] * inverse;
                 pull_change[n + 1] = -d_eT[n] * inverse;
-                tension_change[n + 1] =
-                    height_change[n + 1] - bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
+                tension_change[n + 1] = height_change[n + 1] - bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
             }
             en = next, den = next_change;
         }
@@ -203,11 +204,15 @@ class PathSeries {
         double scale = 1 / kind.per_length;
         for (double& x : c) x *= scale, scale *= kind.unit;
         std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + (sigma - sigma_0) line[i + 1]
-        Coefficients density{}, slope{}, density_change{}, mass{}, mass_change{}, drive{}, drive_change{}, below_change{};
+        Coefficients density{}, slope{}, density_change{}, mass{}, mass_change{}, drive{}, drive_change{},
+            below_change{};
+        int last = degree;  // powers that no longer count within the piece are left out
+        const double span = std::min(kind.density->end_of_piece(state_arc(kind)) / kind.unit - arc[0], 1e300);
+        while (last > 0 && std::abs(c[static_cast<std::size_t>(last)]) * std::pow(span, last) < 1e-17 * c[0]) --last;
         const auto extend = [&](int n) {
             const auto k = static_cast<std::size_t>(n);
-            line[degree][k] = n == 0 ? c[degree] : 0.0;
-            for (int i = degree; i-- > 0;) {
+            line[static_cast<std::size_t>(last)][k] = n == 0 ? c[static_cast<std::size_t>(last)] : 0.0;
+            for (int i = last; i-- > 0;) {
                 const auto& above = line[static_cast<std::size_t>(i) + 1];
                 line[static_cast<std::size_t>(i)][k] =
                     n == 0 ? c[static_cast<std::size_t>(i)] : product(arc.data() + 1, above.data(), n - 1);
@@ -235,16 +240,14 @@ class PathSeries {
             density_change[k] = product(slope, arc_change, n);
             below_change[k] = product(density, arc_change, n);
             if (n == 0)
-                tension_change[0] =
-                    (kind.bend * pull[0] * pull_change[0] + below[0] * below_change[0]) / tension[0];
+                tension_change[0] = (kind.bend * pull[0] * pull_change[0] + below[0] * below_change[0]) / tension[0];
             offset_change[k + 1] = pull_change[k] * inverse;
             arc_change[k + 1] = tension_change[k] * inverse;
             height_change[k + 1] = below_change[k] * inverse;
             mass_change[k] = product(density_change, tension, n) + product(density, tension_change, n);
             pull_change[k + 1] = -(product(offset_change, mass, n) + product(offset, mass_change, n)) * inverse;
             drive_change[k] = below_change[k] - kind.bend * (n + 1) * product(offset, offset_change, n + 1);
-            tension_change[k + 1] =
-                (product(density_change, drive, n) + product(density, drive_change, n)) * inverse;
+            tension_change[k + 1] = (product(density_change, drive, n) + product(density, drive_change, n)) * inverse;
         }
     }
     double state_arc(const PathKind& kind) const { return arc[0] * kind.unit; }
@@ -275,7 +278,8 @@ class TipSeries {
             turn[n] = 0;
             for (std::size_t i = 0; i <= n; ++i) turn[n] += tangent_change[i] * cube[n - i];
             double slope = 0, sink = 0;
-            for (std::size_t i = 0; i <= n; ++i) slope += tangent[i] * cosine[n - i], sink -= bend * tangent[i] * turn[n - i];
+            for (std::size_t i = 0; i <= n; ++i)
+                slope += tangent[i] * cosine[n - i], sink -= bend * tangent[i] * turn[n - i];
             offset[n + 1] = slope * inverse;
             offset_change[n + 1] = turn[n] * inverse;
             height_change[n + 1] = sink * inverse;
