@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_chain(module);
     bind_linear(module);
     bind_finite(module);
+    bind_continuous(module);
     bind_two_links(module);
     bind_batch(module);
     bind_analytic(module);

@@ -26,6 +26,13 @@ from typing import TYPE_CHECKING, Any
 from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
 from ._batch import conical_heights
 from ._chain import Chain
+from ._continuous import (
+    ContinuousPlace,
+    ContinuousShape,
+    ContinuousShapes,
+    continuous_critical_heights,
+    continuous_shapes,
+)
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
@@ -44,6 +51,9 @@ __all__ = [
     "BufferImpact",
     "Certificate",
     "Chain",
+    "ContinuousPlace",
+    "ContinuousShape",
+    "ContinuousShapes",
     "GovernorMotion",
     "Modes",
     "SceneError",
@@ -55,6 +65,8 @@ __all__ = [
     "__version__",
     "conical_heights",
     "conical_pendulum",
+    "continuous_critical_heights",
+    "continuous_shapes",
     "count_modes",
     "elliptic",
     "heavy_chain",

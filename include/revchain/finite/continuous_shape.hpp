@@ -47,7 +47,7 @@ struct ContinuousShape {
     // What the places are computed from: steps of the path, scaled.
     finite::PathKind kind;
     std::vector<finite::Path::Step> steps;
-    double support_arc = 0, support_height = 0;
+    double tip_offset = 0, support_arc = 0, support_height = 0;
 };
 
 namespace finite {
@@ -59,13 +59,14 @@ inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x
             std::hypot(x.pull, below) * lambda * shape.kind.per_length};
 }
 
-/// The time of a series at which it reaches an arc length: arc' = T > 0.
+/// The time of a series at which it reaches an arc length: arc' = pace T > 0. A step whose start was moved may end a little
+/// earlier.
 inline double time_at(const PathSeries& series, double arc, double duration) {
-    double low = 0, high = duration, t = duration / 2;
+    double low = 0, high = 1.01 * duration, t = duration / 2;
     for (int i = 0; i < 100; ++i) {
         const double value = PathSeries::at(series.arc, t) - arc;
         (value < 0 ? low : high) = t;
-        double next = t - value / PathSeries::at(series.tension, t);
+        double next = t - value / (series.pace * PathSeries::at(series.tension, t));
         if (std::abs(next - t) <= 0x1p-52 * duration) break;
         if (!(next > low && next < high)) next = low + (high - low) / 2;
         if (next == low || next == high) break;
@@ -97,9 +98,14 @@ class ShapeSamples {
         add_support();
         for (std::size_t i = 0; i < places_.size(); ++i) move(places_[i], changes_[i], by);
         tip_offset_ += by;
+        if (places_.front().arc > 0) {
+            places_.insert(places_.begin(), Path::near_tip(kind_, tip_offset_, 0));
+            changes_.insert(changes_.begin(), {0, 1, -kind_.tip, 0});
+        }
         ContinuousShape shape;
         shape.kind = kind_, shape.steps = path.steps();
         for (std::size_t i = 0; i < shape.steps.size(); ++i) move(shape.steps[i].start, starts_[i], by);
+        shape.tip_offset = tip_offset_;
         shape.half_waves = half_waves, shape.length = length, shape.conical_height = conical_height;
         shape.support_arc = places_.back().arc, shape.support_height = places_.back().height;
         const auto count = static_cast<Index>(places_.size());
@@ -158,8 +164,7 @@ class ShapeSamples {
         shape.condition = turned * length / rate;
         // Places, and the length, to a few roundings of the length; calibrated in
         // tests/cpp/finite/continuous_chain.cpp.
-        shape.error_bound =
-            epsilon<double>() * (2 + 4 * std::max(shape.condition, moved / rate) + 2 * steepest * length);
+        shape.error_bound = epsilon<double>() * (1.5 + 2 * std::max(shape.condition, moved / rate) + steepest * length);
     }
 
     PathKind kind_;
@@ -183,8 +188,8 @@ inline ContinuousPlace ContinuousShape::operator()(double arc) const {
     finite::PathState state;
     if (kind.density == nullptr && kind.tip == 0 && &step == &steps.front()) {
         state = finite::TipSeries(step.start.offset, kind.bend).state(scaled);
-    } else if (scaled <= step.start.arc) {
-        state = step.start;  // below where the path of a chain with a density starts
+    } else if (scaled < steps.front().start.arc) {
+        state = finite::Path::near_tip(kind, tip_offset, scaled);  // below where the path starts
     } else {
         const finite::PathSeries series(kind, step.start);
         state = series.state(finite::time_at(series, scaled, step.duration));

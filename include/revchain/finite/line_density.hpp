@@ -69,6 +69,7 @@ class LineDensity {
     /// Weight of what hangs below s; beyond the chain it goes on with its mean density.
     double weight_below(double s) const {
         if (nudged(s) >= length_) return total_ + mean() * (s - length_);
+        if (s == 0) return 0;
         const Piece& piece = piece_at(s);
         if (piece.power != 0)
             return piece.factor[0] * s / (piece.power + 1) * std::pow(s / (2 * piece.half), piece.power);
@@ -117,7 +118,7 @@ class LineDensity {
         constexpr std::size_t count = degree + 1;
         Piece piece{low + (high - low) / 2, (high - low) / 2, {}};
         std::array<double, count> sample{}, chebyshev{};
-        double largest = 0;
+        double largest = 0, least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < count; ++i) {
             const double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / count);
             const double s = piece.middle + piece.half * x;
@@ -125,7 +126,7 @@ class LineDensity {
             if (!(sample[i] > 0 && std::isfinite(sample[i])))
                 detail::refuse("LineDensity",
                                "weight per length must be positive and finite; at " + detail::in_digits(s), sample[i]);
-            largest = std::max(largest, sample[i]);
+            largest = std::max(largest, sample[i]), least = std::min(least, sample[i]);
         }
         for (std::size_t k = 0; k < count; ++k) {
             double sum = 0;
@@ -135,7 +136,8 @@ class LineDensity {
             chebyshev[k] = sum * (k == 0 ? 1.0 : 2.0) / count;
         }
         const double tail = std::max(std::abs(chebyshev[count - 1]), std::abs(chebyshev[count - 2]));
-        bool good = halvings >= least_halvings && tail <= rounding * largest;
+        // At the free end, where little hangs below, the density must be right relative to itself.
+        bool good = halvings >= least_halvings && tail <= rounding * largest && (low > 0 || least > 0.02 * largest);
         if (good) {
             piece.factor = in_powers(chebyshev);
             for (std::size_t i = 1; i < count; ++i) {  // what is narrow may lie between

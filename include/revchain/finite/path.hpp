@@ -44,8 +44,8 @@ class Path {
             steps_.push_back({state, series.reach});
             visit(series, series.reach);
             state = series.state(series.reach), change = series.change(series.reach);
-        } else if (kind.tip == 0) {
-            state = near_tip(kind, tip_offset), change = {0, 1, state.pull / tip_offset, 0};
+        } else if (kind.density != nullptr) {
+            state = near_tip(kind, tip_offset, first_arc(kind)), change = {0, 1, state.pull / tip_offset, 0};
         }
         PathSeries series;
         while (!ended(options, state)) {
@@ -55,7 +55,7 @@ class Path {
             int passed = 0;
             for (int cuts = 0; cuts < 200; ++cuts) {
                 passed = quadrants(state, next.state);
-                const bool told = duration * std::sqrt(next.most_tension) < 1.5 * std::numbers::pi;  // the Prüfer angle
+                const bool told = next.most_phase < 1.5 * std::numbers::pi;
                 if (told && crossings_in(state, passed) <= 1) break;
                 duration *= 0.6;
                 next = series.reached(duration);
@@ -66,7 +66,7 @@ class Path {
             const double tension = kind.tension(next.state.pull, kind.weight_below(next.state.arc));
             largest_tension_ = std::max(largest_tension_, tension);
             discrepancy_ = std::max(discrepancy_, std::abs(next.tension - tension));
-            if (options.with_change) change = series.change(duration);
+            if (options.with_change) change = at_place(kind, next.state, series.change(duration), series, duration);
             state = next.state;
         }
     }
@@ -80,15 +80,27 @@ class Path {
     /// Tension carried by its own series against that of u and V, over the largest.
     double discrepancy() const { return discrepancy_ / largest_tension_; }
 
+    /// Where the path of a chain with a density begins: below, `near_tip`.
+    static double first_arc(const PathKind& kind) {
+        return 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit);
+    }
+    /// A place of a chain whose density goes like s^p near its free end: the error is of second order in s.
+    static PathState near_tip(const PathKind& kind, double tip_offset, double s) {
+        const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset);
+        if (s == 0) return {0, tip_offset, -kind.tip * tip_offset, 0};
+        const double below = kind.weight_below(s) - kind.tip, moment = kind.density->first_moment(s * kind.unit);
+        return {s, tip_offset - tip_offset * s / secant,
+                -kind.tip * tip_offset - below * tip_offset * (1 - s * moment / secant), s / secant};
+    }
+
    private:
-    /// A chain whose density goes like s^p near its free end, a little above it: the error is of second order in that little.
-    static PathState near_tip(const PathKind& kind, double tip_offset) {
-        const double s = 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit);
-        const double slope = -tip_offset / std::sqrt(1 + kind.bend * tip_offset * tip_offset);
-        const double below = kind.weight_below(s);
-        return {s, tip_offset + slope * s,
-                -below * (tip_offset + slope * s * kind.density->first_moment(s * kind.unit)),
-                s / std::sqrt(1 + kind.bend * tip_offset * tip_offset)};
+    /// The change at a fixed place instead of a fixed time: with it a path goes through a jump of the density unchanged.
+    static PathChange at_place(const PathKind& kind, const PathState& x, const PathChange& change,
+                               const PathSeries& series, double duration) {
+        const double below = kind.weight_below(x.arc), tension = kind.tension(x.pull, below);
+        const double density = kind.density == nullptr ? 1.0 : series.density_at(duration);
+        return {0, change.offset - x.pull / tension * change.arc, change.pull + density * x.offset * change.arc,
+                change.height - below / tension * change.arc};
     }
     double within_piece(const PathSeries& series, double duration) const {
         if (kind_.density == nullptr) return duration;

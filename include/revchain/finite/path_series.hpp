@@ -58,7 +58,7 @@ class PathSeries {
         offset[0] = state.offset, pull[0] = state.pull, arc[0] = state.arc, height[0] = state.height;
         below[0] = kind.weight_below(state.arc);
         tension[0] = kind.tension(state.pull, below[0]);
-        has_change_ = change != nullptr;
+        has_change_ = change != nullptr, is_dense_ = kind.density != nullptr, pace = 1;
         if (has_change_) {
             offset_change[0] = change->offset, pull_change[0] = change->pull;
             arc_change[0] = change->arc, height_change[0] = change->height;
@@ -76,7 +76,7 @@ class PathSeries {
 
     /// The longest time for which the first terms left out stay below `tolerance`.
     double reach(double tolerance) const {
-        const double size = std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(tension[0]);
+        const double size = std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
         const auto of = [&](std::size_t k) {
             const double largest = std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
             return std::pow(tolerance / largest, 1.0 / static_cast<double>(k));
@@ -89,24 +89,29 @@ class PathSeries {
         for (std::size_t k = order; k-- > 0;) sum = sum * t + c[k];
         return sum;
     }
-    /// The place at a time; its tension by its own series, and a number no tension up to then exceeds.
+    /// The place at a time; its tension by its own series, and a number the Prüfer angle from then to
+    /// now does not exceed: dtheta/dt <= pace sqrt(largest rho T).
     struct Reached {
         PathState state;
-        double tension, most_tension;
+        double tension, most_phase;
     };
     Reached reached(double t) const {  // side by side, as each sum waits for itself
-        Reached x{{arc[order], offset[order], pull[order], height[order]}, tension[order], std::abs(tension[order])};
+        const Coefficients& pulled = is_dense_ ? mass : tension;
+        Reached x{{arc[order], offset[order], pull[order], height[order]}, tension[order], std::abs(pulled[order])};
         for (std::size_t k = order; k-- > 0;) {
             x.state.arc = x.state.arc * t + arc[k];
             x.state.offset = x.state.offset * t + offset[k];
             x.state.pull = x.state.pull * t + pull[k];
             x.state.height = x.state.height * t + height[k];
             x.tension = x.tension * t + tension[k];
-            x.most_tension = x.most_tension * t + std::abs(tension[k]);
+            x.most_phase = x.most_phase * t + std::abs(pulled[k]);
         }
+        x.most_phase = pace * t * std::sqrt(x.most_phase);
         return x;
     }
     PathState state(double t) const { return reached(t).state; }
+    /// Of a chain that has one: that of this series' piece, at its end too.
+    double density_at(double t) const { return at(density, t); }
     PathChange change(double t) const {
         PathChange x{arc_change[order], offset_change[order], pull_change[order], height_change[order]};
         for (std::size_t k = order; k-- > 0;) {
@@ -119,6 +124,7 @@ class PathSeries {
     }
 
     Coefficients arc{}, offset, pull, height, tension, below;
+    double pace = 1;  ///< dsigma = pace T dt
     Coefficients arc_change, offset_change, pull_change, height_change, tension_change;
 
    private:
@@ -197,15 +203,16 @@ class PathSeries {
         }
     }
 
-    /// The same with a density: rho(sigma(t)) by Horner's rule on series, all its lines one coefficient at a time.
+    /// The same with a density: rho(sigma(t)) by Horner's rule on series, all its lines one coefficient at a time. The time
+    /// runs by `pace`, dsigma = pace T dt, so that coefficients stay within range however light the chain is here.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
         std::array<double, degree + 1> c = kind.density->about(state_arc(kind));
         double scale = 1 / kind.per_length;
         for (double& x : c) x *= scale, scale *= kind.unit;
         std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + (sigma - sigma_0) line[i + 1]
-        Coefficients density{}, slope{}, density_change{}, mass{}, mass_change{}, drive{}, drive_change{},
-            below_change{};
+        pace = 1 / (c[0] * (1 + std::abs(offset[0])));
+        Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{}, below_change{};
         int last = degree;  // powers that no longer count within the piece are left out
         const double span = std::min(kind.density->end_of_piece(state_arc(kind)) / kind.unit - arc[0], 1e300);
         while (last > 0 && std::abs(c[static_cast<std::size_t>(last)]) * std::pow(span, last) < 1e-17 * c[0]) --last;
@@ -222,19 +229,19 @@ class PathSeries {
         extend(0);
         for (int n = 0; n < order; ++n) {
             const auto k = static_cast<std::size_t>(n);
-            const double inverse = 1.0 / (n + 1);
+            const double inverse = pace / (n + 1);
             offset[k + 1] = pull[k] * inverse;
             arc[k + 1] = tension[k] * inverse;
             height[k + 1] = below[k] * inverse;
             mass[k] = product(density, tension, n);
             below[k + 1] = mass[k] * inverse;
             pull[k + 1] = -product(offset, mass, n) * inverse;
-            drive[k] = below[k] - 0.5 * kind.bend * (n + 1) * square(offset, n + 1);
+            drive[k] = below[k] - 0.5 * kind.bend / inverse * square(offset, n + 1);  // V - u eta
             tension[k + 1] = product(density, drive, n) * inverse;
             extend(n + 1);
             if (!has_change_) continue;
-            // density' (by sigma) = (density along t)' / T
-            double of_slope = (n + 1) * density[k + 1];
+            // density' (by sigma) = (density along t)' / (pace T)
+            double of_slope = density[k + 1] / inverse;
             for (std::size_t i = 1; i <= k; ++i) of_slope -= tension[i] * slope[k - i];
             slope[k] = of_slope / tension[0];
             density_change[k] = product(slope, arc_change, n);
@@ -246,13 +253,15 @@ class PathSeries {
             height_change[k + 1] = below_change[k] * inverse;
             mass_change[k] = product(density_change, tension, n) + product(density, tension_change, n);
             pull_change[k + 1] = -(product(offset_change, mass, n) + product(offset, mass_change, n)) * inverse;
-            drive_change[k] = below_change[k] - kind.bend * (n + 1) * product(offset, offset_change, n + 1);
+            drive_change[k] = below_change[k] - kind.bend / inverse * product(offset, offset_change, n + 1);
             tension_change[k + 1] = (product(density_change, drive, n) + product(density, drive_change, n)) * inverse;
         }
+        mass[order] = product(density, tension, order);
     }
     double state_arc(const PathKind& kind) const { return arc[0] * kind.unit; }
 
-    bool has_change_ = false;
+    Coefficients density{}, mass{};  // rho, rho T: with a density
+    bool has_change_ = false, is_dense_ = false;
 };
 
 /// The series of a uniform chain without a tip weight about its free end, in sigma, where T = 0: with u = sigma q,
