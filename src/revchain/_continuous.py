@@ -328,7 +328,7 @@ def continuous_shapes(
     Greenhill (1908) section 4 without its small angles. Power series along the chain in a variable that makes
     the equations polynomials and goes through sharp corners in a few steps; Newton's method on the place
     where the chain crosses the axis. Inclinations, and offsets over the length, within ``error_bound``, an
-    estimate never below twice the error measured. Cost: 2 milliseconds for all fourteen shapes at
+    estimate; errors measured reach 0.6 of it. Cost: 2 milliseconds for all fourteen shapes at
     length / conical_height = 500; up to 0.2 s with a line density.
 
     Examples

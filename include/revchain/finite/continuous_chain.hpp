@@ -8,17 +8,18 @@
 /// inclination: Greenhill (1908) §4 without its small angles. A path is followed up from the free end, whose offset eta_0 is
 /// the one unknown; a shape of j half waves is a path whose crossing number j is at the support. What is known of
 /// s_j(eta_0), the place of that crossing (equations at `finite::PathState`):
-///   - s_j(eta_0) > s_j(0), that of small amplitude: the path solves (V y')' ... with T >= V in V's place, and Sturm's
-///     comparison does the rest. So there is no shape of j half waves at or above the conical height lambda_j.
-///   - s_j grows beyond any bound, as s_1 >= eta_0: so there is one for every lambda < lambda_j.
-///   - s_1 rises everywhere: with v = du/deta_0, (u v' - v u')' > 0 by V as long as u and v have one sign. So there is one
-///     shape without nodes at most.
-///   - s_j rises everywhere for the uniform chain without tip weight, I. I. Kolodner, Heavy rotating string - a nonlinear
-///     eigenvalue problem, Comm. Pure Appl. Math. 8 (1955) 395-408, doi:10.1002/cpa.3160080307: exactly k shapes for
-///     lambda_{k+1} <= lambda < lambda_k; and for densities s^p: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
-/// It is false in general: three heavy beads on a light thread have five shapes where the three heights of small amplitude
-/// promise three (tests/cpp/finite/continuous_chain.cpp). With one shape at most, and for the uniform chain without tip
-/// weight, `complete` is therefore true; elsewhere s_j is looked at for many eta_0, and `complete` is false.
+///   - s_j(eta_0) > s_j(0), that of small amplitude: against V the pull satisfies u'' = -u/(rho T), u'(tip) = u(tip)/tip,
+///     and T > V, the T of small amplitude: Sturm's comparison. So no shape has j half waves at or above the conical height
+///     lambda_j of small amplitude.
+///   - s_j grows beyond any bound, as s_1 >= eta_0: so one at least has j half waves if lambda < lambda_j.
+///   - s_1 rises everywhere: v = du/deta_0 satisfies v'' = -(V/T)^2 v/(rho T), so that (u v' - v u')' > 0 as long as u and v
+///     have one sign, and at the crossing, where u' = 0, u v' > 0. So one at most has no node.
+///   - Every s_j rises for the uniform chain without tip weight, I. I. Kolodner, Heavy rotating string - a nonlinear
+///     eigenvalue problem, Comm. Pure Appl. Math. 8 (1955): exactly k shapes for lambda_{k+1} <= lambda < lambda_k; and for
+///     densities s^p: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
+/// The last is false in general: three heavy beads on a light thread have five shapes where the three heights of small
+/// amplitude promise three (tests/cpp/finite/continuous_chain.cpp). So `complete` is true for the uniform chain without tip
+/// weight, and where no more than one height is above; elsewhere s_j is looked at for many eta_0, and `complete` is false.
 namespace revchain {
 
 /// The shapes found, and whether there are more.
@@ -127,12 +128,12 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
 /// Method: power series of order 24 in the time that makes the equations polynomials (`finite::PathSeries`), Newton's method
 /// on the place of crossing j, its derivative by the series of the change; crossings told by quadrants within every step.
 /// Accuracy: inclinations, and offsets and heights over the length, within `error_bound`: measured against 22 digits for
-/// length/height from 1.4458 to 1e4, tip weights to 1e3 and four densities, never above half of it. The bound is an
-/// estimate, from how much the shape turns with its data and along its length: 1.1e-13 to 2.6e-13 at length/height 500, where
-/// the sharpest corner turns over a radian in a thousandth of the length. It grows near a critical height as the
-/// amplitude there is ill determined. `residual`: of the first integral of the uniform chain, of the tension carried by its
-/// own series against that of its parts with a density. Cost: a microsecond a step, four steps and more a half wave: 2 ms
-/// for the fourteen shapes at length/height 500 (bench/continuous.cpp).
+/// length/height from 1.4458 to 1e4, tip weights to 1e3 and five densities, never above 0.6 of it. The bound is an estimate,
+/// from how much the shape changes with its length and along it: 1.3e-13 at length/height 500 (measured 3.4e-14, and 3e-16
+/// for offsets), where the sharpest corner turns over a radian in a thousandth of the length; 3e-12 at 1e4 (7e-13). It grows
+/// near a critical height, where the amplitude is ill determined. `residual`: of the first integral of the uniform chain, of the tension carried by its
+/// own series against that of its parts with a density. Cost: a microsecond a step, four and more a half wave: 1.8 ms for the
+/// fourteen shapes at length/height 500 (bench/continuous.cpp); ten times that with a density, and `scanned` paths more.
 /// Throws InvalidArgument for a length or height not positive and finite, a negative tip weight, and a density over another
 /// length.
 inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height,

@@ -62,7 +62,7 @@ inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x
 /// The time of a series at which it reaches an arc length: arc' = pace T > 0. A step whose start was moved may end a little
 /// earlier.
 inline double time_at(const PathSeries& series, double arc, double duration) {
-    double low = 0, high = 1.01 * duration, t = duration / 2;
+    double low = 0, high = 1.05 * duration, t = duration / 2;
     for (int i = 0; i < 100; ++i) {
         const double value = PathSeries::at(series.arc, t) - arc;
         (value < 0 ? low : high) = t;
@@ -86,9 +86,13 @@ class ShapeSamples {
     template <class Series>
     void operator()(const Series& series, double duration) {
         starts_.push_back(series.change(0));
-        for (int i = 0; i < per_step; ++i)
-            places_.push_back(series.state(duration * i / per_step)),
-                changes_.push_back(series.change(duration * i / per_step));
+        if constexpr (std::is_same_v<Series, PathSeries>) {
+            sample(series, duration);
+        } else {
+            for (int i = 0; i < per_step; ++i)
+                places_.push_back(series.state(duration * i / per_step)),
+                    changes_.push_back(series.change(duration * i / per_step));
+        }
         if constexpr (std::is_same_v<Series, PathSeries>) last_ = series, last_duration_ = duration;
     }
 
@@ -107,7 +111,7 @@ class ShapeSamples {
         ContinuousShape shape;
         shape.kind = kind_, shape.steps = path.steps();
         for (std::size_t i = 0; i < shape.steps.size(); ++i) move(shape.steps[i].start, starts_[i], by);
-        while (shape.steps.size() > 1 && shape.steps.back().start.arc >= scaled * close) shape.steps.pop_back();
+        while (shape.steps.size() > 1 && shape.steps.back().start.arc >= scaled * (1 - 1e-12)) shape.steps.pop_back();
         shape.tip_offset = tip_offset_;
         shape.half_waves = half_waves, shape.length = length, shape.conical_height = conical_height;
         shape.support_arc = places_.back().arc, shape.support_height = places_.back().height;
@@ -127,6 +131,27 @@ class ShapeSamples {
     }
 
    private:
+    using Row = std::array<double, per_step>;
+    /// A series at all samples of a step, side by side.
+    static Row at(const PathSeries::Coefficients& c, const Row& t) {
+        Row sum;
+        sum.fill(c[PathSeries::order]);
+        for (std::size_t k = PathSeries::order; k-- > 0;)
+            for (std::size_t i = 0; i < per_step; ++i) sum[i] = sum[i] * t[i] + c[k];
+        return sum;
+    }
+    void sample(const PathSeries& series, double duration) {
+        Row t;
+        for (std::size_t i = 0; i < per_step; ++i) t[i] = duration * static_cast<double>(i) / per_step;
+        const Row arc = at(series.arc, t), offset = at(series.offset, t), pull = at(series.pull, t);
+        const Row height = at(series.height, t), arc_change = at(series.arc_change, t);
+        const Row offset_change = at(series.offset_change, t), pull_change = at(series.pull_change, t);
+        const Row height_change = at(series.height_change, t);
+        for (std::size_t i = 0; i < per_step; ++i) {
+            places_.push_back({arc[i], offset[i], pull[i], height[i]});
+            changes_.push_back({arc_change[i], offset_change[i], pull_change[i], height_change[i]});
+        }
+    }
     static void move(PathState& x, const PathChange& change, double by) {
         x.arc += change.arc * by, x.offset += change.offset * by;
         x.pull += change.pull * by, x.height += change.height * by;

@@ -52,10 +52,12 @@ class TipOffset {
               const CrossingLaw& law)
         : law_(law), range_(range) {
         const double rise = length - place_at_rest;
-        double tip = inside(law_.tip_offset(rise)), last = 0.03;
+        double tip = inside(std::min(law_.tip_offset(rise), 0.999 * range.high)), last = 0.05;
         for (int round = 0; round < 200; ++round) {
-            // The rise is what must be known: near a critical height it is a small part of the place.
-            const double tolerance = std::clamp(1e-3 * last * last * rise / length, PathSeries::rounding, 1e-7);
+            // Fitted, the law leaves a hundredth of the step's square, and more than that need not be known: of the rise,
+            // which near a critical height is a small part of the place.
+            const double square = last * last;
+            const double tolerance = std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
             const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
             if (path.crossings().empty()) return;
             const Path::Crossing& found = path.crossings().back();
