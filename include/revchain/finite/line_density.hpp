@@ -30,6 +30,7 @@ class LineDensity {
         detail::require_positive("LineDensity", "length", length);
         divide(weight_per_length, 0, length, 0);
         std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
+        if (pieces_.front().power == 0) at_tip_ = about(0);
         for (Piece& piece : pieces_) {
             piece.below = total_;
             if (piece.power == 0) {
@@ -57,6 +58,10 @@ class LineDensity {
             return c;
         }
         const Piece& piece = piece_at(s);
+        if (piece.power != 0) {
+            c[0] = piece.factor[0] * std::pow(s / end(piece), piece.power);
+            return c;
+        }
         const double t = (s - piece.middle) / piece.half;
         c = piece.factor;
         for (int i = 0; i < degree; ++i)
@@ -71,10 +76,17 @@ class LineDensity {
         if (nudged(s) >= length_) return total_ + mean() * (s - length_);
         if (s == 0) return 0;
         const Piece& piece = piece_at(s);
-        if (piece.power != 0)
-            return piece.factor[0] * s / (piece.power + 1) * std::pow(s / (2 * piece.half), piece.power);
+        if (piece.power != 0) return piece.factor[0] * s / (piece.power + 1) * std::pow(s / end(piece), piece.power);
+        if (&piece ==
+            &pieces_.front()) {  // in powers of s: near the free end the weight must be right relative to itself
+            double sum = 0;
+            for (std::size_t k = degree + 1; k-- > 0;) sum = sum * s + at_tip_[k] / static_cast<double>(k + 1);
+            return sum * s;
+        }
         return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
     }
+    /// Up to where the density is no polynomial but a power of s; mostly 0.
+    double end_of_power() const { return pieces_.front().power != 0 ? end(pieces_.front()) : 0.0; }
     /// First moment of the chain below s about the free end, over weight below times s, as of a power of s: to first order
     /// near the free end.
     double first_moment(double s) const {
@@ -185,6 +197,7 @@ class LineDensity {
 
     double length_, total_ = 0;
     std::vector<Piece> pieces_;
+    std::array<double, degree + 1> at_tip_{};
 };
 
 }  // namespace revchain

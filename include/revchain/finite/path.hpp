@@ -82,7 +82,8 @@ class Path {
 
     /// Where the path of a chain with a density begins: below, `near_tip`.
     static double first_arc(const PathKind& kind) {
-        return 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit);
+        const double little = 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit);
+        return std::max(little, kind.density->end_of_power() / kind.unit);
     }
     /// A place of a chain whose density goes like s^p near its free end: the error is of second order in s.
     static PathState near_tip(const PathKind& kind, double tip_offset, double s) {

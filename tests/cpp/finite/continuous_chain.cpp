@@ -254,6 +254,28 @@ TEST_CASE("beads on a light thread: more shapes than critical heights", "[finite
     CHECK(one.shapes.size() == 1);
 }
 
+TEST_CASE("near the free end: the inclination falls as the series says", "[finite]") {
+    // tan psi = eta_0 - s eta_0 m/sqrt(1 + eta_0^2) + ..., m = (p + 1)/(p + 2) for a density s^p; over the height.
+    for (const double power : {0.0, 0.5, 2.0}) {
+        const LineDensity density([=](double s) { return 3 * std::pow(s, power); }, 1);
+        for (const bool uniform : {true, false}) {
+            if (uniform && power != 0) continue;
+            for (const ContinuousShape& shape :
+                 revchain::continuous_shapes({1, 0, uniform ? nullptr : &density}, 0.02).shapes) {
+                const double tip = shape.offset[0] / 0.02, m = (power + 1) / (power + 2);
+                for (double s = 1e-15; s < 1e-6; s *= 3) {
+                    const double slope = -tip * m / std::sqrt(1 + tip * tip) / (1 + tip * tip);
+                    CAPTURE(power, uniform, shape.half_waves, s);
+                    CHECK(std::abs(shape(s).inclination - (std::atan(tip) + slope * s / 0.02)) <=
+                          2e-9 * s / 1e-6 + 1e-15);
+                }
+                for (Index i = 1; i < shape.arc_length.size(); ++i)
+                    CHECK(shape.arc_length[i] >= shape.arc_length[i - 1]);
+            }
+        }
+    }
+}
+
 TEST_CASE("line densities are what they were given", "[finite]") {
     for (const std::string name : {"power:0.5", "power:2", "power:-0.25", "linear", "bump"}) {
         CAPTURE(name);
