@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <optional>
+
 #include "revchain/finite/continuous_shape.hpp"
 #include "revchain/finite/tip_offset.hpp"
 
@@ -58,11 +60,13 @@ inline std::vector<double> crossings_at_rest(const ContinuousChain& chain, doubl
     return places;
 }
 
-/// The shape next to a path all but right.
-inline ContinuousShape finished(const PathKind& kind, double tip_offset, int crossing, double length, double height) {
+/// The shape next to a path all but right; none where no path could be followed that far.
+inline std::optional<ContinuousShape> finished(const PathKind& kind, double tip_offset, int crossing, double length,
+                                               double height) {
     for (int round = 0;; ++round) {
         ShapeSamples samples(kind, tip_offset);
         const Path path(kind, tip_offset, {.crossings = crossing}, samples);
+        if (!(tip_offset > 0) || static_cast<int>(path.crossings().size()) < crossing) return std::nullopt;
         const Path::Crossing& support = path.crossings().back();
         const double step = (length / height - support.arc) / support.rate;  // smaller each time
         if (std::abs(step) < TipOffset::near * tip_offset || round == 3)
@@ -111,7 +115,11 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
         const int crossing = static_cast<int>(j) + 1;
         for (std::size_t i = ranges[j].size(); i-- > 0;) {
             const TipOffset tip(kind, crossing, at_rest[j], length, ranges[j][i], law);
-            result.shapes.push_back(finished(kind, tip.value(), crossing, chain.length, height));
+            if (auto shape = finished(kind, tip.value(), crossing, chain.length, height)) {
+                result.shapes.push_back(std::move(*shape));
+            } else {
+                result.complete = false;
+            }
             law = tip.law();
         }
         law = law.of_next(crossing);
@@ -167,6 +175,8 @@ inline Vector<double> continuous_critical_heights(const ContinuousChain& chain, 
     const auto place_of = [&](double height, Index crossing) {
         const finite::Path path(finite::kind_of(chain, height, 0), 1,
                                 {.crossings = static_cast<int>(crossing), .with_change = false});
+        if (static_cast<Index>(path.crossings().size()) < crossing)
+            detail::refuse(place, "the line density is too rough to follow up to critical height", crossing);
         return path.crossings();
     };
     if (chain.density == nullptr && chain.tip_weight == 0) {

@@ -14,14 +14,14 @@ namespace revchain {
 /// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
 ///
 /// Method: the length is halved, and the halves, until a polynomial of degree 12 through Chebyshev points gives the function
-/// to its rounding, looked at between them too, or a piece is 2^-40 of the length: so jumps and corners cost about forty pieces each. At the free end a
-/// piece that short stands for c s^p, as a power law has it, whose weight grows like s^(p+1).
+/// to its rounding, looked at between them too, or a piece is 2^-46 of the length: so a jump or a corner costs about
+/// fifty pieces. At the free end a piece of 2^-40 stands for c s^p, as a power law has it, whose weight grows like s^(p+1).
 /// Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/continuous_chain.cpp).
 class LineDensity {
    public:
     static constexpr int degree = 12;
     static constexpr double rounding = 8e-15;  // below what functions of a dozen operations give
-    static constexpr int least_halvings = 2, most_halvings = 40;
+    static constexpr int least_halvings = 2, most_halvings = 46, most_at_tip = 40;
     static constexpr std::size_t most_pieces = 20'000;
 
     /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a function
@@ -104,7 +104,7 @@ class LineDensity {
 
     static double end(const Piece& piece) { return piece.middle + piece.half; }
     /// A place at the end of a piece to rounding belongs to the next, so that paths go on.
-    static double nudged(double s) { return s * (1 + 0x1p-50); }
+    static double nudged(double s) { return s * (1 + 0x1p-48); }
     const Piece& piece_at(double s) const {
         const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
                                             [](double x, const Piece& piece) { return x < end(piece); });
@@ -151,13 +151,15 @@ class LineDensity {
         // At the free end, where little hangs below, the density must be right relative to itself.
         bool good = halvings >= least_halvings && tail <= rounding * largest && (low > 0 || least > 0.02 * largest);
         if (good) {
+            for (std::size_t k = count; k-- > 1 && std::abs(chebyshev[k]) <= 0.25 * rounding * largest;)
+                chebyshev[k] = 0;
             piece.factor = in_powers(chebyshev);
             for (std::size_t i = 1; i < count; ++i) {  // what is narrow may lie between
                 const double x = std::cos(std::numbers::pi * static_cast<double>(i) / count);
                 good = good && std::abs(value(piece, x) - f(piece.middle + piece.half * x)) <= 10 * rounding * largest;
             }
         }
-        if (!good && halvings < most_halvings) {
+        if (!good && halvings < (low == 0 ? most_at_tip : most_halvings)) {
             divide(f, low, piece.middle, halvings + 1);
             divide(f, piece.middle, high, halvings + 1);
             return;
@@ -173,8 +175,9 @@ class LineDensity {
                                "the weight near the free end must be finite; weight per length goes like s^p, p",
                                piece.power);
             if (piece.power == 0) piece.power = 1e-30;
-        } else if (!good) {
-            piece.factor = in_powers(chebyshev);
+        } else if (!good) {  // a jump, within rounding of where it is
+            piece.factor.fill(0);
+            piece.factor[0] = f(piece.middle);
         }
         pieces_.push_back(piece);
     }

@@ -67,6 +67,7 @@ class Path {
             largest_tension_ = std::max(largest_tension_, tension);
             discrepancy_ = std::max(discrepancy_, std::abs(next.tension - tension));
             if (options.with_change) change = at_place(kind, next.state, series.change(duration), series, duration);
+            if (!(next.state.arc > state.arc)) break;  // a density too rough to follow
             state = next.state;
         }
     }

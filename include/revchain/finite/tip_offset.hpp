@@ -59,7 +59,7 @@ class TipOffset {
             const double square = last * last;
             const double tolerance = std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
             const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
-            if (path.crossings().empty()) return;
+            if (static_cast<int>(path.crossings().size()) < crossing) return;
             const Path::Crossing& found = path.crossings().back();
             const double off = found.arc - length;
             ((off < 0) == range_.rises ? range_.low : range_.high) = tip;
@@ -77,6 +77,7 @@ class TipOffset {
         }
         value_ = tip;
     }
+    /// 0 where the path could not be followed that far.
     double value() const { return value_; }
     const CrossingLaw& law() const { return law_; }
 

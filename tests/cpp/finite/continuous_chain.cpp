@@ -254,6 +254,29 @@ TEST_CASE("beads on a light thread: more shapes than critical heights", "[finite
     CHECK(one.shapes.size() == 1);
 }
 
+TEST_CASE("jumps of the density", "[finite]") {
+    // Light, a hundred times as heavy, and all but weightless: many more shapes than heights of small amplitude.
+    const auto weight = [](double s) { return s < 0.3 ? 1.0 : s < 0.7 ? 100.0 : 0.01; };
+    const LineDensity density(weight, 1);
+    CHECK(density.total() == Approx(40.303).epsilon(1e-13));
+    const auto found = revchain::continuous_shapes({1, 0, &density}, 0.003);
+    CHECK(found.shapes.size() == 31);
+    for (const ContinuousShape& shape : found.shapes) {
+        CHECK(shape.error_bound <= 1e-11);
+        CHECK(shape.residual <= 1e-14);
+        double pull = 0, along = 0, worst = 0;
+        for (Index i = 1; i < shape.arc_length.size(); ++i) {
+            const double from = shape.arc_length[i - 1], to = shape.arc_length[i], middle = from + (to - from) / 2;
+            pull += weight(middle) * (to - from) * (shape.offset[i - 1] + 4 * shape(middle).offset + shape.offset[i]) /
+                    6 / 0.003;
+            along += weight(middle) * (to - from);
+            worst = std::max({worst, std::abs(shape.tension[i] * std::sin(shape.inclination[i]) - pull),
+                              std::abs(shape.tension[i] * std::cos(shape.inclination[i]) - along)});
+        }
+        CHECK(worst <= 2e-6 * shape.tension.maxCoeff());  // Simpson's rule
+    }
+}
+
 TEST_CASE("near the free end: the inclination falls as the series says", "[finite]") {
     // tan psi = eta_0 - s eta_0 m/sqrt(1 + eta_0^2) + ..., m = (p + 1)/(p + 2) for a density s^p; over the height.
     for (const double power : {0.0, 0.5, 2.0}) {
