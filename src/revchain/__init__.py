@@ -27,6 +27,13 @@ from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_ch
 from ._batch import conical_heights
 from ._branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
 from ._chain import Chain
+from ._continuous import (
+    ContinuousPlace,
+    ContinuousShape,
+    ContinuousShapes,
+    continuous_critical_heights,
+    continuous_shapes,
+)
 from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
@@ -48,6 +55,9 @@ __all__ = [
     "BufferImpact",
     "Certificate",
     "Chain",
+    "ContinuousPlace",
+    "ContinuousShape",
+    "ContinuousShapes",
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
@@ -65,6 +75,8 @@ __all__ = [
     "branches",
     "conical_heights",
     "conical_pendulum",
+    "continuous_critical_heights",
+    "continuous_shapes",
     "count_modes",
     "elliptic",
     "funicular_polygon",
