@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment VII: a chain of 1 m whirled in the hand; two weights in its place at any inclination.
+"""Experiment VII: a chain of 1 m whirled in the hand at any inclination; two weights in its place.
 
 python experiment_07_revolving_chain.py [FOLDER]
 """
@@ -24,6 +24,14 @@ for turns in (0.5, 1, 2, 3):
     print(f"at {turns} turns a second the chain has {below} of them below")
 
 
+print("the chain, its free end from the axis in m:")
+print("turns a second  figure  continuous  200 links")
+for turns in (0.7, 1.0, 2.0, 3.0):
+    for shape in rc.continuous_shapes(LENGTH, angular_speed=2 * np.pi * turns):
+        links = rc.steady_shape(chain, mode=shape.half_waves, angular_speed=2 * np.pi * turns)
+        print(f"{turns:14.1f}  {shape.half_waves:6}  {shape.offset[0]:10.5f}  {links.offset[0]:9.5f}")
+
+
 def figures(turns):
     return rc.two_links.two_plummets_shapes(**PAIR, height=rc.conical_pendulum.height(2 * np.pi * turns))
 
@@ -35,15 +43,13 @@ for turns in (0.7, 1.0, 2.0, 3.0):
         lower, upper = np.degrees(shape.inclination)
         print(f"{turns:14.1f}  {shape.half_waves:6}  {lower:12.2f}  {upper:5.2f}")
 
-figure, axes = panels(3, [1, 1.5, 1.5])
-x = np.linspace(0, LENGTH, 200)
-for k in range(3):
-    turns = result.revolutions_per_second()[k]
-    offset = 0.12 * rc.heavy_chain.shape(x, k + 1, LENGTH)
-    hang(axes[0], offset, LENGTH - x, color=COLOURS[k], label=f"{turns:.2f}")
-side_view(axes[0], "chain, near the vertical", bottom=1.06, half_width=0.25)
+figure, axes = panels(3, [1.5, 1.5, 1.5])
+for shape in rc.continuous_shapes(LENGTH, angular_speed=2 * np.pi * 3.0):
+    hang(axes[0], shape.offset, -shape.height, color=COLOURS[shape.half_waves - 1], label=f"{shape.half_waves}")
+side_view(axes[0], "chain at 3 turns a second", bottom=1.03, half_width=0.85)
+axes[0].set_xlim(-0.4, 1.05)
 axes[0].set_ylabel("below the support, m")
-axes[0].legend(title="turns/s", loc="upper right", fontsize=8, frameon=False, handlelength=1)
+axes[0].legend(title="figure", loc="lower right", fontsize=8, frameon=False, handlelength=1)
 
 for turns, style in [(0.7, ":"), (1.0, "--"), (2.0, "-")]:
     for shape in figures(turns):
@@ -59,8 +65,10 @@ turns = np.linspace(0.4, 3.5, 800)
 for half_waves in (1, 2):
     tips = [[shape.offset[0] for shape in figures(n) if shape.half_waves == half_waves] for n in turns]
     axes[2].plot(turns, [max(tip, default=0) for tip in tips], color=COLOURS[half_waves - 1])
-for k, speed in enumerate(result.revolutions_per_second()):
-    axes[2].axvline(speed, color=COLOURS[k], linestyle=":", linewidth=1)
-axes[2].set(xlabel="turns a second", ylabel="lower weight from the axis, m", ylim=(-0.02, 0.8))
-axes[2].set_title("two weights (dotted: the chain)")
+for half_waves in (1, 2, 3):
+    faster = turns[turns > rc.heavy_chain.revolutions_per_second(3, LENGTH)[half_waves - 1]]
+    shapes = [rc.continuous_shapes(LENGTH, angular_speed=2 * np.pi * n)[half_waves - 1] for n in faster]
+    axes[2].plot(faster, [s.offset[0] for s in shapes], ":", color=COLOURS[half_waves - 1])
+axes[2].set(xlabel="turns a second", ylabel="lowest point from the axis, m", ylim=(-0.02, 1.02))
+axes[2].set_title("two weights; dotted: the chain")
 save(figure)
