@@ -81,6 +81,9 @@ def test_what_the_programs_say(python):
     assert "meets the slower one with 9.855 m of rope" in crane.stdout
     bell = python(ROOT / "examples/python/silent_bell.py")
     assert "0.1785  +1.000000" in bell.stdout
+    shapes = python(ROOT / "examples/python/all_shapes.py")
+    assert "SteadyShapes: 5, proved complete" in shapes.stdout and "SteadyShapes: 84" in shapes.stdout
+    assert "two are born at 3.903762157 sqrt(g/a)" in shapes.stdout
 
 
 @pytest.mark.parametrize("path", EXPERIMENTS, ids=lambda path: path.stem)
