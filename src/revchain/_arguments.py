@@ -59,6 +59,12 @@ def count(place: str, name: str, value: object) -> int:
     return number
 
 
+def limit(place: str, name: str, value: object) -> int:
+    """`value` as an int; beyond what the compiled module can hold, the largest that it can."""
+    largest = np.iinfo(np.int64).max
+    return int(min(max(integer(place, name, value), -largest), largest))
+
+
 def counts(place: str, name: str, value: ArrayLike) -> Whole:
     """`value` as an int64 array of numbers from 1 to 2**53."""
     whole = np.asarray(value)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, link_arrays, real
+from ._arguments import Floats, link_arrays, real, shown
 from ._arguments import count as checked_count
 
 if TYPE_CHECKING:
@@ -292,3 +292,10 @@ def _check_shapes(columns: dict[str, Floats]) -> None:
     if len(set(sizes.values())) > 1:
         found = ", ".join(f"{name} has {size}" for name, size in sizes.items())
         raise ValueError(f"revchain.Chain: arrays must have one number for each link, but {found}")
+
+
+def compiled(place: str, chain: Chain) -> _core.Chain:
+    """What the compiled module takes; a TypeError for anything but a chain."""
+    if not isinstance(chain, Chain):
+        raise TypeError(f"{place}: chain must be a revchain.Chain, got {shown(chain)}")
+    return chain._compiled

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, floats, integer, positive, real, shown, together
 from ._arguments import count as checked_count
-from ._chain import Chain
+from ._chain import Chain, compiled
 from ._modes import Certificate, Modes
 
 
@@ -145,7 +145,7 @@ def solve(
 ) -> Modes:
     """`modes`, watched: `progress` tells how far it is and can cancel it from another thread."""
     place = "revchain.modes"
-    core = _compiled(place, chain)
+    core = compiled(place, chain)
     if (modes is not None) + (conical_height is not None) + (angular_speed is not None) + (count is not None) > 1:
         selectors = {"count": count, "modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
         given = " and ".join(name for name, value in selectors.items() if value is not None)
@@ -248,7 +248,7 @@ def count_modes(
     place = "revchain.count_modes"
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give either conical_height or angular_speed")
-    core = _compiled(place, chain)
+    core = compiled(place, chain)
     if conical_height is not None:
         return _core.count_modes(core, floats(place, "conical_height", conical_height))[()]
     assert angular_speed is not None
@@ -288,10 +288,4 @@ def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:
     >>> bool(np.allclose(A @ y, 1.5 * B @ y))
     True
     """
-    return _core.recurrence_matrices(_compiled("revchain.recurrence_matrices", chain))
-
-
-def _compiled(place: str, chain: Chain) -> _core.Chain:
-    if not isinstance(chain, Chain):
-        raise TypeError(f"{place}: chain must be a revchain.Chain, got {shown(chain)}")
-    return chain._compiled
+    return _core.recurrence_matrices(compiled("revchain.recurrence_matrices", chain))

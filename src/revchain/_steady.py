@@ -10,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, integer, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, limit, positive, real
+from ._chain import Chain, compiled
 from ._diagrams import ForceDiagram
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from ._chain import Chain
 
 
 class Stability:
@@ -47,7 +46,12 @@ class Stability:
 
     @property
     def exponents(self) -> NDArray[np.complex128]:
-        """All ``s`` of ``exp(s n t)``, by imaginary part; without those of the rotation itself."""
+        """All ``s`` of ``exp(s n t)``, by imaginary part; without those of the rotation itself.
+
+        ``4 N - 2`` of N links in the free frame, ``2 N`` in the driven one; links are rods without inertia about
+        their own axes. Of links without weight there are fewer: where a pin carries no mass, the two links
+        that meet there stay in line.
+        """
         return self._compiled.exponents
 
     @property
@@ -107,7 +111,7 @@ class SteadyShape:
 
     @property
     def reaction_inclination(self) -> Floats:
-        """Of that reaction to the vertical, rad, shape (N,)."""
+        """Of the reaction at each link's upper pin (`tension`) to the vertical, rad, shape (N,)."""
         return self._compiled.reaction_inclination
 
     @property
@@ -132,7 +136,11 @@ class SteadyShape:
 
     @property
     def condition(self) -> float:
-        """Largest change of an inclination, rad, for relative changes of the forces, times their size, as tried."""
+        """Largest change of an inclination, rad, over the relative change of the forces that makes it.
+
+        Forces are weights and centrifugal forces, each changed by the same share of itself, whatever the
+        signs. Rounding in double could not leave less than 1e-16 of it; here two doubles are used.
+        """
         return self._compiled.condition
 
     @property
@@ -251,7 +259,6 @@ class SteadyShape:
         >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
         array([0.5       , 0.08366581])
         """
-        from ._chain import Chain
 
         return Chain._wrap(_core.transferred_to_axis(self._chain, self._compiled))
 
@@ -392,7 +399,8 @@ def steady_shapes(
         For `angular_speed`; standard gravity, in metres, if left out.
     budget : int, optional
         How many links to look at, at the most, while parts of the range of the lowest link's inclination are
-        split: half a microsecond each, or two where ``l < a``; the default takes some 2 to 10 seconds.
+        split: half a microsecond each, or two where ``l < a``; the default takes some 2 to 10 seconds. With 0
+        and less nothing is looked at, and the list is empty and not complete.
     hanging_only : bool, optional
         Whether to leave out shapes with links that stand: more than a right angle from the downward
         vertical.
@@ -436,13 +444,14 @@ def steady_shapes(
     place = "revchain.steady_shapes"
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give exactly one of conical_height and angular_speed")
-    cells = integer(place, "budget", budget)
+    core = compiled(place, chain)
+    most = limit(place, "budget", budget)
     if not isinstance(hanging_only, (bool, np.bool_)):
         raise TypeError(f"{place}: hanging_only must be True or False, got {hanging_only!r}")
     hanging = bool(hanging_only)
     if conical_height is not None:
         height = float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
-        return SteadyShapes._wrap(_core.steady_shapes(chain._compiled, height, cells, hanging), chain)
+        return SteadyShapes._wrap(_core.steady_shapes(core, height, most, hanging), chain)
     speed = float(positive(place, "angular_speed", real(place, "angular_speed", angular_speed)))
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-    return SteadyShapes._wrap(_core.steady_shapes_at_speed(chain._compiled, speed, g, cells, hanging), chain)
+    return SteadyShapes._wrap(_core.steady_shapes_at_speed(core, speed, g, most, hanging), chain)

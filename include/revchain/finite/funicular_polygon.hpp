@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/core/scalar.hpp"
-#include "revchain/core/status.hpp"
+#include "revchain/linear/string_places.hpp"
 
 namespace revchain {
 
@@ -22,7 +21,7 @@ struct FunicularPolygon {
 /// The polygon of given horizontal component of tension, the pole's distance from the line of load: rays from the pole to
 /// the line of load, sides parallel to them. Weights (n) and places (n + 2), supports among them, in any units.
 /// Accuracy: heights to n ulp of the drop from the chord. Cost O(n). Throws InvalidArgument unless weights are positive,
-/// places increase and all is finite.
+/// places increase and all is finite, heights and tensions too.
 template <Real T>
 FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& place, const T& horizontal_tension,
                                       const T& first_height = T(0), const T& last_height = T(0)) {
@@ -30,31 +29,29 @@ FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& 
     using std::isfinite;
     constexpr std::string_view where = "funicular_polygon";
     const Index n = weight.size();
-    if (place.size() != n + 2)
-        detail::refuse(where, "places must be two more than weights: both supports and every weight; got",
-                       place.size());
-    for (Index j = 0; j < n; ++j) detail::require_positive(where, "weight", weight[j]);
-    for (Index j = 0; j <= n; ++j)
-        if (!isfinite(place[j]) || !isfinite(place[j + 1]) || !(place[j] < place[j + 1]))
-            detail::refuse(where, "places must be finite and increase, after", place[j]);
+    detail::check_string(where, weight, place);
     detail::require_positive(where, "horizontal tension", horizontal_tension);
-    if (!isfinite(first_height) || !isfinite(last_height))
-        detail::refuse(where, "heights of the supports must be finite, got",
-                       isfinite(first_height) ? last_height : first_height);
+    for (const T& height : {first_height, last_height})
+        if (!isfinite(height)) detail::refuse(where, "heights of the supports must be finite", height);
     FunicularPolygon<T> polygon{place, Vector<T>(n + 2), Vector<T>(n + 1), Vector<T>(n + 1), horizontal_tension};
-    const T span = place[n + 1] - place[0];
-    // Moments about the last support: what the first one carries, then weights as they come.
-    T lifts = horizontal_tension * ((first_height - last_height) / span);
-    for (Index j = 0; j < n; ++j) lifts += weight[j] * ((place[n + 1] - place[j + 1]) / span);
+    // Halves of places: their differences are in range. Moments about the last support: what the first one carries,
+    // then weights as they come.
+    const Vector<T> half = place / T(2);
+    const T span = half[n + 1] - half[0];
+    T lifts = horizontal_tension * ((first_height / T(2) - last_height / T(2)) / span);
+    for (Index j = 0; j < n; ++j) lifts += weight[j] * ((half[n + 1] - half[j + 1]) / span);
     T rise = -lifts;
     polygon.height[0] = first_height;
     for (Index j = 0; j <= n; ++j) {
         if (j > 0) rise += weight[j - 1];
         polygon.rise[j] = rise;
         polygon.tension[j] = hypot(horizontal_tension, rise);
-        polygon.height[j + 1] = polygon.height[j] + rise / horizontal_tension * (place[j + 1] - place[j]);
+        polygon.height[j + 1] = polygon.height[j] + T(2) * (rise / horizontal_tension * (half[j + 1] - half[j]));
     }
     polygon.height[n + 1] = last_height;
+    if (!polygon.height.allFinite() || !polygon.tension.allFinite())
+        detail::refuse(where, "the polygon leaves the range of numbers, with a horizontal tension of",
+                       horizontal_tension);
     return polygon;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <numbers>
 #include <optional>
 
 #include "revchain/core/double_double.hpp"
@@ -207,6 +208,10 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
     const auto links = links_of(chain);
     const Wide<double> scaled = ldexp(height, -links.units.length_exponent);
     SteadyShapes result;
+    if (!(static_cast<double>(scaled) > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
+        result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
+        return result;
+    }
     if (options.hanging_only && single_valued(enclosed<double>(links.links), enclosed<double>(scaled)))
         add_single_valued(links, scaled, options.budget, result);
     else
@@ -250,9 +255,16 @@ inline SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, double an
                                            const SteadyShapesOptions& options = {}) {
     detail::require_positive("steady_shapes_at_speed", "angular speed", angular_speed);
     detail::require_positive("steady_shapes_at_speed", "gravity", gravity);
-    const Wide<double> n(angular_speed), height = Wide<double>(gravity) / n / n;
-    detail::require_positive("steady_shapes_at_speed", "gravity / angular speed^2", static_cast<double>(height));
-    return finite::steady_shapes(chain, height, options);
+    constexpr double least = std::numeric_limits<double>::min();
+    const double near = gravity / angular_speed / angular_speed;
+    if (near > std::numeric_limits<double>::max() / 4) {  // far above any critical height
+        SteadyShapes none;
+        none.complete = true;
+        return none;
+    }
+    if (near < least / epsilon<double>()) return steady_shapes(chain, std::max(near, least), options);
+    const Wide<double> n(angular_speed);
+    return finite::steady_shapes(chain, Wide<double>(gravity) / n / n, options);
 }
 
 }  // namespace revchain

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/chain/link.hpp"
 #include "revchain/linear/two_links.hpp"
 
 /// Any two links jointed together, a bell and its clapper among them. Greenhill (1908) §8 (13)-(17).
@@ -42,7 +43,13 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
     const T largest = max(max(links.lower.pendulum_length(), links.upper_length),
                           max(abs(links.upper_centroid), links.upper_radius_of_gyration));
     const T unit = inverse_power_near(largest);
+    if (links.upper_length * unit * length_span<T>() < T(1) || links.lower.centroid * unit * length_span<T>() < T(1))
+        refuse(place,
+               "lengths, the lower link's pendulum length among them, must not be more than 1e77 apart; upper length",
+               links.upper_length);
     const T by = inverse_power_near(max(links.lower_weight, links.upper_weight));
+    if (links.lower_weight * by * length_span<T>() < T(1) || links.upper_weight * by * length_span<T>() < T(1))
+        refuse(place, "weights must not be more than 1e77 apart; lower weight", links.lower_weight);
     const T w1 = links.lower_weight * by, w2 = links.upper_weight * by;
     const T a2 = links.upper_length * unit, h2 = links.upper_centroid * unit,
             k2 = links.upper_radius_of_gyration * unit;
@@ -66,7 +73,8 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
 /// l2 = a2, of (lambda - l1)(lambda - l2) = l2 h1/(m + 1), (15). The lower is 0 where neither link has a radius of gyration
 /// and the upper one's centroid is at its support. Accuracy: 3 ulp for every root, measured
 /// (tests/cpp/finite/jointed_links.cpp).
-/// Throws InvalidArgument for numbers out of range, and where W2 h2 + W1 a2 is not positive.
+/// Throws InvalidArgument for numbers out of range, lengths or weights more than 1e77 apart (in double), and where
+/// W2 h2 + W1 a2 is not positive.
 template <Real T>
 HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     const auto n = detail::jointed_numbers("jointed_links", links);

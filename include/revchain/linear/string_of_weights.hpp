@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/linear/modes.hpp"
+#include "revchain/linear/string_places.hpp"
 #include "revchain/linear/two_links.hpp"
 
 /// Transverse oscillation of a string of weights held at both ends, and of a funicular polygon perpendicular to its plane.
@@ -25,19 +26,12 @@ struct StringOfWeights {
 /// resists with T/a, which is the horizontal component over the horizontal length.
 /// Throws InvalidArgument unless there are weights, all positive, places increase and all is finite.
 template <Real T>
-StringOfWeights<T> string_of_weights(const Vector<T>& weight, const Vector<T>& place, const T& tension) {
-    using std::isfinite;
+StringOfWeights<T> string_of_weights(const Vector<T>& weight, const Vector<T>& place, const T& tension,
+                                     std::string_view where = "string_of_weights") {
     using std::ldexp;
-    constexpr std::string_view where = "string_of_weights";
     const Index n = weight.size();
     if (n == 0) detail::refuse(where, "there must be a weight; their number is", n);
-    if (place.size() != n + 2)
-        detail::refuse(where, "places must be two more than weights: both supports and every weight; got",
-                       place.size());
-    for (Index j = 0; j < n; ++j) detail::require_positive(where, "weight", weight[j]);
-    for (Index j = 0; j <= n; ++j)
-        if (!isfinite(place[j]) || !isfinite(place[j + 1]) || !(place[j] < place[j + 1]))
-            detail::refuse(where, "places must be finite and increase, after", place[j]);
+    detail::check_string(where, weight, place);
     detail::require_positive(where, "tension", tension);
     const T unit = detail::inverse_power_near(weight.maxCoeff());
     T total(0);
@@ -62,15 +56,20 @@ struct TransverseModes {
     }
 };
 
-/// All of them, by `modes` of the equivalent chain. Accuracy: heights to 2 ulp (measured; tests/cpp/finite/funicular_polygon.cpp), within `error_bound`, which adds to the
-/// proved bound of `modes` the roundings of spacings and factor.
+/// All of them, by `modes` of the equivalent chain. Accuracy: heights to 2 ulp (measured;
+/// tests/cpp/finite/funicular_polygon.cpp), within `error_bound`, which adds to the proved bound of `modes` the roundings
+/// of spacings and factor. Throws as string_of_weights does, and where a height is out of range.
 template <Real T>
 TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& place, const T& tension) {
-    const StringOfWeights<T> string = string_of_weights(weight, place, tension);
+    using std::isfinite;
+    constexpr std::string_view where = "transverse_modes";
+    const StringOfWeights<T> string = string_of_weights(weight, place, tension, where);
     const Modes<T> found = modes(string.chain, {.first = 2});
     TransverseModes<T> result{found.conical_height, found.error_bound, found.shape};
     for (Index k = 0; k < found.size(); ++k) {
         result.conical_height[k] = found.conical_height[k] * string.factor;
+        if (!isfinite(result.conical_height[k]) || result.conical_height[k] == T(0))
+            detail::refuse(where, "the conical heights leave the range of numbers, with a tension of", tension);
         result.error_bound[k] += T(3) * epsilon<T>();
         if (result.shape(k, 1) < T(0)) result.shape.row(k) = -result.shape.row(k);
         result.shape(k, 0) = T(0);  // the heavy weight: less than 2^-digits

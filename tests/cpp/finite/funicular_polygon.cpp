@@ -190,3 +190,16 @@ TEST_CASE("Funicular polygon, string of weights: wrong numbers", "[finite][funic
     CHECK(revchain::funicular_polygon<double>(Vector(), Vector::LinSpaced(2, 0, 1), 1.0, 0.0, 1.0).tension[0] ==
           std::sqrt(2.0));
 }
+
+TEST_CASE("polygons at the ends of the range", "[finite]") {
+    const auto vector = [](std::initializer_list<double> x) {
+        revchain::Vector<double> result(static_cast<revchain::Index>(x.size()));
+        std::copy(x.begin(), x.end(), result.data());
+        return result;
+    };
+    CHECK(revchain::funicular_polygon(vector({1.0}), vector({-1e308, 0, 1e308}), 1.0).height[1] == -5e307);
+    CHECK_THROWS_AS(revchain::funicular_polygon(vector({1e300, 1e300}), vector({0, .5, 1, 2}), 1e-300),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::transverse_modes(vector({1e300, 1e300}), vector({0, .5, 1, 2}), 1e-300),
+                    revchain::InvalidArgument);
+}

@@ -292,3 +292,19 @@ TEST_CASE("Jointed links: wrong numbers", "[finite][jointed]") {
     CHECK_THROWS_AS(revchain::joint_without_bending(1.0, 0.5), InvalidArgument);
     CHECK_THROWS_AS(revchain::joint_without_bending(-1.0, 0.2), InvalidArgument);
 }
+
+TEST_CASE("jointed links too far apart are refused", "[finite]") {
+    revchain::JointedLinks<double> links{1, {1, 0.5}, 1, 1, 0.5, 0.3};
+    CHECK(std::isfinite(revchain::jointed_links(links)[0]));
+    for (const double far : {1e-300, 1e-160, 1e160, 1e300}) {
+        auto odd = links;
+        odd.lower.centroid = far;
+        CHECK_THROWS_AS(revchain::jointed_links(odd), revchain::InvalidArgument);
+        odd = links;
+        odd.upper_length = far;
+        CHECK_THROWS_AS(revchain::jointed_links(odd), revchain::InvalidArgument);
+        odd = links;
+        odd.upper_weight = far;
+        CHECK_THROWS_AS(revchain::jointed_links(odd), revchain::InvalidArgument);
+    }
+}

@@ -159,3 +159,31 @@ TEST_CASE("growth as the whole nonlinear chain shows it", "[finite]") {
     CHECK_THROWS_AS(revchain::stability(Chain<double>::uniform_plummets(2, 2, 1), found.shapes[0]),
                     revchain::InvalidArgument);
 }
+
+TEST_CASE("links without weight: those in line are one", "[finite][stability]") {
+    const auto exponents = [](const Chain<double>& chain, std::size_t which, revchain::StabilityFrame frame) {
+        const auto shapes = revchain::steady_shapes(chain, 0.13).shapes;
+        REQUIRE(shapes.size() > which);
+        return revchain::stability(chain, shapes[which], frame);
+    };
+    const auto chain = [](std::vector<double> weight, std::vector<double> length) {
+        return support::chain_of(static_cast<Index>(weight.size()), [&](Index m) {
+            return revchain::plummet(weight[static_cast<std::size_t>(m)], length[static_cast<std::size_t>(m)]);
+        });
+    };
+    const auto two = chain({1, 1}, {2, 1}), upper = chain({1, 1}, {1, 2});
+    for (const auto frame : {revchain::StabilityFrame::free, revchain::StabilityFrame::driven})
+        for (const std::size_t which : {0U, 1U}) {
+            const auto check = [&](const Chain<double>& split, const Chain<double>& whole) {
+                const auto x = exponents(split, which, frame), y = exponents(whole, which, frame);
+                REQUIRE(x.exponents.size() == y.exponents.size());
+                CHECK(x.verdict == y.verdict);
+                CHECK(x.negative_directions == y.negative_directions);
+                for (std::size_t i = 0; i < x.exponents.size(); ++i)
+                    CHECK(std::abs(x.exponents[i] - y.exponents[i]) < 1e-12);
+            };
+            check(chain({1, 0, 1}, {1, 1, 1}), two);
+            check(chain({1, 0, 0, 1}, {1, 0.5, 0.5, 1}), two);
+            check(chain({1, 1, 0}, {1, 1, 1}), upper);
+        }
+}

@@ -295,6 +295,19 @@ TEST_CASE("a speed out of range, a budget of nothing: said so, soon", "[finite]"
         for (const SteadyShape& shape : found.shapes) CHECK(shape.error_bound == shape.error_bound);
     }
     CHECK(revchain::steady_shapes(plummets(4), 1e300).complete);
+    for (const double height : {5e-324, 1e-310, 1e-308}) {  // tangents beyond any number
+        const auto found = revchain::steady_shapes(plummets(3), height);
+        CHECK_FALSE(found.complete);
+        REQUIRE(found.undecided.size() == 1);
+        CHECK(found.undecided[0].high > 1.57);
+    }
+    for (const double speed : {1e-150, 1e-300}) {
+        const auto found = revchain::steady_shapes_at_speed(plummets(2), speed);
+        CHECK(found.complete);
+        CHECK(found.shapes.empty());
+    }
+    for (const double speed : {1e160, 1e300})
+        CHECK_FALSE(revchain::steady_shapes_at_speed(plummets(2), speed).complete);
     for (const long budget : {0L, -1L}) {
         const auto found = revchain::steady_shapes(plummets(4), 0.1, {.budget = budget});
         CHECK_FALSE(found.complete);
