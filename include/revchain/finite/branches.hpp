@@ -163,7 +163,7 @@ class Diagram {
             result_.remark += ": links hang at several inclinations";
             return;
         }
-        const double last = farthest_tangent(narrow_, Interval<double>(lowest));
+        const double last = lowest * farthest_tangent(narrow_, Interval<double>(lowest)) * (1 + 1e-12);
         DiagramProver prover(narrow_, options_.proof_budget);
         const auto proof =
             prover.run(lowest, first * unit_ * (1 + 1e-9), last,
@@ -183,7 +183,7 @@ class Diagram {
             return true;
         if (stuck_ >= 20) return false;
         std::vector<Interval<double>> tangents;
-        detail::support_offset(narrow_, Interval<double>(at.height), Interval<double>(at.tangent), &tangents);
+        detail::support_offset(narrow_, Interval<double>(at.height), Interval<double>(at.x / at.height), &tangents);
         BranchState state, across;
         for (const auto& t : tangents) state.rise.push_back(std::asinh(t.middle()));
         state.log_height = std::log(at.height);

@@ -9,9 +9,20 @@
 
 namespace revchain::finite {
 
-/// A point of the diagram: tangent of the lowest link, and height.
+/// A point of the diagram: x = lambda times the tangent of the lowest link, and lambda.
 struct DiagramPoint {
-    double tangent, height;
+    double x, height;
+};
+
+/// x of a point of a branch, lambda |sinh tau| of the lowest link.
+struct XMeasure {
+    double wanted;
+    Measured operator()(const BranchPoint& p) const {
+        const double height = std::exp(p.state.log_height), rise = p.state.rise[0],
+                     x = height * std::abs(std::sinh(rise));
+        return {x - wanted,
+                x * p.tangent.log_height + std::copysign(height * std::cosh(rise), rise) * p.tangent.rise[0]};
+    }
 };
 
 /// How far it is proved that every branch is known.
@@ -21,23 +32,23 @@ struct DiagramProof {
     long rectangles = 0;                 ///< looked at
 };
 
-/// Shows that every connected piece of the diagram, the zeros of y(t, lambda) with t > 0, is known, but for those that come
-/// down to the lowest height (which a list there shows).
+/// Shows that every connected piece of the diagram is known: of the zeros of y(x, lambda), the offset of the support, with
+/// x = lambda tan(inclination of the lowest link) > 0. Pieces that come down to the lowest height are left to a list there.
 ///
-/// Any other piece either goes to the vertical or has a highest point, and there y = y_t = 0. Rectangles of (t, lambda)
+/// Any other piece either goes to the vertical or has a highest point, and there y = y_x = 0. Rectangles of (x, lambda)
 /// are split until in each
-///   y or y_t keeps its sign, so that no such point is in it; or
-///   y_lambda keeps its sign over it and over heights beyond it as far as the slope |y_t/y_lambda| can lead within its
-///   width: all zeros in it lie on one graph lambda(t) over its whole width, and if there are any, one is at its middle.
+///   y or y_x keeps its sign, so that no such point is in it; or
+///   y_lambda keeps its sign over it and over heights beyond it as far as the slope |y_x/y_lambda| can lead within its
+///   width: all zeros in it lie on one graph lambda(x) over its whole width, and if there are any, one is at its middle.
 ///   That one is on a branch that is known, or a branch that was not is found.
-/// Next to t = 0, y = t f(t, lambda) with f even in t, and by the mean value theorem f, f_t and f_lambda are within y_t,
-/// y_tt times 0 ... 1 and y_t lambda over 0 ... t: the graph then goes on to the vertical.
+/// Next to x = 0, y = x f(x, lambda), and by the mean value theorem f, f_x and f_lambda are within y_x, y_xx times
+/// 0 ... 1 and y_x lambda over 0 ... x: the graph then goes on to the vertical.
 class DiagramProver {
    public:
     explicit DiagramProver(std::vector<Link<Interval<double>>> links, long budget)
         : links_(std::move(links)), budget_(budget / static_cast<long>(links_.size())) {}
 
-    /// From the highest height down to the lowest, tangents 0 ... `last`. `known(point, rectangle)`: whether a branch that
+    /// From the highest height down to the lowest, x from 0 to `last`. `known(point, rectangle)`: whether a branch that
     /// is known goes through the rectangle, or, if not, one is found through that point, where there is a shape.
     template <class Known>
     DiagramProof run(double lowest, double highest, double last, Known&& known) {
@@ -84,9 +95,13 @@ class DiagramProver {
         }
         return split(part, y);
     }
-    int sign(double x, double height) const { return detail::sign_at(links_, Interval<double>(height), x); }
+    int sign(double x, double height) const {
+        const Interval<double> lambda(height);
+        const auto y = detail::support_offset(links_, lambda, Interval<double>(x) / lambda);
+        return y.positive() ? 1 : y.negative() ? -1 : 0;
+    }
 
-    /// The part with heights added above and below, if all zeros in it lie on one graph lambda(t) that stays in those.
+    /// The part with heights added above and below, if all zeros in it lie on one graph lambda(x) that stays in those.
     std::optional<Rectangle<double>> graph_over(const Rectangle<double>& part, const Surface<double>& y,
                                                 DiagramProof& proof) const {
         const bool from_zero = part.low == 0;
@@ -119,7 +134,7 @@ class DiagramProver {
         return {x, low + (high - low) / 2};
     }
 
-    /// Across the direction in which y_t varies the more; false where that would show no more.
+    /// Across the direction in which y_x varies the more; false where that would show no more.
     bool split(const Rectangle<double>& part, const Surface<double>& y) {
         const bool from_zero = part.low == 0;
         const double width = part.high - part.low, height = part.height_high - part.height_low;
@@ -152,27 +167,27 @@ class DiagramProver {
     std::minstd_rand random_{1};
 };
 
-/// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(t), `at` being one of them: a
-/// point of it is in the rectangle, or it crosses there the tangent of `at`.
+/// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a
+/// point of it is in the rectangle, or it crosses there the x of `at`.
 inline bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at,
                          const Rectangle<double>& within) {
     const auto inside = [&](const BranchState& state) {  // with what the points of a branch may be off, and more
-        const double t = std::abs(std::sinh(state.rise[0])), height = std::exp(state.log_height);
+        const double height = std::exp(state.log_height), x = height * std::abs(std::sinh(state.rise[0]));
         constexpr double off = 1e-10;
-        return t > within.low * (1 + off) && t < within.high * (1 - off) && height > within.height_low * (1 + off) &&
+        return x > within.low * (1 + off) && x < within.high * (1 - off) && height > within.height_low * (1 + off) &&
                height < within.height_high * (1 - off);
     };
     if (std::any_of(branch.points.begin(), branch.points.end(), [&](const auto& p) { return inside(p.state); }))
         return true;
-    const double rise = std::asinh(at.tangent), log_height = std::log(at.height);
+    const double rise = std::asinh(at.x / at.height), log_height = std::log(at.height),
+                 links = static_cast<double>(corrector.size());
     for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
         const BranchPoint &before = branch.points[i], &here = branch.points[i + 1];
-        const double reach = 2 * (here.arc - before.arc), side = here.state.rise[0] < 0 ? -1 : 1;
-        if (std::abs(before.state.log_height - log_height) > reach ||
-            std::abs(side * before.state.rise[0] - rise) > reach * std::sqrt(static_cast<double>(corrector.size())))
+        const double reach = 2 * (here.arc - before.arc);
+        if (std::abs(here.state.log_height - log_height) > reach ||
+            std::abs(std::abs(here.state.rise[0]) - rise) > reach * std::sqrt(links))
             continue;
-        const auto crossings =
-            crossings_of(BranchWalk::between(corrector, before, here), TipInclinationMeasure{side * rise});
+        const auto crossings = crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x});
         if (std::any_of(crossings.begin(), crossings.end(), [&](const WithinStep& each) {
                 const double height = std::exp(each.point.state.log_height);
                 return within.height_low < height && height < within.height_high;

@@ -5,7 +5,7 @@
 
 namespace revchain::finite {
 
-/// A function of x (tangent of the lowest link) and lambda over a rectangle: what it and its derivatives to the second
+/// A function of x (lambda times the tangent of the lowest link) and lambda over a rectangle: what it and its derivatives to the second
 /// order stay within, and its value and slopes at the centre.
 template <Real T>
 struct Surface {
@@ -29,7 +29,7 @@ struct Surface {
     }
 };
 
-/// Tangents of the lowest link and heights, both from a low to a high end.
+/// x = lambda times tangents of the lowest link, and heights lambda, both from a low to a high end.
 template <Real T>
 struct Rectangle {
     T low, high, height_low, height_high;
@@ -89,14 +89,19 @@ Interval<T> tangent_over(const Interval<T>& stiffness, const Interval<T>& turnin
 
 }  // namespace detail
 
-/// Offset of the support over a rectangle of tangents of the lowest link and heights lambda: zero for every steady shape.
-/// NaN where a link may have several inclinations.
+/// Offset of the support over a rectangle of x = lambda t, t the tangent of the lowest link, and heights lambda: zero for
+/// every steady shape. NaN where a link may have several inclinations.
 template <Real T>
 Surface<T> support_surface(const std::vector<Link<Interval<T>>>& links, const Rectangle<T>& over) {
     const detail::Centre<T> centre(over);
     const Interval<T> zero(T(0)), one(T(1)), two(T(2)), three(T(3)), height = over.height(), middle(centre.height);
     Surface<T> y, sum;  // offset of the pin below; H
-    Surface<T> t{over.x(), one, zero, zero, zero, zero, Interval<T>(centre.x), one, zero};
+    const Interval<T> steepness = one / height, at_centre = one / middle, x(over.x()), x_centre(centre.x);
+    Surface<T> t;
+    t.value = x * steepness, t.x = steepness, t.h = -(t.value * steepness);
+    t.xx = zero, t.xh = -square(steepness), t.hh = two * t.value * square(steepness);
+    t.centre_value = x_centre * at_centre, t.centre_x = at_centre, t.centre_h = -(t.centre_value * at_centre);
+    t = centre.centred(t);
     for (std::size_t m = 0; m < links.size(); ++m) {
         const Link<Interval<T>>& link = links[m];
         const bool plummet = link.cross.low == T(0) && link.cross.high == T(0);
@@ -129,17 +134,9 @@ Surface<T> support_surface(const std::vector<Link<Interval<T>>>& links, const Re
             centre.centred({along.value, along.slope * t.x, along.slope * t.h, along.slope * t.xx - bend * square(t.x),
                             along.slope * t.xh - bend * t.x * t.h, along.slope * t.hh - bend * square(t.h), there.value,
                             there.slope * t.centre_x, there.slope * t.centre_h});
-        if (m == 0) {  // y0 = lambda t + a X s/(W h/a), moment over itself being 1
+        if (m == 0) {  // y0 = x + a X s/(W h/a), moment over itself being 1
             const Interval<T>& pull = link.pull;
-            R = {stiffness * t.value,
-                 stiffness,
-                 pull * t.value,
-                 zero,
-                 pull,
-                 zero,
-                 centre_stiffness * t.centre_value,
-                 centre_stiffness,
-                 pull * t.centre_value};
+            R = {pull * x, pull, zero, zero, zero, zero, pull * x_centre, pull, zero};
             if (!plummet) R = R + turning * s;
             y = centre.centred((one / link.moment) * R);
         }
