@@ -220,8 +220,13 @@ class Diagram {
 ///
 /// Method: `branch` from every mode; then proved lists of all shapes (`steady_shapes`) at `lists` heights from the end
 /// up, each shape matched with a crossing; one that no branch meets is on an isolated branch, which is followed from it
-/// both ways. `consistent` where all lists are proved complete and every shape in them is met once. Isolated loops that open
-/// and close between two of the heights are not excluded: `remark`. Cost: that of the lists; 10 ms for three plummets.
+/// both ways. `consistent` where all lists are proved complete and every shape in them is met once. Then
+/// finite::DiagramProver, which shows that no loop opens and closes between two of the heights, or finds it: `complete`.
+/// It leaves it false where its budget ends, and where links could hang at several inclinations; `remark` says between
+/// which heights. The proof is about where branches are; that a branch as followed is one of them is checked (see
+/// finite::BranchWalk).
+/// Cost: that of the lists, 10 ms for three plummets, and of the proof: down to 1/200 of the length 5 to 50 ms for three
+/// links, 0.05 to 0.3 s for five, 0.2 to 0.7 s for six (8,000 to 40,000 rectangles of five and six).
 /// Throws InvalidArgument for a height not positive and finite and for `lists` below 1.
 inline Branches branches(const Chain<double>& chain, double conical_height, const BranchesOptions& options = {}) {
     detail::require_positive("branches", "conical height", conical_height);
