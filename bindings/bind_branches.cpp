@@ -77,8 +77,7 @@ void bind_branches(py::module_& module) {
         "branches",
         [](const Chain& chain, double height, int lists, long budget, long proof_budget) {
             const py::gil_scoped_release release;
-            return revchain::branches(chain, height,
-                                      {.lists = lists, .budget = budget, .proof_budget = proof_budget});
+            return revchain::branches(chain, height, {.lists = lists, .budget = budget, .proof_budget = proof_budget});
         },
         "chain"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a);
     module.def(

@@ -5,8 +5,8 @@
 
 namespace revchain::finite {
 
-/// A function of x (lambda times the tangent of the lowest link) and lambda over a rectangle: what it and its derivatives to the second
-/// order stay within, and its value and slopes at the centre.
+/// A function of x (lambda times the tangent of the lowest link) and lambda over a rectangle: what it and its derivatives
+/// to the second order stay within, and its value and slopes at the centre.
 template <Real T>
 struct Surface {
     Interval<T> value, x, h, xx, xh, hh;  ///< h: along lambda
