@@ -63,6 +63,7 @@ void bind_branches(py::module_& module) {
     py::class_<Branches>(module, "Branches", "All branches found above one conical height.")
         .def_readonly("branches", &Branches::branches)
         .def_readonly("consistent", &Branches::consistent)
+        .def_readonly("complete", &Branches::complete)
         .def_property_readonly("looked_at", [](const Branches& b) { return numbers(b.looked_at); })
         .def_readonly("remark", &Branches::remark);
     module.def(
@@ -74,11 +75,11 @@ void bind_branches(py::module_& module) {
         "chain"_a, "mode"_a, "height"_a, "most_points"_a, "longest_step"_a);
     module.def(
         "branches",
-        [](const Chain& chain, double height, int lists, long budget) {
+        [](const Chain& chain, double height, int lists, long budget, long proof_budget) {
             const py::gil_scoped_release release;
-            return revchain::branches(chain, height, {.lists = lists, .budget = budget});
+            return revchain::branches(chain, height, {.lists = lists, .budget = budget, .proof_budget = proof_budget});
         },
-        "chain"_a, "height"_a, "lists"_a, "budget"_a);
+        "chain"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a);
     module.def(
         "shapes_on_branch",
         [](const Chain& chain, Index mode, const std::string& name, double value, double gravity,

@@ -324,6 +324,11 @@ class Branches(Sequence[Branch]):
         return self._compiled.consistent
 
     @property
+    def complete(self) -> bool:
+        """Whether it is proved besides that no branch is missing, not even a loop between two of those speeds."""
+        return self._compiled.complete
+
+    @property
     def looked_at(self) -> Floats:
         """The conical heights of those speeds, descending."""
         return self._compiled.looked_at
@@ -359,7 +364,8 @@ class Branches(Sequence[Branch]):
         Returns
         -------
         matplotlib.axes.Axes
-            Coloured by half waves; isolated branches dashed, with the speed at which each is born.
+            Coloured by half waves; isolated branches dashed, with the speed at which each is born. The title
+            says whether the diagram is `complete`.
 
         Raises
         ------
@@ -377,7 +383,9 @@ class Branches(Sequence[Branch]):
         """
         from ._branch_plots import plot_branches
 
-        return plot_branches(self._branches, self._chain, ax, quantity=quantity, place="revchain.Branches.plot")
+        ax = plot_branches(self._branches, self._chain, ax, quantity=quantity, place="revchain.Branches.plot")
+        ax.set_title("all branches: proved complete" if self.complete else "branches found: not proved complete")
+        return ax
 
     def __repr__(self) -> str:
         isolated = sum(each.mode is None for each in self)
@@ -455,8 +463,9 @@ def branches(
     gravity: float = STANDARD_GRAVITY,
     lists: int = 16,
     budget: int = 2_000_000,
+    proof_budget: int = 1_000_000,
 ) -> Branches:
-    """Find the whole diagram of branches up to a speed, isolated ones too.
+    """Find the whole diagram of branches up to a speed, isolated ones too, and prove that none is missing.
 
     Parameters
     ----------
@@ -472,6 +481,8 @@ def branches(
         At how many speeds to list all shapes and bring them together with the branches.
     budget : int, optional
         Of each list, as for `steady_shapes`.
+    proof_budget : int, optional
+        Links to look at for the proof, 1 to 4 microseconds each; 0: no proof.
 
     Returns
     -------
@@ -487,15 +498,21 @@ def branches(
     Notes
     -----
     A shape of a list that no branch meets lies on an isolated branch, which is followed from there both
-    ways. ``consistent`` is true where every list is proved complete and each shape in it met once. Not
-    excluded: loops that open and close between two of the speeds.
+    ways. ``consistent`` is true where every list is proved complete and each shape in it met once.
+
+    Loops can open and close between two of the speeds. The plane of conical heights and tangents of the lowest
+    link is therefore split, in interval arithmetic, until in each part there is no fold, or all shapes lie on
+    one curve through a branch that is known; loops found so are followed. ``complete`` is true where
+    no part resists. Links that could hang at several inclinations are left out: there it is false. It rests on
+    `branch`: that a branch that was followed is where it seems to be is checked at every step, not proved.
+    Measured, at heights of 1/200 of the length: three links 10 to 50 ms, five 0.1 to 0.3 s, six 0.2 to 0.6 s.
 
     Examples
     --------
     >>> import revchain as rc
     >>> diagram = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), up_to=5.0, gravity=1.0)
-    >>> len(diagram), diagram.consistent
-    (4, True)
+    >>> len(diagram), diagram.consistent, diagram.complete
+    (4, True, True)
     >>> born = diagram[3]
     >>> round(born.angular_speed(1.0)[born.folds[0]], 10)
     np.float64(3.9037621569)
@@ -503,7 +520,8 @@ def branches(
     place = "revchain.branches"
     height = _height(place, conical_height, up_to, gravity, speed_name="up_to")
     at = min(count(place, "lists", lists), 10**6)
-    return Branches._wrap(_core.branches(chain._compiled, height, at, integer(place, "budget", budget)), chain)
+    most, most_of_proof = integer(place, "budget", budget), integer(place, "proof_budget", proof_budget)
+    return Branches._wrap(_core.branches(chain._compiled, height, at, most, most_of_proof), chain)
 
 
 @overload

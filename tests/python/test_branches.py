@@ -55,6 +55,7 @@ def test_the_diagram_holds_every_shape_there_is(links):
     chain = equal(links)
     diagram = rc.branches(chain, conical_height=0.015)
     assert diagram.consistent
+    assert diagram.complete
     for height in (0.5, 0.1, 0.05, 0.03, 0.0201):
         listed = rc.steady_shapes(chain, conical_height=height)
         assert listed.complete
@@ -73,6 +74,24 @@ def test_a_pair_is_born_on_no_branch_of_the_vertical():
     assert set(born.half_waves.tolist()) == {3}
     assert len(born.at(angular_speed=4.5, gravity=1.0)) == 2
     assert born.at(angular_speed=3.9, gravity=1.0) == ()
+
+
+def test_a_loop_between_the_heights_looked_at_is_found_by_the_proof():
+    pytest.importorskip("matplotlib")
+    chain = rc.Chain(weight=[12.1342, 26.048, 11.7601, 461.771], length=[1.4122, 2.89757, 7.23786, 1.03565])
+    height = 0.0057 * chain.total_length
+    lists_alone = rc.branches(chain, conical_height=height, proof_budget=0)
+    assert lists_alone.consistent
+    assert not lists_alone.complete
+    assert "not excluded" in lists_alone.remark
+    proved = rc.branches(chain, conical_height=height, lists=1)
+    assert proved.complete
+    assert proved.remark == "proved complete: no branch is missing"
+    assert len(proved) == len(lists_alone) + 1
+    (loop,) = [branch for branch in proved if branch.end == "closed"]
+    assert loop.mode is None
+    assert len(loop.folds) == 2
+    assert proved.plot().get_title() == "all branches: proved complete"
 
 
 def test_all_states_of_one_branch():

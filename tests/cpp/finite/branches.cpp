@@ -39,6 +39,7 @@ void check_at(const Chain<double>& chain, const Branches& found, double height) 
 TEST_CASE("three equal plummets: the third branch's companions are born at n = 3.90376215692 sqrt(g/a)", "[finite]") {
     const auto found = revchain::branches(plummets(3), 1 / 25.0);
     CHECK(found.consistent);
+    CHECK(found.complete);
     REQUIRE(found.branches.size() == 4);
     const Branch& born = found.branches[3];
     CHECK(born.mode == 0);
@@ -71,6 +72,7 @@ TEST_CASE("branches and proved lists agree, at heights that were not looked at b
         const Branches found = revchain::branches(chain, lowest);
         CAPTURE(i, n, lowest);
         CHECK(found.consistent);
+        CHECK(found.complete);
         const Index count = revchain::count_modes(chain, lowest);
         REQUIRE(static_cast<Index>(found.branches.size()) >= count);
         isolated += static_cast<Index>(found.branches.size()) > count;
@@ -80,6 +82,51 @@ TEST_CASE("branches and proved lists agree, at heights that were not looked at b
         for (int j = 0; j < 5; ++j) check_at(chain, found, lowest * random.log_between(1.0, first / lowest));
     }
     CHECK(isolated > 5);
+}
+
+TEST_CASE("a loop between the heights looked at: the proof finds it, lists do not", "[finite]") {
+    const double weights[] = {12.1342, 26.048, 11.7601, 461.771}, lengths[] = {1.4122, 2.89757, 7.23786, 1.03565};
+    const auto chain = support::chain_of(4, [&](Index m) { return revchain::plummet<double>(weights[m], lengths[m]); });
+    const double lowest = 0.0057 * chain.total_length();
+    for (const int lists : {1, 16}) {
+        const auto unproved = revchain::branches(chain, lowest, {.lists = lists, .proof_budget = 0});
+        CHECK(unproved.consistent);
+        CHECK_FALSE(unproved.complete);
+        const auto found = revchain::branches(chain, lowest, {.lists = lists});
+        CHECK(found.complete);
+        CHECK(found.remark == "proved complete: no branch is missing");
+        REQUIRE(found.branches.size() == unproved.branches.size() + 1);
+        CHECK(found.looked_at.size() == static_cast<std::size_t>(lists) + 1);  // and one through the loop
+        CHECK(std::is_sorted(found.looked_at.begin(), found.looked_at.end(), std::greater<>()));
+        const auto loop = std::find_if(found.branches.begin(), found.branches.end(),
+                                       [](const Branch& each) { return each.end == BranchEnd::closed; });
+        REQUIRE(loop != found.branches.end());
+        REQUIRE(loop->folds.size() == 2);
+        double ends[] = {loop->conical_height[loop->folds[0]], loop->conical_height[loop->folds[1]]};
+        if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
+        CHECK(std::abs(ends[0] / chain.total_length() - 0.0418736) < 1e-7);
+        CHECK(std::abs(ends[1] / chain.total_length() - 0.0488881) < 1e-7);
+        // proved lists have two shapes more within it
+        const auto count = [&](double height) { return revchain::steady_shapes(chain, height).shapes.size(); };
+        CHECK(count(ends[0] * (1 + 1e-9)) == count(ends[0] * (1 - 1e-9)) + 2);
+        CHECK(count(ends[1] * (1 - 1e-9)) == count(ends[1] * (1 + 1e-9)) + 2);
+        for (const double share : {0.01, 0.3, 0.6, 0.99}) check_at(chain, found, ends[0] + share * (ends[1] - ends[0]));
+    }
+}
+
+TEST_CASE("where the proof's budget ends, or a link hangs at several inclinations, it says so", "[finite]") {
+    const auto some = revchain::branches(plummets(4), 0.02, {.proof_budget = 8000});
+    CHECK(some.consistent);
+    CHECK_FALSE(some.complete);
+    CHECK(some.remark.find("between the heights 0.02 and ") != std::string::npos);
+    const auto several = support::chain_of(2, [&](Index) {
+        return revchain::compound_pendulum<double>(
+            {.weight = 1.0, .length = 1.0, .centroid = 0.5, .pendulum_length = 2.0});
+    });
+    const auto open = revchain::branches(several, 0.05);
+    CHECK_FALSE(open.complete);
+    CAPTURE(open.remark);
+    CHECK((!open.consistent || open.remark.find("several inclinations") != std::string::npos));
 }
 
 TEST_CASE("eight plummets at n = 5.95 sqrt(g/a): all 84 shapes are on 8 branches and 38 isolated ones", "[finite]") {
