@@ -200,6 +200,40 @@ TEST_CASE("long chains: 100,000 rods, and where a mode is all but zero at the ti
     CHECK(last.end == BranchEnd::height);
 }
 
+TEST_CASE("fast modes of many plummets: lowest links inclined by 1e-20 ... 1e-220 to their own digits", "[finite]") {
+    double least = 1;
+    for (const auto& [n, mode, part] : {std::tuple<Index, Index, double>{50, 50, 0.999},
+                                        {50, 50, 0.5},
+                                        {30, 30, 0.5},
+                                        {50, 43, 0.5},
+                                        {50, 47, 0.5},
+                                        {300, 200, 0.99},
+                                        {300, 250, 0.99},
+                                        {300, 300, 0.99},
+                                        {300, 100, 0.5}}) {
+        const auto chain = plummets(n);
+        const double height = part * height_of(chain, mode);
+        CAPTURE(n, mode, part);
+        const auto shape = revchain::steady_shape(chain, mode, {.conical_height = height});
+        CHECK(shape.half_waves == mode);
+        CHECK(shape.residual <= 1e-18);
+        CHECK(worst_error(support::QuadChain(chain), shape, height) <= 2.3e-16);
+        // up from the tip, its offset given: tan d_m = sum of offsets so far/(lambda m). That the support is met on the axis
+        // tells the tip's offset to its last digits.
+        Quad y = shape.offset[0], sum = 0, widest = 0;
+        for (Index m = 0; m < n; ++m) {
+            sum += y, widest = std::max(widest, fabsq(y));
+            const Quad tangent = sum / (Quad(height) * Quad(m + 1));
+            y -= tangent / sqrtq(1 + tangent * tangent);
+        }
+        // far from the vertical that way up grows errors
+        if (part > 0.9) CHECK(static_cast<double>(fabsq(y) / widest) <= 1e-14);
+        least = std::min(least, shape.inclination[0]);
+    }
+    CHECK(least < 1e-200);
+    CHECK(least > 0);
+}
+
 TEST_CASE("modes that all but coincide, weights 1e12 apart, pendulum lengths beyond the links", "[finite]") {
     for (const auto& family : support::families())
         for (const Index n : {2, 5, 12}) {
