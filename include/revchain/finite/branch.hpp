@@ -220,15 +220,21 @@ inline Branch branch(const Chain<double>& chain, Index mode, double conical_heig
         if (only) finite::append(result, *only), result.conical_height.back() = conical_height;
         return result;
     }
-    auto start = onset.start(root.corrector, std::min(0.1, 0.25 * steepness));
-    if (!start) {
-        result.end = BranchEnd::stuck;
-        return result;
+    // where modes all but coincide the first step may miss the branch, which ends it soon: then from nearer to the vertical
+    const Branch only_vertical = result;
+    for (double from = std::min(0.1, 0.25 * steepness); from > 1e-6; from /= 16) {
+        const auto start = onset.start(root.corrector, from);
+        if (!start) break;
+        Branch attempt = only_vertical;
+        finite::append(attempt, *start);
+        finite::BranchWalk walk(root.corrector, *start, start->arc);
+        walk.longest = options.longest_step;
+        attempt.end = finite::follow(attempt, walk, log_end, options.most_points);
+        const bool kept = attempt.end != BranchEnd::stuck;
+        if (kept || attempt.size() > result.size()) result = std::move(attempt);
+        if (kept) return result;
     }
-    finite::append(result, *start);
-    finite::BranchWalk walk(root.corrector, *start, start->arc);
-    walk.longest = options.longest_step;
-    result.end = finite::follow(result, walk, log_end, options.most_points);
+    result.end = BranchEnd::stuck;
     return result;
 }
 

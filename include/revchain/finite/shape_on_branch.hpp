@@ -55,12 +55,24 @@ class BranchSearch {
         } else {
             from = std::min(from, 0.25 * amplitude_ * onset.steepest);
         }
-        auto start = onset.start(root_.corrector, from);
-        if (!start) {
-            result.end = BranchEnd::stuck;
-            return result;
+        // from nearer to the vertical where nothing is met before no step passes: see `branch`
+        for (;; from /= 16) {
+            const auto start = onset.start(root_.corrector, from);
+            if (!start) {
+                result.end = BranchEnd::stuck;
+                return result;
+            }
+            ShapesOnBranch walked = walked_from(*start, result, log_end, all);
+            if (walked.end != BranchEnd::stuck || walked.shapes.size() > result.shapes.size() || !(from > 1e-6))
+                return walked;
         }
-        BranchWalk walk(root_.corrector, *start, start->arc);
+    }
+
+   private:
+    static constexpr int most_steps = 100'000;
+
+    ShapesOnBranch walked_from(const BranchPoint& start, ShapesOnBranch result, double log_end, bool all) {
+        BranchWalk walk(root_.corrector, start, start.arc);
         const HeightMeasure to_end{log_end};
         for (int step = 0; step < most_steps; ++step) {
             if (!walk.advance()) return stopped(result, walk, BranchEnd::stuck);
@@ -77,9 +89,6 @@ class BranchSearch {
         }
         return stopped(result, walk, BranchEnd::budget);
     }
-
-   private:
-    static constexpr int most_steps = 100'000;
 
     ShapesOnBranch stopped(ShapesOnBranch& result, const BranchWalk& walk, BranchEnd end) const {
         result.end = end;

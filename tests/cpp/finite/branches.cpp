@@ -113,6 +113,21 @@ TEST_CASE("states of a branch next to the vertical", "[finite]") {
             }
 }
 
+TEST_CASE("weights 1e12 apart: three modes within 1.5e-6 of one height, each with its own branch", "[finite]") {
+    const Chain<double> chain(
+        {revchain::plummet(1e-12, 1.0), revchain::plummet(1.0, 1.0), revchain::plummet(1e12, 1.0)});
+    const Branches found = revchain::branches(chain, 0.1);
+    CHECK(found.consistent);
+    REQUIRE(found.branches.size() == 3);
+    for (Index mode = 1; mode <= 3; ++mode) {
+        const Branch& branch = found.branches[static_cast<std::size_t>(mode - 1)];
+        CHECK(branch.mode == mode);
+        CHECK(branch.end == BranchEnd::height);
+        const auto shape = revchain::steady_shape(chain, mode, {.conical_height = 0.1});
+        CHECK(std::abs(shape.inclination[0] - std::abs(branch.tip_inclination.back())) <= 1e-12);
+    }
+}
+
 TEST_CASE("diagrams that end next to a critical height", "[finite]") {
     for (const Index n : {1, 2, 3})
         for (Index mode = 1; mode <= n; ++mode)
