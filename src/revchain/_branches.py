@@ -77,7 +77,12 @@ class Branch:
 
     @property
     def tip_inclination(self) -> Floats:
-        """Of the lowest link to the vertical, rad."""
+        """Of the lowest link to the vertical, rad.
+
+        Of the two mirror images the branch is followed in one: that in which `modes` gives the mode; an isolated one
+        in that with the free end at a positive offset where it begins. The sign is the lowest link's there; where
+        it changes along the branch the link hangs vertically.
+        """
         return self._compiled.tip_inclination
 
     @property
@@ -384,7 +389,10 @@ class Branches(Sequence[Branch]):
         from ._branch_plots import plot_branches
 
         ax = plot_branches(self._branches, self._chain, ax, quantity=quantity, place="revchain.Branches.plot")
-        ax.set_title("all branches: proved complete" if self.complete else "branches found: not proved complete")
+        if not self._branches:
+            ax.set_title("no shape at or above this conical height")
+        else:
+            ax.set_title("all branches: proved complete" if self.complete else "branches found: not proved complete")
         return ax
 
     def __repr__(self) -> str:
@@ -424,8 +432,8 @@ def branch(
     Returns
     -------
     Branch
-        The first point is the straight chain. Numbers to about 1e-12; folds to 1e-9 of the arc, their
-        heights to 1e-15.
+        The first point is the straight chain, alone if no double tells the end from it (``end`` is then
+        ``stuck``). Numbers to about 1e-12; folds to 1e-9 of the arc, their heights to 1e-15.
 
     Raises
     ------
@@ -578,18 +586,19 @@ def steady_shape(
     angular_speed : float
         Instead: the speed in rad/s.
     tip_inclination : float
-        Instead: that of the lowest link, rad, above 0 and below pi/2.
+        Instead: that of the lowest link, rad, above 0 and below pi/2; its size, whatever the sign.
     tip_radius : float
-        Instead: the free end's distance from the axis.
+        Instead: the free end's distance from the axis, its size too.
     top_tension : float
         Instead: the size of the reaction at the support, more than the weight of the chain.
     gravity : float, optional
         For `angular_speed`; standard gravity, in metres, if left out.
     all : bool, optional
-        All states met along the branch, in a tuple, not the first from the vertical alone.
+        All states met along the branch, in a tuple, not the first from the vertical alone; the tuple
+        is empty where none is met.
     down_to : float, optional
-        The conical height at which the search ends; 1e-6 of that of the mode if left out, with `all` and a
-        speed the half of its height.
+        The conical height at which the search ends, less than that of the mode; 1e-6 of that of the mode if
+        left out, with `all` and a speed the half of its height.
 
     Returns
     -------
@@ -600,8 +609,11 @@ def steady_shape(
     Raises
     ------
     ValueError
-        If there is no such mode, if not exactly one number is given or it is out of its range, if the
-        branch does not exist yet at that speed, or if what is given is not met on it.
+        If there is no such mode, if not exactly one number is given or it is out of its range, if `down_to` is
+        not below the height of the mode, if the branch does not exist yet at that speed, or, unless `all`, if what is
+        given is not met on it.
+    TypeError
+        If `all` is not a bool.
 
     Notes
     -----
@@ -627,6 +639,8 @@ def steady_shape(
     name = given[0][0]
     value = float(positive(place, name, real(place, name, given[0][1])))
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
+    if not isinstance(all, (bool, np.bool_)):
+        raise TypeError(f"{place}: all must be True or False, got {all!r}")
     lowest = None if down_to is None else float(positive(place, "down_to", real(place, "down_to", down_to)))
     if not all:
         return SteadyShape._wrap(

@@ -144,6 +144,37 @@ def test_pictures():
         diagram.plot(quantity="colour")
 
 
+def test_an_empty_diagram_says_so():
+    pytest.importorskip("matplotlib")
+    empty = rc.branches(equal(3), conical_height=10.0)
+    assert len(empty) == 0
+    assert empty.plot().get_title() == "no shape at or above this conical height"
+    assert rc.branches(equal(3), conical_height=0.5).plot().get_title() == ""
+
+
+@pytest.mark.parametrize("less", [1e-6, 1e-10, 1e-14, 1e-15, 0.0])
+def test_branches_next_to_the_vertical(less):
+    pytest.importorskip("matplotlib")
+    chain = equal(3)
+    heights = rc.modes(chain).conical_height
+    for mode in (1, 2, 3):
+        height = min(heights[mode - 1] * (1 - less), np.nextafter(heights[mode - 1], 0))
+        short = rc.branch(chain, mode, conical_height=height)
+        assert short.tip_inclination[0] == 0
+        assert (short.end == "height") == (len(short) > 1)
+        short.plot()
+        assert len(rc.branches(chain, conical_height=height, lists=2)) >= mode - 1
+        for shape in rc.branch(chain, mode, conical_height=0.5 * heights[mode - 1]).at(conical_height=height):
+            assert np.abs(shape.inclination).max() > 0
+            assert shape.half_waves == mode
+
+
+def test_tip_hardly_off_the_axis():
+    for size in (1e-6, 1e-8, 1e-12):
+        assert rc.steady_shape(equal(3), tip_inclination=size).inclination[0] == pytest.approx(size, rel=1e-15)
+        assert rc.steady_shape(equal(3), tip_radius=size).offset[0] == pytest.approx(size, rel=1e-15)
+
+
 def test_wrong_calls():
     chain = equal(3)
     first = rc.modes(chain).conical_height[0]
@@ -173,3 +204,11 @@ def test_wrong_calls():
         rc.branch(chain, 1, conical_height=0.1).stability_windows(frame="fixed")
     with pytest.raises(ValueError, match="tolerance must be positive"):
         rc.branch(chain, 1, conical_height=0.1).stability_windows(tolerance=0.0)
+    for name, value in (("top_tension", 1e7), ("tip_inclination", 1.5707963)):
+        with pytest.raises(ValueError, match="give a smaller down_to$"):
+            rc.steady_shape(chain, **{name: value})
+        assert rc.steady_shape(chain, **{name: value}, down_to=1e-12).half_waves == 1
+    with pytest.raises(ValueError, match="down_to must be less than the conical height of the mode"):
+        rc.steady_shape(chain, tip_radius=0.1, down_to=first)
+    with pytest.raises(TypeError, match="all must be True or False, got 'yes'"):
+        rc.steady_shape(chain, tip_radius=0.1, all="yes")

@@ -5,7 +5,7 @@
 
 #include "revchain/finite/continuation.hpp"
 #include "revchain/finite/crossing.hpp"
-#include "revchain/finite/polish.hpp"
+#include "revchain/finite/onset.hpp"
 #include "revchain/finite/steady_shape.hpp"
 #include "revchain/finite/verification.hpp"
 #include "revchain/linear/modes.hpp"
@@ -46,6 +46,7 @@ struct Branch {
 
     std::shared_ptr<const finite::Links<Wide<double>>> links;
     std::vector<finite::BranchPoint> points;
+    std::shared_ptr<const finite::BranchOnset> onset;  ///< of the mode; null for an isolated branch
 };
 
 namespace finite {
@@ -146,6 +147,7 @@ inline BranchEnd follow(Branch& branch, BranchWalk& walk, double log_end, std::s
             if (const auto fold = turning_of(walk, to_end); fold && fold->share < until) {
                 append(branch, fold->point);
                 branch.folds.push_back(branch.size() - 1);
+                if (branch.size() >= most_points) return BranchEnd::budget;
             }
         if (!crossings.empty()) {
             append(branch, crossings.front().point);
@@ -182,7 +184,9 @@ struct BranchOptions {
 ///
 /// Method: pseudo-arclength continuation from the mode, all pins at once by tridiagonal elements, in double. A step is
 /// checked: see finite::BranchWalk. Points are good to about 1e-12 (measured); `shape` gives them in two words; folds are
-/// located to 1e-9 of the arc, their heights to 1e-15. Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a
+/// located to 1e-9 of the arc, their heights to 1e-15. Where all of the branch asked for is inclined by less than 1e-3 it is
+/// the vertical and its end, from the onset's law and balanced in two words; where no double can tell that end from the
+/// vertical it is the vertical alone, `stuck`. Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a
 /// link each, and 3 N numbers of memory a point.
 /// Throws InvalidArgument for a mode that is none, and for a height that is not positive or not below that of the mode.
 inline Branch branch(const Chain<double>& chain, Index mode, double conical_height, const BranchOptions& options = {}) {
@@ -198,21 +202,39 @@ inline Branch branch(const Chain<double>& chain, Index mode, double conical_heig
     result.links = std::make_shared<const finite::Links<Wide<double>>>(std::move(root.chain));
     const double unit = std::ldexp(1.0, -result.links->units.length_exponent);
     const double log_end = std::log(conical_height * unit);
-    const double amplitude = root.onset.amplitude_at(conical_height * unit);
-    auto start = root.onset.start(root.corrector, std::min(0.1, 0.25 * amplitude * root.onset.steepest));
-    if (!start) {
-        result.end = BranchEnd::stuck;
+    result.onset = std::make_shared<const finite::BranchOnset>(std::move(root.onset));
+    const finite::BranchOnset& onset = *result.onset;
+    finite::BranchPoint vertical{{std::vector<double>(root.corrector.size(), 0.0), std::log(onset.height)}, {}, 0, 0};
+    vertical.half_waves = onset.half_waves;
+    // the direction there: along the mode
+    const double small = 1e-7 / onset.steepest;
+    vertical.tangent = finite::point_of_onset(onset, onset.state(root.corrector.links(), small), small).tangent;
+    vertical.tangent.log_height = 0;
+    finite::append(result, vertical);
+    result.conical_height.front() = root.height;  // no logarithm's rounding
+    if (result.size() >= options.most_points) return result;
+    const double steepness = onset.amplitude_at(conical_height * unit) * onset.steepest;
+    if (steepness < 1e-3) {
+        const auto only = finite::near_vertical(*result.links, onset, Wide<double>(conical_height * unit));
+        result.end = only ? BranchEnd::height : BranchEnd::stuck;
+        if (only) finite::append(result, *only), result.conical_height.back() = conical_height;
         return result;
     }
-    finite::BranchPoint vertical = *start;
-    vertical.arc = 0, vertical.half_waves = root.onset.half_waves;
-    std::fill(vertical.state.rise.begin(), vertical.state.rise.end(), 0.0);
-    vertical.state.log_height = std::log(root.onset.height);
-    finite::append(result, vertical);
-    finite::append(result, *start);
-    finite::BranchWalk walk(root.corrector, *start, start->arc);
-    walk.longest = options.longest_step;
-    result.end = finite::follow(result, walk, log_end, options.most_points);
+    // where modes all but coincide the first step may miss the branch, which ends it soon: then from nearer to the vertical
+    const Branch only_vertical = result;
+    for (double from = std::min(0.1, 0.25 * steepness); from > 1e-6; from /= 16) {
+        const auto start = onset.start(root.corrector, from);
+        if (!start) break;
+        Branch attempt = only_vertical;
+        finite::append(attempt, *start);
+        finite::BranchWalk walk(root.corrector, *start, start->arc);
+        walk.longest = options.longest_step;
+        attempt.end = finite::follow(attempt, walk, log_end, options.most_points);
+        const bool kept = attempt.end != BranchEnd::stuck;
+        if (kept || attempt.size() > result.size()) result = std::move(attempt);
+        if (kept) return result;
+    }
+    result.end = BranchEnd::stuck;
     return result;
 }
 

@@ -27,20 +27,27 @@ struct BranchesOptions {
 
 namespace finite {
 
-/// The states of a branch at one height, in the order of the arc.
+/// The states of a branch at one height, in the order of the arc. Between the vertical and the next point the law of the
+/// onset leads to it: the height hardly changes there.
 inline std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, double conical_height) {
     std::vector<SteadyShape> found;
-    const Wide<double> height = ldexp(Wide<double>(conical_height), -branch.links->units.length_exponent);
+    if (branch.size() == 0) return found;
+    const auto& chain = *branch.links;
+    const Wide<double> height = ldexp(Wide<double>(conical_height), -chain.units.length_exponent);
     const HeightMeasure measure{std::log(static_cast<double>(height))};
     const GivenHeight<Wide<double>> condition(height);
-    const auto off = [&](std::size_t i) { return branch.points[i].state.log_height - measure.wanted; };
+    const auto off = [&](std::size_t i) { return (branch.conical_height[i] - conical_height) / conical_height; };
     const auto take = [&](const BranchState& near) {
-        if (auto shape = shape_at(*branch.links, near, condition)) found.push_back(std::move(*shape));
+        if (auto shape = shape_at(chain, near, condition)) found.push_back(std::move(*shape));
     };
-    constexpr double there = 1e-9;
+    const bool from_vertical = branch.onset && largest_rise(branch.points[0].state) == 0;
+    if (from_vertical && !(off(0) > 0) && branch.size() < 2) return found;
+    const double there = from_vertical && off(0) > 0 ? std::min(1e-9, 0.01 * off(0)) : 1e-9;
     const std::size_t last = branch.size() - 1;
-    for (std::size_t i = 0; i <= last; ++i) {
+    for (std::size_t i = from_vertical ? 1 : 0; i <= last; ++i) {
         const double a = off(i);
+        if (i == 1 && from_vertical && off(0) > 0 && a <= -there)
+            if (const auto point = near_vertical(chain, *branch.onset, height)) take(point->state);
         if (std::abs(a) < there) {  // the point itself: an end, or a crossing
             if (i == 0 || i == last || (off(i - 1) > 0) != (off(i + 1) > 0)) take(branch.points[i].state);
         } else if (i < last && std::abs(off(i + 1)) >= there && (a > 0) != (off(i + 1) > 0)) {
@@ -87,9 +94,11 @@ class Diagram {
     }
 
     Branches run() {
-        const Index count = count_modes(chain_, result_.conical_height);
+        Index count = count_modes(chain_, result_.conical_height);
+        result_.complete = count == 0;  // see steady_shapes
+        // at the very height of a mode, as rounded, its branch is not there yet
+        while (count > 0 && !(result_.conical_height < height_of(count))) --count;
         if (count == 0) {
-            result_.complete = true;  // see steady_shapes
             result_.remark = "no shape leaves the vertical at this height or above";
             return std::move(result_);
         }
@@ -109,6 +118,9 @@ class Diagram {
     }
 
    private:
+    double height_of(Index mode) const {
+        return modes(chain_, {.first = mode, .count = 1, .shapes = false}).conical_height[0];
+    }
     static double highest(const Branch& branch) {
         return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
     }

@@ -38,6 +38,7 @@ class BranchSearch {
     /// Down to a log of conical height; the first state, or all.
     ShapesOnBranch run(double log_end, bool all) {
         ShapesOnBranch result;
+        result.searched_to = root_.height;
         const BranchOnset& onset = root_.onset;
         constexpr double small = 0.02;
         double from = 0.1;
@@ -48,16 +49,30 @@ class BranchSearch {
                 result.searched_to = result.shapes.back().conical_height;
                 if (!all) return result;
             }
-            from = result.shapes.empty() ? 0.1 * amplitude_ * onset.steepest : 4 * amplitude_ * onset.steepest;
+            // past the state; farther out where double tells the branch from the vertical, what is wanted growing all along
+            from = result.shapes.empty() ? 0.1 * amplitude_ * onset.steepest
+                                         : std::max(1e-5, 4 * amplitude_ * onset.steepest);
         } else {
             from = std::min(from, 0.25 * amplitude_ * onset.steepest);
         }
-        auto start = onset.start(root_.corrector, from);
-        if (!start) {
-            result.end = BranchEnd::stuck;
-            return result;
+        // from nearer to the vertical where nothing is met before no step passes: see `branch`
+        for (;; from /= 16) {
+            const auto start = onset.start(root_.corrector, from);
+            if (!start) {
+                result.end = BranchEnd::stuck;
+                return result;
+            }
+            ShapesOnBranch walked = walked_from(*start, result, log_end, all);
+            if (walked.end != BranchEnd::stuck || walked.shapes.size() > result.shapes.size() || !(from > 1e-6))
+                return walked;
         }
-        BranchWalk walk(root_.corrector, *start, start->arc);
+    }
+
+   private:
+    static constexpr int most_steps = 100'000;
+
+    ShapesOnBranch walked_from(const BranchPoint& start, ShapesOnBranch result, double log_end, bool all) {
+        BranchWalk walk(root_.corrector, start, start.arc);
         const HeightMeasure to_end{log_end};
         for (int step = 0; step < most_steps; ++step) {
             if (!walk.advance()) return stopped(result, walk, BranchEnd::stuck);
@@ -75,9 +90,6 @@ class BranchSearch {
         return stopped(result, walk, BranchEnd::budget);
     }
 
-   private:
-    static constexpr int most_steps = 100'000;
-
     ShapesOnBranch stopped(ShapesOnBranch& result, const BranchWalk& walk, BranchEnd end) const {
         result.end = end;
         result.searched_to = std::ldexp(std::exp(walk.here().state.log_height), root_.chain.units.length_exponent);
@@ -86,7 +98,8 @@ class BranchSearch {
     /// The state of the condition next to one of the branch: no link farther from it than `farthest`, rad.
     std::optional<SteadyShape> close(const BranchState& near, double farthest) const {
         auto shape = shape_at(root_.chain, near, condition_);
-        if (!shape || !(shape->conical_height < root_.height)) return std::nullopt;
+        // next to the vertical the height is rounded to that of the mode, itself rounded
+        if (!shape || !(shape->conical_height <= root_.height * (1 + 0x1p-50))) return std::nullopt;
         if (root_.corrector.half_waves_are_kept() && shape->half_waves != root_.onset.half_waves) return std::nullopt;
         double same = 0, mirrored = 0;  // the shape is given with its free end at a positive offset
         for (std::size_t m = 0; m < near.rise.size(); ++m) {
@@ -128,8 +141,8 @@ ShapesOnBranch searched(BranchRoot& root, const Measure& measure, const Conditio
 /// from 1e-8 above the critical speed to a conical height of 1e-4 of the length: tests/cpp/finite/branch.cpp). That the
 /// state is on this branch is checked step by step, not proved. `shapes` is empty where the number is not met.
 /// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
-/// Throws InvalidArgument for a mode that is none, for anything but one number given, for one out of its range, and for a
-/// speed at which this branch does not exist yet.
+/// Throws InvalidArgument for a mode that is none, for anything but one number given, for one out of its range, for a
+/// `down_to` not below the height of the mode, and for a speed at which this branch does not exist yet.
 inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, const ShapeGiven& given) {
     constexpr std::string_view place = "steady_shape";
     using S = Wide<double>;
@@ -142,6 +155,10 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
                        count);
     if (given.down_to) detail::require_positive(place, "down_to", *given.down_to);
     finite::BranchRoot root = finite::BranchRoot::of(place, chain, mode);
+    if (given.down_to && !(*given.down_to < root.height))
+        detail::refuse(place,
+                       "down_to must be less than the conical height of the mode, " + detail::in_digits(root.height),
+                       *given.down_to);
     const double unit = std::ldexp(1.0, -root.chain.units.length_exponent);
     const double lowest = given.down_to.value_or(1e-6 * root.height) * unit;
     const auto* links = &root.corrector.links();
@@ -165,7 +182,7 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
                            near);
         const double log_wanted = std::log(near * unit);
         return finite::searched(root, finite::HeightMeasure{log_wanted}, finite::GivenHeight<S>(height * S(unit)),
-                                root.onset.amplitude_at(near * unit),
+                                finite::amplitude_at(root.chain, root.onset, height * S(unit)),
                                 std::min(log_wanted, std::log(given.down_to.value_or(near / 2) * unit)), given.all);
     }
     const double log_end = std::log(lowest);
@@ -203,11 +220,11 @@ inline SteadyShape steady_shape(const Chain<double>& chain, Index mode, ShapeGiv
     given.all = false;
     auto found = shapes_on_branch(chain, mode, given);
     if (found.shapes.empty())
-        detail::refuse("steady_shape",
-                       "what is given is not met on the branch of mode " + std::to_string(mode) +
-                           (found.end == BranchEnd::height ? "" : ", which could not be followed farther") +
-                           "; looked down to the conical height",
-                       found.searched_to);
+        detail::refuse("steady_shape", "what is given is not met on the branch of mode " + std::to_string(mode) +
+                                           "; looked down to the conical height, got " +
+                                           detail::in_digits(found.searched_to) +
+                                           (found.end == BranchEnd::height ? "; to look farther give a smaller down_to"
+                                                                           : "; it could not be followed farther"));
     return std::move(found.shapes.front());
 }
 

@@ -200,6 +200,107 @@ TEST_CASE("long chains: 100,000 rods, and where a mode is all but zero at the ti
     CHECK(last.end == BranchEnd::height);
 }
 
+TEST_CASE("branches that end next to the vertical: there is always the vertical, and a state in two words",
+          "[finite]") {
+    for (const Index n : {1, 2, 3, 10})
+        for (Index mode = 1; mode <= n; ++mode) {
+            const auto chain = plummets(n);
+            const support::QuadChain truth(chain);
+            const double critical = height_of(chain, mode);
+            for (const double gap : {1e-2, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12, 1e-13, 1e-14, 4e-15}) {
+                const double height = critical * (1 - gap);
+                CAPTURE(n, mode, gap);
+                const Branch branch = revchain::branch(chain, mode, height);
+                CHECK(branch.end == BranchEnd::height);
+                REQUIRE(branch.size() >= 2);
+                CHECK(branch.tip_inclination[0] == 0);
+                CHECK(branch.conical_height[0] == critical);
+                CHECK(branch.half_waves.back() == mode);
+                CHECK(branch.conical_height.back() == Approx(height).epsilon(1e-9 * gap + 4e-16));
+                const SteadyShape shape = branch.shape(branch.size() - 1);
+                // from 1e-8 on the height is the one given; else told by its logarithm in double
+                const double off = gap > 2e-8 ? 1e-12 : 4e-16 / std::sqrt(gap);
+                CHECK(worst_error(truth, shape, branch.conical_height.back()) <= off);
+                const auto same = revchain::steady_shape(chain, mode, {.conical_height = height});
+                CHECK((shape.inclination.cwiseAbs() - same.inclination.cwiseAbs()).cwiseAbs().maxCoeff() <=
+                      1e-3 * same.inclination.cwiseAbs().maxCoeff());
+            }
+            // one digit below: there, or the vertical alone
+            const Branch least = revchain::branch(chain, mode, std::nextafter(critical, 0));
+            REQUIRE(least.size() >= 1);
+            CHECK((least.end == BranchEnd::height) == (least.size() == 2));
+        }
+}
+
+TEST_CASE("as many points as asked for, at the most", "[finite]") {
+    for (const std::size_t most : {1, 2, 3, 7}) {
+        const Branch branch = revchain::branch(plummets(3), 1, 0.1, {.most_points = most});
+        CHECK(branch.size() == most);
+        CHECK(branch.end == BranchEnd::budget);
+    }
+    // the third branch turns: its fold counts too
+    const auto chain = random_chain(*std::make_unique<support::Random>(133), 4, true, 100, 10);
+    for (Index mode = 1; mode <= 4; ++mode)
+        for (std::size_t most = 1; most < 60; ++most)
+            CHECK(revchain::branch(chain, mode, 0.02 * height_of(chain, mode), {.most_points = most}).size() <= most);
+}
+
+TEST_CASE("the tip hardly off the axis: tip inclination and tip radius of 1e-3 ... 1e-14", "[finite]") {
+    for (const Index n : {1, 3, 20})
+        for (Index mode = 1; mode <= std::min<Index>(n, 3); ++mode) {
+            const auto chain = plummets(n);
+            const double critical = height_of(chain, mode);
+            for (double given = 1e-3; given > 5e-15; given /= 10) {
+                CAPTURE(n, mode, given);
+                const auto by_tip = revchain::steady_shape(chain, mode, {.tip_inclination = given});
+                CHECK(std::abs(by_tip.inclination[0] - given) <= 2.3e-16 * given);
+                const auto by_radius = revchain::steady_shape(chain, mode, {.tip_radius = given});
+                CHECK(support::error_in_ulp(by_radius.offset[0], given) <= 1);
+                for (const SteadyShape* each : {&by_tip, &by_radius}) {
+                    CHECK(each->half_waves == mode);
+                    CHECK(each->conical_height == Approx(critical).epsilon(1e-4));
+                    CHECK(each->conical_height <= critical * (1 + 0x1p-50));
+                }
+                CHECK(revchain::shapes_on_branch(chain, mode, {.tip_inclination = given, .all = true}).shapes.size() >=
+                      1);
+            }
+        }
+}
+
+TEST_CASE("fast modes of many plummets: lowest links inclined by 1e-20 ... 1e-220 to their own digits", "[finite]") {
+    double least = 1;
+    for (const auto& [n, mode, part] : {std::tuple<Index, Index, double>{50, 50, 0.999},
+                                        {50, 50, 0.5},
+                                        {30, 30, 0.5},
+                                        {50, 43, 0.5},
+                                        {50, 47, 0.5},
+                                        {300, 200, 0.99},
+                                        {300, 250, 0.99},
+                                        {300, 300, 0.99},
+                                        {300, 100, 0.5}}) {
+        const auto chain = plummets(n);
+        const double height = part * height_of(chain, mode);
+        CAPTURE(n, mode, part);
+        const auto shape = revchain::steady_shape(chain, mode, {.conical_height = height});
+        CHECK(shape.half_waves == mode);
+        CHECK(shape.residual <= 1e-18);
+        CHECK(worst_error(support::QuadChain(chain), shape, height) <= 2.3e-16);
+        // up from the tip, its offset given: tan d_m = sum of offsets so far/(lambda m). That the support is met on the axis
+        // tells the tip's offset to its last digits.
+        Quad y = shape.offset[0], sum = 0, widest = 0;
+        for (Index m = 0; m < n; ++m) {
+            sum += y, widest = std::max(widest, fabsq(y));
+            const Quad tangent = sum / (Quad(height) * Quad(m + 1));
+            y -= tangent / sqrtq(1 + tangent * tangent);
+        }
+        // far from the vertical that way up grows errors
+        if (part > 0.9) CHECK(static_cast<double>(fabsq(y) / widest) <= 1e-14);
+        least = std::min(least, shape.inclination[0]);
+    }
+    CHECK(least < 1e-200);
+    CHECK(least > 0);
+}
+
 TEST_CASE("modes that all but coincide, weights 1e12 apart, pendulum lengths beyond the links", "[finite]") {
     for (const auto& family : support::families())
         for (const Index n : {2, 5, 12}) {
@@ -244,6 +345,13 @@ TEST_CASE("a branch that is none: errors", "[finite]") {
     // the third branch never reaches that far out
     CHECK_THROWS_WITH(revchain::steady_shape(chain, 3, {.tip_radius = 2.5}),
                       Catch::Matchers::ContainsSubstring("not met on the branch of mode 3"));
+    // what to do where the search ended for want of a smaller end
+    CHECK_THROWS_WITH(revchain::steady_shape(chain, 1, {.top_tension = 1e9}),
+                      Catch::Matchers::ContainsSubstring("give a smaller down_to"));
+    CHECK_NOTHROW(revchain::steady_shape(chain, 1, {.top_tension = 1e9, .down_to = 1e-12}));
+    for (const double bad : {first, 2 * first})
+        CHECK_THROWS_WITH(revchain::steady_shape(chain, 1, {.tip_radius = 0.1, .down_to = bad}),
+                          Catch::Matchers::ContainsSubstring("down_to must be less than"));
     CHECK_THROWS_AS(revchain::branch(chain, 1, 0.1).shape(0), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::branch(chain, 1, 0.1).shape(10'000), revchain::InvalidArgument);
 }

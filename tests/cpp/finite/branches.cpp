@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/finite/branches.hpp"
 
+#include "revchain/finite/shape_on_branch.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 
@@ -135,6 +136,57 @@ TEST_CASE("eight plummets at n = 5.95 sqrt(g/a): all 84 shapes are on 8 branches
     Index ends = 0;
     for (const Branch& branch : found.branches) ends += branch.mode > 0 ? 1 : 2;
     CHECK(ends == 84);
+}
+
+TEST_CASE("states of a branch next to the vertical", "[finite]") {
+    for (const Index n : {1, 3, 6})
+        for (Index mode = 1; mode <= n; ++mode)
+            for (const double down : {0.5, 1e-3, 1e-8}) {
+                const auto chain = plummets(n);
+                const double critical = revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0];
+                const Branch branch = revchain::branch(chain, mode, critical * (1 - down));
+                revchain::finite::Corrector corrector(revchain::finite::rounded<double>(branch.links->links));
+                for (const double gap : {1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12, 1e-14}) {
+                    CAPTURE(n, mode, down, gap);
+                    const auto found = revchain::finite::states_at(branch, corrector, critical * (1 - gap));
+                    REQUIRE(found.size() == (gap <= down ? 1 : 0));
+                    if (found.empty()) continue;
+                    CHECK(found[0].half_waves == mode);
+                    const auto same = revchain::steady_shape(chain, mode, {.conical_height = critical * (1 - gap)});
+                    CHECK((found[0].inclination - same.inclination).cwiseAbs().maxCoeff() <= 1e-15);
+                }
+                for (const double none : {critical, std::nextafter(critical, 9.0), critical * (1 + 1e-9), 2 * critical})
+                    CHECK(revchain::finite::states_at(branch, corrector, none).empty());
+            }
+}
+
+TEST_CASE("weights 1e12 apart: three modes within 1.5e-6 of one height, each with its own branch", "[finite]") {
+    const Chain<double> chain(
+        {revchain::plummet(1e-12, 1.0), revchain::plummet(1.0, 1.0), revchain::plummet(1e12, 1.0)});
+    const Branches found = revchain::branches(chain, 0.1);
+    CHECK(found.consistent);
+    REQUIRE(found.branches.size() == 3);
+    for (Index mode = 1; mode <= 3; ++mode) {
+        const Branch& branch = found.branches[static_cast<std::size_t>(mode - 1)];
+        CHECK(branch.mode == mode);
+        CHECK(branch.end == BranchEnd::height);
+        const auto shape = revchain::steady_shape(chain, mode, {.conical_height = 0.1});
+        CHECK(std::abs(shape.inclination[0] - std::abs(branch.tip_inclination.back())) <= 1e-12);
+    }
+}
+
+TEST_CASE("diagrams that end next to a critical height", "[finite]") {
+    for (const Index n : {1, 2, 3})
+        for (Index mode = 1; mode <= n; ++mode)
+            for (const double gap : {1e-3, 1e-6, 1e-9, 1e-10, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 0.0}) {
+                const auto chain = plummets(n);
+                const double critical = revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0];
+                CAPTURE(n, mode, gap);
+                const Branches found = revchain::branches(chain, critical * (1 - gap), {.lists = 2});
+                if (gap >= 1e-15) CHECK(static_cast<Index>(found.branches.size()) == mode);
+                for (const Branch& branch : found.branches) CHECK(branch.size() >= 1);
+                if (gap >= 1e-12) CHECK(found.consistent);
+            }
 }
 
 TEST_CASE("no branch at all; errors", "[finite]") {
