@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, Whole, count, integer, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, Whole, count, integer, limit, positive, real
+from ._chain import Chain, compiled
 from ._steady import SteadyShape
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from ._chain import Chain
 
 GIVEN = ("conical_height", "angular_speed", "tip_inclination", "tip_radius", "top_tension")
 
@@ -460,7 +459,7 @@ def branch(
     height = _height(place, conical_height, angular_speed, gravity)
     points = count(place, "most_points", most_points)
     step = float(positive(place, "longest_step", real(place, "longest_step", longest_step)))
-    return Branch._wrap(_core.branch(chain._compiled, number, height, points, step), chain)
+    return Branch._wrap(_core.branch(compiled(place, chain), number, height, points, step), chain)
 
 
 def branches(
@@ -528,8 +527,8 @@ def branches(
     place = "revchain.branches"
     height = _height(place, conical_height, up_to, gravity, speed_name="up_to")
     at = min(count(place, "lists", lists), 10**6)
-    most, most_of_proof = integer(place, "budget", budget), integer(place, "proof_budget", proof_budget)
-    return Branches._wrap(_core.branches(chain._compiled, height, at, most, most_of_proof), chain)
+    most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
+    return Branches._wrap(_core.branches(compiled(place, chain), height, at, most, most_of_proof), chain)
 
 
 @overload
@@ -644,9 +643,9 @@ def steady_shape(
     lowest = None if down_to is None else float(positive(place, "down_to", real(place, "down_to", down_to)))
     if not all:
         return SteadyShape._wrap(
-            _core.steady_shape(chain._compiled, number, name, value, g, lowest), chain._compiled
+            _core.steady_shape(compiled(place, chain), number, name, value, g, lowest), chain._compiled
         )
-    found = _core.shapes_on_branch(chain._compiled, number, name, value, g, lowest)
+    found = _core.shapes_on_branch(compiled(place, chain), number, name, value, g, lowest)
     return tuple(SteadyShape._wrap(shape, chain._compiled) for shape in found)
 
 

@@ -170,7 +170,7 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
         } else {
             detail::require_positive(place, "angular speed", *given.angular_speed);
             detail::require_positive(place, "gravity", given.gravity);
-            height = S(given.gravity) / S(*given.angular_speed) / S(*given.angular_speed);
+            height = finite::height_at_speed(*given.angular_speed, given.gravity);
             detail::require_positive(place, "gravity / angular speed^2", static_cast<double>(height));
         }
         const double near = static_cast<double>(height);

@@ -263,9 +263,7 @@ inline SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, double an
         return none;
     }
     if (near < least / epsilon<double>()) return steady_shapes(chain, std::max(near, least), options);
-    int of_speed = 0, of_gravity = 0;
-    const Wide<double> n(std::frexp(angular_speed, &of_speed)), g(std::frexp(gravity, &of_gravity));
-    return finite::steady_shapes(chain, ldexp(g / n / n, of_gravity - 2 * of_speed), options);
+    return finite::steady_shapes(chain, finite::height_at_speed(angular_speed, gravity), options);
 }
 
 }  // namespace revchain
