@@ -220,11 +220,13 @@ inline SteadyShape steady_shape(const Chain<double>& chain, Index mode, ShapeGiv
     given.all = false;
     auto found = shapes_on_branch(chain, mode, given);
     if (found.shapes.empty())
-        detail::refuse("steady_shape", "what is given is not met on the branch of mode " + std::to_string(mode) +
-                                           "; looked down to the conical height, got " +
-                                           detail::in_digits(found.searched_to) +
-                                           (found.end == BranchEnd::height ? "; to look farther give a smaller down_to"
-                                                                           : "; it could not be followed farther"));
+        detail::refuse(
+            "steady_shape",
+            "what is given is not met on the branch of mode " + std::to_string(mode) +
+                "; looked down to the conical height, got " + detail::in_digits(found.searched_to) +
+                (found.end != BranchEnd::height                ? "; it could not be followed farther"
+                 : given.conical_height || given.angular_speed ? "; the state there did not pass every check"
+                                                               : "; to look farther give a smaller down_to"));
     return std::move(found.shapes.front());
 }
 
