@@ -149,7 +149,7 @@ def test_an_empty_diagram_says_so():
     empty = rc.branches(equal(3), conical_height=10.0)
     assert len(empty) == 0
     assert empty.plot().get_title() == "no shape at or above this conical height"
-    assert rc.branches(equal(3), conical_height=0.5).plot().get_title() == ""
+    assert rc.branches(equal(3), conical_height=0.5).plot().get_title() == "all branches: proved complete"
 
 
 @pytest.mark.parametrize("less", [1e-6, 1e-10, 1e-14, 1e-15, 0.0])
