@@ -236,7 +236,7 @@ class ContinuousShapes(Sequence[ContinuousShape]):
 
 
 def _drawn(shapes: Sequence[ContinuousShape], ax: Axes | None, length_unit: str) -> Axes:
-    from ._plots import new_axes
+    from ._plots import keep_room, new_axes
 
     if ax is None:
         ax = new_axes(5.0, 6.0)
@@ -250,6 +250,7 @@ def _drawn(shapes: Sequence[ContinuousShape], ax: Axes | None, length_unit: str)
         ax.plot(shape.offset[0], shape.height[0], color=f"C{(waves - 1) % 10}", marker="o", markersize=3.5)
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
     ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the support ({length_unit})", aspect="equal")
+    keep_room(ax)
     if named:
         ax.legend(fontsize="small")
     return ax

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._extras import require
+from ._plots import keep_room
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,6 +41,7 @@ def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: 
 def _finish(ax: Axes, across: str, up: str, title: str) -> None:
     ax.margins(0.12)
     ax.set(xlabel=across, ylabel=up, title=title, aspect="equal")
+    keep_room(ax)
     ax.locator_params(axis="x", nbins=3 if ax.dataLim.height > 2.5 * ax.dataLim.width else 5)
 
 

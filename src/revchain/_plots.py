@@ -231,6 +231,16 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | Non
     return ax
 
 
+def keep_room(ax: Axes, share: float = 0.35) -> None:
+    """Widen a drawing in true proportions, all but flat or all but straight down, until it can be read."""
+    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+    wide, tall = right - left, high - low
+    if tall < share * wide:
+        ax.set_ylim((low + high - share * wide) / 2, (low + high + share * wide) / 2)
+    elif wide < share * tall:
+        ax.set_xlim((left + right - share * tall) / 2, (left + right + share * tall) / 2)
+
+
 def plot_steady_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, *, length_unit: str) -> Axes:
     """See `SteadyShapes.plot`."""
     if ax is None:
@@ -254,6 +264,7 @@ def plot_steady_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, *, length
         )
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
     ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the support ({length_unit})", aspect="equal")
+    keep_room(ax)
     if named:
         ax.legend()
     return ax
