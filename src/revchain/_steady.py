@@ -126,7 +126,7 @@ class SteadyShape:
 
     @property
     def residual(self) -> float:
-        """Largest force left over at a pin, over the sizes of its parts."""
+        """Largest moment about a pin of all that hangs there, over total weight times total length."""
         return self._compiled.residual
 
     @property

@@ -64,7 +64,7 @@ inline std::optional<SteadyShape> shape_at(const Links<Wide<double>>& chain, con
         verified(enclosed<DoubleDouble>(chain.links), Interval<DoubleDouble>(DoubleDouble(found.height)),
                  {found.shape.offset.begin(), found.shape.offset.end()});
     const double moved =
-        shape.condition * (shape.residual + 1e-30);  // with the height, where that is not what is given
+        shape.condition * (found.shape.residual + 1e-30);  // with the height, where that is not what is given
     shape.error_bound = (proved.inclination_error < 1 ? proved.inclination_error : 0.0) + moved + 0x1p-52;
     return shape;
 }

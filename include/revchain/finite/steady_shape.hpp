@@ -67,7 +67,7 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
                 detail::cosine_of(chain.links[m].length, found.offset[m] - found.offset[m + 1], found.stands(m)) *
                     chain.links[m].length;
     S sideways(0), energy(0), inertia(0);  // sideways: lambda times the pull at the upper pin
-    double hung = 0, last_sign = 0;
+    double hung = 0, last_sign = 0, reach = 0, worst_moment = 0;
     for (std::size_t m = 0; m <= n; ++m) {
         const auto i = static_cast<Index>(m);
         shape.offset[i] = length(found.offset[m]), shape.height[i] = length(up[m]);
@@ -81,6 +81,11 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
         const S d = lower - upper, cosine = detail::cosine_of(link.length, d, found.stands(m));
         const double inclination = std::atan(static_cast<double>(d / (link.length * cosine)));
         shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
+        // the moment about the upper pin of all that hangs there, over the length, times lambda
+        const S left =
+            height * link.pull * d / (link.length * cosine) + link.cross * d - sideways - link.moment * lower;
+        worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));
+        reach += static_cast<double>(link.length);
         sideways = sideways + link.moment * lower + link.rest * upper;
         hung += static_cast<double>(link.moment + link.rest);
         const double across = static_cast<double>(sideways / height);
@@ -90,7 +95,7 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
         inertia = inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }
-    shape.residual = found.residual, shape.condition = found.condition;
+    shape.residual = worst_moment / (hung * reach), shape.condition = found.condition;
     shape.conical_height = length(height);
     shape.moment_of_inertia = weight(std::ldexp(static_cast<double>(inertia), 2 * chain.units.length_exponent));
     shape.effective_energy = weight(length(energy - inertia / (S(2) * height)));
