@@ -1,0 +1,665 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Finite amplitude as the docstrings promise it, against mechanics written out here and nothing of the library's."""
+
+import os
+
+os.environ.setdefault("MPLBACKEND", "Agg")
+
+import subprocess
+import sys
+import threading
+
+import mpmath as mp
+import numpy as np
+import pytest
+import revchain as rc
+
+tl = rc.two_links
+
+
+# ---------------------------------------------------------------- independent mechanics
+def parts(chain):
+    return [np.array(v, float) for v in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration)]
+
+
+def inertia(chain):
+    """Inertia matrix A over the links' unit vectors, and first moments kappa."""
+    w, a, h, rho = parts(chain)
+    c = np.zeros((w.size, w.size))
+    for r in range(w.size):
+        c[r, r] = h[r]
+        c[r, r + 1 :] = a[r + 1 :]
+    return c.T @ (w[:, None] * c) + np.diag(w * rho**2), w @ c
+
+
+def exact(chain, height, start):
+    """Newton's method in 40 digits on the gradient of the effective potential."""
+    with mp.workdps(40):
+        w, a, h, rho = ([mp.mpf(float(x)) for x in v] for v in parts(chain))
+        lam = mp.mpf(float(height))
+        count = len(w)
+        inert, kappa = inertia(chain)
+        d = [mp.mpf(float(x)) for x in start]
+        for _ in range(8):
+            s = [mp.sin(x) for x in d]
+            y = [mp.mpf(0)] * (count + 1)
+            for m in range(count - 1, -1, -1):
+                y[m] = y[m + 1] + a[m] * s[m]
+            below = force = mp.mpf(0)
+            res = []
+            for m in range(count):
+                g = y[m + 1] + h[m] * s[m]
+                res.append((w[m] * h[m] + a[m] * below) * s[m]
+                           - mp.cos(d[m]) / lam * (a[m] * force + w[m] * (h[m] * g + rho[m] ** 2 * s[m])))
+                below += w[m]
+                force += w[m] * g
+            sd = np.array([float(x) for x in s])
+            cd = np.array([float(mp.cos(x)) for x in d])
+            jac = np.diag(kappa * cd + sd * (inert @ sd) / float(lam)) - inert / float(lam) * np.outer(cd, cd)
+            step = mp.lu_solve(mp.matrix(jac.tolist()), mp.matrix(res))
+            d = [p - q for p, q in zip(d, step, strict=True)]
+        return d
+
+
+def scan(chain, height, hanging, starts=3000, seed=3):
+    """All shapes that Newton's method finds from many random places; a lower bound on what there is."""
+    inert, kappa = inertia(chain)
+    count = kappa.size
+    rng = np.random.default_rng(seed)
+    reach = np.pi / 2 if hanging else np.pi
+    d = rng.uniform(-reach, reach, (starts, count))
+    half = starts // 2
+    d[:half] = rng.choice([-1, 1], (half, count)) * (np.pi / 2) * (1 - rng.uniform(0, 1, (half, count)) ** 4)
+    scale = np.abs(kappa) + np.abs(inert).sum(1) / height
+    i = np.arange(count)
+    step = residual = None
+    for _ in range(50):
+        s, c = np.sin(d), np.cos(d)
+        force = s @ inert / height
+        residual = kappa * s - c * force
+        jac = -inert / height * c[:, :, None] * c[:, None, :]
+        jac[:, i, i] += kappa * c + s * force + 1e-300
+        step = np.clip(np.linalg.solve(jac, residual[:, :, None])[:, :, 0], -0.5, 0.5)
+        d = d - step
+    good = (np.abs(residual / scale).max(1) < 1e-11) & (np.abs(step).max(1) < 1e-9)
+    d = (d[good] + np.pi) % (2 * np.pi) - np.pi
+    d = d[np.abs(np.sin(d)).max(1) > 1e-6]
+    if hanging:
+        d = d[(np.abs(d) < np.pi / 2).all(1)]
+    d = d * np.where(np.sin(d) @ parts(chain)[1] < 0, -1, 1)[:, None]
+    return d[np.unique(d.round(6), axis=0, return_index=True)[1]]
+
+
+def turned(a, b):
+    return np.abs(np.angle(np.exp(1j * (a - b)))).max(axis=-1)
+
+
+def linearised(shape, chain, frame):
+    """Exponents, and the eigenvalues of the energy's second variation, of thin links."""
+    inert, kappa = inertia(chain)
+    b = inert / shape.conical_height
+    s, c = np.sin(shape.inclination), np.cos(shape.inclination)
+    n = s.size
+    diag = np.diag(s * (b @ s) + kappa * c)
+    plane, across = diag - b * np.outer(c, c), diag - b
+    mass = b * (np.outer(c, c) + np.outer(s, s))
+    if frame == "driven":
+        root = np.sqrt(np.linalg.eigvals(-np.linalg.solve(mass, plane)) + 0j)
+        return np.concatenate([root, -root]), np.linalg.eigvalsh(plane)
+    zero = np.zeros((n, n))
+    gyro = 2 * c[:, None] * b
+    m = np.block([[mass, zero], [zero, b]])
+    g = np.block([[zero, -gyro], [gyro.T, zero]])
+    k = np.block([[plane, zero], [zero, across]])
+    big = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, g)]])
+    turn = 2 * c * (b @ s)
+    second = np.concatenate([np.linalg.eigvalsh(plane + np.outer(turn, turn) / (s @ b @ s)), np.linalg.eigvalsh(across)])
+    return np.linalg.eigvals(big), second
+
+
+def random_chain(kind, count, seed):
+    rng = np.random.default_rng(seed)
+    w, a = np.exp(rng.normal(0, 1, count)), np.exp(rng.normal(0, 0.6, count))
+    if kind == "plummets":
+        return rc.Chain(weight=w, length=a)
+    if kind == "rods":
+        return rc.Chain(weight=w, length=a, centroid=a / 2, radius_of_gyration=a / 12**0.5)
+    if kind == "massless":
+        w[1::2] = 0
+        return rc.Chain(weight=w, length=a)
+    return rc.Chain(weight=w, length=a, centroid=a * rng.uniform(0.2, 1.5, count),
+                    radius_of_gyration=a * rng.uniform(0.2, 1.5, count))
+
+
+def plummets(count):
+    return rc.Chain.uniform_plummets(count, length=float(count))
+
+
+def rods(count):
+    return rc.Chain.uniform_rods(count, length=float(count))
+
+
+CHAINS = [(k, n, s) for k in ("plummets", "rods", "massless", "long pendulums") for n in (1, 2, 3, 4) for s in (1, 2)]
+
+
+# ---------------------------------------------------------------- steady_shapes
+@pytest.mark.parametrize("hanging", [True, False])
+@pytest.mark.parametrize(("kind", "count", "seed"), CHAINS)
+def test_list_is_complete_exact_and_in_order(kind, count, seed, hanging):
+    chain = random_chain(kind, count, seed)
+    for over in (1.3, 12.0):
+        height = rc.modes(chain).conical_height[0] / over
+        shapes = rc.steady_shapes(chain, conical_height=height, hanging_only=hanging)
+        assert shapes.complete
+        assert shapes.undecided.shape == (0, 2)
+        listed = np.array([s.inclination for s in shapes]).reshape(-1, count)
+        for found in scan(chain, height, hanging, 1500):
+            assert min(turned(listed, found).min(), turned(listed, -found).min()) < 1e-4
+        keys = [(s.half_waves, s.inclination[0]) for s in shapes]
+        assert keys == sorted(keys)
+        for shape in shapes[:4]:
+            true = exact(chain, height, shape.inclination)
+            error = max(abs(float(t - mp.mpf(float(g)))) for t, g in zip(true, shape.inclination, strict=True))
+            assert error <= shape.error_bound
+            assert shape.error_bound < 1e-14
+            assert shape.offset[0] >= 0
+            assert shape.offset.shape == shape.height.shape == (count + 1,)
+            assert shape.offset[-1] == 0
+            signs = np.sign(shape.offset[:-1])
+            signs = signs[signs != 0]
+            assert shape.half_waves == 1 + np.count_nonzero(np.diff(signs))
+
+
+@pytest.mark.parametrize(("count", "deep", "number"), [(6, 3000 / 16, None), (8, 35.4025, 84), (10, 50.0, 412)])
+def test_known_counts(count, deep, number):
+    shapes = rc.steady_shapes(plummets(count), conical_height=1 / deep)
+    assert shapes.complete
+    assert number is None or len(shapes) == number
+
+
+def test_compound_links_with_several_roots_are_all_listed():
+    chain = rc.Chain(weight=[1.0, 1.0], length=[1.0, 0.2], centroid=[0.5, 0.5], radius_of_gyration=[0.3, 0.9])
+    for only in (True, False):
+        shapes = rc.steady_shapes(chain, conical_height=0.02, hanging_only=only)
+        assert shapes.complete
+        found = scan(chain, 0.02, only, 6000)
+        listed = np.array([s.inclination for s in shapes])
+        assert all(min(turned(listed, f).min(), turned(listed, -f).min()) < 1e-4 for f in found)
+
+
+@pytest.mark.parametrize("less", [1e-3, 1e-9, 1e-12, 1e-15])
+def test_just_below_the_critical_height(less):
+    chain = plummets(3)
+    height = rc.modes(chain).conical_height[0] * (1 - less)
+    shapes = rc.steady_shapes(chain, conical_height=height)
+    assert len(shapes) == 1
+    assert shapes.complete
+    one = rc.steady_shape(chain, conical_height=height)
+    assert np.abs(one.inclination - shapes[0].inclination).max() <= 1e-14 * max(1, one.condition)
+    assert rc.steady_shapes(chain, conical_height=1.01 * rc.modes(chain).conical_height[0]).complete
+
+
+@pytest.mark.parametrize("weight", [1e-100, 1.0, 1e100])
+@pytest.mark.parametrize("length", [1e-150, 1e-100, 1e100, 1e150])
+def test_scale_invariance(length, weight):
+    def pair(u, v):
+        a = np.array([0.7, 1.0, 0.4]) * u
+        return rc.Chain(weight=np.array([1.0, 3.0, 2.0]) * v, length=a, centroid=a * 0.5, radius_of_gyration=a * 0.6)
+
+    base = rc.steady_shapes(pair(1, 1), conical_height=0.03)
+    other = rc.steady_shapes(pair(length, weight), conical_height=0.03 * length)
+    assert len(base) == len(other)
+    assert other.complete
+    for p, q in zip(base, other, strict=True):
+        assert np.abs(p.inclination - q.inclination).max() < 1e-12
+        assert np.allclose(q.tension / weight, p.tension, rtol=1e-12)
+        assert p.stability().verdict == q.stability().verdict
+
+
+@pytest.mark.parametrize("budget", [0, -1, 1, 10, np.int64(100), 2**31])
+def test_small_budget_is_owned_up_to(budget):
+    shapes = rc.steady_shapes(plummets(3), conical_height=0.03, budget=budget)
+    full = rc.steady_shapes(plummets(3), conical_height=0.03)
+    if not shapes.complete:
+        assert shapes.undecided.shape[0] > 0
+        for s in full:
+            tip = s.inclination[0]
+            assert any(abs(tip - q.inclination[0]) < 1e-12 for q in shapes) or any(
+                lo <= abs(tip) <= hi or lo <= tip <= hi for lo, hi in shapes.undecided)
+    else:
+        assert len(shapes) == len(full)
+
+
+@pytest.mark.parametrize("weight", [[1, 1e12, 1], [1e12, 1, 1e-12], [1e-12, 1, 1e12], [1, 0, 1], [1, 0, 0], [1, 1, 0]])
+def test_extreme_weights(weight):
+    chain = rc.Chain(weight=weight, length=[1.0, 1.0, 1.0])
+    height = rc.modes(chain).conical_height[0] * 0.4
+    shapes = rc.steady_shapes(chain, conical_height=height)
+    assert shapes.complete
+    for s in shapes:
+        true = exact(chain, height, s.inclination)
+        assert max(abs(float(t - mp.mpf(float(g)))) for t, g in zip(true, s.inclination, strict=True)) <= s.error_bound
+
+
+# ---------------------------------------------------------------- what is refused, and how
+BAD = [0, -1, float("nan"), float("inf"), "x", [0.1], True, 1j]
+
+
+@pytest.mark.parametrize("value", BAD)
+@pytest.mark.parametrize("name", ["conical_height", "angular_speed"])
+def test_bad_speeds(name, value):
+    for call in (lambda **k: rc.steady_shapes(plummets(2), **k), lambda **k: rc.steady_shape(plummets(2), **k),
+                 lambda **k: rc.branch(plummets(2), 1, **k)):
+        with pytest.raises(ValueError, match=r"revchain.*" + name + r".*got"):
+            call(**{name: value})
+
+
+def test_both_or_no_speed():
+    chain = plummets(2)
+    for call in (lambda **k: rc.steady_shapes(chain, **k), lambda **k: rc.steady_shape(chain, **k),
+                 lambda **k: rc.branch(chain, 1, **k), lambda **k: rc.branch(chain, 1, conical_height=0.1).at(**k)):
+        for given in ({}, {"conical_height": 0.1, "angular_speed": 1.0}):
+            with pytest.raises(ValueError, match="exactly one"):
+                call(**given)
+    for given in ({}, {"conical_height": 0.1, "up_to": 1.0}):
+        with pytest.raises(ValueError, match="exactly one"):
+            rc.branches(chain, **given)
+
+
+@pytest.mark.parametrize("mode", [0, -1, 4, 1.0, 1.5, "x", None, True, 10**30])
+def test_bad_modes(mode):
+    with pytest.raises(ValueError, match="mode"):
+        rc.steady_shape(plummets(3), mode=mode, conical_height=0.1)
+    with pytest.raises(ValueError, match="mode"):
+        rc.branch(plummets(3), mode, conical_height=0.1)
+
+
+@pytest.mark.parametrize("budget", [1.5, "x", None, True])
+def test_bad_budget(budget):
+    with pytest.raises(ValueError, match="budget"):
+        rc.steady_shapes(plummets(2), conical_height=0.1, budget=budget)
+    with pytest.raises(ValueError, match="budget"):
+        rc.branches(plummets(2), conical_height=0.1, budget=budget)
+
+
+@pytest.mark.parametrize("budget", [10**30, 2**63, np.uint64(2**64 - 1)])
+def test_a_budget_beyond_all_bounds(budget):
+    assert rc.steady_shapes(plummets(2), conical_height=0.1, budget=budget).complete
+    assert rc.branches(plummets(2), conical_height=0.1, budget=budget).consistent
+
+
+@pytest.mark.parametrize("chain", [None, "x", 3])
+def test_no_chain(chain):
+    for call in (lambda: rc.steady_shapes(chain, conical_height=0.1), lambda: rc.steady_shape(chain, conical_height=0.1),
+                 lambda: rc.branch(chain, 1, conical_height=0.1), lambda: rc.branches(chain, conical_height=0.1)):
+        with pytest.raises((TypeError, ValueError), match="chain"):
+            call()
+
+
+@pytest.mark.parametrize("value", ["yes", 2, None])
+def test_all_is_a_bool_as_hanging_only_is(value):
+    with pytest.raises((TypeError, ValueError), match="all"):
+        rc.steady_shape(plummets(2), tip_inclination=1.0, all=value)
+
+
+def test_hopelessly_slow_speed_is_no_nan():
+    for call in (lambda: rc.steady_shapes(plummets(2), angular_speed=1e-300),
+                 lambda: rc.steady_shape(plummets(2), angular_speed=1e-300)):
+        try:
+            call()
+        except ValueError as error:
+            assert "nan" not in str(error)  # noqa: PT017
+
+
+# ---------------------------------------------------------------- crashes and hangs, each in a process of its own
+def alone(code, seconds=6):
+    return subprocess.run([sys.executable, "-c", "import revchain as rc\n" + code], timeout=seconds,
+                          capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("height", ["5e-324", "1e-308", "1e-300", "1e-100", "1e-20"])
+def test_absurd_speed_ends(height):
+    run = alone(f"print(rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height={height}))")
+    assert run.returncode == 0, run.stderr
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+@pytest.mark.parametrize("less", ["1e-10", "1e-13", "1e-14", "1e-15"])
+def test_branches_just_below_critical_does_not_crash(count, less):
+    run = alone(f"c = rc.Chain.uniform_plummets({count}, length={count}.0)\n"
+                f"print(len(rc.branches(c, conical_height=rc.modes(c).conical_height[0] * (1 - {less}))))")
+    assert run.returncode == 0, f"status {run.returncode} {run.stderr[-300:]}"
+    assert run.stdout == "1\n"
+
+
+# ---------------------------------------------------------------- steady_shape and branch
+@pytest.mark.parametrize("make", [plummets, rods])
+@pytest.mark.parametrize("mode", [1, 2, 3])
+def test_inverse_problems(make, mode):
+    chain = make(3)
+    height = rc.modes(chain).conical_height[mode - 1] * 0.6
+    shape = rc.steady_shape(chain, mode=mode, conical_height=height)
+    assert shape.conical_height == pytest.approx(height, rel=1e-15)
+    assert shape.half_waves == mode
+    for given in ({"tip_inclination": abs(shape.inclination[0])}, {"tip_radius": abs(shape.offset[0])},
+                  {"top_tension": shape.tension[-1]}):
+        again = rc.steady_shape(chain, mode=mode, all=True, **given)
+        assert isinstance(again, tuple)
+        assert min(abs(a.conical_height / height - 1) for a in again) < 1e-11
+
+
+@pytest.mark.parametrize("given", [{"tip_inclination": 1e-6}, {"tip_inclination": 1e-8}, {"tip_inclination": 1e-12},
+                                   {"tip_radius": 1e-6}, {"tip_radius": 1e-8}, {"tip_radius": 1e-12}])
+def test_tiny_amplitudes_are_met(given):
+    shape = rc.steady_shape(plummets(3), **given)
+    got = shape.inclination[0] if "tip_inclination" in given else shape.offset[0]
+    assert abs(got) == pytest.approx(next(iter(given.values())), rel=1e-6)
+
+
+@pytest.mark.parametrize("given", [{"tip_inclination": 1.57}, {"tip_radius": 2.9999999}, {"top_tension": 3.00001},
+                                   {"top_tension": 3e3}])
+def test_large_amplitudes_are_met(given):
+    shape = rc.steady_shape(rc.Chain(weight=1.0, length=[1.0, 1.0, 1.0]), **given)
+    name, value = next(iter(given.items()))
+    got = {"tip_inclination": shape.inclination[0], "tip_radius": shape.offset[0], "top_tension": shape.tension[-1]}[name]
+    assert got == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize("given", [{"top_tension": 3.0}, {"top_tension": 2.0}, {"tip_radius": 3.0}, {"tip_radius": 4.0},
+                                   {"tip_inclination": np.pi / 2}, {"tip_inclination": 2.0}, {"tip_inclination": 0.0},
+                                   {"tip_radius": np.nan}])
+def test_out_of_range(given):
+    with pytest.raises(ValueError, match="got"):
+        rc.steady_shape(rc.Chain(weight=1.0, length=[1.0, 1.0, 1.0]), **given)
+
+
+@pytest.mark.parametrize(("count", "mode"), [(10, 10), (30, 30), (50, 40), (50, 50), (300, 2), (300, 100), (300, 300)])
+@pytest.mark.parametrize("part", [0.999, 0.5])
+def test_every_mode_has_its_shape(count, mode, part):
+    chain = plummets(count)
+    height = rc.modes(chain, modes=range(mode, mode + 1)).conical_height[0] * part
+    if count < 300:
+        assert rc.branch(chain, mode, conical_height=height).end == "height"
+    if (count, part) == (300, 0.5) and mode == 300:  # its free end would be 1e-370 from the axis
+        with pytest.raises(ValueError, match="mode 300"):
+            rc.steady_shape(chain, mode=mode, conical_height=height)
+        return
+    shape = rc.steady_shape(chain, mode=mode, conical_height=height)
+    assert shape.half_waves == mode
+
+
+def test_many_links():
+    chain = plummets(300)
+    height = 0.9 * rc.modes(chain, 1).conical_height[0]
+    shapes = rc.steady_shapes(chain, conical_height=height)
+    assert shapes.complete
+    assert len(shapes) == 1
+    assert np.abs(shapes[0].inclination - rc.steady_shape(chain, conical_height=height).inclination).max() < 1e-13
+
+
+@pytest.mark.parametrize("make", [plummets, rods])
+@pytest.mark.parametrize("mode", [1, 2, 3])
+@pytest.mark.parametrize("less", [1e-2, 1e-4, 1e-8, 1e-10, 1e-12])
+def test_branch_at_near_its_beginning(make, mode, less):
+    chain = make(3)
+    critical = rc.modes(chain).conical_height[mode - 1]
+    height = critical * (1 - less)
+    shapes = rc.branch(chain, mode, conical_height=0.5 * critical).at(conical_height=height)
+    assert len(shapes) == 1
+    want = rc.steady_shape(chain, mode=mode, conical_height=height).inclination
+    assert np.abs(np.abs(shapes[0].inclination) - np.abs(want)).max() < 1e-6 * np.abs(want).max()
+    assert shapes[0].half_waves == mode
+
+
+def test_branch_at_its_very_beginning_has_no_straight_shape():
+    chain = plummets(3)
+    critical = rc.modes(chain).conical_height[1]
+    for shape in rc.branch(chain, 2, conical_height=0.5 * critical).at(conical_height=critical):
+        assert np.abs(shape.inclination).max() > 0
+
+
+@pytest.mark.parametrize("less", [1e-6, 1e-12, 1e-14, 1e-15])
+def test_branch_begins_with_the_straight_chain(less):
+    chain = plummets(3)
+    height = rc.modes(chain).conical_height[0] * (1 - less)
+    branch = rc.branch(chain, 1, conical_height=height)
+    assert len(branch) >= 1
+    assert branch.tip_inclination[0] == 0
+
+
+@pytest.mark.parametrize("points", [1, 2, 7])
+def test_most_points(points):
+    assert len(rc.branch(plummets(3), 1, conical_height=0.1, most_points=points)) <= points
+
+
+@pytest.mark.parametrize("less", [1e-3, 1e-6, 1e-9])
+def test_diagram_just_below_critical_is_consistent(less):
+    chain = plummets(3)
+    assert rc.branches(chain, conical_height=rc.modes(chain).conical_height[0] * (1 - less)).consistent
+
+
+def test_diagram_below_first_speed_and_three_plummets():
+    empty = rc.branches(plummets(3), conical_height=10.0)
+    assert len(empty) == 0
+    assert empty.consistent
+    diagram = rc.branches(plummets(3), up_to=5.0, gravity=1.0)
+    assert [b.mode for b in diagram] == [1, 2, 3, None]
+    for height in (0.05, 0.3):
+        listed = rc.steady_shapes(plummets(3), conical_height=height)
+        met = [s for b in diagram for s in b.at(conical_height=height)]
+        assert len(met) == len(listed)
+
+
+# ---------------------------------------------------------------- stability
+@pytest.mark.parametrize("frame", ["free", "driven"])
+@pytest.mark.parametrize(("kind", "count", "seed"), [c for c in CHAINS if c[0] != "massless"])
+def test_stability_against_own_linearisation(kind, count, seed, frame):
+    chain = random_chain(kind, count, seed)
+    height = rc.modes(chain).conical_height[0] / 9
+    for hanging in (True, False):
+        for shape in rc.steady_shapes(chain, conical_height=height, hanging_only=hanging)[:6]:
+            mine, second = linearised(shape, chain, frame)
+            got = shape.stability(frame=frame)
+            negative = int((second < -1e-9 * np.abs(second).max()).sum())
+            assert got.negative_directions == negative
+            assert got.frame == frame
+            assert got.exponents.size == (4 * count - 2 if frame == "free" else 2 * count)
+            assert (np.diff(got.exponents.imag) >= -1e-12).all()
+            assert abs(got.growth_rate - mine.real.max()) < 1e-5 * np.abs(mine).max()
+            for e in got.exponents:
+                assert np.abs(mine - e).min() < 1e-5 * np.abs(mine).max()
+            if negative == 0:
+                assert got.verdict == "minimum"
+            elif mine.real.max() > 1e-4:
+                assert got.verdict == "unstable"
+
+
+@pytest.mark.parametrize("frame", ["free", "driven"])
+def test_a_massless_joint_does_not_change_stability(frame):
+    jointed = rc.steady_shapes(rc.Chain(weight=[1, 0, 1], length=[1.0, 1.0, 1.0]), conical_height=0.13)
+    plain = rc.steady_shapes(rc.Chain(weight=[1, 1], length=[2.0, 1.0]), conical_height=0.13)
+    assert len(jointed) == len(plain) == 2
+    for p, q in zip(jointed, plain, strict=True):
+        a, b = p.stability(frame=frame), q.stability(frame=frame)
+        assert not np.isnan(a.exponents).any()
+        assert a.growth_rate == pytest.approx(b.growth_rate, abs=1e-6)
+        assert a.verdict == b.verdict
+
+
+def test_window_edges_of_two_plummets():
+    chain = plummets(2)
+    second = rc.modes(chain).conical_height[1]
+    branch = rc.branch(chain, 2, conical_height=0.1 * second)
+    windows = branch.stability_windows()
+    assert [w.verdict for w in windows] == ["spectrally stable", "unstable"]
+    assert windows[0].conical_height[1] / second == pytest.approx(0.463321, abs=2e-6)
+    for p, q in zip(windows, windows[1:], strict=False):
+        assert p.conical_height[1] == q.conical_height[0]
+    assert [w.verdict for w in branch.stability_windows(frame="driven")] == ["unstable"]
+
+
+# ---------------------------------------------------------------- diagrams
+@pytest.mark.parametrize(("kind", "count", "seed"), [c for c in CHAINS if c[0] != "massless"])
+def test_force_diagram_and_transfer(kind, count, seed):
+    chain = random_chain(kind, count, seed)
+    height = rc.modes(chain).conical_height[0] / 4
+    w, _, h, _ = parts(chain)
+    for shape in rc.steady_shapes(chain, conical_height=height):
+        fd = shape.force_diagram()
+        side = fd.pin[1:] - fd.pin[:-1]
+        size = np.hypot(*fd.ray.T) * np.hypot(*side.T)
+        assert (np.abs(side[:, 0] * fd.ray[:, 1] - side[:, 1] * fd.ray[:, 0]) <= 1e-12 * size).all()
+        centre = np.stack([fd.pin[1:, 0] + h * np.sin(shape.inclination), fd.pin[1:, 1] - h * np.cos(shape.inclination)], 1)
+        total = np.cumsum(w)[:, None]
+        assert np.allclose(fd.centre_of_gravity, np.cumsum(w[:, None] * centre, 0) / total, atol=1e-12)
+        assert np.allclose(np.hypot(*fd.reaction.T), shape.tension, rtol=1e-12)
+        straight = shape.transferred_to_axis()
+        assert np.abs(rc.modes(straight).conical_height / height - 1).min() < 1e-11
+
+
+def test_funicular_polygon_against_moments():
+    rng = np.random.default_rng(1)
+    w, x = rng.uniform(0.1, 3, 9), np.cumsum(rng.uniform(0.1, 1, 11))
+    line = rc.funicular_polygon(w, x, 2.5, first_height=1.0, last_height=-2.0)
+    vertical = 2.5 * np.diff(line.height) / np.diff(x)
+    assert np.allclose(np.diff(vertical), w, rtol=1e-11)
+    assert np.allclose(vertical, line.rise, rtol=1e-11)
+    assert (line.height[0], line.height[-1]) == (1.0, -2.0)
+    k = np.diag(2.5 / np.diff(x)[:-1] + 2.5 / np.diff(x)[1:]) - np.diag(2.5 / np.diff(x)[1:-1], 1) - np.diag(2.5 / np.diff(x)[1:-1], -1)
+    mine = 1 / np.linalg.eigvalsh(k / np.sqrt(np.outer(w, w)))
+    got = line.transverse_modes()
+    assert np.allclose(got.conical_height, mine, rtol=1e-12)
+    assert got.shape.shape == (9, 11)
+    assert np.allclose(np.abs(got.shape).max(1), 1)
+
+
+@pytest.mark.parametrize("given", [([1.0, 1.0], [0, 1, 2], 1.0), ([1.0], [0, 0, 1], 1.0), ([0.0], [0, 1, 2], 1.0),
+                                   ([1.0], [0, 1, 2], 0.0), ([1.0], [0, 1, 2], np.nan), ([np.nan], [0, 1, 2], 1.0)])
+def test_funicular_refuses_in_one_clean_sentence(given):
+    for call in (rc.funicular_polygon, rc.transverse_modes):
+        with pytest.raises(ValueError, match="got") as error:
+            call(*given)
+        assert "got, got" not in str(error.value)
+        assert "string_of_weights" not in str(error.value)
+
+
+def test_funicular_overflow_is_not_silent():
+    try:
+        height = rc.funicular_polygon([1.0], [-1e308, 0.0, 1e308], 1.0).height
+    except ValueError:
+        return
+    assert height[1] == pytest.approx(-0.5e308)
+
+
+# ---------------------------------------------------------------- two links
+def test_jointed_links_and_all_their_shapes():
+    rng = np.random.default_rng(8)
+    tried = 0
+    while tried < 150:
+        a = np.exp(rng.normal(0, 0.7))
+        pair = dict(lower_weight=np.exp(rng.normal(0, 1.5)), lower_centroid=np.exp(rng.normal(0, 0.7)),
+                    lower_radius_of_gyration=np.exp(rng.normal(0, 0.7)), upper_weight=np.exp(rng.normal(0, 1.5)),
+                    upper_length=a, upper_centroid=a * rng.uniform(-0.3, 2), upper_radius_of_gyration=a * rng.uniform(0, 2))
+        try:
+            heights = tl.jointed_links(**pair)
+        except ValueError:
+            continue
+        tried += 1
+        chain = rc.Chain(weight=[pair["lower_weight"], pair["upper_weight"]], length=[1.0, a],
+                         centroid=[pair["lower_centroid"], pair["upper_centroid"]],
+                         radius_of_gyration=[pair["lower_radius_of_gyration"], pair["upper_radius_of_gyration"]])
+        assert np.allclose(heights, rc.modes(chain).conical_height, rtol=2e-15)
+        height = heights[0] * np.exp(-rng.uniform(0, 4))
+        mine = tl.jointed_links_shapes(**pair, height=height)
+        listed = rc.steady_shapes(chain, conical_height=height)
+        assert len(mine) == len(listed) <= 4
+        both = np.array([s.inclination for s in listed])
+        for s in mine:
+            assert min(np.abs(both - s.inclination).max(1).min(), np.abs(both + s.inclination).max(1).min()) < 1e-10
+
+
+def test_silent_clapper_and_joint():
+    bell = dict(bell_weight=5000.0, bell_centroid=0.9, bell_radius_of_gyration=0.6)
+    clapper = dict(clapper_weight=180.0, clapper_centroid=0.5, clapper_radius_of_gyration=0.2)
+    pin = float(tl.pin_of_silent_clapper(**bell, **clapper))
+    pair = dict(lower_weight=180.0, lower_centroid=0.5, lower_radius_of_gyration=0.2, upper_weight=5000.0,
+                upper_length=pin, upper_centroid=0.9, upper_radius_of_gyration=0.6)
+    line = pin + 0.5 + 0.04 / 0.5
+    assert np.abs(tl.jointed_links(**pair) / line - 1).min() < 1e-13
+    together = [s for s in tl.jointed_links_shapes(**pair, height=0.6 * line) if abs(np.diff(s.inclination)[0]) < 1e-12]
+    assert len(together) == 1
+    for rod, c in ((2.0, 0.5), (1.0, 0.3), (1.0, 0.45)):
+        d = float(tl.joint_without_bending(rod, c))
+        # CG.CD = CA^2, A the end above
+        assert c * d == pytest.approx((rod / 2 - c) ** 2, rel=1e-14)
+    for c in (1 / 6, 0.5, 0.1, 0.6, np.nan, -0.3):
+        with pytest.raises(ValueError, match="got"):
+            tl.joint_without_bending(1.0, c)
+
+
+@pytest.mark.parametrize("value", [1e-300, 1e300])
+def test_jointed_links_never_return_nan(value):
+    pair = dict(lower_weight=1.0, lower_centroid=value, lower_radius_of_gyration=0.4, upper_weight=1.0,
+                upper_length=0.25, upper_centroid=0.125, upper_radius_of_gyration=0.45)
+    try:
+        heights = tl.jointed_links(**pair)
+    except ValueError:
+        return
+    assert not np.isnan(heights).any()
+
+
+# ---------------------------------------------------------------- Python manners
+def test_results_are_read_only_sequences():
+    shapes = rc.steady_shapes(plummets(3), conical_height=0.05)
+    assert shapes[0] in shapes
+    assert len(list(reversed(shapes))) == len(shapes[:]) == len(shapes)
+    with pytest.raises(IndexError):
+        shapes[99]
+    with pytest.raises(ValueError, match="read-only"):
+        shapes[0].inclination[0] = 1.0
+
+
+def results():
+    shapes = rc.steady_shapes(plummets(3), conical_height=0.05)
+    line = rc.funicular_polygon([1.0, 2.0], [0.0, 1.0, 2.0, 3.0], 1.0)
+    branch = rc.branch(plummets(3), 2, conical_height=0.05)
+    return [shapes, shapes[0], shapes[0].stability(), shapes[0].force_diagram(), branch, line, line.transverse_modes(),
+            rc.branches(plummets(2), conical_height=0.1), branch.stability_windows()[0]]
+
+
+def test_threads():
+    base = np.array([s.inclination for s in rc.steady_shapes(plummets(8), conical_height=1 / 35.4025)])
+    seen = []
+
+    def work():
+        shapes = rc.steady_shapes(plummets(8), conical_height=1 / 35.4025)
+        shapes[3].stability()
+        seen.append(np.array_equal(base, np.array([s.inclination for s in shapes])))
+
+    threads = [threading.Thread(target=work) for _ in range(6)]
+    for t in threads:
+        t.start()
+    for t in threads:
+        t.join()
+    assert seen == [True] * 6
+
+
+def test_plots():
+    plt = pytest.importorskip("matplotlib.pyplot")
+    for thing in results():
+        if hasattr(thing, "plot"):
+            thing.plot()
+            plt.gcf().canvas.draw()
+            plt.close("all")
+    for quantity in ("tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"):
+        rc.branches(plummets(3), conical_height=0.04).plot(quantity=quantity)
+        plt.close("all")
+    with pytest.raises(ValueError, match="quantity"):
+        rc.branch(plummets(2), 1, conical_height=0.1).plot(quantity="x")
+
+
+def test_plot_of_a_branch_too_short_to_step():
+    plt = pytest.importorskip("matplotlib.pyplot")
+    chain = plummets(3)
+    rc.branch(chain, 1, conical_height=np.nextafter(rc.modes(chain).conical_height[0], 0)).plot()
+    plt.close("all")
