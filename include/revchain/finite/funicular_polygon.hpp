@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/core/double_word.hpp"
 #include "revchain/linear/string_places.hpp"
 
 namespace revchain {
@@ -20,7 +21,7 @@ struct FunicularPolygon {
 
 /// The polygon of given horizontal component of tension, the pole's distance from the line of load: rays from the pole to
 /// the line of load, sides parallel to them. Weights (n) and places (n + 2), supports among them, in any units.
-/// Accuracy: heights to n ulp of the drop from the chord. Cost O(n). Throws InvalidArgument unless weights are positive,
+/// Accuracy: heights to half an ulp (summed in twice the digits). Cost O(n). Throws InvalidArgument unless weights are positive,
 /// places increase and all is finite, heights and tensions too.
 template <Real T>
 FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& place, const T& horizontal_tension,
@@ -34,19 +35,23 @@ FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& 
     for (const T& height : {first_height, last_height})
         if (!isfinite(height)) detail::refuse(where, "heights of the supports must be finite", height);
     FunicularPolygon<T> polygon{place, Vector<T>(n + 2), Vector<T>(n + 1), Vector<T>(n + 1), horizontal_tension};
-    // Halves of places: their differences are in range. Moments about the last support: what the first one carries,
+    // Places too far apart for their difference are halved. Moments about the last support: what the first one carries,
     // then weights as they come.
-    const Vector<T> half = place / T(2);
-    const T span = half[n + 1] - half[0];
-    T lifts = horizontal_tension * ((first_height / T(2) - last_height / T(2)) / span);
-    for (Index j = 0; j < n; ++j) lifts += weight[j] * ((half[n + 1] - half[j + 1]) / span);
-    T rise = -lifts;
+    const T by = isfinite(place[n + 1] - place[0]) ? T(1) : T(0.5);
+    const Vector<T> at = place * by;
+    using S = Wide<T>;
+    const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
+    const S span = wide(at[n + 1]) - wide(at[0]), pull = wide(horizontal_tension);
+    S lifts = pull * (wide(first_height * by) - wide(last_height * by)) / span;
+    for (Index j = 0; j < n; ++j) lifts = lifts + wide(weight[j]) * (wide(at[n + 1]) - wide(at[j + 1])) / span;
+    S rise = -lifts, height = wide(first_height);
     polygon.height[0] = first_height;
     for (Index j = 0; j <= n; ++j) {
-        if (j > 0) rise += weight[j - 1];
-        polygon.rise[j] = rise;
-        polygon.tension[j] = hypot(horizontal_tension, rise);
-        polygon.height[j + 1] = polygon.height[j] + T(2) * (rise / horizontal_tension * (half[j + 1] - half[j]));
+        if (j > 0) rise = rise + wide(weight[j - 1]);
+        polygon.rise[j] = static_cast<T>(rise);
+        polygon.tension[j] = hypot(horizontal_tension, polygon.rise[j]);
+        height = height + rise / (pull * wide(by)) * (wide(at[j + 1]) - wide(at[j]));
+        polygon.height[j + 1] = static_cast<T>(height);
     }
     polygon.height[n + 1] = last_height;
     if (!polygon.height.allFinite() || !polygon.tension.allFinite())
