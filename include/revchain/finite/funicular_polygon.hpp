@@ -32,17 +32,17 @@ FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& 
     const Index n = weight.size();
     detail::check_string(where, weight, place);
     detail::require_positive(where, "horizontal tension", horizontal_tension);
+    if (!(place.cwiseAbs().maxCoeff() <= std::numeric_limits<T>::max() * epsilon<T>()))
+        detail::refuse(where, "places must not be so near the end of the range of numbers", place[n + 1]);
     for (const T& height : {first_height, last_height})
         if (!isfinite(height)) detail::refuse(where, "heights of the supports must be finite", height);
     FunicularPolygon<T> polygon{place, Vector<T>(n + 2), Vector<T>(n + 1), Vector<T>(n + 1), horizontal_tension};
-    // Places too far apart for their difference are halved. Moments about the last support: what the first one carries,
-    // then weights as they come.
-    const T by = isfinite(place[n + 1] - place[0]) ? T(1) : T(0.5);
-    const Vector<T> at = place * by;
+    // Moments about the last support: what the first one carries, then weights as they come.
+    const Vector<T>& at = place;
     using S = Wide<T>;
     const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
     const S span = wide(at[n + 1]) - wide(at[0]), pull = wide(horizontal_tension);
-    S lifts = pull * (wide(first_height * by) - wide(last_height * by)) / span;
+    S lifts = pull * (wide(first_height) - wide(last_height)) / span;
     for (Index j = 0; j < n; ++j) lifts = lifts + wide(weight[j]) * (wide(at[n + 1]) - wide(at[j + 1])) / span;
     S rise = -lifts, height = wide(first_height);
     polygon.height[0] = first_height;
@@ -50,7 +50,7 @@ FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& 
         if (j > 0) rise = rise + wide(weight[j - 1]);
         polygon.rise[j] = static_cast<T>(rise);
         polygon.tension[j] = hypot(horizontal_tension, polygon.rise[j]);
-        height = height + rise / (pull * wide(by)) * (wide(at[j + 1]) - wide(at[j]));
+        height = height + rise / pull * (wide(at[j + 1]) - wide(at[j]));
         polygon.height[j + 1] = static_cast<T>(height);
     }
     polygon.height[n + 1] = last_height;
