@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "revchain/chain/chain.hpp"
+#include "revchain/chain/flywheel.hpp"
+#include "revchain/chain/immersion.hpp"
+#include "revchain/chain/support.hpp"
+
+namespace revchain {
+
+/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0).
+enum class Posture { hangs = 1, stands = -1 };
+
+/// What a chain may be rigged with; each list has one entry for each link, lowest first, or is empty.
+struct Rigging {
+    Support support{};
+    std::vector<Posture> posture{};  ///< in which the straight chain balances
+    std::vector<Flywheel> flywheels{};
+    Fluid fluid = Fluid::still;
+    std::vector<Displaced> displaced{};
+
+    friend bool operator==(const Rigging&, const Rigging&) = default;
+};
+
+/// A chain and what it is rigged with: a support that yields or is carried round, links that stand, flywheels, a fluid
+/// that bears part of the weight. A chain without any of it is a `Chain` and pays for none of it.
+///
+/// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the chain, numbers that are
+/// not finite, a support without stiffness, and a negative carriage weight, radius, axial moment, weight displaced or added. Cost O(N) once.
+class Rig {
+   public:
+    Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
+
+    const Chain<double>& chain() const { return chain_; }
+    const Support& support() const { return with_.support; }
+    const Rigging& rigging() const { return with_; }
+    Index size() const { return chain_.size(); }
+    Fluid fluid() const { return with_.fluid; }
+
+    bool stands(Index m) const {
+        return !with_.posture.empty() && with_.posture[static_cast<std::size_t>(m)] == Posture::stands;
+    }
+    Flywheel flywheel(Index m) const {
+        return with_.flywheels.empty() ? Flywheel{} : with_.flywheels[static_cast<std::size_t>(m)];
+    }
+    Displaced displaced(Index m) const {
+        return with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
+    }
+    /// Whether any link's angular momentum is its own, so that the two senses of rotation differ.
+    bool has_momentum() const {
+        return std::any_of(with_.flywheels.begin(), with_.flywheels.end(),
+                           [](const Flywheel& wheel) { return wheel.momentum != 0; });
+    }
+
+    friend bool operator==(const Rig&, const Rig&) = default;
+
+   private:
+    void check() const;
+
+    Chain<double> chain_;
+    Rigging with_;
+};
+
+inline void Rig::check() const {
+    const auto need = [](bool good, std::string_view place, std::string_view sentence, double value) {
+        if (!good) detail::refuse(place, sentence, value);
+    };
+    const auto not_negative = [](double x) { return x >= 0 && std::isfinite(x); };
+    const auto as_long = [&](std::size_t stored, std::string_view name) {
+        if (stored != 0 && stored != static_cast<std::size_t>(size()))
+            detail::refuse("Rig",
+                           std::string(name) + " must be empty or have one entry for each of the " +
+                               std::to_string(size()) + " links",
+                           stored);
+    };
+    as_long(with_.posture.size(), "posture"), as_long(with_.flywheels.size(), "flywheels");
+    as_long(with_.displaced.size(), "displaced");
+    const Support& support = with_.support;
+    need(support.stiffness > 0, "Rig", "the stiffness of the support must be positive", support.stiffness);
+    need(not_negative(support.carriage_weight), "Rig", "carriage weight must be finite and not negative",
+         support.carriage_weight);
+    need(not_negative(support.radius), "Rig", "radius of the support must be finite and not negative", support.radius);
+    for (Index m = 0; m < size(); ++m) {
+        const std::string place = "Rig: link " + std::to_string(m + 1);
+        const Flywheel wheel = flywheel(m);
+        need(std::isfinite(wheel.momentum), place, "momentum must be finite", wheel.momentum);
+        need(not_negative(wheel.axial_moment), place, "axial moment must be finite and not negative",
+             wheel.axial_moment);
+        const Displaced fluid = displaced(m);
+        need(not_negative(fluid.weight), place, "weight displaced must be finite and not negative", fluid.weight);
+        need(std::isfinite(fluid.centroid), place, "centre of buoyancy must be finite", fluid.centroid);
+        need(not_negative(fluid.added_weight), place, "added weight must be finite and not negative",
+             fluid.added_weight);
+        need(not_negative(static_cast<double>(fluid.gyration_ratio)), place,
+             "(radius of gyration / length)^2 of the fluid displaced must be finite and not negative",
+             static_cast<double>(fluid.gyration_ratio));
+    }
+}
+
+/// What a rigged link is at its two pins, in the units of `Rig::chain().units()`.
+///
+/// Greenhill (1908) §8 with weights that bear (less what the fluid does) apart from those that move (with what it adds).
+/// At any inclination, y the offsets, t and s tangent and sine, R the moment about the upper pin as if the link hung
+/// vertically over the distance between the pins, n the speed and lambda = g/n^2:
+///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
+///     y = y_below - length s,          H = R + rest y.
+/// Of small inclinations the stiffness is (tension + n spin)/length, negative where the link stands, the mass
+/// [lower cross; cross upper].
+struct RigLink {
+    using S = Wide<double>;
+    S length;   ///< a
+    S tension;  ///< (W h + a S)/a of the weights that bear; of a standing link a thrust
+    S spin;     ///< momentum over length
+    S moment;   ///< W h/a of the weights that move
+    S rest;     ///< W (a - h)/a of them
+    S cross;    ///< X
+    S lower, upper;
+    S hung;  ///< weight that bears on the upper pin, of this link and all below
+};
+
+/// The numbers of a rig's links, lowest first, in `Wide<double>`: each within 1e-28 of the sum of the sizes of its terms.
+/// Cost O(N). Throws InvalidArgument where the chain's weights are more than 1e123 apart.
+inline std::vector<RigLink> rig_links(const Rig& rig) {
+    using S = Wide<double>;
+    const Chain<double>& chain = rig.chain();
+    if (!chain.has_one_weight_unit())
+        detail::refuse("rig_links", "weights must not be more than 1e123 apart", chain.total_weight());
+    const ChainUnits units = chain.units();
+    const auto in_weights = [&](double x) { return std::ldexp(x, -units.weight_exponent); };
+    const auto in_lengths = [&](double x) { return std::ldexp(x, -units.length_exponent); };
+    std::vector<RigLink> links;
+    links.reserve(static_cast<std::size_t>(rig.size()));
+    S hung(0.0);
+    for (Index m = 0; m < rig.size(); ++m) {
+        const Link<double> link = chain.link(m);
+        const Displaced fluid = rig.displaced(m);
+        const Flywheel wheel = rig.flywheel(m);
+        const S a(in_lengths(link.length));
+        RigLink result{a, hung, S(0.0), S(0.0), S(0.0), S(0.0), S(0.0), S(0.0), hung};
+        /// A body of the link: bearing (or borne, if less than 0) by one weight, moving by another.
+        const auto add = [&](const S& bears, const S& moves, double centroid, const S& gyration) {
+            const S h(in_lengths(centroid)), p = h / a, q = (a - h) / a;
+            result.tension = result.tension + bears * p, result.hung = result.hung + bears;
+            result.moment = result.moment + moves * p, result.rest = result.rest + moves * q;
+            result.cross = result.cross + (p * q - gyration) * moves;
+            result.lower = result.lower + (p * p + gyration) * moves;
+            result.upper = result.upper + (q * q + gyration) * moves;
+        };
+        const S weight(in_weights(link.weight));
+        add(weight, weight, link.centroid, link.gyration_ratio);
+        if (fluid.weight != 0 || fluid.added_weight != 0) {
+            const S borne(in_weights(fluid.weight)), added(in_weights(fluid.added_weight));
+            add(-borne, rig.fluid() == Fluid::turning ? -borne : added, fluid.centroid, fluid.gyration_ratio);
+        }
+        if (wheel.axial_moment != 0) {  // turning with the link it lessens what a body resists turning with
+            const S turning = S(std::ldexp(in_weights(wheel.axial_moment), -2 * units.length_exponent)) / (a * a);
+            result.cross = result.cross + turning;
+            result.lower = result.lower - turning, result.upper = result.upper - turning;
+        }
+        result.spin = S(std::ldexp(in_weights(wheel.momentum), -units.length_exponent)) / a;
+        hung = result.hung;
+        links.push_back(result);
+    }
+    return links;
+}
+
+}  // namespace revchain
