@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "revchain/linalg/driven_elements.hpp"
+
+namespace revchain::linalg {
+
+/// Which pins are wanted, and room for what leads from one of them to the next.
+struct DrivenPins {
+    std::vector<std::size_t> pins;  ///< ascending, all below the moved end
+    std::vector<double> ratio{};
+};
+
+namespace detail {
+
+template <bool fused, class V>
+[[gnu::always_inline]] inline DoubleWord<V> product(const DoubleWord<V>& x, const DoubleWord<V>& y) {
+    const DoubleWord<V> p = two_product<fused>(x.high, y.high);
+    return fast_two_sum(p.high, p.low + (x.high * y.low + x.low * y.high));
+}
+template <bool fused, class V>
+[[gnu::always_inline]] inline DoubleWord<V> quotient(const DoubleWord<V>& x, const DoubleWord<V>& y) {
+    const V q = x.high / y.high;
+    const DoubleWord<V> p = two_product<fused>(y.high, q);
+    const DoubleWord<V> r = fast_two_sum(p.high, p.low + y.low * q);
+    return fast_two_sum(q, ((x.high - r.high) + (x.low - r.low)) / y.high);
+}
+template <class V>
+[[gnu::always_inline]] inline DoubleWord<V> everywhere(const Wide<double>& x) {
+    return {V(x.high), V(x.low)};
+}
+
+/// What is carried up for the drives in one pack.
+template <class V>
+struct DrivenWalk {
+    DoubleWord<V> height, swing, below, product;
+    V error;  ///< of `below`
+    V doubt;  ///< sum of the relative errors of the ratios
+    typename V::Mask proved, negative, turned;
+};
+
+template <bool turning, bool fused, class V>
+[[gnu::always_inline]] inline void rise(const DrivenElement& e, bool kept, DrivenWalk<V>& w) {
+    constexpr double unit = operation_error<Wide<double>>();
+    const DoubleWord<V> k = everywhere<V>(e.stiffness), mass = everywhere<V>(e.lower);
+    DoubleWord<V> stiffness = product<fused>(w.height, k);
+    V size = abs(stiffness.high);
+    if constexpr (turning) {
+        const DoubleWord<V> added = product<fused>(w.swing, everywhere<V>(e.spin));
+        stiffness = stiffness + added;
+        size = size + abs(added.high);
+    }
+    const DoubleWord<V> pivot = (w.below - mass) + stiffness;
+    const DoubleWord<V> coupling = stiffness + everywhere<V>(e.cross);
+    const DoubleWord<V> ratio = quotient<fused>(coupling, pivot);
+    const DoubleWord<V> carried = (stiffness - everywhere<V>(e.upper)) - product<fused>(coupling, ratio);
+
+    const V size_below = abs(w.below.high), masses = V(std::abs(e.lower.high) + std::abs(e.upper.high));
+    const V local = w.height.high * V(e.stiffness_error) + V(e.mass_error + 0x1p-960) +
+                    V(12 * unit) * (size + masses + abs(V(e.cross.high)) + size_below);
+    const V gain = abs(coupling.high) * V(1 + 0x1p-50) + local;
+    const V least = abs(pivot.high) * V(1 - 0x1p-50) - (local + w.error);
+    const V inverse = V(1.0) / least;
+    const V ratio_size = abs(ratio.high);
+    const V relative = inverse * (local + w.error) + V(4 * unit);
+    w.proved = w.proved & (V(0.0) < least) & (local < V(0x1p-80) * abs(coupling.high));
+    w.doubt = w.doubt + (relative + V(0x1p-80));
+    w.error = V(1 + 0x1p-46) * (gain * (ratio_size * relative + inverse * local) + local * (V(1.0) + ratio_size) +
+                                V(4 * unit) * (abs(carried.high) + gain * ratio_size));
+    w.below = carried;
+    w.negative = w.negative + differ_in_sign(pivot.high, V(1.0));
+    w.turned = w.turned + differ_in_sign(ratio.high, V(1.0));
+    w.product = kept ? ratio : product<fused>(w.product, ratio);
+}
+
+}  // namespace detail
+
+/// How many drives are walked together.
+template <class V>
+inline constexpr std::size_t driven_together = 2 * V::size;
+
+/// For the drives given (`driven_together`), what `driven` gives: one to a SIMD lane, in words of two doubles, with a
+/// running bound as that of `certified_count`. Units must be one for all elements. Undecided are drives next to a
+/// resonance, and those at which a pin is all but a node: `driven` is for them.
+/// `offset(lane, which, value)` for each pin wanted, highest first: value in two words, its relative error the bound.
+/// Cost: docs/accuracy.md, "Forced response".
+template <bool turning, bool fused, class V, class Offsets>
+[[gnu::always_inline]] inline void driven_lanes(const std::vector<DrivenElement>& elements, const Driving* at,
+                                                DrivenPins& wanted, Driven* result, const Offsets& offset) {
+    constexpr std::size_t P = 2, L = V::size;
+    detail::DrivenWalk<V> walks[P];
+    for (std::size_t p = 0; p < P; ++p) {
+        auto& w = walks[p];
+        for (std::size_t i = 0; i < L; ++i) {
+            const Driving& drive = at[p * L + i];
+            w.height.high.set(i, drive.height.high), w.height.low.set(i, drive.height.low);
+            w.swing.high.set(i, drive.swing.high), w.swing.low.set(i, drive.swing.low);
+        }
+        w.proved = typename V::Mask(-1);
+    }
+    const std::size_t n = elements.size(), count = wanted.pins.size();
+    wanted.ratio.resize(std::max(wanted.ratio.size(), count * 2 * P * L));
+    double* const ratios = wanted.ratio.data();
+    std::size_t next = 0;  // of the pins wanted
+    const auto put_away = [&](std::size_t which) __attribute__((always_inline)) {
+        for (std::size_t p = 0; p < P; ++p) {
+            walks[p].product.high.store(ratios + (which * P + p) * 2 * L);
+            walks[p].product.low.store(ratios + (which * P + p) * 2 * L + L);
+        }
+    };
+    for (std::size_t m = 0; m < n; ++m) {
+        const bool kept = m == 0 || (next < count && wanted.pins[next] == m);
+        if (kept && m > 0 && next > 0) put_away(next - 1);
+        if (next < count && wanted.pins[next] == m) ++next;
+#pragma GCC unroll 2
+        for (std::size_t p = 0; p < P; ++p) detail::rise<turning, fused>(elements[m], kept, walks[p]);
+    }
+    if (count > 0) put_away(count - 1);
+    DoubleWord<V> y[P];
+    for (std::size_t p = 0; p < P; ++p) y[p] = DoubleWord<V>(V(1.0));
+    typename V::Mask finite[P];
+    for (std::size_t p = 0; p < P; ++p) finite[p] = typename V::Mask(-1);
+    for (std::size_t which = count; which-- > 0;)
+        for (std::size_t p = 0; p < P; ++p) {
+            const double* from = ratios + (which * P + p) * 2 * L;
+            y[p] = detail::product<fused>(y[p], DoubleWord<V>(V::load(from), V::load(from + L)));
+            finite[p] = finite[p] & (abs(y[p].high) < V(std::numeric_limits<double>::max()));
+            for (std::size_t i = 0; i < L; ++i) offset(p * L + i, which, Wide<double>(y[p].high[i], y[p].low[i]));
+        }
+    for (std::size_t p = 0; p < P; ++p)
+        for (std::size_t i = 0; i < L; ++i) {
+            const auto& w = walks[p];
+            Driven& r = result[p * L + i];
+            const double doubt = w.doubt[i];
+            r.decided = w.proved[i] != 0 && finite[p][i] != 0 && doubt < 0x1p-10;
+            r.error_bound = doubt * (1 + doubt) * (1 + 0x1p-20);
+            r.reversed = w.turned[i] % 2 != 0;
+            r.negative = static_cast<Index>(w.negative[i]);
+            r.stiffness = w.below.high[i];
+            r.stiffness_error = w.error[i] + 0x1p-52 * std::abs(r.stiffness);
+        }
+}
+
+}  // namespace revchain::linalg
