@@ -84,7 +84,11 @@ inline DrivenChain driven_chain(const Rig& rig) {
     return result;
 }
 
-/// `driven_lanes` for any number of drives. `put(row, which, offset)` and then `take(row, found)` for each.
+/// Beside rounding an offset to double.
+inline bool is_negligible(const linalg::Driven& found) { return found.error_bound <= 0x1p-56; }
+
+/// `driven_lanes` for any number of drives, and sharper bounds for those whose own is not negligible beside rounding.
+/// `put(row, which, offset)`, and then `take(row, found)` for each.
 template <class Put, class Take>
 void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, linalg::DrivenPins& pins, const Put& put,
                      const Take& take, Progress* progress) {
@@ -92,18 +96,24 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, l
         using V = Pack<double, registers.doubles>;
         constexpr bool fused = registers.fused;
         constexpr std::size_t together = linalg::driven_together<V>;
+        std::vector<double> scratch;
         Driving padded[together];
         linalg::Driven found[together];
         for (std::size_t i = 0; i < at.size(); i += together) {
             const std::size_t taken = std::min(together, at.size() - i);
             for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
-            const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y) {
+            const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y)
+                __attribute__((always_inline)) {
                 if (lane < taken) put(static_cast<Index>(i + lane), which, y);
             };
             if (chain.turning)
                 linalg::driven_lanes<true, fused, V>(chain.elements, padded, pins, found, offset);
             else
                 linalg::driven_lanes<false, fused, V>(chain.elements, padded, pins, found, offset);
+            bool sharp = true;
+            for (std::size_t j = 0; j < taken; ++j) sharp = sharp && (!found[j].decided || is_negligible(found[j]));
+            if (!sharp && chain.turning) linalg::sharpen<true, fused, V>(chain.elements, padded, found, scratch);
+            if (!sharp && !chain.turning) linalg::sharpen<false, fused, V>(chain.elements, padded, found, scratch);
             for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
             advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
         }

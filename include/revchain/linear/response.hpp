@@ -144,8 +144,7 @@ Response responses(const Carried& carried, const std::vector<double>& given, boo
     std::vector<Index> left;
     const auto take = [&](Index row, const linalg::Driven& found) {
         store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
-        constexpr double negligible = 0x1p-56;  // beside rounding
-        if (!found.decided || found.error_bound > negligible) left.push_back(row);
+        if (!found.decided) left.push_back(row);
     };
     if (chain.one_unit) {
         driven_by_lanes(chain, at, pins.wanted, put, take, options.progress);
