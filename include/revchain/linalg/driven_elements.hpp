@@ -14,8 +14,8 @@ struct DrivenElement {
     S stiffness, spin;  ///< k and s
     S lower, upper, cross;
     double stiffness_error = 0;  ///< of k, besides what multiplying it by the height leaves
-    double mass_error = 0;       ///< of each of the masses
-    int step = 0;                ///< the unit of this element is 2^-step of the one below
+    double lower_error = 0, upper_error = 0, cross_error = 0;
+    int step = 0;  ///< the unit of this element is 2^-step of the one below
 };
 
 /// At what speed: height and, where elements have a stiffness that goes with the speed, height times speed.
@@ -81,9 +81,9 @@ Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, con
         if (e.step != 0) below = detail::rescaled(below, compliant ? -e.step : e.step);
         I stiffness = height * detail::around(e.stiffness, e.stiffness_error);
         if (e.spin.high != 0) stiffness = stiffness + swing * two(e.spin, 4 * unit);
-        const I lower = stiffness - detail::around(e.lower, e.mass_error);
-        const I upper = stiffness - detail::around(e.upper, e.mass_error);
-        const I coupling = stiffness + detail::around(e.cross, e.mass_error);
+        const I lower = stiffness - detail::around(e.lower, e.lower_error);
+        const I upper = stiffness - detail::around(e.upper, e.upper_error);
+        const I coupling = stiffness + detail::around(e.cross, e.cross_error);
         const I square = revchain::square(coupling);
         if (compliant) {
             const I whole = I(S(1.0)) + below * lower;

@@ -74,21 +74,24 @@ template <bool turning, bool fused, class V>
     const DoubleWord<V> ratio = quotient<fused>(coupling, pivot);
     const DoubleWord<V> carried = (stiffness - everywhere<V>(e.upper)) - product<fused>(coupling, ratio);
 
-    const V masses(std::abs(e.lower.high) + std::abs(e.upper.high) + std::abs(e.cross.high));
-    const V local = w.height.high * V(e.stiffness_error) + V(e.mass_error + 0x1p-960) +
-                    V(12 * unit) * (size + masses + abs(w.below.high));
-    const V gain = abs(coupling.high) * V(1 + 0x1p-50) + local;
+    constexpr double tiny = 0x1p-960;
+    const V of_stiffness = w.height.high * V(e.stiffness_error) + V(12 * unit) * size + V(tiny);
+    const V coupled = of_stiffness + V(e.cross_error + 12 * unit * std::abs(e.cross.high));
+    const V local =
+        of_stiffness + V(e.lower_error + 12 * unit * std::abs(e.lower.high)) + V(12 * unit) * abs(w.below.high);
+    const V above = of_stiffness + V(e.upper_error + 12 * unit * std::abs(e.upper.high));
+    const V gain = abs(coupling.high) * V(1 + 0x1p-50) + coupled;
     const V least = abs(pivot.high) * V(1 - 0x1p-50) - (local + w.error);
     const V inverse = V(1.0) / least;
     const V ratio_size = abs(ratio.high);
     const V inherited = inverse * (local + w.error);
-    w.proved = w.proved & (V(0.0) < least) & (local < V(0x1p-80) * abs(coupling.high));
+    w.proved = w.proved & (V(0.0) < least) & (coupled < V(0x1p-80) * abs(coupling.high));
     w.doubt = w.doubt + (inherited + V(4 * unit + 0x1p-80));
-    const V own = local * (V(1.0) + ratio_size * V(2.0)) + V(8 * unit) * (abs(carried.high) + gain * ratio_size);
+    const V own = above + coupled * ratio_size * V(2.0) + V(8 * unit) * (abs(carried.high) + gain * ratio_size);
     if (row != nullptr)
         *row = {ratio.high, V(1.0) / pivot.high, w.row + local + V(8 * unit) * abs(pivot.high), w.error};
     w.row = own;
-    w.error = V(1 + 0x1p-46) * (gain * (ratio_size * inherited + inverse * local) + own);
+    w.error = V(1 + 0x1p-46) * (gain * (ratio_size * inherited + inverse * coupled) + own);
     w.below = carried;
     w.negative = w.negative + differ_in_sign(pivot.high, V(1.0));
     w.turned = w.turned + differ_in_sign(ratio.high, V(1.0));

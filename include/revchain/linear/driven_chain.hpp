@@ -33,9 +33,9 @@ inline DrivenChain driven_chain(const Chain<double>& chain) {
         const auto& e = pencil.elements[m];
         linalg::DrivenElement element{e.stiffness, 0.0, e.lower, e.upper, e.cross};
         element.stiffness_error = e.stiffness.high * pencil.entry_error + pencil.stiffness_underflow;
-        element.mass_error =
-            pencil.entry_error * (e.lower.high + e.upper.high + std::abs(e.cross.high) + 2 * e.turning.high) * 1.01 +
-            0x1p-980;
+        element.lower_error = pencil.entry_error * e.lower.high;
+        element.upper_error = pencil.entry_error * e.upper.high;
+        element.cross_error = pencil.entry_error * (std::abs(e.cross.high) + 2 * e.turning.high);
         element.step = pencil.step_down(m);
         result.elements.push_back(element);
     }
@@ -57,12 +57,14 @@ inline DrivenChain driven_chain(const Rig& rig) {
         const Link<double> own = chain.link(m);
         const Displaced fluid = rig.displaced(m);
         const double a = link.length.high;
-        double bearing = hung,
-               moving = weights(rig.flywheel(m).axial_moment) / (lengths(own.length) * lengths(own.length));
-        moving = std::ldexp(moving, -2 * result.units.length_exponent);
+        const double turning =
+            std::ldexp(weights(rig.flywheel(m).axial_moment), -2 * result.units.length_exponent) / (a * a);
+        double bearing = hung, lower = turning, upper = turning, cross = turning;
         const auto add = [&](double bears, double moves, double centroid, double gyration) {
-            const double p = std::abs(lengths(centroid)) / a, both = 1 + 2 * p;
-            hung += bears, bearing += bears * p, moving += moves * (both * both + gyration);
+            const double p = lengths(centroid) / a, q = (a - lengths(centroid)) / a;
+            hung += bears, bearing += bears * std::abs(p);
+            lower += moves * (p * p + gyration), upper += moves * (q * q + gyration);
+            cross += moves * (std::abs(p * q) + gyration);
         };
         add(weights(own.weight), weights(own.weight), own.centroid, own.gyration_ratio.high);
         add(weights(fluid.weight), weights(std::max(fluid.weight, fluid.added_weight)), fluid.centroid,
@@ -70,7 +72,8 @@ inline DrivenChain driven_chain(const Rig& rig) {
         linalg::DrivenElement e{link.tension / link.length, link.spin / link.length, link.lower, link.upper,
                                 link.cross};
         if (rig.stands(m)) e.stiffness = -e.stiffness, e.spin = -e.spin, ++result.standing;
-        e.stiffness_error = part * bearing / a + 0x1p-980, e.mass_error = part * moving + 0x1p-980;
+        e.stiffness_error = part * bearing / a;
+        e.lower_error = part * lower, e.upper_error = part * upper, e.cross_error = part * cross;
         result.elements.push_back(e);
     }
     const Support& support = rig.support();
@@ -78,7 +81,6 @@ inline DrivenChain driven_chain(const Rig& rig) {
         linalg::DrivenElement e;
         e.stiffness = std::ldexp(support.stiffness, result.units.length_exponent - result.units.weight_exponent);
         e.lower = weights(support.carriage_weight);
-        e.mass_error = 0x1p-980;
         result.elements.push_back(e);
     }
     return result;
