@@ -48,12 +48,6 @@ py::tuple response(const Carried& carried, const Array& given, bool speeds, doub
                           to_numpy(found.support_force_error));
 }
 
-template <class Carried>
-void bind_response_of(py::module_& module) {
-    module.def("response", &response<Carried>, "carried"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
-               "gravity"_a);
-}
-
 py::tuple small_oscillation(const Chain<double>& chain, const Array& offsets, const Array& velocities,
                             const Array& time, std::optional<Index> modes, double gravity) {
     const auto column = [](const Array& array) {
@@ -77,8 +71,10 @@ py::tuple small_oscillation(const Chain<double>& chain, const Array& offsets, co
 }  // namespace
 
 void bind_response(py::module_& module) {
-    bind_response_of<Chain<double>>(module);
-    bind_response_of<Rig>(module);
+    module.def("response", &response<Chain<double>>, "chain"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
+               "gravity"_a);
+    module.def("rig_response", &response<Rig>, "rig"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
+               "gravity"_a);
     module.def("small_oscillation", &small_oscillation, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a,
                "gravity"_a);
 }

@@ -37,6 +37,7 @@ from ._continuous import (
 from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
 from ._modes import Certificate, Modes
 from ._rig import Rig, driven_flywheel, free_flywheel
+from ._response import Response, SmallOscillation, response, small_oscillation
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
 from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
@@ -64,8 +65,10 @@ __all__ = [
     "GovernorMotion",
     "Modes",
     "Rig",
+    "Response",
     "SceneError",
     "SkippingRope",
+    "SmallOscillation",
     "Stability",
     "StabilityWindow",
     "SteadyShape",
@@ -90,6 +93,8 @@ __all__ = [
     "modes",
     "plummet",
     "recurrence_matrices",
+    "response",
+    "small_oscillation",
     "steady_shape",
     "steady_shapes",
     "tapered_chain",

@@ -242,13 +242,10 @@ def response(
     (0.1838, 0)
     """
     place = "revchain.response"
+    either_sense, own = False, 1.0
     if isinstance(chain, Rig):
-        core: _core.Chain | _core.Rig = chain._compiled
-        either_sense = bool(np.any(chain.momentum))
-        own = chain.support_radius or 1.0
-    elif isinstance(chain, Chain):
-        core, either_sense, own = compiled(place, chain), False, 1.0
-    else:
+        either_sense, own = bool(np.any(chain.momentum)), chain.support_radius or 1.0
+    elif not isinstance(chain, Chain):
         raise TypeError(f"{place}: chain must be a revchain.Chain or a revchain.Rig, got {shown(chain)}")
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give either conical_height or angular_speed")
@@ -269,8 +266,11 @@ def response(
             positive(place, "angular_speed", given)
         height, speed = g / given / given, given
     which, axis = _pins(place, pins, chain.size)
-    found = _core.response(core, given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g)
-    offset, *rest = found
+    asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g)
+    if isinstance(chain, Rig):
+        offset, *rest = _core.rig_response(chain._compiled, *asked)
+    else:
+        offset, *rest = _core.response(compiled(place, chain), *asked)
     shaped = [column.reshape(given.shape) for column in rest]
     return Response(
         chain, height, speed, radius, which, offset.reshape(given.shape + axis), *shaped
