@@ -179,7 +179,8 @@ Response responses(const Carried& carried, const std::vector<double>& given, boo
 /// Accuracy: offsets half an ulp of themselves until within 1e-14 or so of a resonance, `error_bound` proved whatever the
 /// chain. Counts of modes are proved with them: below every resonance a chain goes with its support, and each one passed
 /// turns it round.
-/// Cost: 5 ns for each link and speed where registers hold eight doubles, 20 where two (bench/response.cpp); memory the result,
+/// Cost: 10 to 40 ns for each link and speed where registers hold eight doubles, twice that where two (bench/response.cpp:
+/// the more where all pins are kept, and where a long chain asks for the sharper bound); memory the result,
 /// less where `pins` asks for a few.
 /// Throws InvalidArgument for heights, radius or gravity that are not positive and finite or out of all proportion to the
 /// chain (2^250), and for pins there are not. Greenhill (1908) §1 (9), for one plummet: b lambda / (lambda - l).

@@ -415,3 +415,48 @@ TEST_CASE("response of rigs: a plain rig is its chain, a spring is a thread more
     const auto by_speed = revchain::response_at_speed(Rig(chain, wheels), {std::sqrt(2 / 0.7)}, {.gravity = 2});
     CHECK(by_height.offset(1, 0) == Approx(by_speed.offset(0, 0)).epsilon(1e-12));
 }
+
+// Portable builds choose at run time: the narrow registers without fused operations have to be right, too.
+TEST_CASE("response: registers of two doubles, products not fused", "[linear]") {
+    using V = revchain::Pack<double, 2>;
+    constexpr std::size_t together = revchain::linalg::driven_together<V>;
+    double worst = 0;
+    for (const auto& family : support::families()) {
+        const auto chain = family.make(60);
+        const auto driven = revchain::detail::driven_chain(chain);
+        support::Random random(31);
+        for (int i = 0; i < 5; ++i) {
+            std::array<revchain::linalg::Driving, together> at;
+            std::array<double, together> heights{};
+            std::array<revchain::linalg::Driven, together> found;
+            for (std::size_t j = 0; j < together; ++j) {
+                heights[j] = random.log_between(1e-3, 3.0) * chain.total_length();
+                at[j] = {std::ldexp(heights[j], -driven.units.length_exponent), 0.0};
+            }
+            revchain::linalg::DrivenPins pins{{0, 17}};
+            std::array<std::array<double, 2>, together> offset{};
+            revchain::linalg::driven_lanes<false, false, V>(
+                driven.elements, at.data(), pins, found.data(),
+                [&](std::size_t lane, std::size_t which, const revchain::Wide<double>& y) {
+                    offset[lane][which] = y.high;
+                });
+            std::vector<double> scratch;
+            revchain::linalg::sharpen<false, false, V>(driven.elements, at.data(), found.data(), scratch);
+            for (std::size_t j = 0; j < together; ++j) {
+                const auto exact = truth(chain, heights[j]);
+                CAPTURE(family.name, heights[j]);
+                if (!found[j].decided) continue;
+                Quad largest = 0;
+                for (const Quad& y : exact.offset) largest = fmaxq(largest, fabsq(y));
+                const double bound = found[j].error_bound + 1.2e-16;
+                CHECK(found[j].negative == revchain::count_modes(chain, heights[j]));
+                for (const std::size_t which : {0, 1}) {
+                    const Quad off = fabsq(Quad(offset[j][which]) - exact.offset[pins.pins[which]]) / largest;
+                    CHECK(static_cast<double>(off) <= bound);
+                }
+                worst = std::max(worst, found[j].error_bound);
+            }
+        }
+    }
+    CHECK(worst <= 1e-17);
+}
