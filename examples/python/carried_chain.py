@@ -17,7 +17,7 @@ chain = rc.Chain.uniform_rods(LINKS, length=LENGTH)
 whirls = rc.modes(chain, count=3, shapes=False).angular_speed()
 
 print("turns a second  modes passed  free end, mm  over the hand's 10 mm")
-for turns in (0.5, 0.9, 1.0, 1.5, 2.2, 2.4):
+for turns in (0.5, 0.9, 1.1, 1.5, 2.2, 2.4):
     at = rc.response(chain, angular_speed=2 * np.pi * turns, support_radius=HAND, pins=0)
     print(f"{turns:14.1f}  {int(at.modes_below):12}  {1000 * float(at.offset):12.2f}  {float(at.amplification):8.3f}")
 
@@ -44,7 +44,7 @@ for number, turns in enumerate((0.5, 1.5, 2.8)):
     hang(shapes, 1000 * one.offset, depth, color=COLOURS[number], label=f"{turns}")
 shapes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 shapes.set(xlabel="from the axis, mm", ylabel="below the hand, m", ylim=(0.37, -0.01), title="shapes, turns/s")
-shapes.legend(loc="lower left", fontsize=7)
+shapes.legend(loc="upper left", fontsize=7)
 
 # Plucked in the middle by 1 cm: all 120 modes, and the three slowest.
 plucked = HAND * np.interp(depth, [0, LENGTH / 2, LENGTH], [0, 1, 0])
@@ -59,6 +59,6 @@ print(
 )
 time.plot(moments, 1000 * swing.offset[:, 0], color=COLOURS[0], linewidth=0.9, label="all modes")
 time.plot(moments, 1000 * few.offset[:, 0], color=COLOURS[1], linewidth=0.9, linestyle="--", label="three")
-time.set(xlabel="seconds", ylabel="free end, mm", title="plucked 10 mm in the middle, let go")
+time.set(xlabel="seconds", ylabel="free end, mm", title="plucked 10 mm half way")
 time.legend(loc="lower right", fontsize=7)
 save(figure)
