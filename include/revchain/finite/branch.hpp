@@ -208,7 +208,7 @@ inline Branch branch(const Chain<double>& chain, Index mode, double conical_heig
     vertical.half_waves = onset.half_waves;
     // the direction there: along the mode
     const double small = 1e-7 / onset.steepest;
-    vertical.tangent = finite::point_of_onset(onset, onset.state(root.corrector.links(), small), small).tangent;
+    vertical.tangent = onset.point(root.corrector.links(), small).tangent;
     vertical.tangent.log_height = 0;
     finite::append(result, vertical);
     result.conical_height.front() = root.height;  // no logarithm's rounding
