@@ -80,12 +80,12 @@ class ShapeSamples {
         starts_.push_back(series.change(0));
         if constexpr (std::is_same_v<Series, PathSeries>) {
             sample(series, duration);
+            last_ = series, last_duration_ = duration;
         } else {
             for (int i = 0; i < per_step; ++i)
                 places_.push_back(series.state(duration * i / per_step)),
                     changes_.push_back(series.change(duration * i / per_step));
         }
-        if constexpr (std::is_same_v<Series, PathSeries>) last_ = series, last_duration_ = duration;
     }
 
     /// The shape: the path, moved in first order by what its last crossing misses the support.

@@ -107,16 +107,15 @@ struct Finished {
 inline std::optional<Finished> finished(const std::vector<Link<Wide<double>>>& links, const Wide<double>& height,
                                         const Bracket<DoubleDouble>& bracket) {
     using S = Wide<double>;
-    const S& lambda = height;
     S low = bracket.low.word(), high = bracket.high.word();
-    const bool rises = swept(links, lambda, low).back() < S(0);
+    const bool rises = swept(links, height, low).back() < S(0);
     const auto halve = [&]() {
         const S middle = low + (high - low) * S(0.5);
-        ((swept(links, lambda, middle).back() < S(0)) == rises ? low : high) = middle;
+        ((swept(links, height, middle).back() < S(0)) == rises ? low : high) = middle;
         return middle;
     };
     for (int round = 0; round < 16; ++round) {
-        auto found = balance(links, lambda, swept(links, lambda, halve()));
+        auto found = balance(links, height, swept(links, height, halve()));
         if (found.converged) {
             const S d = found.offset[0] - found.offset[1];
             const S tangent = d / (links[0].length * detail::cosine_of(links[0].length, d));
