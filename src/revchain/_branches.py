@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Literal, overload
 
 import numpy as np
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, Whole, count, integer, limit, positive, real
 from ._chain import Chain, compiled
+from ._results import Results
 from ._steady import SteadyShape
 
 if TYPE_CHECKING:
@@ -307,19 +307,18 @@ class Branch:
         return f"Branch {name}: {len(self)} points{folds}, ends at {self.end}"
 
 
-class Branches(Sequence[Branch]):
+class Branches(Results[Branch]):
     """All branches found down to one conical height: those of the modes, slowest first, then isolated ones."""
 
-    __slots__ = ("_branches", "_chain", "_compiled")
+    __slots__ = ("_chain", "_compiled")
     _compiled: _core.Branches
-    _branches: tuple[Branch, ...]
     _chain: Chain
 
     @classmethod
     def _wrap(cls, compiled: _core.Branches, chain: Chain) -> Branches:
         result = object.__new__(cls)
         result._compiled, result._chain = compiled, chain
-        result._branches = tuple(Branch._wrap(each, chain) for each in compiled.branches)
+        result._items = tuple(Branch._wrap(each, chain) for each in compiled.branches)
         return result
 
     @property
@@ -341,19 +340,6 @@ class Branches(Sequence[Branch]):
     def remark(self) -> str:
         """What may be missing, in a sentence."""
         return self._compiled.remark
-
-    @overload
-    def __getitem__(self, index: int) -> Branch: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Branch, ...]: ...
-    def __getitem__(self, index: int | slice) -> Any:
-        return self._branches[index]
-
-    def __len__(self) -> int:
-        return len(self._branches)
-
-    def __iter__(self) -> Iterator[Branch]:
-        return iter(self._branches)
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
         """Draw the diagram: a number of every branch against the speed over the first critical one.
@@ -387,8 +373,8 @@ class Branches(Sequence[Branch]):
         """
         from ._branch_plots import plot_branches
 
-        ax = plot_branches(self._branches, self._chain, ax, quantity=quantity, place="revchain.Branches.plot")
-        if not self._branches:
+        ax = plot_branches(self, self._chain, ax, quantity=quantity, place="revchain.Branches.plot")
+        if not self:
             ax.set_title("no shape at or above this conical height")
         else:
             ax.set_title("all branches: proved complete" if self.complete else "branches found: not proved complete")

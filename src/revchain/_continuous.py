@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, floats, integer, positive, real, refuse_where
 from ._arguments import count as checked_count
+from ._results import Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -169,37 +170,23 @@ class ContinuousShape:
         return f"ContinuousShape: half_waves {self.half_waves}, free end at {tip:.6g} degrees"
 
 
-class ContinuousShapes(Sequence[ContinuousShape]):
+class ContinuousShapes(Results[ContinuousShape]):
     """Steady shapes of a chain without links at one speed, by half waves, then offset of the free end."""
 
-    __slots__ = ("_complete", "_shapes")
+    __slots__ = ("_complete",)
     _complete: bool
-    _shapes: tuple[ContinuousShape, ...]
 
     @classmethod
     def _wrap(cls, compiled: _core.ContinuousShapes, density: _core.LineDensity | None) -> ContinuousShapes:
         result = object.__new__(cls)
         result._complete = compiled.complete
-        result._shapes = tuple(ContinuousShape._wrap(shape, density) for shape in compiled.shapes)
+        result._items = tuple(ContinuousShape._wrap(shape, density) for shape in compiled.shapes)
         return result
 
     @property
     def complete(self) -> bool:
         """Whether a theorem says that none is missing."""
         return self._complete
-
-    @overload
-    def __getitem__(self, index: int) -> ContinuousShape: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[ContinuousShape, ...]: ...
-    def __getitem__(self, index: int | slice) -> Any:
-        return self._shapes[index]
-
-    def __len__(self) -> int:
-        return len(self._shapes)
-
-    def __iter__(self) -> Iterator[ContinuousShape]:
-        return iter(self._shapes)
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw all shapes over one another, true to scale, coloured by half waves.
@@ -226,7 +213,7 @@ class ContinuousShapes(Sequence[ContinuousShape]):
         >>> rc.continuous_shapes(1.0, conical_height=0.02).plot().get_title()
         '4 shapes, all there are'
         """
-        axes = _drawn(self._shapes, ax, length_unit)
+        axes = _drawn(self, ax, length_unit)
         number = f"{len(self)} shape{'s' * (len(self) != 1)}"
         axes.set_title(f"{number}, all there are" if self.complete else f"{number}; there may be more")
         return axes

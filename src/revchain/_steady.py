@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,7 @@ from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, limit, positive, real
 from ._chain import Chain, compiled
 from ._diagrams import ForceDiagram
+from ._results import Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -297,18 +297,17 @@ class SteadyShape:
         return f"SteadyShape: half_waves {self.half_waves}, lowest link at {tip:.6g} degrees"
 
 
-class SteadyShapes(Sequence[SteadyShape]):
+class SteadyShapes(Results[SteadyShape]):
     """All steady shapes of a chain at one speed, by half waves, then inclination of the lowest link."""
 
-    __slots__ = ("_compiled", "_shapes")
+    __slots__ = ("_compiled",)
     _compiled: _core.SteadyShapes
-    _shapes: tuple[SteadyShape, ...]
 
     @classmethod
     def _wrap(cls, compiled: _core.SteadyShapes, chain: Chain) -> SteadyShapes:
         result = object.__new__(cls)
         result._compiled = compiled
-        result._shapes = tuple(SteadyShape._wrap(shape, chain._compiled) for shape in compiled.shapes)
+        result._items = tuple(SteadyShape._wrap(shape, chain._compiled) for shape in compiled.shapes)
         return result
 
     @property
@@ -325,19 +324,6 @@ class SteadyShapes(Sequence[SteadyShape]):
     def cells(self) -> int:
         """How many parts of the range had to be looked at."""
         return self._compiled.cells
-
-    @overload
-    def __getitem__(self, index: int) -> SteadyShape: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[SteadyShape, ...]: ...
-    def __getitem__(self, index: int | slice) -> Any:
-        return self._shapes[index]
-
-    def __len__(self) -> int:
-        return len(self._shapes)
-
-    def __iter__(self) -> Iterator[SteadyShape]:
-        return iter(self._shapes)
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw all shapes over one another, true to scale, coloured by half waves.
@@ -367,7 +353,7 @@ class SteadyShapes(Sequence[SteadyShape]):
         """
         from ._plots import plot_steady_shapes
 
-        axes = plot_steady_shapes(self._shapes, ax, length_unit=length_unit)
+        axes = plot_steady_shapes(self, ax, length_unit=length_unit)
         count = f"{len(self)} shape{'s' * (len(self) != 1)}"
         axes.set_title(f"{count}, proved complete" if self.complete else f"{count}; there may be more")
         return axes
