@@ -11,7 +11,7 @@ import numpy as np
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, Whole, count, integer, limit, positive, real
 from ._chain import Chain, compiled
-from ._results import Results
+from ._results import Result, Results
 from ._steady import SteadyShape
 
 if TYPE_CHECKING:
@@ -39,21 +39,13 @@ class StabilityWindow:
     arc: tuple[float, float]
 
 
-class Branch:
+class Branch(Result[_core.Branch, Chain]):
     """A branch of steady shapes, point by point along its arc, in the units of the chain.
 
     Returned by `branch`, and in what `branches` returns. Arrays have one number for each point.
     """
 
-    __slots__ = ("_chain", "_compiled")
-    _compiled: _core.Branch
-    _chain: Chain
-
-    @classmethod
-    def _wrap(cls, compiled: _core.Branch, chain: Chain) -> Branch:
-        result = object.__new__(cls)
-        result._compiled, result._chain = compiled, chain
-        return result
+    __slots__ = ()
 
     @property
     def mode(self) -> int | None:
@@ -182,7 +174,7 @@ class Branch:
         wanted = integer(place, "point", point)
         if not -len(self) <= wanted < len(self):
             raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
-        return SteadyShape._wrap(self._compiled.shape(wanted % len(self)), self._chain._compiled)
+        return SteadyShape._wrap(self._compiled.shape(wanted % len(self)), self._given._compiled)
 
     def at(
         self,
@@ -221,7 +213,7 @@ class Branch:
         (SteadyShape: half_waves 1, lowest link at 84.2496 degrees,)
         """
         height = _height("revchain.Branch.at", conical_height, angular_speed, gravity)
-        return tuple(SteadyShape._wrap(s, self._chain._compiled) for s in self._compiled.states_at(height))
+        return tuple(SteadyShape._wrap(s, self._given._compiled) for s in self._compiled.states_at(height))
 
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
@@ -263,7 +255,7 @@ class Branch:
             raise ValueError(f"{place}: frame must be 'free' or 'driven', got {frame!r}")
         wide = float(positive(place, "tolerance", real(place, "tolerance", tolerance)))
         places = min(count(place, "samples", samples), 10**6)
-        found = _core.stability_windows(self._chain._compiled, self._compiled, frame == "driven", wide, places)
+        found = _core.stability_windows(self._given._compiled, self._compiled, frame == "driven", wide, places)
         return [StabilityWindow(verdict, (h0, h1), (s0, s1)) for s0, s1, h0, h1, verdict in found]
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
@@ -296,7 +288,7 @@ class Branch:
         """
         from ._branch_plots import plot_branches
 
-        return plot_branches([self], self._chain, ax, quantity=quantity, place="revchain.Branch.plot")
+        return plot_branches([self], self._given, ax, quantity=quantity, place="revchain.Branch.plot")
 
     def __len__(self) -> int:
         return int(self.arc.size)

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, floats, integer, positive, real, refuse_where
 from ._arguments import count as checked_count
-from ._results import Results
+from ._results import Result, Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,22 +31,14 @@ class ContinuousPlace(NamedTuple):
     """In the unit of line density times length."""
 
 
-class ContinuousShape:
+class ContinuousShape(Result[_core.ContinuousShape, _core.LineDensity | None]):
     """One steady shape of a chain without links, in the units of the chain.
 
     Returned by `continuous_shapes`. Call it for the place at an arc length; the arrays are dense where the
     chain turns sharply.
     """
 
-    __slots__ = ("_compiled", "_density")
-    _compiled: _core.ContinuousShape
-    _density: _core.LineDensity | None  # which the compiled shape points to
-
-    @classmethod
-    def _wrap(cls, compiled: _core.ContinuousShape, density: _core.LineDensity | None) -> ContinuousShape:
-        shape = object.__new__(cls)
-        shape._compiled, shape._density = compiled, density
-        return shape
+    __slots__ = ()  # the compiled shape points to the density given
 
     @property
     def arc_length(self) -> Floats:

@@ -10,12 +10,13 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, floats, positive, real
+from ._results import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class ForceDiagram:
+class ForceDiagram(Result[_core.ForceDiagram, None]):
     """The graphical construction of a steady shape as data; links lowest first, pins free end first.
 
     Returned by `SteadyShape.force_diagram`. Points are rows ``(x from the axis, z upwards)``. The vertices
@@ -24,14 +25,7 @@ class ForceDiagram:
     what pulls along it.
     """
 
-    __slots__ = ("_compiled",)
-    _compiled: _core.ForceDiagram
-
-    @classmethod
-    def _wrap(cls, compiled: _core.ForceDiagram) -> ForceDiagram:
-        result = object.__new__(cls)
-        result._compiled = compiled
-        return result
+    __slots__ = ()
 
     @property
     def pin(self) -> Floats:
@@ -165,26 +159,18 @@ class TransverseModes(NamedTuple):
         return seconds
 
 
-class FunicularPolygon:
+class FunicularPolygon(Result[_core.FunicularPolygon, Floats]):
     """Weights on a thread between two supports, at rest in a vertical plane.
 
     Returned by `funicular_polygon`; from the first support to the last.
     """
 
-    __slots__ = ("_compiled", "_weight")
-    _compiled: _core.FunicularPolygon
-    _weight: Floats
-
-    @classmethod
-    def _wrap(cls, compiled: _core.FunicularPolygon, weight: Floats) -> FunicularPolygon:
-        result = object.__new__(cls)
-        result._compiled, result._weight = compiled, weight
-        return result
+    __slots__ = ()
 
     @property
     def weight(self) -> Floats:
         """The weights, shape (n,)."""
-        return self._weight
+        return self._given
 
     @property
     def place(self) -> Floats:

@@ -1,12 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the lists of results share."""
+"""What the classes around compiled results share: how one is made, and lists of them."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, TypeVar, overload
+from typing import Any, Generic, Self, TypeVar, overload
 
+Compiled = TypeVar("Compiled")
+Given = TypeVar("Given")
 Item = TypeVar("Item")
+
+
+class Result(Generic[Compiled, Given]):
+    """A compiled result and what was given for it that it does not hold itself; functions of this package make it."""
+
+    __slots__ = ("_compiled", "_given")
+    _compiled: Compiled
+    _given: Given
+
+    @classmethod
+    def _wrap(cls, compiled: Compiled, given: Given) -> Self:
+        result = object.__new__(cls)
+        result._compiled, result._given = compiled, given
+        return result
 
 
 class Results(Sequence[Item]):

@@ -12,32 +12,24 @@ from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, limit, positive, real
 from ._chain import Chain, compiled
 from ._diagrams import ForceDiagram
-from ._results import Results
+from ._results import Result, Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class Stability:
+class Stability(Result[_core.Stability, str]):
     """What becomes of a small disturbance of a steady shape; times in units of 1/n, the turning speed.
 
     Returned by `SteadyShape.stability`.
     """
 
-    __slots__ = ("_compiled", "_frame")
-    _compiled: _core.Stability
-    _frame: str
-
-    @classmethod
-    def _wrap(cls, compiled: _core.Stability, frame: str) -> Stability:
-        result = object.__new__(cls)
-        result._compiled, result._frame = compiled, frame
-        return result
+    __slots__ = ()
 
     @property
     def frame(self) -> str:
         """``free`` or ``driven``."""
-        return self._frame
+        return self._given
 
     @property
     def verdict(self) -> str:
@@ -73,21 +65,13 @@ class Stability:
         return f"Stability ({self.frame}): {self.verdict}, growth rate {self.growth_rate:.3g} n"
 
 
-class SteadyShape:
+class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
     """One steady shape: links lowest first, pins free end first, in the units of the chain.
 
     Returned by `steady_shapes`.
     """
 
-    __slots__ = ("_chain", "_compiled")
-    _compiled: _core.SteadyShape
-    _chain: _core.Chain
-
-    @classmethod
-    def _wrap(cls, compiled: _core.SteadyShape, chain: _core.Chain) -> SteadyShape:
-        shape = object.__new__(cls)
-        shape._compiled, shape._chain = compiled, chain
-        return shape
+    __slots__ = ()
 
     @property
     def inclination(self) -> Floats:
@@ -211,7 +195,7 @@ class SteadyShape:
         """
         if frame not in ("free", "driven"):
             raise ValueError(f"revchain.SteadyShape.stability: frame must be 'free' or 'driven', got {frame!r}")
-        return Stability._wrap(_core.stability(self._chain, self._compiled, frame == "driven"), frame)
+        return Stability._wrap(_core.stability(self._given, self._compiled, frame == "driven"), frame)
 
     def force_diagram(self) -> ForceDiagram:
         """Return the graphical construction of the shape: force diagram and funicular polygon.
@@ -236,7 +220,7 @@ class SteadyShape:
         >>> bool(np.allclose(side[:, 0] / side[:, 1], diagram.ray[:, 0] / diagram.ray[:, 1], rtol=1e-14))
         True
         """
-        return ForceDiagram._wrap(_core.force_diagram(self._chain, self._compiled))
+        return ForceDiagram._wrap(_core.force_diagram(self._given, self._compiled), None)
 
     def transferred_to_axis(self) -> Chain:
         """Return the straight chain whose weights hang on the axis, level with where they are in the shape.
@@ -259,8 +243,7 @@ class SteadyShape:
         >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
         array([0.5       , 0.08366581])
         """
-
-        return Chain._wrap(_core.transferred_to_axis(self._chain, self._compiled))
+        return Chain._wrap(_core.transferred_to_axis(self._given, self._compiled))
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw the shape, true to scale.
