@@ -9,15 +9,24 @@ from typing import TYPE_CHECKING, Literal, overload
 import numpy as np
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, Whole, count, integer, limit, positive, real
+from ._arguments import (
+    STANDARD_GRAVITY,
+    Floats,
+    Whole,
+    boolean,
+    count,
+    exactly_one,
+    height_of,
+    integer,
+    limit,
+    one_positive,
+)
 from ._chain import Chain, compiled
 from ._results import Result, Results
 from ._steady import SteadyShape
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-GIVEN = ("conical_height", "angular_speed", "tip_inclination", "tip_radius", "top_tension")
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +150,7 @@ class Branch(Result[_core.Branch, Chain]):
         array([2.3968, 9.9029])
         """
         place = "revchain.Branch.angular_speed"
-        g = float(positive(place, "gravity", real(place, "gravity", gravity)))
+        g = one_positive(place, "gravity", gravity)
         speed: Floats = np.sqrt(g) / np.sqrt(self.conical_height)
         return speed
 
@@ -212,7 +221,7 @@ class Branch(Result[_core.Branch, Chain]):
         >>> branch.at(conical_height=0.2)
         (SteadyShape: half_waves 1, lowest link at 84.2496 degrees,)
         """
-        height = _height("revchain.Branch.at", conical_height, angular_speed, gravity)
+        height = height_of("revchain.Branch.at", conical_height, angular_speed, gravity)
         return tuple(SteadyShape._wrap(s, self._given._compiled) for s in self._compiled.states_at(height))
 
     def stability_windows(
@@ -253,7 +262,7 @@ class Branch(Result[_core.Branch, Chain]):
         place = "revchain.Branch.stability_windows"
         if frame not in ("free", "driven"):
             raise ValueError(f"{place}: frame must be 'free' or 'driven', got {frame!r}")
-        wide = float(positive(place, "tolerance", real(place, "tolerance", tolerance)))
+        wide = one_positive(place, "tolerance", tolerance)
         places = min(count(place, "samples", samples), 10**6)
         found = _core.stability_windows(self._given._compiled, self._compiled, frame == "driven", wide, places)
         return [StabilityWindow(verdict, (h0, h1), (s0, s1)) for s0, s1, h0, h1, verdict in found]
@@ -434,9 +443,9 @@ def branch(
     """
     place = "revchain.branch"
     number = count(place, "mode", mode)
-    height = _height(place, conical_height, angular_speed, gravity)
+    height = height_of(place, conical_height, angular_speed, gravity)
     points = count(place, "most_points", most_points)
-    step = float(positive(place, "longest_step", real(place, "longest_step", longest_step)))
+    step = one_positive(place, "longest_step", longest_step)
     return Branch._wrap(_core.branch(compiled(place, chain), number, height, points, step), chain)
 
 
@@ -503,7 +512,7 @@ def branches(
     np.float64(3.9037621569)
     """
     place = "revchain.branches"
-    height = _height(place, conical_height, up_to, gravity, speed_name="up_to")
+    height = height_of(place, conical_height, up_to, gravity, speed_name="up_to")
     at = min(count(place, "lists", lists), 10**6)
     most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
     return Branches._wrap(_core.branches(compiled(place, chain), height, at, most, most_of_proof), chain)
@@ -609,32 +618,19 @@ def steady_shape(
     """
     place = "revchain.steady_shape"
     number = count(place, "mode", mode)
-    values = (conical_height, angular_speed, tip_inclination, tip_radius, top_tension)
-    given = [(name, value) for name, value in zip(GIVEN, values, strict=True) if value is not None]
-    if len(given) != 1:
-        raise ValueError(f"{place}: give exactly one of {', '.join(GIVEN)}")
-    name = given[0][0]
-    value = float(positive(place, name, real(place, name, given[0][1])))
-    g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-    if not isinstance(all, (bool, np.bool_)):
-        raise TypeError(f"{place}: all must be True or False, got {all!r}")
-    lowest = None if down_to is None else float(positive(place, "down_to", real(place, "down_to", down_to)))
-    if not all:
-        return SteadyShape._wrap(
-            _core.steady_shape(compiled(place, chain), number, name, value, g, lowest), chain._compiled
-        )
-    found = _core.shapes_on_branch(compiled(place, chain), number, name, value, g, lowest)
-    return tuple(SteadyShape._wrap(shape, chain._compiled) for shape in found)
-
-
-def _height(
-    place: str, conical_height: float | None, speed: float | None, gravity: float, speed_name: str = "angular_speed"
-) -> float:
-    """The conical height given, or that of the speed given."""
-    if (conical_height is None) == (speed is None):
-        raise ValueError(f"{place}: give exactly one of conical_height and {speed_name}")
-    if conical_height is not None:
-        return float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
-    n = positive(place, speed_name, real(place, speed_name, speed))
-    g = positive(place, "gravity", real(place, "gravity", gravity))
-    return float(_core.conical_pendulum_height(n, g))
+    name, value = exactly_one(
+        place,
+        conical_height=conical_height,
+        angular_speed=angular_speed,
+        tip_inclination=tip_inclination,
+        tip_radius=tip_radius,
+        top_tension=top_tension,
+    )
+    g = one_positive(place, "gravity", gravity)
+    every = boolean(place, "all", all)
+    lowest = None if down_to is None else one_positive(place, "down_to", down_to)
+    core = compiled(place, chain)
+    if not every:
+        return SteadyShape._wrap(_core.steady_shape(core, number, name, value, g, lowest), core)
+    found = _core.shapes_on_branch(core, number, name, value, g, lowest)
+    return tuple(SteadyShape._wrap(shape, core) for shape in found)

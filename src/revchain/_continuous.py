@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, integer, positive, real, refuse_where
+from ._arguments import STANDARD_GRAVITY, Floats, floats, height_of, integer, one_positive, real, refuse_where
 from ._arguments import count as checked_count
 from ._results import Result, Results
 
@@ -238,7 +238,7 @@ def _drawn(shapes: Sequence[ContinuousShape], ax: Axes | None, length_unit: str)
 def _chain(
     place: str, length: float, tip_weight: float, line_density: Callable[[float], float] | None
 ) -> tuple[float, float, _core.LineDensity | None]:
-    long = float(positive(place, "length", real(place, "length", length)))
+    long = one_positive(place, "length", length)
     tip = real(place, "tip_weight", tip_weight)
     if not 0 <= tip < np.inf:
         raise ValueError(f"{place}: tip_weight must be finite and not negative, got {tip:g}")
@@ -321,17 +321,10 @@ def continuous_shapes(
     2.705556715
     """
     place = "revchain.continuous_shapes"
-    if (conical_height is None) == (angular_speed is None):
-        raise ValueError(f"{place}: give exactly one of conical_height and angular_speed")
+    height = height_of(place, conical_height, angular_speed, gravity)
     looks = integer(place, "scanned", scanned)
     if not 1 <= looks <= 10**6:
         raise ValueError(f"{place}: scanned must be from 1 to 1000000, got {looks}")
-    if conical_height is not None:
-        height = float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
-    else:
-        speed = float(positive(place, "angular_speed", real(place, "angular_speed", angular_speed)))
-        g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-        height = float(positive(place, "gravity / angular_speed**2", g / speed / speed))
     long, tip, density = _chain(place, length, tip_weight, line_density)
     return ContinuousShapes._wrap(_core.continuous_shapes(long, tip, density, height, looks), density)
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, floats, one_positive, positive, real
 from ._results import Result
 
 if TYPE_CHECKING:
@@ -154,7 +154,7 @@ class TransverseModes(NamedTuple):
         array([0.7094])
         """
         place = "revchain.TransverseModes.period"
-        g = float(positive(place, "gravity", real(place, "gravity", gravity)))
+        g = one_positive(place, "gravity", gravity)
         seconds: Floats = 2 * np.pi * np.sqrt(self.conical_height / g)
         return seconds
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, limit, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, boolean, exactly_one, limit, one_positive
 from ._chain import Chain, compiled
 from ._diagrams import ForceDiagram
 from ._results import Result, Results
@@ -163,7 +163,7 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         0.338701
         """
         place = "revchain.SteadyShape.angular_momentum"
-        g = float(positive(place, "gravity", real(place, "gravity", gravity)))
+        g = one_positive(place, "gravity", gravity)
         return self.moment_of_inertia / g * float(np.sqrt(g / self.conical_height))
 
     def stability(self, *, frame: str = "free") -> Stability:
@@ -411,16 +411,11 @@ def steady_shapes(
     [3, 14]
     """
     place = "revchain.steady_shapes"
-    if (conical_height is None) == (angular_speed is None):
-        raise ValueError(f"{place}: give exactly one of conical_height and angular_speed")
+    name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
     core = compiled(place, chain)
     most = limit(place, "budget", budget)
-    if not isinstance(hanging_only, (bool, np.bool_)):
-        raise TypeError(f"{place}: hanging_only must be True or False, got {hanging_only!r}")
-    hanging = bool(hanging_only)
-    if conical_height is not None:
-        height = float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
-        return SteadyShapes._wrap(_core.steady_shapes(core, height, most, hanging), chain)
-    speed = float(positive(place, "angular_speed", real(place, "angular_speed", angular_speed)))
-    g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-    return SteadyShapes._wrap(_core.steady_shapes_at_speed(core, speed, g, most, hanging), chain)
+    hanging = boolean(place, "hanging_only", hanging_only)
+    if name == "conical_height":
+        return SteadyShapes._wrap(_core.steady_shapes(core, value, most, hanging), chain)
+    g = one_positive(place, "gravity", gravity)
+    return SteadyShapes._wrap(_core.steady_shapes_at_speed(core, value, g, most, hanging), chain)
