@@ -6,9 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, overload
 
-import numpy as np
-
-from . import _core
+from . import _core, conical_pendulum
 from ._arguments import (
     STANDARD_GRAVITY,
     Floats,
@@ -23,7 +21,7 @@ from ._arguments import (
 )
 from ._chain import Chain, compiled
 from ._results import Result, Results
-from ._steady import SteadyShape
+from ._steady import SteadyShape, is_driven
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -149,9 +147,8 @@ class Branch(Result[_core.Branch, Chain]):
         >>> branch.angular_speed()[[0, -1]].round(4)
         array([2.3968, 9.9029])
         """
-        place = "revchain.Branch.angular_speed"
-        g = one_positive(place, "gravity", gravity)
-        speed: Floats = np.sqrt(g) / np.sqrt(self.conical_height)
+        g = one_positive("revchain.Branch.angular_speed", "gravity", gravity)
+        speed: Floats = conical_pendulum.angular_speed(self.conical_height, g)
         return speed
 
     def shape(self, point: int) -> SteadyShape:
@@ -260,11 +257,10 @@ class Branch(Result[_core.Branch, Chain]):
         unstable 0.1
         """
         place = "revchain.Branch.stability_windows"
-        if frame not in ("free", "driven"):
-            raise ValueError(f"{place}: frame must be 'free' or 'driven', got {frame!r}")
+        driven = is_driven(place, frame)
         wide = one_positive(place, "tolerance", tolerance)
         places = min(count(place, "samples", samples), 10**6)
-        found = _core.stability_windows(self._given._compiled, self._compiled, frame == "driven", wide, places)
+        found = _core.stability_windows(self._given._compiled, self._compiled, driven, wide, places)
         return [StabilityWindow(verdict, (h0, h1), (s0, s1)) for s0, s1, h0, h1, verdict in found]
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:

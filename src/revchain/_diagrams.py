@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _core
+from . import _core, conical_pendulum
 from ._arguments import STANDARD_GRAVITY, Floats, floats, one_positive, positive, real
 from ._results import Result
 
@@ -153,9 +152,8 @@ class TransverseModes(NamedTuple):
         >>> rc.transverse_modes([2.0], [0.0, 1.0, 2.0], tension=8.0).period().round(4)
         array([0.7094])
         """
-        place = "revchain.TransverseModes.period"
-        g = one_positive(place, "gravity", gravity)
-        seconds: Floats = 2 * np.pi * np.sqrt(self.conical_height / g)
+        g = one_positive("revchain.TransverseModes.period", "gravity", gravity)
+        seconds: Floats = conical_pendulum.period(self.conical_height, g)
         return seconds
 
 

@@ -8,14 +8,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, boolean, exactly_one, limit, one_positive
+from . import _core, conical_pendulum
+from ._arguments import STANDARD_GRAVITY, Floats, boolean, exactly_one, limit, one_positive, shown
 from ._chain import Chain, compiled
 from ._diagrams import ForceDiagram
 from ._results import Result, Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+def is_driven(place: str, frame: str) -> bool:
+    """Whether `frame` is the driven one; a ValueError unless it is that or the free one."""
+    if not isinstance(frame, str) or frame not in ("free", "driven"):
+        raise ValueError(f"{place}: frame must be 'free' or 'driven', got {shown(frame)}")
+    return frame == "driven"
 
 
 class Stability(Result[_core.Stability, str]):
@@ -164,7 +171,7 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         """
         place = "revchain.SteadyShape.angular_momentum"
         g = one_positive(place, "gravity", gravity)
-        return self.moment_of_inertia / g * float(np.sqrt(g / self.conical_height))
+        return self.moment_of_inertia / g * float(conical_pendulum.angular_speed(self.conical_height, g))
 
     def stability(self, *, frame: str = "free") -> Stability:
         """Say what becomes of a small disturbance.
@@ -193,9 +200,8 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         >>> [shape.stability().verdict for shape in pair]
         ['minimum', 'unstable']
         """
-        if frame not in ("free", "driven"):
-            raise ValueError(f"revchain.SteadyShape.stability: frame must be 'free' or 'driven', got {frame!r}")
-        return Stability._wrap(_core.stability(self._given, self._compiled, frame == "driven"), frame)
+        driven = is_driven("revchain.SteadyShape.stability", frame)
+        return Stability._wrap(_core.stability(self._given, self._compiled, driven), frame)
 
     def force_diagram(self) -> ForceDiagram:
         """Return the graphical construction of the shape: force diagram and funicular polygon.
