@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._arguments import Floats
-from ._plots import new_axes
+from ._plots import half_waves_style, new_axes
 from ._solve import modes
 
 if TYPE_CHECKING:
@@ -43,9 +43,7 @@ def plot_branches(
         waves = int(branch.half_waves[0])
         speed = np.sqrt(first / branch.conical_height)
         value = _values(branch, quantity)
-        label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
-        named.add(waves)
-        colour = f"C{(waves - 1) % 10}"
+        colour, label = half_waves_style(waves, named)
         style = "-" if branch.mode is not None else "--"
         ax.plot(speed, value, style, color=colour, linewidth=1.6, label=label)
         if branch.mode is not None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -155,7 +155,9 @@ class ContinuousShape(Result[_core.ContinuousShape, _core.LineDensity | None]):
         >>> ax.get_ylabel()
         'above the support (m)'
         """
-        return _drawn([self], ax, length_unit)
+        from ._plots import plot_shapes
+
+        return plot_shapes([self], ax, linked=False, length_unit=length_unit)
 
     def __repr__(self) -> str:
         tip = np.degrees(self.inclination[0])
@@ -205,34 +207,15 @@ class ContinuousShapes(Results[ContinuousShape]):
         >>> rc.continuous_shapes(1.0, conical_height=0.02).plot().get_title()
         '4 shapes, all there are'
         """
-        axes = _drawn(self, ax, length_unit)
+        from ._plots import plot_shapes
+
+        axes = plot_shapes(self, ax, linked=False, length_unit=length_unit)
         number = f"{len(self)} shape{'s' * (len(self) != 1)}"
         axes.set_title(f"{number}, all there are" if self.complete else f"{number}; there may be more")
         return axes
 
     def __repr__(self) -> str:
         return f"ContinuousShapes: {len(self)}, {'all there are' if self.complete else 'there may be more'}"
-
-
-def _drawn(shapes: Sequence[ContinuousShape], ax: Axes | None, length_unit: str) -> Axes:
-    from ._plots import keep_room, new_axes
-
-    if ax is None:
-        ax = new_axes(5.0, 6.0)
-    ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-    named = set()
-    for shape in shapes:
-        waves = shape.half_waves
-        label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
-        named.add(waves)
-        ax.plot(shape.offset, shape.height, color=f"C{(waves - 1) % 10}", linewidth=1.4, label=label)
-        ax.plot(shape.offset[0], shape.height[0], color=f"C{(waves - 1) % 10}", marker="o", markersize=3.5)
-    ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
-    ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the support ({length_unit})", aspect="equal")
-    keep_room(ax)
-    if named:
-        ax.legend(fontsize="small")
-    return ax
 
 
 def _chain(

@@ -3,13 +3,11 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._extras import require
-from ._plots import keep_room
+from ._plots import keep_room, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,10 +18,7 @@ MOST_LETTERED = 8  # points of one kind with a letter each
 
 
 def _two_axes(width: float, height: float) -> tuple[Axes, Axes]:
-    free = require("matplotlib.figure", "plot", "plotting").Figure
-    pyplot = sys.modules.get("matplotlib.pyplot")
-    figure = (pyplot.figure if pyplot is not None else free)(figsize=(width, height), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    left, right = new_figure(width, height).subplots(1, 2)
     return left, right
 
 

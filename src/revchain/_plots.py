@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,8 +15,10 @@ from ._tables import digits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from ._chain import Chain
+    from ._continuous import ContinuousShape
     from ._modes import Modes
     from ._steady import SteadyShape
     from .governor import GovernorMotion
@@ -29,13 +31,17 @@ SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches 
 WIDEST_RATIO = 1e3  # of weights on a linear scale
 
 
-def new_axes(width: float, height: float) -> Axes:
-    """Axes on a new figure: pyplot's where the caller uses pyplot, so that it shows; else a free one."""
+def new_figure(width: float, height: float) -> Figure:
+    """A figure: pyplot's where the caller uses pyplot, so that it shows; else a free one."""
     free = require("matplotlib.figure", "plot", "plotting").Figure
     pyplot = sys.modules.get("matplotlib.pyplot")
-    figure = (pyplot.figure if pyplot is not None else free)(figsize=(width, height), layout="constrained")
-    axes: Axes = figure.add_subplot()
-    return axes
+    figure: Figure = (pyplot.figure if pyplot is not None else free)(figsize=(width, height), layout="constrained")
+    return figure
+
+
+def new_axes(width: float, height: float) -> Axes:
+    """Axes on a figure of their own."""
+    return new_figure(width, height).add_subplot()
 
 
 def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gravity: float, length_unit: str) -> Axes:
@@ -241,30 +247,32 @@ def keep_room(ax: Axes, share: float = 0.35) -> None:
         ax.set_xlim((left + right - share * tall) / 2, (left + right + share * tall) / 2)
 
 
-def plot_steady_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, *, length_unit: str) -> Axes:
-    """See `SteadyShapes.plot`."""
+def half_waves_style(waves: int, named: set[int]) -> tuple[str, str | None]:
+    """Colour of a curve with so many half waves, and its label if none is in `named` yet, which grows by it."""
+    label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
+    named.add(waves)
+    return f"C{(waves - 1) % 10}", label
+
+
+def plot_shapes(
+    shapes: Iterable[SteadyShape | ContinuousShape], ax: Axes | None, *, linked: bool, length_unit: str
+) -> Axes:
+    """See `SteadyShapes.plot` and `ContinuousShapes.plot`; dots mark the pins of linked shapes, else the free end."""
     if ax is None:
         ax = new_axes(5.0, 6.0)
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-    named = set()
+    named: set[int] = set()
     for shape in shapes:
-        marker = "o" if shape.offset.size <= MOST_PINS_AS_DOTS else ""
-        waves = shape.half_waves
-        label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
-        named.add(waves)
-        kept = thinned(shape.offset)
-        ax.plot(
-            shape.offset[kept],
-            shape.height[kept],
-            color=f"C{(waves - 1) % 10}",
-            linewidth=1.4,
-            marker=marker,
-            markersize=3.0,
-            label=label,
-        )
+        x, z = shape.offset, shape.height
+        colour, label = half_waves_style(shape.half_waves, named)
+        marker = "o" if linked and x.size <= MOST_PINS_AS_DOTS else ""
+        kept = thinned(x) if linked else slice(None)
+        ax.plot(x[kept], z[kept], color=colour, linewidth=1.4, marker=marker, markersize=3.0, label=label)
+        if not linked:
+            ax.plot(x[0], z[0], color=colour, marker="o", markersize=3.5)
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
     ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the support ({length_unit})", aspect="equal")
     keep_room(ax)
     if named:
-        ax.legend()
+        ax.legend(fontsize=None if linked else "small")
     return ax

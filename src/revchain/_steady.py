@@ -277,9 +277,9 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         >>> ax.get_xlabel()
         'from the axis (m)'
         """
-        from ._plots import plot_steady_shapes
+        from ._plots import plot_shapes
 
-        return plot_steady_shapes([self], ax, length_unit=length_unit)
+        return plot_shapes([self], ax, linked=True, length_unit=length_unit)
 
     def __repr__(self) -> str:
         tip = np.degrees(self.inclination[0])
@@ -340,9 +340,9 @@ class SteadyShapes(Results[SteadyShape]):
         >>> ax.get_title()
         '5 shapes, proved complete'
         """
-        from ._plots import plot_steady_shapes
+        from ._plots import plot_shapes
 
-        axes = plot_steady_shapes(self, ax, length_unit=length_unit)
+        axes = plot_shapes(self, ax, linked=True, length_unit=length_unit)
         count = f"{len(self)} shape{'s' * (len(self) != 1)}"
         axes.set_title(f"{count}, proved complete" if self.complete else f"{count}; there may be more")
         return axes
