@@ -144,6 +144,13 @@ def test_pictures():
         diagram.plot(quantity="colour")
 
 
+def test_a_picture_goes_into_one_that_is_labelled():
+    ax = pytest.importorskip("matplotlib.figure").Figure().add_subplot()
+    ax.plot([1.0, 2.0], [0.0, 80.0], label="measured")
+    assert rc.branches(equal(2), conical_height=0.1).plot(ax) is ax
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["1 half wave", "2 half waves", "measured"]
+
+
 def test_an_empty_diagram_says_so():
     pytest.importorskip("matplotlib")
     empty = rc.branches(equal(3), conical_height=10.0)
