@@ -8,7 +8,7 @@ import operator
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from numbers import Real
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,7 @@ from . import _core
 Floats = NDArray[np.float64]
 Numbers = NDArray[Any]  # float32, float64 or longdouble, by the precision asked for
 Whole = NDArray[np.int64]
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
@@ -182,7 +183,7 @@ def shown(value: object, width: int = 60) -> str:
     return text if len(text) <= width else text[: width - 3] + "..."
 
 
-def read_only(array: NDArray[np.generic]) -> NDArray[np.generic]:
+def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
     """A view of `array` that cannot be written to."""
     view = array.view()
     view.flags.writeable = False

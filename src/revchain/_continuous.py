@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, height_of, integer, one_positive, real, refuse_where
+from ._arguments import STANDARD_GRAVITY, Floats, floats, height_of, integer, numbers, one_positive, real, refuse_where, shown
 from ._arguments import count as checked_count
 from ._results import Result, Results
 
@@ -19,16 +19,24 @@ if TYPE_CHECKING:
 
 
 class ContinuousPlace(NamedTuple):
-    """Places on a whirling chain; numbers, or arrays of one shape."""
+    """What there is at places of a whirling chain.
+
+    Attributes
+    ----------
+    offset : float or ndarray
+        From the axis.
+    height : float or ndarray
+        Above the support: negative where the chain hangs.
+    inclination : float or ndarray
+        To the vertical, rad; positive where the chain leads towards the axis going up, as it does at the free end.
+    tension : float or ndarray
+        In the unit of line density times length.
+    """
 
     offset: Any
-    """From the axis."""
     height: Any
-    """Above the support: negative where the chain hangs."""
     inclination: Any
-    """To the vertical, rad; positive where the chain leads towards the axis going up, as it does at the free end."""
     tension: Any
-    """In the unit of line density times length."""
 
 
 class ContinuousShape(Result[_core.ContinuousShape, _core.LineDensity | None]):
@@ -127,7 +135,7 @@ class ContinuousShape(Result[_core.ContinuousShape, _core.LineDensity | None]):
         place = "revchain.ContinuousShape"
         arc = floats(place, "arc_length", arc_length)
         refuse_where(~((arc >= 0) & (arc <= self.length)), arc, f"{place}: arc_length must lie between 0 and length")
-        return ContinuousPlace(*(values[()] for values in self._compiled.at(arc)))
+        return ContinuousPlace(*numbers(self._compiled.at(arc)))
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw the shape, true to scale.
@@ -218,9 +226,10 @@ class ContinuousShapes(Results[ContinuousShape]):
         return f"ContinuousShapes: {len(self)}, {'all there are' if self.complete else 'there may be more'}"
 
 
-def _chain(
+def _checked(
     place: str, length: float, tip_weight: float, line_density: Callable[[float], float] | None
 ) -> tuple[float, float, _core.LineDensity | None]:
+    """Length, tip weight and line density as the compiled module takes them."""
     long = one_positive(place, "length", length)
     tip = real(place, "tip_weight", tip_weight)
     if not 0 <= tip < np.inf:
@@ -228,7 +237,9 @@ def _chain(
     if line_density is None:
         return long, tip, None
     if not callable(line_density):
-        raise TypeError(f"{place}: line_density must be a function of the distance from the free end")
+        raise TypeError(
+            f"{place}: line_density must be a function of the distance from the free end, got {shown(line_density)}"
+        )
 
     def checked(s: float) -> float:
         return real(place, f"line_density({s:g})", line_density(s))
@@ -308,7 +319,7 @@ def continuous_shapes(
     looks = integer(place, "scanned", scanned)
     if not 1 <= looks <= 10**6:
         raise ValueError(f"{place}: scanned must be from 1 to 1000000, got {looks}")
-    long, tip, density = _chain(place, length, tip_weight, line_density)
+    long, tip, density = _checked(place, length, tip_weight, line_density)
     return ContinuousShapes._wrap(_core.continuous_shapes(long, tip, density, height, looks), density)
 
 
@@ -359,5 +370,5 @@ def continuous_critical_heights(
     number = checked_count(place, "count", count)
     if number > 100_000:
         raise ValueError(f"{place}: count must be at most 100000, got {number}")
-    long, tip, density = _chain(place, length, tip_weight, line_density)
+    long, tip, density = _checked(place, length, tip_weight, line_density)
     return _core.continuous_critical_heights(long, tip, density, number)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from numpy.typing import ArrayLike
 
 from . import _core, conical_pendulum
-from ._arguments import STANDARD_GRAVITY, Floats, floats, one_positive, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, floats, one_positive, positive, read_only, real
 from ._results import Result
 
 if TYPE_CHECKING:
@@ -305,9 +305,7 @@ def funicular_polygon(
         real(name, "first_height", first_height),
         real(name, "last_height", last_height),
     )
-    kept = weights.copy()
-    kept.flags.writeable = False
-    return FunicularPolygon._wrap(compiled, kept)
+    return FunicularPolygon._wrap(compiled, read_only(weights.copy()))
 
 
 def transverse_modes(weight: ArrayLike, place: ArrayLike, tension: float) -> TransverseModes:
@@ -350,6 +348,7 @@ def transverse_modes(weight: ArrayLike, place: ArrayLike, tension: float) -> Tra
 
 
 def _string(name: str, weight: ArrayLike, place: ArrayLike) -> tuple[Floats, Floats]:
+    """Weights, positive, and places, both of one axis; how many there are is left to the compiled module."""
     weights, at = positive(name, "weight", weight), floats(name, "place", place)
     for given, array in (("weight", weights), ("place", at)):
         if array.ndim != 1:

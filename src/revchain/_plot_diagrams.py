@@ -18,11 +18,13 @@ MOST_LETTERED = 8  # points of one kind with a letter each
 
 
 def _two_axes(width: float, height: float) -> tuple[Axes, Axes]:
+    """Side by side on a figure of their own."""
     left, right = new_figure(width, height).subplots(1, 2)
     return left, right
 
 
 def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black") -> None:
+    """Write a letter beside a point, to the right of it or to the left."""
     ax.annotate(
         f"${text}$",
         (x, z),
@@ -34,6 +36,7 @@ def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: 
 
 
 def _finish(ax: Axes, across: str, up: str, title: str) -> None:
+    """Write what the axes are, and leave room for the letters."""
     ax.margins(0.12)
     ax.set(xlabel=across, ylabel=up, title=title, aspect="equal")
     keep_room(ax)
