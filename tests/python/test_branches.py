@@ -6,11 +6,7 @@ import math
 import numpy as np
 import pytest
 import revchain as rc
-
-
-def equal(links: int) -> rc.Chain:
-    """Plummets of length 1 each."""
-    return rc.Chain.uniform_plummets(links, length=float(links))
+from mechanics import plummets
 
 
 def test_one_link_is_the_conical_pendulum():
@@ -52,7 +48,7 @@ def test_what_is_asked_comes_back(links, mode):
 
 @pytest.mark.parametrize("links", [2, 3, 4, 5])
 def test_the_diagram_holds_every_shape_there_is(links):
-    chain = equal(links)
+    chain = plummets(links)
     diagram = rc.branches(chain, conical_height=0.015)
     assert diagram.consistent
     assert diagram.complete
@@ -66,7 +62,7 @@ def test_the_diagram_holds_every_shape_there_is(links):
 
 
 def test_a_pair_is_born_on_no_branch_of_the_vertical():
-    diagram = rc.branches(equal(3), up_to=5.0, gravity=1.0)
+    diagram = rc.branches(plummets(3), up_to=5.0, gravity=1.0)
     born = diagram[-1]
     assert born.mode is None
     assert [branch.mode for branch in diagram] == [1, 2, 3, None]
@@ -95,15 +91,15 @@ def test_a_loop_between_the_heights_looked_at_is_found_by_the_proof():
 
 
 def test_all_states_of_one_branch():
-    out_and_back = rc.steady_shape(equal(3), mode=2, tip_radius=0.53, all=True)
+    out_and_back = rc.steady_shape(plummets(3), mode=2, tip_radius=0.53, all=True)
     assert len(out_and_back) == 2
     assert out_and_back[0].conical_height > out_and_back[1].conical_height
-    assert rc.steady_shape(equal(3), mode=2, tip_radius=0.53).conical_height == out_and_back[0].conical_height
-    assert rc.steady_shape(equal(3), mode=3, tip_radius=2.5, all=True) == ()
+    assert rc.steady_shape(plummets(3), mode=2, tip_radius=0.53).conical_height == out_and_back[0].conical_height
+    assert rc.steady_shape(plummets(3), mode=3, tip_radius=2.5, all=True) == ()
 
 
 def test_windows_of_stability():
-    chain = equal(2)
+    chain = plummets(2)
     second = rc.modes(chain).conical_height[1]
     branch = rc.branch(chain, 2, conical_height=0.1 * second)
     stable, unstable = branch.stability_windows(tolerance=1e-9)
@@ -131,7 +127,7 @@ def test_points_and_shapes_agree():
 
 def test_pictures():
     pytest.importorskip("matplotlib")
-    diagram = rc.branches(equal(3), up_to=5.0, gravity=1.0)
+    diagram = rc.branches(plummets(3), up_to=5.0, gravity=1.0)
     ax = diagram.plot()
     assert [text.get_text() for text in ax.get_legend().get_texts()] == [
         "1 half wave",
@@ -147,22 +143,22 @@ def test_pictures():
 def test_a_picture_goes_into_one_that_is_labelled():
     ax = pytest.importorskip("matplotlib.figure").Figure().add_subplot()
     ax.plot([1.0, 2.0], [0.0, 80.0], label="measured")
-    assert rc.branches(equal(2), conical_height=0.1).plot(ax) is ax
+    assert rc.branches(plummets(2), conical_height=0.1).plot(ax) is ax
     assert [text.get_text() for text in ax.get_legend().get_texts()] == ["1 half wave", "2 half waves", "measured"]
 
 
 def test_an_empty_diagram_says_so():
     pytest.importorskip("matplotlib")
-    empty = rc.branches(equal(3), conical_height=10.0)
+    empty = rc.branches(plummets(3), conical_height=10.0)
     assert len(empty) == 0
     assert empty.plot().get_title() == "no shape at or above this conical height"
-    assert rc.branches(equal(3), conical_height=0.5).plot().get_title() == "all branches: proved complete"
+    assert rc.branches(plummets(3), conical_height=0.5).plot().get_title() == "all branches: proved complete"
 
 
 @pytest.mark.parametrize("less", [1e-6, 1e-10, 1e-14, 1e-15, 0.0])
 def test_branches_next_to_the_vertical(less):
     pytest.importorskip("matplotlib")
-    chain = equal(3)
+    chain = plummets(3)
     heights = rc.modes(chain).conical_height
     for mode in (1, 2, 3):
         height = min(heights[mode - 1] * (1 - less), np.nextafter(heights[mode - 1], 0))
@@ -178,12 +174,12 @@ def test_branches_next_to_the_vertical(less):
 
 def test_tip_hardly_off_the_axis():
     for size in (1e-6, 1e-8, 1e-12):
-        assert rc.steady_shape(equal(3), tip_inclination=size).inclination[0] == pytest.approx(size, rel=1e-15)
-        assert rc.steady_shape(equal(3), tip_radius=size).offset[0] == pytest.approx(size, rel=1e-15)
+        assert rc.steady_shape(plummets(3), tip_inclination=size).inclination[0] == pytest.approx(size, rel=1e-15)
+        assert rc.steady_shape(plummets(3), tip_radius=size).offset[0] == pytest.approx(size, rel=1e-15)
 
 
 def test_wrong_calls():
-    chain = equal(3)
+    chain = plummets(3)
     first = rc.modes(chain).conical_height[0]
     with pytest.raises(ValueError, match="exactly one of conical_height, angular_speed, tip_inclination"):
         rc.steady_shape(chain, mode=1)

@@ -3,15 +3,12 @@
 
 import numpy as np
 import pytest
+from mechanics import plummets, scan, turned
 
 import revchain as rc
 from revchain import Chain
 
 FOLD = 3.90376215692  # n of three plummets on threads of 1, in units of sqrt(g/a), where two shapes are born
-
-
-def plummets(count: int) -> Chain:
-    return Chain.uniform_plummets(count, length=float(count))
 
 
 def moments(chain: Chain, shape: rc.SteadyShape) -> float:
@@ -28,33 +25,6 @@ def moments(chain: Chain, shape: rc.SteadyShape) -> float:
         moment = pull * (shape.height[m + 1] - z[below]) - weight[below] * (y[below] - shape.offset[m + 1])
         worst = max(worst, abs(moment.sum() + couple[below].sum() / shape.conical_height) / whole)
     return worst
-
-
-def fallen_upon(chain: Chain, height: float, starts: int) -> np.ndarray:
-    """Sines and cosines of shapes that Newton's method falls upon from `starts` random angles."""
-    size = len(chain)
-    pull, mass = np.zeros(size), np.zeros((size, size))
-    for m in range(size):
-        reach = np.where(np.arange(size) > m, chain.length, 0.0)
-        reach[m] = chain.centroid[m]
-        mass += chain.weight[m] * np.outer(reach, reach)
-        mass[m, m] += chain.weight[m] * chain.radius_of_gyration[m] ** 2
-        pull[m] = chain.weight[m] * chain.centroid[m] + chain.length[m] * chain.weight[:m].sum()
-    angle = np.random.default_rng(5).uniform(-np.pi, np.pi, (starts, size))
-    diagonal = np.arange(size)
-    step = np.full_like(angle, np.inf)
-    for _ in range(60):
-        s, c = np.sin(angle), np.cos(angle)
-        load = s @ mass
-        slope = -c[:, :, None] * mass * c[:, None, :]
-        slope[:, diagonal, diagonal] += height * pull * c + s * load
-        step = np.linalg.solve(slope, (height * pull * s - c * load)[:, :, None])[:, :, 0]
-        angle = angle - step * np.minimum(1, 0.5 / np.abs(step).max(axis=1, keepdims=True).clip(1e-300))
-    s, c = np.sin(angle), np.cos(angle)
-    settled = (np.abs(step).max(axis=1) < 1e-10) & (np.abs(s).max(axis=1) > 1e-6)
-    s, c = s[settled], c[settled]
-    s = s * np.sign(s @ chain.length)[:, None]
-    return np.unique(np.round(np.hstack([s, c]), 7), axis=0)
 
 
 @pytest.mark.parametrize(
@@ -107,15 +77,14 @@ def test_links_with_three_inclinations_under_one_load(height: float) -> None:
         centroid=[0.8, 0.6, 0.6],
         pendulum_length=[0.8, 4.0, 0.8],
     )
-    others = fallen_upon(chain, height, 4000)
     for only in (False, True):
         found = rc.steady_shapes(chain, conical_height=height, hanging_only=only)
         assert found.complete
-        listed = np.array([np.hstack([np.sin(s.inclination), np.cos(s.inclination)]) for s in found])
-        known = others[np.all(others[:, 3:] > 0, axis=1)] if only else others
-        for shape in known:
-            assert np.abs(listed - shape).max(axis=1).min() < 1e-6
-        assert len(known) >= len(found) > 0
+        listed = np.array([shape.inclination for shape in found])
+        fallen_upon = scan(chain, height, only, 4000)
+        for angles in fallen_upon:
+            assert turned(listed, angles).min() < 1e-6
+        assert len(fallen_upon) == len(found) > 0
         for shape in found:
             assert moments(chain, shape) < 1e-15
 
