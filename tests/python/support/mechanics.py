@@ -5,7 +5,11 @@ import numpy as np
 import revchain as rc
 
 
+KINDS = ("plummets", "rods", "massless", "long pendulums")
+
+
 def random_chain(kind, count, seed):
+    """Links of one of `KINDS`; the last hang by pins near their centres of gravity, above them or below."""
     rng = np.random.default_rng(seed)
     w, a = np.exp(rng.normal(0, 1, count)), np.exp(rng.normal(0, 0.6, count))
     if kind == "plummets":
@@ -20,14 +24,17 @@ def random_chain(kind, count, seed):
 
 
 def plummets(count):
+    """On threads of 1."""
     return rc.Chain.uniform_plummets(count, length=float(count))
 
 
 def rods(count):
+    """Of length 1."""
     return rc.Chain.uniform_rods(count, length=float(count))
 
 
 def parts(chain):
+    """Weights, lengths, centroids and radii of gyration."""
     return [np.array(v, float) for v in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration)]
 
 
@@ -71,4 +78,5 @@ def scan(chain, height, hanging, starts=3000, seed=3):
 
 
 def turned(a, b):
+    """The largest angle by which inclinations differ, whole turns left out."""
     return np.abs(np.angle(np.exp(1j * (a - b)))).max(axis=-1)
