@@ -228,7 +228,7 @@ class Branch(Result[_core.Branch, Chain]):
 
         Parameters
         ----------
-        frame : {"free", "driven"}
+        frame : {"free", "driven"}, optional
             As for `SteadyShape.stability`.
         tolerance : float, optional
             Of the edges, relative in conical height and absolute in arc.

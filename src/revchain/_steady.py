@@ -178,7 +178,7 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
 
         Parameters
         ----------
-        frame : {"free", "driven"}
+        frame : {"free", "driven"}, optional
             ``free``: ball joints and no torque about the axis. ``driven``: axles at right angles to a plane
             that is made to turn, so that links move in that plane alone.
 
@@ -395,6 +395,8 @@ def steady_shapes(
     ValueError
         If not exactly one of `conical_height` and `angular_speed` is given, or a number is not positive
         and finite.
+    TypeError
+        If `hanging_only` is not a bool.
 
     Notes
     -----
