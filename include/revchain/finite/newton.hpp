@@ -25,6 +25,13 @@ S cosine_of(const S& length, const S& difference, bool stands = false) {
     return stands ? -size : size;
 }
 
+/// tan d of link m.
+template <class S>
+S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::size_t m) {
+    const S d = shape.offset[m] - shape.offset[m + 1];
+    return d / (links[m].length * cosine_of(links[m].length, d, shape.stands(m)));
+}
+
 /// A symmetric tridiagonal matrix as the product of its factors, from the first row down.
 class Tridiagonal {
    public:

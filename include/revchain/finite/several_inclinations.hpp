@@ -59,8 +59,7 @@ inline std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDoubl
 inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
                    const Box<DoubleDouble>& box) {
     for (std::size_t m = 0; m < box.size(); ++m) {
-        const Wide<double> d = found.offset[m] - found.offset[m + 1];
-        const DoubleDouble t(d / (links[m].length * cosine_of(links[m].length, d, found.stands(m))));
+        const DoubleDouble t(tangent_in(found, links, m));
         const double size = std::abs(static_cast<double>(t));
         const double off = static_cast<double>(std::max(box[m].low - t, t - box[m].high)) / (1 + size * size);
         if (!(off <= 1e-18 * std::min(1.0, size))) return false;

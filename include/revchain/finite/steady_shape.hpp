@@ -82,7 +82,7 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
             last_sign = y > 0 ? 1 : -1;
         }
         const S d = lower - upper, cosine = detail::cosine_of(link.length, d, found.stands(m));
-        const double inclination = std::atan(static_cast<double>(d / (link.length * cosine)));
+        const double inclination = std::atan(static_cast<double>(detail::tangent_in(found, chain.links, m)));
         shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
         // the moment about the upper pin of all that hangs there, over the length, times lambda
         const S left =
