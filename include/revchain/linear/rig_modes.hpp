@@ -113,7 +113,10 @@ inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const Ri
     result.has_momentum = true, result.method = "counts", result.complete = true;
     for (const bool forward : {true, false}) {
         const CountedRoots roots(forward ? pencil.pencil : pencil.pencil.reversed(), pencil.pace, 0, 1, 1);
-        const auto available = roots.available();
+        // Where G reaches no coordinate without inertia, the rank of M says how many there are.
+        const auto available = pencil.spins_held
+                                   ? CountedRoots::Available{pencil.pencil.size() - pencil.inertialess, true}
+                                   : roots.available();
         const bool proved =
             count_modes_of(forward ? result.forward : result.backward, rig, pencil, roots, available.count, options,
                            forward ? "forward modes" : "backward modes", forward ? 0 : 0.5, forward ? 0.5 : 1);

@@ -3,7 +3,7 @@
 // tridiagonal K, G and M (assembled, which the library never does), textbook LDL^T pivots of K + n G - n^2 M/g.
 #pragma once
 
-#include <array>
+#include <complex>
 
 #include "revchain/chain/rig.hpp"
 #include "support/truth.hpp"
@@ -71,6 +71,31 @@ class RigTruth {
     }
     Index at_speed(Quad n) const { return negative(1, n, n * n / gravity_); }
     Index at_height(Quad lambda) const { return negative(lambda, 0, 1); }
+
+    /// One step of Newton's method on det(a K + b G - c M) from a complex n (with momentum: a = 1, b = n, c = n^2/g) or
+    /// height (a = height, c = 1): about its distance from the root, relative, by pivots and their derivatives.
+    double newton_step(std::complex<double> x, bool speed) const {
+        const auto complex = [](Quad re, Quad im) {
+            __complex128 z = 0;
+            __real__ z = re, __imag__ z = im;
+            return z;
+        };
+        const __complex128 z = complex(x.real(), x.imag()), one = complex(1, 0), none = complex(0, 0);
+        const __complex128 a = speed ? one : z, b = speed ? z : none, c = speed ? z * z / gravity_ : one;
+        const __complex128 da = speed ? none : one, db = speed ? one : none, dc = speed ? 2 * z / gravity_ : none;
+        __complex128 p = one, dp = none, sum = none;
+        for (std::size_t m = 0; m < size; ++m) {
+            __complex128 pivot = a * K.d[m] + b * G.d[m] - c * M.d[m], slope = da * K.d[m] + db * G.d[m] - dc * M.d[m];
+            if (m > 0) {
+                const __complex128 off = a * K.e[m - 1] + b * G.e[m - 1] - c * M.e[m - 1];
+                const __complex128 turn = da * K.e[m - 1] + db * G.e[m - 1] - dc * M.e[m - 1];
+                pivot -= off * off / p, slope -= 2 * off * turn / p - off * off * dp / (p * p);
+            }
+            p = pivot, dp = slope;
+            sum += dp / p;
+        }
+        return static_cast<double>(cabsq(one / sum) / cabsq(z));
+    }
 
     /// Where a count changes near `guess`, to `width`: in ulp of double, how far from it; infinite if it does not change.
     template <class Count>
