@@ -257,7 +257,8 @@ class RigModes:
         if len(self.other):
             what += f", {len(self.other)} other"
         lines = [f"RigModes: {what} ({self.method}, {self.status})"]
-        for number, speed, height in list(zip(self.number, self.angular_speed(), self.conical_height, strict=True))[:10]:
+        rows = zip(self.number[:10], self.angular_speed(), self.conical_height, strict=False)
+        for number, speed, height in rows:
             lines.append(f"  {number:4d}  {speed:14.8g} rad/s  conical height {height:.8g}")
         if len(self) > 10:
             lines.append("  ...")
@@ -301,4 +302,6 @@ def refuse_for_rigs(place: str, given: Iterable[tuple[str, object, object]]) -> 
     """What `revchain.modes` offers for chains alone."""
     for name, value, default in given:
         if value != default:
-            raise ValueError(f"{place}: {name} is for a Chain; a Rig's modes are chosen by count or modes, got {shown(value)}")
+            raise ValueError(
+                f"{place}: {name} is for a Chain; a Rig's modes are chosen by count or modes, got {shown(value)}"
+            )

@@ -120,8 +120,8 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::v
     }
 }
 
-/// Discs that hold exactly one root each, by two facts about a polynomial of degree d with P'(c)/P(c) = w: some root lies
-/// within d/|w| of c, so that d discs that are apart hold one each, whatever less than d the degree were; and with all
+/// Discs that hold exactly one root each, by two facts about a polynomial of degree d with P'(c)/P(c) = w: some root
+/// lies within d/|w| of c, so that d discs that are apart hold one each, whatever less than d the degree were; and with all
 /// the others in discs of their own (c_j, r_j), the last is within 1/(|w| - sum 1/(|c - c_j| - r_j)). Returns whether
 /// the discs are apart.
 inline bool enclose(const SignedPencil<Wide<double>>& pencil, Index zeros, Index degree,

@@ -51,7 +51,7 @@ struct Disc {
     Disc(const ComplexWord& z, double r = 0) : centre(z), radius(r) {}  // NOLINT(google-explicit-constructor)
     Disc(const DoubleWord<double>& x) : centre(x) {}                    // NOLINT(google-explicit-constructor)
 
-    /// Error of one complex operation relative to the sizes that enter it (of components: 2 or 3 operations each), and the
+    /// Error of one complex operation relative to the sizes that enter it (2 to 7 operations a component), and the
     /// inflation that takes in the rounding of radii.
     static double unit() { return 16 * operation_error<DoubleWord<double>>(); }
     static double inflated(double radius) { return radius * (1 + 32 * epsilon<double>()) + 1e-300; }

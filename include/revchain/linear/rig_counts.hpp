@@ -35,8 +35,8 @@ class CountedRoots {
         Index count = 0;
         bool proved = false;
     };
-    /// How many there are: counted at 0, where M has no zero itself; else where rounding leaves no doubt, at 1e-120 of the
-    /// length where what has no mass has none at all.
+    /// How many there are: counted at 0, where M has no zero itself; else where rounding leaves no doubt, at 1e-120 of
+    /// the length where what has no mass has none at all.
     Available available() const {
         if (const auto count = counted<1>({RigWord(0.0)}); count[0].proved) return {count[0].above, true};
         const int start = pencil_.quadratic ? -200 : -400;

@@ -10,8 +10,8 @@ namespace revchain {
 /// Beyond so many elements (the links, and a support that yields) `rig_modes` solves no dense eigenproblem.
 inline constexpr Index dense_rig_limit = 200;
 
-/// Whirl speeds of small amplitude of a rig, with shapes: Greenhill (1908) §8 (21) with supports, standing links, floats
-/// and flywheels. The radius of a support that is carried round plays no part.
+/// Whirl speeds of small amplitude of a rig, with shapes: Greenhill (1908) §8 (21) with supports, standing links,
+/// floats and flywheels. The radius of a support that is carried round plays no part.
 ///
 /// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
 /// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in

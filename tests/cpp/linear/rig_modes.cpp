@@ -202,7 +202,7 @@ TEST_CASE("standing links: sections 2 (8) and 6 (12); as many motions as links h
     }
 }
 
-// Stokes (§2): plummets with mu = net W1 / net W2 < 0, in fluid that turns with them: lambda complex. In still fluid real.
+// Stokes (§2): plummets with mu = net W1 / net W2 < 0, in fluid that turns with them: lambda complex. At rest: real.
 TEST_CASE("a float in fluid that turns, and in fluid at rest", "[linear]") {
     const Chain<double> chain(std::vector{plummet(1.0, 1.0), plummet(4.0, 1.0)});
     Rigging with{.fluid = Fluid::turning, .displaced = {{2.0, 1.0, Wide<double>(0.0), 0}, {}}};
