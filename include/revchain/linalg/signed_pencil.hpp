@@ -154,10 +154,11 @@ std::array<CertifiedCount, N> certified_count(const SignedPencil<S>& pencil, con
             result[i].above += p < S(M(0)) ? 1 : 0;
 
             const S C = L + e.cross;
+            const S pivot = abs(p) < S(tiny) ? S(tiny) : p;
+            below[i] = (L - e.upper) - C * (C / pivot);
+            if (!result[i].proved) continue;  // a count is all there is to know
             const M C_error = L_error + off.cross + M(2) * u * (L_size + cross);
             const M g = size_of(C) + C_error, push = g / least;
-            const S pivot = p == S(M(0)) ? S(tiny) : p;
-            below[i] = (L - e.upper) - C * (C / pivot);
             const M own = L_error + off.upper + M(3) * u * (L_size + upper) + M(3) * push * C_error +
                           M(6) * u * g * push + underflow * (M(1) + g) * (M(1) + M(1) / least);
             error[i] = inflate * (((g / p_size) * p_error) * push + own);
