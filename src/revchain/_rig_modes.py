@@ -116,7 +116,7 @@ class RigModes:
     >>> import revchain as rc
     >>> top = rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)
     >>> rc.modes(top).angular_speed().round(4)
-    array([-2.4704,  3.9704])
+    array([-2.4701,  3.9701])
     """
 
     rig: Rig

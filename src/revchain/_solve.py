@@ -141,7 +141,7 @@ def modes(
     >>> rc.modes(rods, angular_speed=(20.0, 40.0)).angular_speed().round(3)
     array([22.583, 30.772, 38.964])
     >>> rc.modes(rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)).angular_speed().round(3)
-    array([-2.471,  3.971])
+    array([-2.47,  3.97])
     """
     if isinstance(chain, Rig):
         place = "revchain.modes"
