@@ -54,6 +54,7 @@ void bind_core(py::module_& module);
 void bind_chain(py::module_& module);
 void bind_rig(py::module_& module);
 void bind_linear(py::module_& module);
+void bind_rig_modes(py::module_& module);
 void bind_finite(py::module_& module);
 void bind_branches(py::module_& module);
 void bind_continuous(py::module_& module);

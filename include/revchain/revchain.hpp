@@ -2,8 +2,8 @@
 #pragma once
 
 // Everything that needs Eigen alone, but for what solves dense eigenproblems, which costs seconds of compile time:
-// revchain/linear/reference.hpp and revchain/finite/stability.hpp, stability_windows.hpp. What needs GSL is in
-// revchain/analytic.hpp.
+// revchain/linear/reference.hpp, rig_modes.hpp and revchain/finite/stability.hpp, stability_windows.hpp. What needs GSL
+// is in revchain/analytic.hpp.
 
 #include "revchain/chain/chain.hpp"               // IWYU pragma: export
 #include "revchain/core/carried_support.hpp"      // IWYU pragma: export

@@ -37,6 +37,7 @@ from ._continuous import (
 from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
 from ._modes import Certificate, Modes
 from ._rig import Rig, driven_flywheel, free_flywheel
+from ._rig_modes import OtherModes, RigModes, WhirlModes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
 from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
@@ -63,7 +64,9 @@ __all__ = [
     "FunicularPolygon",
     "GovernorMotion",
     "Modes",
+    "OtherModes",
     "Rig",
+    "RigModes",
     "SceneError",
     "SkippingRope",
     "Stability",
@@ -72,6 +75,7 @@ __all__ = [
     "SteadyShapes",
     "TortuousRope",
     "TransverseModes",
+    "WhirlModes",
     "__version__",
     "branch",
     "branches",

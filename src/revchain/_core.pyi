@@ -95,6 +95,15 @@ def modes(
     str,
     str,
 ]: ...
+
+_Complex = numpy.typing.NDArray[numpy.complex128]
+_Sense = tuple[_Whole, int, _Floats, _Floats, _Floats, _Floats, _Floats | None, _Floats | None]
+
+def rig_modes(
+    rig: Rig, first: int, count: int | None, gravity: float, shapes: bool, progress: Progress | None = None
+) -> tuple[
+    bool, _Sense, _Sense, tuple[_Complex, _Complex, _Floats, _Floats], _Whole, _Floats, bool, str, str
+]: ...
 def count_modes(chain: Chain, conical_height: _Floats) -> numpy.typing.NDArray[numpy.int64]: ...
 def count_modes_at_speed(
     chain: Chain, angular_speed: _Floats, gravity: _Floats
