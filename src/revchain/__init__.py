@@ -35,6 +35,15 @@ from ._continuous import (
     continuous_shapes,
 )
 from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
+from ._held import (
+    HeldCordShape,
+    HeldShape,
+    HeldShapes,
+    TautModes,
+    held_cord_shapes,
+    held_shapes,
+    taut_modes,
+)
 from ._modes import Certificate, Modes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
@@ -61,6 +70,9 @@ __all__ = [
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
+    "HeldCordShape",
+    "HeldShape",
+    "HeldShapes",
     "Modes",
     "SceneError",
     "SkippingRope",
@@ -68,6 +80,7 @@ __all__ = [
     "StabilityWindow",
     "SteadyShape",
     "SteadyShapes",
+    "TautModes",
     "TortuousRope",
     "TransverseModes",
     "__version__",
@@ -81,6 +94,8 @@ __all__ = [
     "elliptic",
     "funicular_polygon",
     "heavy_chain",
+    "held_cord_shapes",
+    "held_shapes",
     "hoop",
     "load",
     "modes",
@@ -89,6 +104,7 @@ __all__ = [
     "steady_shape",
     "steady_shapes",
     "tapered_chain",
+    "taut_modes",
     "tip_mass",
     "transverse_modes",
     "two_links",

@@ -117,6 +117,9 @@ class HeldChain {
     std::vector<Direction<double>> kept_, trial_;
 };
 
+/// Error bounds of inclinations beyond which a shape is none: the chain hangs folded along the axis.
+constexpr double furthest = 1e-3;
+
 inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wide<double>& height,
                               const HeldOptions& options) {
     constexpr std::string_view place = "held_shapes";
@@ -134,7 +137,7 @@ inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wid
         if (state && lambda > Wide<double>(0)) state = held.curve().to_height(*state, static_cast<double>(lambda));
         std::optional<HeldShape> shape;
         if (state) shape = held.finished(*state, apart, lambda, options.prove);
-        if (shape)
+        if (shape && shape->error_bound < furthest)
             result.shapes.push_back(std::move(*shape));
         else
             result.missing.push_back(k);
@@ -170,6 +173,42 @@ inline HeldShapes held_shapes_at_speed(const Chain<double>& chain, double span, 
     if (gravity == 0) return finite::held_shapes(chain, span, Wide<double>(0), options);
     detail::require_positive("held_shapes_at_speed", "gravity", gravity);
     return finite::held_shapes(chain, span, finite::height_at_speed(angular_speed, gravity), options);
+}
+
+/// The same for a tension at the upper end instead of the span: `height_times_tension` is conical height times tension, of
+/// weights; without gravity, of masses, tension over the square of the speed. A branch has a narrow range of these: of the
+/// skipping rope, from 1/(pi k)^2 to 1/(8 k^2) of weight times length. The span found is exact, the tension to 1e-15 of it.
+/// Cost: the whole branch, some thousand sweeps.
+inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double height_times_tension,
+                                            double conical_height, const HeldOptions& options = {}) {
+    using S = Wide<double>;
+    constexpr std::string_view place = "held_shapes_under_tension";
+    detail::require_positive(place, "height times tension", height_times_tension);
+    if (!(conical_height >= 0 && std::isfinite(conical_height)))
+        detail::refuse(place, "conical height must not be negative, and finite", conical_height);
+    if (options.most_half_waves < 1)
+        detail::refuse(place, "most half waves must be at least 1", options.most_half_waves);
+    finite::HeldChain held(chain);
+    const ChainUnits units = held.links().units;
+    const double wanted = std::ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
+                 lambda = std::ldexp(conical_height, -units.length_exponent);
+    HeldShapes result;
+    for (int k = 1; k <= options.most_half_waves; ++k) {
+        const std::size_t before = result.shapes.size();
+        for (const double share : {0.9, 0.5, 0.99, 0.1}) {
+            auto state = held.weightless(k, held.length() * S(share));
+            if (state && lambda > 0) state = held.curve().to_height(*state, lambda);
+            if (!state) continue;
+            for (const finite::HeldState& found : held.curve().under(*state, wanted)) {
+                held(found.forces, true);
+                auto shape = held.finished(found, S(found.span), S(lambda), options.prove);
+                if (shape && shape->error_bound < finite::furthest) result.shapes.push_back(std::move(*shape));
+            }
+            break;
+        }
+        if (result.shapes.size() == before) result.missing.push_back(k);
+    }
+    return result;
 }
 
 }  // namespace revchain

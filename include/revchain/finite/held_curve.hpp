@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "revchain/finite/held_sweep.hpp"
 
@@ -62,15 +63,54 @@ class HeldCurve {
             [&](HeldState x) { return x.forces.height = height, x; });
     }
 
-    /// States of constant height on the curve from `from` on, up or down in span as told at first, as long as `visit(state)`
-    /// is true.
-    template <class Visit>
-    void walk(const HeldState& from, bool up, Visit&& visit) {
-        step_along<true>(from, up, visit);
+    /// lambda times the tension at the upper end.
+    double top_tension(const HeldState& x) {
+        return std::hypot((*shooter_)(x.forces, false).across, x.forces.along + x.forces.height * weight_);
+    }
+    /// States of constant height, from `from` both ways along the curve, whose top tension is lambda times the one wanted.
+    std::vector<HeldState> under(const HeldState& from, double wanted) {
+        std::vector<HeldState> found;
+        for (const bool up : {true, false}) {
+            (*shooter_)(from.forces, true);
+            HeldState before = from;
+            double off_before = top_tension(from) - wanted;
+            if (up && off_before == 0) found.push_back(from);
+            step_along<true>(from, up, [&](const HeldState& x) {
+                const double off = top_tension(x) - wanted;
+                if (off * off_before < 0 || (off == 0 && off_before != 0))
+                    if (auto state = between(before, off_before, x, off, wanted)) found.push_back(*state);
+                before = x, off_before = off;
+                return x.span > 1e-6 * length_ && length_ - x.span > 1e-12 * length_;
+            });
+        }
+        return found;
     }
 
    private:
     using Triple = std::array<double, 3>;
+
+    /// The state between two of a curve at which the top tension is as wanted, by secants that keep a bracket.
+    std::optional<HeldState> between(HeldState a, double at_a, HeldState b, double at_b, double wanted) {
+        std::optional<HeldState> best;
+        for (int round = 0; round < 60; ++round) {
+            double share = at_a / (at_a - at_b);
+            if (round % 3 == 2) share = 0.5;
+            HeldState middle = a;
+            middle.span = a.span + share * (b.span - a.span);
+            middle.forces.across = a.forces.across + share * (b.forces.across - a.forces.across);
+            middle.forces.along = a.forces.along + share * (b.forces.along - a.forces.along);
+            const auto state = corrected(middle);
+            if (!state) return best;
+            best = state;
+            const double off = top_tension(*state) - wanted;
+            if (std::abs(off) <= 1e-16 * wanted || std::abs(b.span - a.span) <= 1e-16 * length_) break;
+            if (off * at_a < 0)
+                b = *state, at_b = off;
+            else
+                a = *state, at_a = off;
+        }
+        return best;
+    }
 
     static Triple cross(const Triple& x, const Triple& y) {
         return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
