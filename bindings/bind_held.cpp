@@ -55,14 +55,17 @@ void bind_held(py::module_& module) {
     bind_shape<HeldCordShape>(module, "HeldCordShape", "A steady shape of a cord held at both ends.")
         .def_property_readonly("arc_length", column(&HeldCordShape::arc_length))
         .def_readonly("length", &HeldCordShape::length)
-        .def("at_arc", [](const HeldCordShape& shape, const Array& arc) {
-            return columns<4>(
-                [&](double s) {
-                    const revchain::HeldCordPlace p = shape(s);
-                    return std::array{p.offset, p.height, p.inclination, p.height_times_tension};
-                },
-                arc);
-        });
+        .def(
+            "at_arc",
+            [](const HeldCordShape& shape, const Array& arc) {
+                return columns<4>(
+                    [&](double s) {
+                        const revchain::HeldCordPlace p = shape(s);
+                        return std::array{p.offset, p.height, p.inclination, p.height_times_tension};
+                    },
+                    arc);
+            },
+            "arc"_a);
     bind_shapes<revchain::HeldCordShapes>(module, "HeldCordShapes");
     module.def(
         "held_shapes",

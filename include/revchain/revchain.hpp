@@ -2,7 +2,7 @@
 #pragma once
 
 // Everything that needs Eigen alone, but for what solves dense eigenproblems, which costs seconds of compile time:
-// revchain/linear/reference.hpp and revchain/finite/stability.hpp, stability_windows.hpp. What needs GSL is in
+// revchain/linear/reference.hpp and revchain/finite/stability.hpp, stability_windows.hpp, held_stability.hpp. What needs GSL is in
 // revchain/analytic.hpp.
 
 #include "revchain/chain/chain.hpp"               // IWYU pragma: export
@@ -14,6 +14,8 @@
 #include "revchain/finite/branches.hpp"           // IWYU pragma: export
 #include "revchain/finite/force_diagram.hpp"      // IWYU pragma: export
 #include "revchain/finite/funicular_polygon.hpp"  // IWYU pragma: export
+#include "revchain/finite/held_chain.hpp"         // IWYU pragma: export
+#include "revchain/finite/held_cord.hpp"          // IWYU pragma: export
 #include "revchain/finite/jointed_links.hpp"      // IWYU pragma: export
 #include "revchain/finite/shape_on_branch.hpp"    // IWYU pragma: export
 #include "revchain/finite/steady_shapes.hpp"      // IWYU pragma: export

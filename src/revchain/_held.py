@@ -178,7 +178,7 @@ class HeldShape(_Held):
         >>> chain = rc.Chain.uniform_rods(10, length=1.0)
         >>> rope = rc.held_shapes(chain, span=0.5, conical_height=0.01, most_half_waves=2)
         >>> [shape.stability().verdict for shape in rope]
-        ['minimum', 'unstable']
+        ['minimum', 'spectrally stable']
         """
         if frame not in ("free", "driven"):
             raise ValueError(f"revchain.HeldShape.stability: frame must be 'free' or 'driven', got {frame!r}")
@@ -241,7 +241,7 @@ class HeldCordShape(_Held):
         >>> import revchain as rc
         >>> cord = rc.held_cord_shapes(1.0, span=0.5, conical_height=0.1)[0]
         >>> round(float(cord.at_arc(0.5).offset), 6)
-        0.390353
+        0.380421
         """
         place = "revchain.HeldCordShape.at_arc"
         offset, height, inclination, tension = self._compiled.at_arc(floats(place, "arc", arc))

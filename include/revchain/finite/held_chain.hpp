@@ -46,6 +46,10 @@ class HeldChain {
         return end;
     }
 
+    /// Directions in the state kept last.
+    const std::vector<Direction<double>>& kept() const { return kept_; }
+    void keep(std::vector<Direction<double>> directions) { kept_ = std::move(directions); }
+
     HeldCurve<HeldChain> curve() { return {*this, static_cast<double>(length_), static_cast<double>(weight_)}; }
 
     /// Without gravity and with `half_waves` half waves, `span` apart: from the nearly straight chain on.
@@ -177,7 +181,8 @@ inline HeldShapes held_shapes_at_speed(const Chain<double>& chain, double span, 
 
 /// The same for a tension at the upper end instead of the span: `height_times_tension` is conical height times tension, of
 /// weights; without gravity, of masses, tension over the square of the speed. A branch has a narrow range of these: of the
-/// skipping rope, from 1/(pi k)^2 to 1/(8 k^2) of weight times length. The span found is exact, the tension to 1e-15 of it.
+/// skipping rope, from 1/(pi k)^2 to 1/(8 k^2) of weight times length; with gravity it is largest in between, so that two
+/// spans go with one tension. The tension is met to 1e-15 of it, the span as well as that tells it.
 /// Cost: the whole branch, some thousand sweeps.
 inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double height_times_tension,
                                             double conical_height, const HeldOptions& options = {}) {
@@ -199,11 +204,10 @@ inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double h
             auto state = held.weightless(k, held.length() * S(share));
             if (state && lambda > 0) state = held.curve().to_height(*state, lambda);
             if (!state) continue;
-            for (const finite::HeldState& found : held.curve().under(*state, wanted)) {
-                held(found.forces, true);
+            held.curve().under(*state, wanted, [&](const finite::HeldState& found) {
                 auto shape = held.finished(found, S(found.span), S(lambda), options.prove);
                 if (shape && shape->error_bound < finite::furthest) result.shapes.push_back(std::move(*shape));
-            }
+            });
             break;
         }
         if (result.shapes.size() == before) result.missing.push_back(k);

@@ -53,6 +53,11 @@ class HeldCord {
     HeldEnd<double> operator()(const HeldForces<double>& forces, bool) const {
         return CordPath::end(forces, [](const CordSeries&, double) {});
     }
+    /// A path has no memory.
+    struct Nothing {};
+    static Nothing kept() { return {}; }
+    static void keep(Nothing) {}
+
     HeldCurve<HeldCord> curve() { return {*this, 1, 1}; }
 
     std::optional<HeldState> weightless(int half_waves, double span) {
@@ -201,10 +206,10 @@ inline HeldCordShapes held_cord_shapes_under_tension(double length, double heigh
             auto state = cord.weightless(k, share);
             if (state && conical_height > 0) state = cord.curve().to_height(*state, conical_height / length);
             if (!state) continue;
-            for (const finite::HeldState& found : cord.curve().under(*state, height_times_tension / length / weight)) {
+            cord.curve().under(*state, height_times_tension / length / weight, [&](const finite::HeldState& found) {
                 HeldCordShape shape = finite::described(found, found.span * length, length, weight);
                 if (shape.error_bound < 1e-3) result.shapes.push_back(std::move(shape));
-            }
+            });
             break;
         }
         if (result.shapes.size() == before) result.missing.push_back(k);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "revchain/finite/held_sweep.hpp"
 
@@ -67,49 +66,74 @@ class HeldCurve {
     double top_tension(const HeldState& x) {
         return std::hypot((*shooter_)(x.forces, false).across, x.forces.along + x.forces.height * weight_);
     }
-    /// States of constant height, from `from` both ways along the curve, whose top tension is lambda times the one wanted.
-    std::vector<HeldState> under(const HeldState& from, double wanted) {
-        std::vector<HeldState> found;
+    /// Sees the states of constant height, from `from` both ways along the curve, whose top tension is lambda times the one
+    /// wanted; the tension is largest somewhere between, as a rule, so that there are two.
+    template <class Visit>
+    void under(const HeldState& from, double wanted, Visit&& visit) {
+        const auto kept = shooter_->kept();
         for (const bool up : {true, false}) {
-            (*shooter_)(from.forces, true);
-            HeldState before = from;
-            double off_before = top_tension(from) - wanted;
-            if (up && off_before == 0) found.push_back(from);
-            step_along<true>(from, up, [&](const HeldState& x) {
-                const double off = top_tension(x) - wanted;
-                if (off * off_before < 0 || (off == 0 && off_before != 0))
-                    if (auto state = between(before, off_before, x, off, wanted)) found.push_back(*state);
-                before = x, off_before = off;
-                return x.span > 1e-6 * length_ && length_ - x.span > 1e-12 * length_;
+            shooter_->keep(kept);
+            Tense last{from, top_tension(from) - wanted}, before = last;
+            step_along<true>(from, up, [&](const HeldState& state) {
+                const Tense here{state, top_tension(state) - wanted};
+                const auto there = shooter_->kept();
+                if (here.off * last.off < 0) {
+                    between(last, here, wanted, visit);
+                } else if (before.off * last.off > 0 && std::abs(last.off) < std::abs(before.off) &&
+                           std::abs(last.off) < std::abs(here.off)) {
+                    // nearest to it in between: it may be met there, twice
+                    if (const auto met = crossed(before, here, wanted)) {
+                        between(before, *met, wanted, visit);
+                        between(*met, here, wanted, visit);
+                    }
+                }
+                shooter_->keep(there);
+                before = last, last = here;
+                return state.span > 1e-6 * length_ && length_ - state.span > 1e-12 * length_;
             });
         }
-        return found;
     }
 
    private:
     using Triple = std::array<double, 3>;
 
-    /// The state between two of a curve at which the top tension is as wanted, by secants that keep a bracket.
-    std::optional<HeldState> between(HeldState a, double at_a, HeldState b, double at_b, double wanted) {
-        std::optional<HeldState> best;
-        for (int round = 0; round < 60; ++round) {
-            double share = at_a / (at_a - at_b);
-            if (round % 3 == 2) share = 0.5;
-            HeldState middle = a;
-            middle.span = a.span + share * (b.span - a.span);
-            middle.forces.across = a.forces.across + share * (b.forces.across - a.forces.across);
-            middle.forces.along = a.forces.along + share * (b.forces.along - a.forces.along);
-            const auto state = corrected(middle);
-            if (!state) return best;
-            best = state;
-            const double off = top_tension(*state) - wanted;
-            if (std::abs(off) <= 1e-16 * wanted || std::abs(b.span - a.span) <= 1e-16 * length_) break;
-            if (off * at_a < 0)
-                b = *state, at_b = off;
-            else
-                a = *state, at_a = off;
+    struct Tense {
+        HeldState state;
+        double off;  ///< of the top tension from the one wanted
+    };
+    std::optional<Tense> at_share(const Tense& a, const Tense& b, double share, double wanted) {
+        HeldState middle = a.state;
+        middle.span += share * (b.state.span - a.state.span);
+        middle.forces.across += share * (b.state.forces.across - a.state.forces.across);
+        middle.forces.along += share * (b.state.forces.along - a.state.forces.along);
+        const auto state = corrected(middle);
+        if (!state) return {};
+        return Tense{*state, top_tension(*state) - wanted};
+    }
+    /// The state between two at which the top tension is as wanted, by secants that keep a bracket.
+    template <class Visit>
+    void between(Tense a, Tense b, double wanted, Visit&& visit) {
+        std::optional<Tense> best;
+        for (int round = 0; round < 80; ++round) {
+            best = at_share(a, b, round % 3 == 2 ? 0.5 : a.off / (a.off - b.off), wanted);
+            if (!best) return;
+            if (std::abs(best->off) <= 1e-16 * wanted || std::abs(b.state.span - a.state.span) <= 1e-16 * length_)
+                break;
+            (best->off * a.off < 0 ? b : a) = *best;
         }
-        return best;
+        visit(best->state);
+    }
+    /// A state between two on the other side of the tension wanted, where it is nearest to it.
+    std::optional<Tense> crossed(Tense a, Tense b, double wanted) {
+        for (int round = 0; round < 60; ++round) {
+            const auto first = at_share(a, b, 0.4, wanted), second = at_share(a, b, 0.6, wanted);
+            if (!first || !second) return {};
+            if (first->off * a.off < 0) return first;
+            if (second->off * a.off < 0) return second;
+            (std::abs(first->off) < std::abs(second->off) ? b : a) =
+                std::abs(first->off) < std::abs(second->off) ? *second : *first;
+        }
+        return {};
     }
 
     static Triple cross(const Triple& x, const Triple& y) {

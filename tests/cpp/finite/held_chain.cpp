@@ -99,11 +99,10 @@ TEST_CASE("held at both ends: inclinations within their proved bound of a Lagran
                     }
                 }
     }
-    CAPTURE(shapes, worst, largest_bound);
-    CHECK(shapes > 250);
-    CHECK(worst < 2.3e-16);
-    WARN(shapes << " shapes, worst " << worst << ", largest bound " << largest_bound << ", " << sharp
-                << " below 4.5e-16");
+    CAPTURE(shapes, sharp, worst, largest_bound);
+    CHECK(sharp > 0.96 * shapes);
+    CHECK(shapes > 360);
+    CHECK(worst < 1.12e-16);
 }
 
 TEST_CASE("held at both ends: extremes of weight") {
@@ -171,7 +170,7 @@ TEST_CASE("held at both ends: many links tend to the skipping rope by order 2") 
         const double of_rods = std::log2(rods[1] / rods[2]), of_plummets = std::log2(plummets[1] / plummets[2]),
                      of_pull = std::log2(pull[1] / pull[2]);
         INFO(waves << " half waves: " << rods[2] << " " << plummets[2] << " " << pull[2]);
-        WARN("orders " << of_rods << " " << of_plummets << " " << of_pull);
+        CAPTURE(of_rods, of_plummets, of_pull);
         CHECK(std::abs(of_rods - 2) < 0.02);
         CHECK(std::abs(of_plummets - 2) < 0.02);
         CHECK(std::abs(of_pull - 2) < 0.02);
@@ -225,8 +224,12 @@ TEST_CASE("held at both ends: laws") {
         const double wanted = shape.height_times_tension[chain.size()];
         const auto found = revchain::held_shapes_under_tension(chain, wanted, height);
         REQUIRE(found.shapes.size() == 1);
-        CHECK(std::abs(found.shapes[0].height_times_tension[chain.size()] / wanted - 1) < 1e-15);
-        CHECK(std::abs(found.shapes[0].span - span) < 1e-13 * length);
+        double nearest = length;
+        for (const HeldShape& other : found.shapes) {
+            CHECK(std::abs(other.height_times_tension[chain.size()] / wanted - 1) < 1e-15);
+            nearest = std::min(nearest, std::abs(other.span - span));
+        }
+        CHECK(nearest < 1e-12 * length);
         CHECK(revchain::held_shapes_under_tension(chain, 10 * wanted, height).shapes.empty());
     }
     SECTION("change of inclinations with the span") {
