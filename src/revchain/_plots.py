@@ -283,8 +283,15 @@ def plot_held_shapes(shapes: Sequence[_Held], ax: Axes | None, *, length_unit: s
         label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
         named.add(waves)
         kept = thinned(shape.offset)
-        line = {"color": f"C{(waves - 1) % 10}", "linewidth": 1.4, "marker": marker, "markersize": 3.0}
-        ax.plot(shape.offset[kept], shape.height[kept], label=label, **line)
+        ax.plot(
+            shape.offset[kept],
+            shape.height[kept],
+            color=f"C{(waves - 1) % 10}",
+            linewidth=1.4,
+            marker=marker,
+            markersize=3.0,
+            label=label,
+        )
         ax.plot([0.0, 0.0], [0.0, shape.span], color="black", marker="o", linestyle="none", markersize=6.0)
     ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the lower end ({length_unit})", aspect="equal")
     keep_room(ax)
