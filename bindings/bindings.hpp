@@ -58,6 +58,7 @@ void bind_rig_modes(py::module_& module);
 void bind_finite(py::module_& module);
 void bind_branches(py::module_& module);
 void bind_continuous(py::module_& module);
+void bind_held(py::module_& module);
 void bind_two_links(py::module_& module);
 void bind_diagrams(py::module_& module);
 void bind_batch(py::module_& module);

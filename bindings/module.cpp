@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_finite(module);
     bind_branches(module);
     bind_continuous(module);
+    bind_held(module);
     bind_two_links(module);
     bind_diagrams(module);
     bind_batch(module);

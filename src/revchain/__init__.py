@@ -35,6 +35,15 @@ from ._continuous import (
     continuous_shapes,
 )
 from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
+from ._held import (
+    HeldCordShape,
+    HeldShape,
+    HeldShapes,
+    TautModes,
+    held_cord_shapes,
+    held_shapes,
+    taut_modes,
+)
 from ._modes import Certificate, Modes
 from ._rig import Rig, driven_flywheel, free_flywheel
 from ._rig_modes import OtherModes, RigModes, WhirlModes
@@ -63,6 +72,9 @@ __all__ = [
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
+    "HeldCordShape",
+    "HeldShape",
+    "HeldShapes",
     "Modes",
     "OtherModes",
     "Rig",
@@ -73,6 +85,7 @@ __all__ = [
     "StabilityWindow",
     "SteadyShape",
     "SteadyShapes",
+    "TautModes",
     "TortuousRope",
     "TransverseModes",
     "WhirlModes",
@@ -89,6 +102,8 @@ __all__ = [
     "free_flywheel",
     "funicular_polygon",
     "heavy_chain",
+    "held_cord_shapes",
+    "held_shapes",
     "hoop",
     "load",
     "modes",
@@ -97,6 +112,7 @@ __all__ = [
     "steady_shape",
     "steady_shapes",
     "tapered_chain",
+    "taut_modes",
     "tip_mass",
     "transverse_modes",
     "two_links",

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from ._chain import Chain
     from ._continuous import ContinuousShape
+    from ._held import _Held
     from ._modes import Modes
     from ._steady import SteadyShape
     from .governor import GovernorMotion
@@ -276,4 +277,33 @@ def plot_shapes(
     keep_room(ax)
     if named:
         ax.legend(fontsize=None if linked else "small")
+    return ax
+
+
+def plot_held_shapes(shapes: Sequence[_Held], ax: Axes | None, *, length_unit: str) -> Axes:
+    """See `HeldShapes.plot`."""
+    if ax is None:
+        ax = new_axes(5.0, 6.0)
+    ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    named = set()
+    for shape in shapes:
+        marker = "o" if shape.offset.size <= MOST_PINS_AS_DOTS else ""
+        waves = shape.half_waves
+        label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
+        named.add(waves)
+        kept = thinned(shape.offset)
+        ax.plot(
+            shape.offset[kept],
+            shape.height[kept],
+            color=f"C{(waves - 1) % 10}",
+            linewidth=1.4,
+            marker=marker,
+            markersize=3.0,
+            label=label,
+        )
+        ax.plot([0.0, 0.0], [0.0, shape.span], color="black", marker="o", linestyle="none", markersize=6.0)
+    ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the lower end ({length_unit})", aspect="equal")
+    keep_room(ax)
+    if named:
+        ax.legend()
     return ax
