@@ -12,9 +12,11 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_chain(module);
     bind_rig(module);
     bind_linear(module);
+    bind_rig_modes(module);
     bind_finite(module);
     bind_branches(module);
     bind_continuous(module);
+    bind_held(module);
     bind_two_links(module);
     bind_diagrams(module);
     bind_batch(module);

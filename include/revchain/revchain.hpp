@@ -2,8 +2,13 @@
 #pragma once
 
 // Everything that needs Eigen alone, but for what solves dense eigenproblems, which costs seconds of compile time:
-// revchain/linear/reference.hpp and revchain/finite/stability.hpp, stability_windows.hpp. What needs GSL is in
+<<<<<<< HEAD
+// revchain/linear/reference.hpp, rig_modes.hpp and revchain/finite/stability.hpp, stability_windows.hpp. What needs GSL
+// is in revchain/analytic.hpp.
+=======
+// revchain/linear/reference.hpp and revchain/finite/stability.hpp, stability_windows.hpp, held_stability.hpp. What needs GSL is in
 // revchain/analytic.hpp.
+>>>>>>> heldends
 
 #include "revchain/chain/chain.hpp"               // IWYU pragma: export
 #include "revchain/core/carried_support.hpp"      // IWYU pragma: export
@@ -14,6 +19,8 @@
 #include "revchain/finite/branches.hpp"           // IWYU pragma: export
 #include "revchain/finite/force_diagram.hpp"      // IWYU pragma: export
 #include "revchain/finite/funicular_polygon.hpp"  // IWYU pragma: export
+#include "revchain/finite/held_chain.hpp"         // IWYU pragma: export
+#include "revchain/finite/held_cord.hpp"          // IWYU pragma: export
 #include "revchain/finite/jointed_links.hpp"      // IWYU pragma: export
 #include "revchain/finite/shape_on_branch.hpp"    // IWYU pragma: export
 #include "revchain/finite/steady_shapes.hpp"      // IWYU pragma: export

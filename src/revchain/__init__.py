@@ -35,9 +35,19 @@ from ._continuous import (
     continuous_shapes,
 )
 from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
+from ._held import (
+    HeldCordShape,
+    HeldShape,
+    HeldShapes,
+    TautModes,
+    held_cord_shapes,
+    held_shapes,
+    taut_modes,
+)
 from ._modes import Certificate, Modes
-from ._rig import Rig, driven_flywheel, free_flywheel
 from ._response import Response, SmallOscillation, response, small_oscillation
+from ._rig import Rig, driven_flywheel, free_flywheel
+from ._rig_modes import OtherModes, RigModes, WhirlModes
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
 from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
@@ -63,9 +73,14 @@ __all__ = [
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
+    "HeldCordShape",
+    "HeldShape",
+    "HeldShapes",
     "Modes",
-    "Rig",
+    "OtherModes",
     "Response",
+    "Rig",
+    "RigModes",
     "SceneError",
     "SkippingRope",
     "SmallOscillation",
@@ -73,8 +88,10 @@ __all__ = [
     "StabilityWindow",
     "SteadyShape",
     "SteadyShapes",
+    "TautModes",
     "TortuousRope",
     "TransverseModes",
+    "WhirlModes",
     "__version__",
     "branch",
     "branches",
@@ -88,6 +105,8 @@ __all__ = [
     "free_flywheel",
     "funicular_polygon",
     "heavy_chain",
+    "held_cord_shapes",
+    "held_shapes",
     "hoop",
     "load",
     "modes",
@@ -98,6 +117,7 @@ __all__ = [
     "steady_shape",
     "steady_shapes",
     "tapered_chain",
+    "taut_modes",
     "tip_mass",
     "transverse_modes",
     "two_links",

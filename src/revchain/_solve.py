@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, overload
 
 from numpy.typing import ArrayLike
 
@@ -13,10 +13,36 @@ from ._arguments import STANDARD_GRAVITY, Floats, floats, integer, positive, rea
 from ._arguments import count as checked_count
 from ._chain import Chain, compiled
 from ._modes import Certificate, Modes
+from ._rig import Rig
+from ._rig_modes import RigModes, refuse_for_rigs, rig_modes
 
 
+@overload
 def modes(
     chain: Chain,
+    count: int | None = ...,
+    *,
+    modes: Iterable[int] | None = ...,
+    conical_height: tuple[float, float] | None = ...,
+    angular_speed: tuple[float, float] | None = ...,
+    gravity: float = ...,
+    shapes: bool = ...,
+    rtol: float | None = ...,
+    certify: bool = ...,
+    precision: str = ...,
+    method: str = ...,
+) -> Modes: ...
+@overload
+def modes(
+    chain: Rig,
+    count: int | None = ...,
+    *,
+    modes: Iterable[int] | None = ...,
+    gravity: float = ...,
+    shapes: bool = ...,
+) -> RigModes: ...
+def modes(
+    chain: Chain | Rig,
     count: int | None = None,
     *,
     modes: Iterable[int] | None = None,
@@ -28,15 +54,16 @@ def modes(
     certify: bool = False,
     precision: str = "double",
     method: str = "auto",
-) -> Modes:
+) -> Modes | RigModes:
     """Find the ways in which a chain whirls: the slowest, those with given numbers, or those in a window.
 
     Parameters
     ----------
-    chain : Chain
-        The chain of N links.
+    chain : Chain or Rig
+        The chain of N links, by itself or rigged with supports, flywheels, standing links, a fluid.
     count : int, optional
-        How many modes, slowest first; all ``chain.mode_count`` of them if nothing is said.
+        How many modes, slowest first; all ``chain.mode_count`` of them if nothing is said. Of a rig with
+        flywheels, so many in each sense of rotation.
     modes : range, optional
         Instead of `count`: numbers of the modes, from 1 for the slowest, without gaps and ascending.
         ``range(1000, 1010)`` is the 1000th to the 1009th slowest; those before are not computed.
@@ -47,7 +74,7 @@ def modes(
         Instead of `count`: the modes with ``low <= whirl speed < high``, in rad/s. `low` may be 0,
         `high` infinite.
     gravity : float, optional
-        For `angular_speed`; standard gravity, in metres, if left out.
+        For `angular_speed`, and for the speeds of a rig; standard gravity, in metres, if left out.
     shapes : bool
         Whether to compute shapes, residuals and nodes.
     rtol : float, optional
@@ -74,8 +101,9 @@ def modes(
 
     Returns
     -------
-    Modes
-        ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached;
+    Modes or RigModes
+        The latter for a `Rig`, of which nothing else but `count`, `modes`, `gravity` and `shapes` can be
+        asked. ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached;
         ``error_bound`` says what was. An empty window gives no modes.
 
     Raises
@@ -112,7 +140,28 @@ def modes(
     array([1000, 1001, 1002])
     >>> rc.modes(rods, angular_speed=(20.0, 40.0)).angular_speed().round(3)
     array([22.583, 30.772, 38.964])
+    >>> rc.modes(rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)).angular_speed().round(3)
+    array([-2.47,  3.97])
     """
+    if isinstance(chain, Rig):
+        place = "revchain.modes"
+        refuse_for_rigs(
+            place,
+            (
+                ("conical_height", conical_height, None),
+                ("angular_speed", angular_speed, None),
+                ("rtol", rtol, None),
+                ("certify", certify, False),
+                ("precision", precision, "double"),
+                ("method", method, "auto"),
+            ),
+        )
+        if count is not None and modes is not None:
+            raise ValueError(f"{place}: give only one of count, modes, got count and modes")
+        first, wanted = (1, None if count is None else checked_count(place, "count", count))
+        if modes is not None:
+            first, wanted = _run_of_numbers(place, modes)
+        return rig_modes(place, chain, first, wanted, gravity, shapes, None)
     return solve(
         chain,
         count,

@@ -37,12 +37,12 @@ struct ContinuousShapesOptions {
 namespace finite {
 
 inline void check(std::string_view place, const ContinuousChain& chain) {
-    detail::require_positive(place, "length", chain.length);
+    revchain::detail::require_positive(place, "length", chain.length);
     if (!(chain.tip_weight >= 0 && std::isfinite(chain.tip_weight)))
-        detail::refuse(place, "tip weight must be finite and not negative", chain.tip_weight);
+        revchain::detail::refuse(place, "tip weight must be finite and not negative", chain.tip_weight);
     if (chain.density != nullptr && chain.density->length() != chain.length)
-        detail::refuse(place, "the line density must be given over the length of the chain, not over",
-                       chain.density->length());
+        revchain::detail::refuse(place, "the line density must be given over the length of the chain, not over",
+                                 chain.density->length());
 }
 
 /// The chain over lengths of `height`; bend 0: at small amplitude.
@@ -122,7 +122,7 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
             }
             law = tip.law();
         }
-        law = law.of_next(crossing);
+        law = law.of_one_before(crossing);
     }
     std::reverse(result.shapes.begin(), result.shapes.end());
     return result;

@@ -41,7 +41,7 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     using S = Wide<T>;
     using E = Narrow<S>;
     if (!chain.has_one_weight_unit())
-        detail::refuse("finite::links_of", "weights must not be more than 1e123 apart", chain.total_weight());
+        revchain::detail::refuse("finite::links_of", "weights must not be more than 1e123 apart", chain.total_weight());
     Links<S> result;
     result.units = chain.units();
     result.links.reserve(static_cast<std::size_t>(chain.size()));
@@ -79,11 +79,11 @@ Interval<T> enclosed(const S& x) {
     if (near == T(0)) return Interval<T>(near);
     if constexpr (std::numeric_limits<T>::digits < std::numeric_limits<S>::digits) {
         if (S(near) == x) return Interval<T>(near);
-        return Interval<T>(detail::down(near), detail::up(near));
+        return Interval<T>(revchain::detail::down(near), revchain::detail::up(near));
     } else {
         using std::abs;
         const T off = abs(near) * T(256) * T(operation_error<S>());
-        return Interval<T>(detail::down(T(near - off)), detail::up(T(near + off)));
+        return Interval<T>(revchain::detail::down(T(near - off)), revchain::detail::up(T(near + off)));
     }
 }
 template <class T, class S>

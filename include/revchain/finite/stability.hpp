@@ -107,6 +107,33 @@ inline Matrix<double> beside(const Vector<double>& y, const Matrix<double>& mass
     return whole.rightCols(y.size() - 1);
 }
 
+/// The verdict on  M x'' + G x' + K x = 0  of a chain of so many links.
+inline Stability judged(StabilityFrame frame, Index links, const Matrix<double>& mass, const Matrix<double>& gyroscopic,
+                        const Matrix<double>& stiffness) {
+    Stability result;
+    result.frame = frame;
+    result.exponents = linalg::gyroscopic_exponents(mass, gyroscopic, stiffness);
+    std::sort(result.exponents.begin(), result.exponents.end(), [](const auto& x, const auto& y) {
+        return x.imag() != y.imag() ? x.imag() < y.imag() : x.real() < y.real();
+    });
+    double largest = 0;
+    for (const auto& s : result.exponents) {
+        result.growth_rate = std::max(result.growth_rate, s.real());
+        largest = std::max(largest, std::abs(s));
+    }
+    const linalg::Inertia sign = linalg::inertia(stiffness);
+    result.negative_directions = sign.negative;
+    const double rounding = 1e-14 * static_cast<double>(links) * stiffness.cwiseAbs().maxCoeff();
+    result.margin = 1e-7 * largest;  // what two exponents that meet may be torn apart by
+    if (sign.least > rounding)
+        result.verdict = Verdict::minimum;
+    else if (result.growth_rate > result.margin)
+        result.verdict = Verdict::unstable;
+    else if (result.growth_rate < 1e-4 * result.margin && sign.least < -rounding)
+        result.verdict = Verdict::spectrally_stable;
+    return result;
+}
+
 }  // namespace finite
 
 /// What becomes of a small disturbance of a steady shape of `chain`.
@@ -125,8 +152,6 @@ inline Stability stability(const Chain<double>& chain, const SteadyShape& shape,
     const double unit = std::ldexp(1.0, -links.units.length_exponent);
     const finite::Disturbed d(finite::MassivePins(links.links, shape, unit), shape.conical_height * unit);
     const Index n = d.offset.size();
-    Stability result;
-    result.frame = frame;
     Matrix<double> mass, gyroscopic, stiffness;
     if (frame == StabilityFrame::driven) {
         mass = d.inertia, stiffness = d.in_plane, gyroscopic = Matrix<double>::Zero(n, n);
@@ -142,26 +167,7 @@ inline Stability stability(const Chain<double>& chain, const SteadyShape& shape,
         gyroscopic.topRightCorner(n, k) = -2 * d.coupling * others;
         gyroscopic.bottomLeftCorner(k, n) = -gyroscopic.topRightCorner(n, k).transpose();
     }
-    result.exponents = linalg::gyroscopic_exponents(mass, gyroscopic, stiffness);
-    std::sort(result.exponents.begin(), result.exponents.end(), [](const auto& x, const auto& y) {
-        return x.imag() != y.imag() ? x.imag() < y.imag() : x.real() < y.real();
-    });
-    double largest = 0;
-    for (const auto& s : result.exponents) {
-        result.growth_rate = std::max(result.growth_rate, s.real());
-        largest = std::max(largest, std::abs(s));
-    }
-    const linalg::Inertia sign = linalg::inertia(stiffness);
-    result.negative_directions = sign.negative;
-    const double rounding = 1e-14 * static_cast<double>(n) * stiffness.cwiseAbs().maxCoeff();
-    result.margin = 1e-7 * largest;  // what two exponents that meet may be torn apart by
-    if (sign.least > rounding)
-        result.verdict = Verdict::minimum;
-    else if (result.growth_rate > result.margin)
-        result.verdict = Verdict::unstable;
-    else if (result.growth_rate < 1e-4 * result.margin && sign.least < -rounding)
-        result.verdict = Verdict::spectrally_stable;
-    return result;
+    return finite::judged(frame, n, mass, gyroscopic, stiffness);
 }
 
 }  // namespace revchain

@@ -107,19 +107,17 @@ struct Finished {
 inline std::optional<Finished> finished(const std::vector<Link<Wide<double>>>& links, const Wide<double>& height,
                                         const Bracket<DoubleDouble>& bracket) {
     using S = Wide<double>;
-    const S& lambda = height;
     S low = bracket.low.word(), high = bracket.high.word();
-    const bool rises = swept(links, lambda, low).back() < S(0);
+    const bool rises = swept(links, height, low).back() < S(0);
     const auto halve = [&]() {
         const S middle = low + (high - low) * S(0.5);
-        ((swept(links, lambda, middle).back() < S(0)) == rises ? low : high) = middle;
+        ((swept(links, height, middle).back() < S(0)) == rises ? low : high) = middle;
         return middle;
     };
     for (int round = 0; round < 16; ++round) {
-        auto found = balance(links, lambda, swept(links, lambda, halve()));
+        auto found = balance(links, height, swept(links, height, halve()));
         if (found.converged) {
-            const S d = found.offset[0] - found.offset[1];
-            const S tangent = d / (links[0].length * detail::cosine_of(links[0].length, d));
+            const S tangent = detail::tangent_in(found, links, 0);
             if (bracket.low.word() < tangent && tangent < bracket.high.word())
                 return Finished{std::move(found), tangent};
         }
@@ -128,12 +126,14 @@ inline std::optional<Finished> finished(const std::vector<Link<Wide<double>>>& l
     return std::nullopt;
 }
 
-/// How far the inclinations may be from those of the shape in the bracket, rad: signs of the support's offset on both
-/// sides of the tangent found, as near as two words can tell, and what all links then may do.
+/// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of the
+/// support's offset on both sides of its lowest tangent, as near as two words can tell, and what all links then may do.
 inline double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
-                                const Bracket<DoubleDouble>& bracket, const DoubleDouble& tangent) {
+                                const Bracket<DoubleDouble>& bracket, const Finished& found,
+                                const std::vector<Link<Wide<double>>>& middle) {
     using Far = DoubleDouble;
     const Interval<Far> lambda = enclosed<Far>(height);
+    const Far tangent(found.tangent);
     for (Far reach = tangent * Far(1e-28);; reach = reach * Far(16)) {
         const Far low = std::max(bracket.low, tangent - reach), high = std::min(bracket.high, tangent + reach);
         const bool whole = low == bracket.low && high == bracket.high;
@@ -141,9 +141,12 @@ inline double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>&
         std::vector<Interval<Far>> tangents;
         detail::support_offset(links, lambda, Interval<Far>(low, high), &tangents);
         double worst = 0;
-        for (const Interval<Far>& t : tangents) {
-            const double near = static_cast<double>(t.middle()), width = static_cast<double>(t.high - t.low);
-            const double change = width / (1 + near * near);
+        for (std::size_t m = 0; m < tangents.size(); ++m) {
+            const Far t(detail::tangent_in(found.shape, middle, m));
+            const Interval<Far> both = hull(tangents[m], Interval<Far>(t));
+            const double near = both.may_vanish() ? 0.0 : static_cast<double>(std::min(abs(both.low), abs(both.high)));
+            const double change =
+                static_cast<double>(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
             worst = std::max(worst, change == change ? change : std::numeric_limits<double>::infinity());
         }
         return worst * 1.01;
@@ -167,18 +170,16 @@ inline void add_single_valued(const Links<Wide<double>>& links, const Wide<doubl
             leave_open(bracket);
             continue;
         }
-        const Verified proved =
-            verified(narrow, enclosed<DoubleDouble>(height), {found->shape.offset.begin(), found->shape.offset.end()});
-        std::transform(proved.offset.begin(), proved.offset.end(), found->shape.offset.begin(),
-                       [](const DoubleDouble& y) { return y.word(); });
-        double error = proved.inclination_error;
-        if (error > 1e-16)  // all but horizontal, or all but critical: the sweep may say more
-            error = std::min(error, inclination_error(narrow, height, bracket, DoubleDouble(found->tangent)));
-        if (found->shape.offset[0] < Wide<double>(0.0))  // the lowest link's l > a: its free end across the axis
-            for (Wide<double>& y : found->shape.offset) y = -y;
-        SteadyShape& shape = result.shapes.emplace_back(described(links, height, found->shape));
-        shape.error_bound = error + 0x1p-52;  // and two roundings of an angle below pi/2
-        shape.condition = proved.condition;
+        SteadyShape& shape = result.shapes.emplace_back(
+            verified_shape(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
+        if (shape.error_bound > 0x1.8p-52) {  // all but horizontal, or all but critical: the sweep may say more
+            const double error = inclination_error(narrow, height, bracket, *found, links.links) + 0x1p-52;
+            if (error < shape.error_bound) {
+                const double condition = shape.condition;
+                shape = described(links, height, found->shape);
+                shape.error_bound = error, shape.condition = condition;
+            }
+        }
     }
 }
 
@@ -192,7 +193,7 @@ inline void add_several_valued(const Links<Wide<double>>& links, const Wide<doub
     result.cells = found.cells;
     for (const Settled& settled : found.shapes) {
         result.shapes.push_back(described(links, height, settled.shape));
-        result.shapes.back().error_bound = settled.error;
+        result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
     }
     for (const auto& part : found.open) {
         const double low = std::atan(part.low), high = std::atan(part.high);

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linalg/bisection.hpp"
+#include "revchain/linalg/signed_twisted.hpp"
+#include "revchain/linear/mode_table.hpp"
+#include "revchain/linear/rig_mode_table.hpp"
+#include "revchain/linear/rig_pencil.hpp"
+
+/// The part of `rig_modes` that counts: for rigs whose roots are all real and one count numbers.
+namespace revchain::detail {
+
+using RigWord = Wide<double>;
+
+/// A root x > 0, and half the width of the proved interval about what is given out for it, relative to that.
+struct FoundRoot {
+    RigWord x{};
+    double margin = std::numeric_limits<double>::infinity();
+};
+
+/// The roots x > 0 of Q(side x), numbered from 0, largest first: base + sign (negative eigenvalues of Q) exceed x.
+class CountedRoots {
+   public:
+    CountedRoots(linalg::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
+        : pencil_(std::move(pencil)),
+          counter_(pencil_, base, sign, side),
+          pace_(pace),
+          base_(base),
+          sign_(sign),
+          side_(side) {}
+
+    const linalg::SignedPencil<RigWord>& pencil() const { return pencil_; }
+
+    struct Available {
+        Index count = 0;
+        bool proved = false;
+    };
+    /// How many there are: counted at 0, where M has no zero itself; else where rounding leaves no doubt, at 1e-120 of
+    /// the length where what has no mass has none at all.
+    Available available() const {
+        if (const auto count = counted<1>({RigWord(0.0)}); count[0].proved) return {count[0].above, true};
+        const int start = pencil_.quadratic ? -200 : -400;
+        Available found{std::max<Index>(0, counted<1>({RigWord(std::ldexp(1.0, start))})[0].above), false};
+        for (int exponent = start; exponent < 200; exponent += 20)
+            if (const auto count = counted<1>({RigWord(std::ldexp(1.0, exponent))}); count[0].proved)
+                return {count[0].above, exponent == start};
+        return found;
+    }
+
+    /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
+    template <class Finished>
+    std::vector<linalg::Bracket<double>> brackets(Index first, Index count, double start, Finished finished) const {
+        return linalg::bisect(counter_, first, count, 2 * epsilon<double>(), start, finished);
+    }
+
+    /// Root number j from its bracket: a vector in two words, its quotient, and two proved counts.
+    FoundRoot refined(Index j, const linalg::Bracket<double>& bracket) const {
+        const double margin = epsilon<double>();
+        const RigWord side(static_cast<double>(side_));
+        RigWord x(linalg::between(bracket.lower, bracket.upper));
+        for (int round = 0; round < 3; ++round) {
+            const RigWord root =
+                side * linalg::rayleigh_root(pencil_, linalg::twisted_vector(pencil_, side * x), side * x);
+            if (!(root > RigWord(0.0)) || !isfinite(root)) break;
+            x = root;
+            const RigWord out = given_out(x), reach = out * RigWord(margin);
+            const auto count = counted<2>({out - reach, out + reach});
+            if (count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j) return {x, margin};
+        }
+        return bisected(j, linalg::between(bracket.lower, bracket.upper));
+    }
+
+    /// y with Q y = 0 at a root.
+    std::vector<RigWord> vector(const RigWord& x) const {
+        return linalg::twisted_vector(pencil_, RigWord(static_cast<double>(side_)) * x);
+    }
+
+   private:
+    template <std::size_t N>
+    std::array<linalg::CertifiedCount, N> counted(std::array<RigWord, N> x) const {
+        for (RigWord& one : x) one = RigWord(static_cast<double>(side_)) * one;
+        auto result = linalg::certified_count<RigWord, N>(pencil_, x);
+        for (auto& one : result) one.above = base_ + sign_ * one.above;
+        return result;
+    }
+
+    /// The x that belongs to what is given out, rounded: a speed where there is momentum, else a height.
+    RigWord given_out(const RigWord& x) const {
+        return pencil_.quadratic ? pace_ / RigWord(static_cast<double>(pace_ / x)) : RigWord(static_cast<double>(x));
+    }
+
+    /// By proved counts alone, as far as they go.
+    FoundRoot bisected(Index j, double guess) const {
+        const RigWord centre(guess);
+        RigWord lower = centre, upper = centre;
+        bool has_lower = false, has_upper = false;
+        for (double margin = 8 * epsilon<double>(); !(has_lower && has_upper); margin *= 16) {
+            if (margin > 1e6) return {centre};
+            const RigWord stretch(1 + margin);
+            const auto count = counted<2>({centre / stretch, centre * stretch});
+            if (!has_lower && count[0].proved && count[0].above > j) lower = centre / stretch, has_lower = true;
+            if (!has_upper && count[1].proved && count[1].above <= j) upper = centre * stretch, has_upper = true;
+        }
+        for (int round = 0; round < 200; ++round) {
+            if (static_cast<double>(upper - lower) < epsilon<double>() / 4 * static_cast<double>(lower)) break;
+            const RigWord third = (upper - lower) / RigWord(3.0);
+            const std::array<RigWord, 2> shifts{lower + third, upper - third};
+            const auto count = counted<2>(shifts);
+            bool moved = false;
+            for (std::size_t i = 0; i < 2; ++i) {
+                if (!count[i].proved) continue;
+                if (count[i].above > j && shifts[i] > lower) lower = shifts[i], moved = true;
+                if (count[i].above <= j && shifts[i] < upper) upper = shifts[i], moved = true;
+            }
+            if (!moved) break;
+        }
+        const RigWord x = lower + (upper - lower) / RigWord(2.0), out = given_out(x);
+        const double worst = std::max(static_cast<double>(out - lower), static_cast<double>(upper - out));
+        return {x, worst / static_cast<double>(lower) * (1 + 8 * epsilon<double>())};
+    }
+
+    linalg::SignedPencil<RigWord> pencil_;
+    linalg::SignedCounter<double> counter_;
+    RigWord pace_;
+    Index base_, sign_;
+    int side_;
+};
+
+/// The range of mode numbers asked for of so many, refused where there are none such.
+inline ModeRange chosen(const RigModesOptions& options, Index available, std::string_view kind) {
+    const std::string of = std::to_string(available) + " " + std::string(kind) + " of this rig";
+    if (options.first < 1) refuse("rig_modes", "first must be at least 1", options.first);
+    if (options.count && *options.count < 1) refuse("rig_modes", "count must be at least 1", *options.count);
+    if (!options.count && options.first == 1) return {1, available};
+    if (options.first > available) refuse("rig_modes", "first must not exceed the " + of, options.first);
+    const Index left = available - options.first + 1;
+    if (options.count.value_or(left) > left)
+        refuse("rig_modes", "count must not exceed what is left, from first on, of the " + of, *options.count);
+    return {options.first, options.count.value_or(left)};
+}
+
+inline void make_room(WhirlModes& modes, const ModeRange& range, Index available, Index links, bool shapes) {
+    modes.first = range.first, modes.available = available;
+    for (Vector<double>* column :
+         {&modes.conical_height, &modes.error_bound, &modes.angular_speed, &modes.speed_error_bound})
+        column->resize(range.count);
+    if (!shapes) return;
+    modes.residual.resize(range.count);
+    modes.shape.resize(range.count, links + 1);
+}
+
+/// Stores mode number j (from 0) of those found; false where nothing was proved of it.
+inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const linalg::SignedPencil<RigWord>& pencil,
+                     const FoundRoot& root, bool shapes) {
+    const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
+    const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
+    modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
+    modes.angular_speed[j] = static_cast<double>(speed);
+    // The margin is about what is given out; the other takes in half an ulp for each of the two roundings.
+    const double ulp = epsilon<double>(), few = 32 * operation_error<RigWord>();
+    const double margin = root.margin * (1 + 4 * root.margin) + few;
+    double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
+    if (pencil.quadratic) of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
+    const bool proved = of_height < 1;
+    modes.error_bound[j] = proved ? of_height : std::numeric_limits<double>::infinity();
+    modes.speed_error_bound[j] = proved ? of_speed : std::numeric_limits<double>::infinity();
+    if (!shapes) return proved;
+    const auto offset = linalg::twisted_vector(pencil, root.x);
+    Vector<double> rounded(pencil.size() + 1);
+    for (Index i = 0; i <= pencil.size(); ++i) rounded[i] = static_cast<double>(offset[static_cast<std::size_t>(i)]);
+    modes.shape.row(j) = rounded.head(modes.shape.cols()).transpose();
+    modes.residual[j] = linalg::relative_residual(pencil, root.x, rounded);
+    return proved;
+}
+
+/// Finds the modes of one sense; reports progress from one share to another.
+inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& pencil, const CountedRoots& roots,
+                           Index available, const RigModesOptions& options, std::string_view kind, double from,
+                           double to) {
+    const ModeRange range = chosen(options, available, kind);
+    make_room(modes, range, available, rig.size(), options.shapes);
+    if (range.count == 0) return true;
+    const double all = static_cast<double>(range.count);
+    const double height = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
+    const auto brackets = roots.brackets(
+        range.first - 1, range.count, roots.pencil().quadratic ? std::sqrt(height) : height,
+        [&](Index done) { advance(options.progress, from + (to - from) * 0.4 * static_cast<double>(done) / all); });
+    bool proved = true;
+    for (Index j = 0; j < range.count; ++j) {
+        const FoundRoot root = roots.refined(range.first - 1 + j, brackets[static_cast<std::size_t>(j)]);
+        proved = set_mode(modes, j, pencil, roots.pencil(), root, options.shapes) && proved;
+        advance(options.progress, from + (to - from) * (0.4 + 0.6 * static_cast<double>(j + 1) / all));
+    }
+    return proved;
+}
+
+}  // namespace revchain::detail

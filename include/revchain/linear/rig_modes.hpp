@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linalg/complex_spectrum.hpp"
+#include "revchain/linear/modes.hpp"
+#include "revchain/linear/rig_counts.hpp"
+
+namespace revchain {
+
+/// Beyond so many elements (the links, and a support that yields) `rig_modes` solves no dense eigenproblem.
+inline constexpr Index dense_rig_limit = 200;
+
+/// Whirl speeds of small amplitude of a rig, with shapes: Greenhill (1908) §8 (21) with supports, standing links,
+/// floats and flywheels. The radius of a support that is carried round plays no part.
+///
+/// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
+/// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in
+/// `other`. With momentum: K + n G - (n^2/g) M. Where K > 0 and M >= 0 each of its eigenvalues passes through 0 at most
+/// once on the way to either side of n = 0, so that counts number the speeds, 2N real ones where M > 0. Else all
+/// heights, or all speeds, come from one dense eigenproblem, refined in two words and enclosed in discs that hold one
+/// each: for at most `dense_rig_limit` elements.
+/// Accuracy, measured (tests/cpp/linear/rig_modes.cpp): heights without momentum, speeds with it, within 0.501 ulp of
+/// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of `modes`. A rig without anything is
+/// given to `modes`.
+/// Cost: 1 microsecond per link and mode with shapes, O(N k) memory; discs take seconds at the limit.
+/// Throws InvalidArgument for mode numbers outside 1 ... those there are, gravity that is not positive, and beyond the
+/// limit. A bound that could not be proved is infinite and the status `tolerance_not_met`.
+RigModes rig_modes(const Rig& rig, const RigModesOptions& options = {});
+
+namespace detail {
+
+/// As the chain's own modes, which they are.
+inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
+    RigModes result;
+    const Index available = rig.chain().mode_count();
+    const ModeRange range = chosen(options, available, "modes");
+    const Modes<double> plain =
+        modes(rig.chain(),
+              {.first = range.first, .count = range.count, .shapes = options.shapes, .progress = options.progress});
+    result.forward = {
+        range.first,       available,   plain.conical_height, plain.error_bound, plain.angular_speed(options.gravity),
+        plain.error_bound, plain.shape, plain.residual};
+    for (double& bound : result.forward.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
+    result.complete = true, result.method = "modes", result.status = plain.status;
+    return result;
+}
+
+inline bool has_nothing(const Rig& rig) {
+    for (Index m = 0; m < rig.size(); ++m)
+        if (rig.stands(m) || !(rig.flywheel(m) == Flywheel{}) || rig.displaced(m).weight != 0 ||
+            rig.displaced(m).added_weight != 0)
+            return false;
+    return rig.support().is_firm();
+}
+
+/// Of a height in the pencil's unit; the root of -g/height with a positive real part is the rate of growth.
+inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double relative_bound) {
+    OtherMode mode;
+    mode.conical_height = {std::ldexp(x.real(), rig.units.length_exponent),
+                           std::ldexp(x.imag(), rig.units.length_exponent)};
+    const std::complex<double> rate = static_cast<double>(rig.pace) / std::sqrt(-x);
+    mode.growth_rate = rate.real();
+    mode.angular_speed = {rate.imag(), -rate.real()};
+    mode.error_bound = relative_bound < 1 ? relative_bound : std::numeric_limits<double>::infinity();
+    return mode;
+}
+
+/// Heights below 0, all of them, by counts: base + sign (negative eigenvalues of Q(-x)) of them exceed x in size.
+inline bool negative_heights(RigModes& result, const Rig& rig, const RigPencil& pencil, Index base, Index sign,
+                             Index& count) {
+    const CountedRoots roots(pencil.pencil, pencil.pace, base, sign, -1);
+    const auto available = roots.available();
+    count = available.count;
+    if (count <= 0) return available.proved;
+    const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
+    const auto brackets = roots.brackets(0, count, start, [](Index) {});
+    bool proved = available.proved;
+    for (Index j = 0; j < count; ++j) {
+        const FoundRoot root = roots.refined(j, brackets[static_cast<std::size_t>(j)]);
+        result.other.push_back(other_height(pencil, -static_cast<double>(root.x), root.margin + 1e-30));
+        proved = proved && std::isfinite(result.other.back().error_bound);
+    }
+    return proved;
+}
+
+/// Without momentum, where heights are real.
+inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const RigModesOptions& options) {
+    RigModes result;
+    result.method = "counts";
+    // Where K > 0, heights above h are the negative eigenvalues of hK - M. Where M >= 0 those of K - mu M, mu = 1/h,
+    // are these and besides as many as K has.
+    const Index before = pencil.stiffness_positive ? 0 : pencil.not_positive;
+    const CountedRoots roots(pencil.pencil, pencil.pace, -before, 1, 1);
+    CountedRoots::Available available{pencil.pencil.size() - pencil.inertialess, true};
+    if (!pencil.stiffness_positive || !pencil.mass_not_negative) available = roots.available();
+    const bool modes_proved =
+        count_modes_of(result.forward, rig, pencil, roots, available.count, options, "modes", 0, 0.9);
+    Index negative = 0;
+    bool others_proved = true;
+    const Index size = pencil.pencil.size();
+    if (options.other && pencil.stiffness_positive && !pencil.mass_not_negative)
+        others_proved = negative_heights(result, rig, pencil, size, -1, negative);
+    else if (options.other && !pencil.stiffness_positive)
+        others_proved = negative_heights(result, rig, pencil, before - size, 1, negative);
+    result.complete = available.proved && others_proved && (pencil.stiffness_positive || pencil.stiffness_certain);
+    if (!modes_proved || !result.complete) result.status = Status::tolerance_not_met;
+    return result;
+}
+
+/// With momentum, K > 0 and M >= 0.
+inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const RigModesOptions& options) {
+    RigModes result;
+    result.has_momentum = true, result.method = "counts", result.complete = true;
+    for (const bool forward : {true, false}) {
+        const CountedRoots roots(forward ? pencil.pencil : pencil.pencil.reversed(), pencil.pace, 0, 1, 1);
+        // Where G reaches no coordinate without inertia, the rank of M says how many there are.
+        const auto available = pencil.spins_held
+                                   ? CountedRoots::Available{pencil.pencil.size() - pencil.inertialess, true}
+                                   : roots.available();
+        const bool proved =
+            count_modes_of(forward ? result.forward : result.backward, rig, pencil, roots, available.count, options,
+                           forward ? "forward modes" : "backward modes", forward ? 0 : 0.5, forward ? 0.5 : 1);
+        result.complete = result.complete && available.proved;
+        if (!proved || !available.proved) result.status = Status::tolerance_not_met;
+    }
+    return result;
+}
+
+/// Neither: all roots at once.
+inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const RigModesOptions& options) {
+    if (pencil.pencil.size() > dense_rig_limit)
+        refuse(
+            "rig_modes",
+            "a rig whose speeds may be complex (standing links with momentum, or in a fluid that turns with them) is "
+            "solved for at most " +
+                std::to_string(dense_rig_limit) + " links and supports that yield",
+            pencil.pencil.size());
+    RigModes result;
+    result.has_momentum = pencil.pencil.quadratic, result.method = "discs";
+    const bool twice = pencil.pencil.quadratic && pencil.spins_held;  // x^2 is what a massless coordinate has at least
+    const linalg::ComplexSpectrum spectrum =
+        linalg::complex_spectrum(pencil.pencil, (twice ? 2 : 1) * pencil.inertialess,
+                                 [&](double share) { advance(options.progress, 0.9 * share); });
+    result.complete = spectrum.proved;
+    if (!spectrum.proved) result.status = Status::tolerance_not_met;
+    std::vector<FoundRoot> forward, backward;
+    for (const linalg::EnclosedRoot& root : spectrum.roots) {
+        const double size = std::abs(root.value),
+                     bound = spectrum.proved ? root.radius / size : std::numeric_limits<double>::infinity();
+        if (root.is_real && (root.value.real() > 0 || result.has_momentum)) {
+            const bool ahead = root.value.real() > 0;
+            // What is given out is rounded from x, and may be half an ulp from the disc's centre.
+            (ahead ? forward : backward)
+                .push_back({ahead ? root.x.real : -root.x.real, bound + 1.01 * epsilon<double>()});
+        } else if (options.other && !result.has_momentum) {
+            result.other.push_back(other_height(pencil, root.value, bound));
+        } else if (options.other) {
+            const double unit = std::ldexp(1.0, pencil.units.length_exponent);
+            const std::complex<double> speed = static_cast<double>(pencil.pace) / root.value;
+            result.other.push_back({root.value * root.value * unit, speed, std::abs(speed.imag()),
+                                    2 * bound * (1 + bound) + 8 * epsilon<double>()});
+        }
+    }
+    const auto store = [&](WhirlModes& modes, const std::vector<FoundRoot>& found, bool ahead, std::string_view kind) {
+        const ModeRange range = chosen(options, static_cast<Index>(found.size()), kind);
+        make_room(modes, range, static_cast<Index>(found.size()), rig.size(), options.shapes);
+        const auto sense = ahead ? pencil.pencil : pencil.pencil.reversed();
+        for (Index j = 0; j < range.count; ++j)
+            set_mode(modes, j, pencil, sense, found[static_cast<std::size_t>(range.first - 1 + j)], options.shapes);
+    };
+    store(result.forward, forward, true, result.has_momentum ? "forward modes" : "modes");
+    if (result.has_momentum) store(result.backward, backward, false, "backward modes");
+    return result;
+}
+
+/// Where tension + n spin = 0 between n = 0 and the fastest speeds found.
+inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes) {
+    const auto fastest = [](const WhirlModes& sense) {
+        return sense.size() == 0 ? 0.0 : sense.angular_speed.maxCoeff();
+    };
+    const double ahead = fastest(modes.forward), back = fastest(modes.backward);
+    std::vector<SlackLink> slack;
+    Index m = 0;
+    for (const RigLink& link : rig_links(rig)) {
+        const RigWord zero(0.0);
+        if (!(link.spin == zero) && !(link.tension == zero)) {
+            const double speed = static_cast<double>(-link.tension / link.spin);
+            if (speed > 0 ? speed <= ahead : -speed <= back) slack.push_back({m, speed});
+        }
+        ++m;
+    }
+    std::stable_sort(slack.begin(), slack.end(), [](const SlackLink& x, const SlackLink& y) {
+        return std::abs(x.angular_speed) < std::abs(y.angular_speed);
+    });
+    return slack;
+}
+
+}  // namespace detail
+
+inline RigModes rig_modes(const Rig& rig, const RigModesOptions& options) {
+    detail::require_positive("rig_modes", "gravity", options.gravity);
+    if (detail::has_nothing(rig)) return detail::plain_modes(rig, options);
+    const RigPencil pencil = rig_pencil(rig, options.gravity);
+    RigModes result;
+    if (pencil.pencil.quadratic)
+        result = pencil.stiffness_positive && pencil.mass_not_negative ? detail::counted_speeds(rig, pencil, options)
+                                                                       : detail::enclosed_modes(rig, pencil, options);
+    else
+        result = pencil.stiffness_positive || pencil.mass_not_negative ? detail::counted_heights(rig, pencil, options)
+                                                                       : detail::enclosed_modes(rig, pencil, options);
+    if (result.has_momentum) result.slack = detail::slack_links(rig, result);
+    detail::advance(options.progress, 1);
+    return result;
+}
+
+}  // namespace revchain

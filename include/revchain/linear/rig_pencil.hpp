@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <array>
+
+#include "revchain/chain/rig.hpp"
+#include "revchain/linalg/signed_pencil.hpp"
+
+namespace revchain {
+
+/// The small theory of a rig as elements: for each link stiffness sign (tension + n spin)/length, sign -1 where it
+/// stands, and mass [lower cross; cross upper]; on top a support that yields, a massless element of its stiffness with
+/// the carriage at its lower pin. Weights in units of 2^weight_exponent, lengths of 2^length_exponent.
+///
+/// Steady motion is Q y = 0 with Q = lambda K - M where no link has momentum, x = lambda; and else with
+/// Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
+struct RigPencil {
+    using S = Wide<double>;
+    linalg::SignedPencil<S> pencil;
+    ChainUnits units;
+    S pace{1.0};              ///< sqrt(g) in the unit of length; n = pace/x
+    bool stiffness_positive;  ///< every element's stiffness at rest is, within its error: K > 0
+    bool stiffness_certain;   ///< the sign of each is certain
+    Index not_positive;       ///< elements whose stiffness at rest is not
+    bool mass_not_negative;   ///< every element's mass is positive or 0 for certain, so that M >= 0
+    bool spins_held;          ///< each link with momentum has inertia at both its pins
+    Index inertialess;        ///< coordinates that carry no inertia: M has so many zeros, at least
+};
+
+namespace detail {
+
+/// What of a link's mass is held: nothing, one combination of its pins' offsets, or both.
+enum class Held { nothing, lower, upper, one, both };
+
+inline Held held_by(const Rig& rig, Index m) {
+    const Link<double> link = rig.chain().link(m);
+    const Displaced fluid = rig.displaced(m);
+    const double moved = rig.fluid() == Fluid::turning ? fluid.weight : fluid.added_weight;
+    const Wide<double> none(0.0);
+    if (rig.flywheel(m).axial_moment > 0) return Held::both;
+    if (link.weight > 0 && moved > 0 && fluid.centroid != link.centroid) return Held::both;
+    if ((link.weight > 0 && link.gyration_ratio > none) || (moved > 0 && fluid.gyration_ratio > none))
+        return Held::both;
+    if (!(link.weight > 0) && !(moved > 0)) return Held::nothing;
+    const double h = link.weight > 0 ? link.centroid : fluid.centroid;
+    return h == 0 ? Held::upper : h == link.length ? Held::lower : Held::one;
+}
+
+/// As `Chain::mode_count` counts them, from the support down: `free` says whether the pin reached so far can move with
+/// no inertia noticing.
+inline Index inertialess_coordinates(const Rig& rig) {
+    bool free = !rig.support().is_firm() && !(rig.support().carriage_weight > 0);
+    Index nullity = 0;
+    for (Index m = rig.size() - 1; m >= 0; --m) {
+        const Held held = held_by(rig, m);
+        if (held == Held::nothing) {
+            nullity += free ? 1 : 0;
+            free = true;
+        } else if (held == Held::both) {
+            free = false;
+        } else if (held == Held::upper) {
+            free = true;
+        } else if (held == Held::lower) {
+            nullity += free ? 1 : 0;
+            free = false;
+        }
+    }
+    return nullity + (free ? 1 : 0);
+}
+
+/// Whether a mass whose numbers have these errors is positive or 0 for certain.
+inline bool is_not_negative(const linalg::SignedElement<Wide<double>>& e,
+                            const linalg::SignedElementError<double>& off) {
+    const auto high = [](const Wide<double>& x) { return static_cast<double>(x); };
+    const auto vanish = [](const Wide<double>& x, double error) { return x == Wide<double>(0.0) && error == 0; };
+    if (vanish(e.cross, off.cross) && vanish(e.upper, off.upper)) return high(e.lower) >= off.lower;
+    if (vanish(e.cross, off.cross) && vanish(e.lower, off.lower)) return high(e.upper) >= off.upper;
+    const double A = high(e.lower), B = high(e.upper), X = std::abs(high(e.cross));
+    const double error = (A * off.upper + B * off.lower + 2 * X * off.cross) * 1.001 + 1e-29 * (A * B + X * X);
+    return A > off.lower && B > off.upper && high(e.lower * e.upper - e.cross * e.cross) > error;
+}
+
+}  // namespace detail
+
+/// The pencil of a rig; every number with a bound on its error, from the sizes of the terms that `rig_links` adds.
+/// Cost O(N). Throws InvalidArgument as rig_links does, and unless gravity > 0.
+inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity) {
+    using S = RigPencil::S;
+    detail::require_positive("rig_pencil", "gravity", gravity);
+    const std::vector<RigLink> links = rig_links(rig);
+    RigPencil result;
+    result.units = rig.chain().units();
+    result.pencil.quadratic = rig.has_momentum();
+    result.pace = sqrt(S(std::ldexp(gravity, -result.units.length_exponent)));
+    result.stiffness_positive = result.stiffness_certain = result.mass_not_negative = result.spins_held = true;
+    result.not_positive = 0;
+    const double u = operation_error<S>();
+    const auto in_weights = [&](double x) { return std::ldexp(x, -result.units.weight_exponent); };
+    const auto in_lengths = [&](double x) { return std::ldexp(x, -result.units.length_exponent); };
+    const auto add = [&](const linalg::SignedElement<S>& e, const linalg::SignedElementError<double>& off,
+                         bool mass_not_negative) {
+        result.pencil.elements.push_back(e);
+        result.pencil.errors.push_back(off);
+        const double k = static_cast<double>(e.stiffness);
+        result.stiffness_positive = result.stiffness_positive && k > off.stiffness;
+        result.stiffness_certain = result.stiffness_certain && std::abs(k) > off.stiffness;
+        result.not_positive += k > 0 ? 0 : 1;
+        result.mass_not_negative = result.mass_not_negative && mass_not_negative;
+    };
+    double hung = 0;  // sizes of what is hung, added
+    for (Index m = 0; m < rig.size(); ++m) {
+        const RigLink& link = links[static_cast<std::size_t>(m)];
+        const Link<double> body = rig.chain().link(m);
+        const Displaced fluid = rig.displaced(m);
+        const double a = in_lengths(body.length),
+                     shared = rig.fluid() == Fluid::turning ? fluid.weight : fluid.added_weight;
+        // Sizes: of the terms of the tension, of those of the mass.
+        double tension = hung, lower = 0, cross = 0, upper = 0;
+        const auto body_sizes = [&](double bears, double moves, double centroid, double gyration) {
+            const double p = std::abs(in_lengths(centroid)) / a, q = std::abs(a - in_lengths(centroid)) / a;
+            tension += bears * p, hung += bears;
+            lower += moves * (p * p + gyration), cross += moves * (p * q + gyration);
+            upper += moves * (q * q + gyration);
+        };
+        body_sizes(in_weights(body.weight), in_weights(body.weight), body.centroid,
+                   static_cast<double>(body.gyration_ratio));
+        body_sizes(in_weights(fluid.weight), in_weights(shared), fluid.centroid,
+                   static_cast<double>(fluid.gyration_ratio));
+        const double axial = in_weights(rig.flywheel(m).axial_moment);
+        if (axial > 0) {
+            const double turning = std::ldexp(axial, -2 * result.units.length_exponent) / a / a;
+            lower += turning, cross += turning, upper += turning;
+        }
+        const double sign = rig.stands(m) ? -1 : 1;
+        const linalg::SignedElement<S> e{link.tension / link.length * sign,
+                                         link.spin / link.length * sign * result.pace, link.lower, link.upper,
+                                         link.cross};
+        const double sums = 1.01 * static_cast<double>(2 * m + 8);
+        const linalg::SignedElementError<double> off{sums * u * tension / a,
+                                                     10 * u * std::abs(static_cast<double>(e.spin)), 12 * u * lower,
+                                                     12 * u * upper, 12 * u * cross};
+        const bool plain = axial == 0 && (rig.fluid() == Fluid::still || fluid.weight == 0);
+        add(e, off, plain || detail::is_not_negative(e, off));
+        result.spins_held = result.spins_held && (link.spin == S(0.0) || detail::held_by(rig, m) == detail::Held::both);
+    }
+    if (const Support& support = rig.support(); !support.is_firm()) {
+        const double stiffness =
+            std::ldexp(support.stiffness, result.units.length_exponent - result.units.weight_exponent);
+        if (!(std::isfinite(stiffness) && stiffness > 0))
+            detail::refuse("rig_pencil", "the support's stiffness is too far from weight over length",
+                           support.stiffness);
+        add({S(stiffness), S(0.0), S(in_weights(support.carriage_weight)), S(0.0), S(0.0)}, {}, true);
+    }
+    result.inertialess = detail::inertialess_coordinates(rig);
+    return result;
+}
+
+}  // namespace revchain

@@ -1,0 +1,307 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `revchain.modes` returns for a `Rig`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from ._arguments import Floats, Whole, integer, positive, real, shown
+from ._rig import Rig
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WhirlModes:
+    """Whirl modes of a rig in one sense of rotation, slowest first.
+
+    Attributes
+    ----------
+    number : ndarray of int64, shape (k,)
+        From 1 for the slowest of this sense.
+    available : int
+        How many there are in this sense, computed or not.
+    conical_height : ndarray, shape (k,)
+        ``gravity / angular_speed**2``, descending, in the unit of the chain's lengths.
+    error_bound : ndarray, shape (k,)
+        Of each height, relative to the exact one of the numbers stored; proved. Infinite where nothing was.
+    angular_speed : ndarray, shape (k,)
+        Size of the speed, rad/s.
+    speed_error_bound : ndarray, shape (k,)
+        Of each speed, relative; proved.
+    shape : ndarray, shape (k, N + 1), or None
+        Offsets of the pins, free end first, support last (0 where it is firm); the largest magnitude is 1,
+        the free end positive.
+    residual : ndarray, shape (k,), or None
+        Of each shape, relative.
+    """
+
+    number: Whole
+    available: int
+    conical_height: Floats
+    error_bound: Floats
+    angular_speed: Floats
+    speed_error_bound: Floats
+    shape: Floats | None
+    residual: Floats | None
+
+    def __len__(self) -> int:
+        return int(self.conical_height.size)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OtherModes:
+    """What is no steady motion of a rig: conical heights that are negative or complex, or complex speeds.
+
+    Attributes
+    ----------
+    conical_height : ndarray of complex, shape (m,)
+    angular_speed : ndarray of complex, shape (m,)
+        ``n`` with ``n**2 * conical_height = gravity``; offsets turn and grow as ``exp(1j * n * t)``.
+    growth_rate : ndarray, shape (m,)
+        Size of the imaginary part, 1/s: small offsets grow as ``exp(growth_rate * t)``.
+    error_bound : ndarray, shape (m,)
+        Of each height, relative to its size; proved.
+    """
+
+    conical_height: Complex
+    angular_speed: Complex
+    growth_rate: Floats
+    error_bound: Floats
+
+    def __len__(self) -> int:
+        return int(self.conical_height.size)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class RigModes:
+    """Whirl modes of a rig.
+
+    Attributes
+    ----------
+    rig : Rig
+    gravity : float
+    has_momentum : bool
+        Whether a link has angular momentum of its own, so that the two senses of rotation differ.
+    forward, backward : WhirlModes
+        Modes with positive and with negative speeds. Without momentum both senses are alike, and `backward`
+        is empty.
+    other : OtherModes
+        What is no steady motion.
+    slack_link : ndarray of int64, shape (s,)
+        Links, from 0, lowest first, whose effective tension, ``tension + n * momentum / length``, vanishes
+        between 0 and the fastest speed found in its sense.
+    slack_speed : ndarray, shape (s,)
+        The speeds at which it does, in rad/s, with their sign, slowest first.
+    complete : bool
+        Whether the numbers of modes and the list of others are proved to be all there is.
+    method : str
+        ``"modes"`` (there was nothing on the chain), ``"counts"`` or ``"discs"``.
+    status : str
+        ``"success"`` or ``"tolerance_not_met"``: something could not be proved.
+
+    Examples
+    --------
+    A gyrostat on a link, ``A n^2 - H n - W h = 0``:
+
+    >>> import revchain as rc
+    >>> top = rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)
+    >>> rc.modes(top).angular_speed().round(4)
+    array([-2.4701,  3.9701])
+    """
+
+    rig: Rig
+    gravity: float
+    has_momentum: bool
+    forward: WhirlModes
+    backward: WhirlModes
+    other: OtherModes
+    slack_link: Whole
+    slack_speed: Floats
+    complete: bool
+    method: str
+    status: str
+
+    def __len__(self) -> int:
+        return len(self.forward) + len(self.backward)
+
+    @property
+    def sense(self) -> Whole:
+        """Of each mode, shape (k,): 1 forward, -1 backward, slowest first of both; all 1 without momentum."""
+        signs = np.concatenate([np.ones(len(self.forward)), -np.ones(len(self.backward))])
+        return self._both(signs.astype(np.int64))  # type: ignore[no-any-return]
+
+    @property
+    def number(self) -> Whole:
+        """Of each mode among those of its sense, shape (k,), from 1."""
+        return self._both(np.concatenate([self.forward.number, self.backward.number]))  # type: ignore[no-any-return]
+
+    @property
+    def conical_height(self) -> Floats:
+        """Of the modes of both senses, shape (k,), descending."""
+        return self._both(self._column("conical_height"))  # type: ignore[no-any-return]
+
+    @property
+    def error_bound(self) -> Floats:
+        """Of each conical height, relative; proved."""
+        return self._both(self._column("error_bound"))  # type: ignore[no-any-return]
+
+    @property
+    def shape(self) -> Floats | None:
+        """Of the modes of both senses, shape (k, N + 1); None if shapes were not asked for."""
+        return None if self.forward.shape is None else self._both(self._column("shape"))
+
+    @property
+    def residual(self) -> Floats | None:
+        """Of the shapes, shape (k,); None if shapes were not asked for."""
+        return None if self.forward.residual is None else self._both(self._column("residual"))
+
+    def angular_speed(self) -> Floats:
+        """Return the whirl speed of each mode under `gravity`, signed.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            In rad/s, slowest first, negative for backward modes. What is in `other` has none here.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rig = rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), standing=[True, False])
+        >>> rc.modes(rig).angular_speed().round(4)
+        array([3.3651])
+        """
+        return self.sense * self._both(self._column("angular_speed"))  # type: ignore[no-any-return]
+
+    def plot(self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m") -> Axes:
+        """Draw the shapes side by side along the straight chain, standing links upwards.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        most : int
+            How many modes, slowest first.
+        length_unit : str
+            What to write on the axis of depth.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If there are no shapes, or no modes.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rig = rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), momentum=0.3)
+        >>> rc.modes(rig).plot().get_ylabel()
+        'depth below the support (m)'
+        """
+        from ._plots import MOST_PINS_AS_DOTS, SPACING, new_axes, thinned
+        from ._tables import digits
+
+        shape = self.shape
+        if shape is None or len(self) == 0:
+            raise ValueError("RigModes.plot: there are no shapes; compute them with shapes=True")
+        drawn = min(len(self), integer("RigModes.plot", "most", most))
+        if drawn < 1:
+            raise ValueError(f"RigModes.plot: most must be at least 1, got {shown(most)}")
+        if ax is None:
+            ax = new_axes(max(4.0, 1.6 + 1.25 * drawn), 6.0)
+        steps = self.rig.chain.length * np.where(self.rig.standing, -1.0, 1.0)
+        depth = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])  # of the pins, free end first
+        speeds = self.angular_speed()
+        marker = "o" if depth.size <= MOST_PINS_AS_DOTS else ""
+        labels = []
+        for place in range(drawn):
+            axis = SPACING * place
+            kept = thinned(shape[place])
+            ax.plot([axis, axis], [depth.max(), depth.min()], color="0.6", linestyle="--", linewidth=0.9, zorder=1)
+            colour = "C0" if self.sense[place] > 0 else "C3"
+            ax.plot(axis + shape[place][kept], depth[kept], color=colour, linewidth=1.6, marker=marker, markersize=4.0)
+            ax.plot(axis, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
+            which = f"mode {self.number[place]}"
+            if self.has_momentum:
+                which += " forward" if self.sense[place] > 0 else " backward"
+            labels.append(f"{which}\n{digits(speeds[place], 4)} rad/s")
+        ax.set_xlim(-SPACING / 2, SPACING * (drawn - 0.5))
+        ax.set_xticks([SPACING * place for place in range(drawn)], labels, fontsize="x-small")
+        margin = 0.04 * (depth.max() - depth.min())
+        ax.set_ylim(depth.max() + margin, depth.min() - margin)
+        ax.set_ylabel(f"depth below the support ({length_unit})")
+        ax.set_xlabel("offset from the axis, own scale each", fontsize="small")
+        for side in ("top", "right"):
+            ax.spines[side].set_visible(False)
+        return ax
+
+    def __repr__(self) -> str:
+        if self.has_momentum:
+            what = f"{len(self.forward)} modes forward, {len(self.backward)} backward"
+        else:
+            what = f"{len(self.forward)} mode{'' if len(self.forward) == 1 else 's'}"
+        if len(self.other):
+            what += f", {len(self.other)} other"
+        lines = [f"RigModes: {what} ({self.method}, {self.status})"]
+        rows = zip(self.number[:10], self.angular_speed(), self.conical_height, strict=False)
+        for number, speed, height in rows:
+            lines.append(f"  {number:4d}  {speed:14.8g} rad/s  conical height {height:.8g}")
+        if len(self) > 10:
+            lines.append("  ...")
+        return "\n".join(lines)
+
+    def _column(self, name: str) -> Floats:
+        return np.concatenate([getattr(self.forward, name), getattr(self.backward, name)])
+
+    def _both(self, values: Any) -> Any:
+        """Values of the modes of both senses, put in order of speed, read-only."""
+        if self.has_momentum:
+            values = values[np.argsort(-self._column("conical_height"), kind="stable")]
+        values.flags.writeable = False
+        return values
+
+
+def rig_modes(
+    place: str, rig: Rig, first: int, count: int | None, gravity: float, shapes: bool, progress: _core.Progress | None
+) -> RigModes:
+    """The modes of a rig number `first` ... of each sense."""
+    g = float(positive(place, "gravity", real(place, "gravity", gravity)))
+    has_momentum, forward, backward, other, link, speed, complete, method, status = _core.rig_modes(
+        rig._compiled, first, count, g, bool(shapes), progress
+    )
+    return RigModes(
+        rig,
+        g,
+        has_momentum,
+        WhirlModes(*forward),
+        WhirlModes(*backward),
+        OtherModes(*other),
+        link,
+        speed,
+        complete,
+        method,
+        status,
+    )
+
+
+def refuse_for_rigs(place: str, given: Iterable[tuple[str, object, object]]) -> None:
+    """What `revchain.modes` offers for chains alone."""
+    for name, value, default in given:
+        if value != default:
+            raise ValueError(
+                f"{place}: {name} is for a Chain; a Rig's modes are chosen by count or modes, got {shown(value)}"
+            )

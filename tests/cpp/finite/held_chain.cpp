@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MPL-2.0
+// Chains held at both ends: against the bodies' Lagrangian in quadruple precision, triangles, the closed form of the
+// skipping rope, laws, and small theory.
+#include "revchain/finite/held_chain.hpp"
+
+#include "revchain/analytic/skipping_rope.hpp"
+#include "support/catch.hpp"
+#include "support/chains.hpp"
+#include "support/truth.hpp"
+
+namespace {
+
+using revchain::Chain;
+using revchain::HeldShape;
+using revchain::Index;
+using support::Quad;
+using support::quad;
+
+/// Newton's method in quadruple precision on all inclinations and the two forces that keep the upper end in its place, from
+/// a shape found: the potential energy less half of y^2 over all mass, of bodies told by centroid and radius of gyration.
+/// Returns the largest difference of an inclination.
+double against_truth(const Chain<double>& chain, const HeldShape& shape) {
+    const auto n = static_cast<std::size_t>(chain.size()), size = n + 2;
+    std::vector<Quad> x(size, 0);
+    for (std::size_t m = 0; m < n; ++m) x[m] = shape.inclination[static_cast<Index>(m)];
+    x[n] = shape.lower_pull[0], x[n + 1] = -shape.lower_pull[1];
+    const Quad lambda = shape.conical_height, span = shape.span;
+    for (int round = 0; round < 8; ++round) {
+        std::vector<std::vector<Quad>> A(size, std::vector<Quad>(size + 1, 0));
+        std::vector<Quad> sine(n), cosine(n), length(n);
+        Quad y = 0, z = 0;
+        for (std::size_t m = 0; m < n; ++m) {
+            const auto link = chain.link(static_cast<Index>(m));
+            const Quad W = link.weight, a = link.length, h = link.centroid, turn = quad(link.gyration_ratio) * a * a;
+            sine[m] = sinq(x[m]), cosine[m] = cosq(x[m]), length[m] = a;
+            const Quad s = sine[m], c = cosine[m];
+            y -= a * s, z += a * c;
+            const Quad y_body = y + h * s;
+            for (std::size_t j = 0; j <= m; ++j) {
+                const Quad arm = j < m ? length[j] : a - h;
+                const Quad dy = -arm * cosine[j], dz = -arm * sine[j];
+                A[j][size] += W * (lambda * dz - y_body * dy);
+                A[j][j] += W * (lambda * -arm * cosine[j] - y_body * arm * sine[j]);
+                for (std::size_t i = 0; i <= m; ++i) A[j][i] -= W * dy * -(i < m ? length[i] : a - h) * cosine[i];
+            }
+            A[m][size] -= W * turn * s * c, A[m][m] -= W * turn * (c * c - s * s);
+        }
+        for (std::size_t j = 0; j < n; ++j) {
+            const Quad dy = -length[j] * cosine[j], dz = -length[j] * sine[j];
+            A[j][size] += x[n] * dy + x[n + 1] * dz;
+            A[j][j] += x[n] * length[j] * sine[j] - x[n + 1] * length[j] * cosine[j];
+            A[j][n] = A[n][j] = dy, A[j][n + 1] = A[n + 1][j] = dz;
+        }
+        A[n][size] = y, A[n + 1][size] = z - span;
+        for (std::size_t k = 0; k < size; ++k) {
+            std::size_t pivot = k;
+            for (std::size_t i = k; i < size; ++i)
+                if (fabsq(A[i][k]) > fabsq(A[pivot][k])) pivot = i;
+            std::swap(A[k], A[pivot]);
+            for (std::size_t i = 0; i < size; ++i) {
+                if (i == k) continue;
+                const Quad share = A[i][k] / A[k][k];
+                for (std::size_t j = k; j <= size; ++j) A[i][j] -= share * A[k][j];
+            }
+        }
+        for (std::size_t k = 0; k < size; ++k) x[k] -= A[k][size] / A[k][k];
+    }
+    double worst = 0;
+    for (std::size_t m = 0; m < n; ++m)
+        worst = std::max(worst, std::abs(static_cast<double>(x[m] - Quad(shape.inclination[static_cast<Index>(m)]))));
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("held at both ends: inclinations within their proved bound of a Lagrangian in quadruple precision") {
+    int shapes = 0, sharp = 0;
+    double worst = 0, largest_bound = 0;
+    for (const auto& family : support::families()) {
+        if (family.name.find("1e12") != std::string::npos) continue;
+        for (const Index size : {3, 6, 15})
+            for (const double share : {0.999999, 0.8, 0.4, 0.1})
+                for (const double slow : {0.0, 0.01, 0.05}) {
+                    const Chain<double> chain = family.make(size);
+                    const double length = chain.total_length();
+                    const auto found =
+                        revchain::held_shapes(chain, share * length, slow * length, {.most_half_waves = 3});
+                    CHECK(found.shapes.size() + found.missing.size() == 3);
+                    CHECK_FALSE(found.complete);
+                    for (const HeldShape& shape : found.shapes) {
+                        INFO(family.name << ", " << size << " links, span " << share << ", height " << slow);
+                        const double error = against_truth(chain, shape);
+                        ++shapes;
+                        sharp += shape.error_bound < 4.5e-16;
+                        CHECK(error <= shape.error_bound);
+                        CHECK(shape.proved);
+                        CHECK(shape.residual < 1e-28);
+                        worst = std::max(worst, error), largest_bound = std::max(largest_bound, shape.error_bound);
+                    }
+                }
+    }
+    CAPTURE(shapes, sharp, worst, largest_bound);
+    CHECK(sharp > 0.96 * shapes);
+    CHECK(shapes > 360);
+    CHECK(worst < 1.12e-16);
+}
+
+TEST_CASE("held at both ends: extremes of weight") {
+    for (const auto& family : support::families()) {
+        if (family.name.find("1e12") == std::string::npos) continue;
+        const Chain<double> chain = family.make(8);
+        for (const double share : {0.99, 0.7}) {
+            const auto found = revchain::held_shapes(chain, share * chain.total_length(), 0.0);
+            for (const HeldShape& shape : found.shapes) {
+                INFO(family.name << " " << share);
+                CHECK(against_truth(chain, shape) <= shape.error_bound);
+            }
+        }
+    }
+}
+
+TEST_CASE("held at both ends: two links make a triangle") {
+    const double lower = 1.25, upper = 1.0, span = 1.5, heavy = 3.0;
+    const Chain<double> chain({revchain::plummet(7.0, lower), revchain::plummet(heavy, upper)});
+    const double up = (lower * lower - upper * upper + span * span) / (2 * span);
+    const double out = std::sqrt(lower * lower - up * up);
+    for (const double height : {0.0, 0.3}) {
+        const auto found = revchain::held_shapes(chain, span, height, {.most_half_waves = 2});
+        REQUIRE(found.shapes.size() == 1);
+        CHECK(found.missing == std::vector<int>{2});
+        const HeldShape& shape = found.shapes[0];
+        CHECK(std::abs(shape.offset[1] - out) < 2e-16);
+        CHECK(std::abs(shape.height[1] - up) < 3e-16);
+        // both threads pull the upper plummet inwards, the upper thread by P up, the lower by Q down
+        const double across = heavy * out;  // lambda times the centrifugal force
+        // P out/(span - up) + Q out/up = across,   P - Q = height heavy; the lower plummet lies on its bearing
+        const double Q = (across / out - height * heavy / (span - up)) / (1 / (span - up) + 1 / up);
+        CHECK(std::abs(shape.lower_pull[1] - (Q - 7 * height)) < 2e-15);
+        CHECK(std::abs(shape.lower_pull[0] - Q * out / up) < 2e-15);
+        CHECK(std::abs(shape.upper_pull[1] + Q + height * heavy) < 2e-15);
+    }
+    // the lower thread cannot reach so far without the upper pushing
+    const Chain<double> uneven({revchain::plummet(1.0, 2.0), revchain::plummet(1.0, 1.0)});
+    CHECK(revchain::held_shapes(uneven, 1.5, 0.0).shapes.empty());
+}
+
+TEST_CASE("held at both ends: many links tend to the skipping rope by order 2") {
+    for (const int waves : {1, 2, 3}) {
+        const revchain::analytic::SkippingRope rope(
+            {.span = 0.5, .length = 1.0, .angular_speed = 1.0, .half_waves = waves});
+        std::array<double, 3> rods{}, plummets{}, pull{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index size = 60 << i;
+            const auto off = [&](const Chain<double>& chain) {
+                const auto found = revchain::held_shapes(chain, 0.5, 0.0, {.most_half_waves = waves});
+                REQUIRE(found.shapes.size() == static_cast<std::size_t>(waves));
+                const HeldShape& shape = found.shapes.back();
+                CHECK(shape.half_waves == waves);
+                pull[i] = shape.lower_pull[1] / rope.height_times_tension() - 1;
+                double worst = 0;
+                for (Index m = 0; m <= size; ++m) {
+                    const auto point = rope.at_arc(static_cast<double>(m) / static_cast<double>(size));
+                    worst = std::max(
+                        {worst, std::abs(point.offset - shape.offset[m]), std::abs(point.x - shape.height[m])});
+                }
+                return worst;
+            };
+            plummets[i] = off(Chain<double>::uniform_plummets(size)), rods[i] = off(Chain<double>::uniform_rods(size));
+        }
+        const double of_rods = std::log2(rods[1] / rods[2]), of_plummets = std::log2(plummets[1] / plummets[2]),
+                     of_pull = std::log2(pull[1] / pull[2]);
+        INFO(waves << " half waves: " << rods[2] << " " << plummets[2] << " " << pull[2]);
+        CAPTURE(of_rods, of_plummets, of_pull);
+        CHECK(std::abs(of_rods - 2) < 0.02);
+        CHECK(std::abs(of_plummets - 2) < 0.02);
+        CHECK(std::abs(of_pull - 2) < 0.02);
+    }
+}
+
+TEST_CASE("held at both ends: laws") {
+    const Chain<double> chain = support::families()[3].make(12);
+    const double length = chain.total_length(), span = 0.6 * length, height = 0.04 * length;
+    const HeldShape shape = revchain::held_shapes(chain, span, height).shapes.at(0);
+    double weight = 0, centrifugal = 0, moment = 0;
+    for (Index m = 0; m < chain.size(); ++m) {
+        const auto link = chain.link(m);
+        const double y = shape.offset[m + 1] + link.centroid * std::sin(shape.inclination[m]),
+                     z = shape.height[m + 1] - link.centroid * std::cos(shape.inclination[m]),
+                     turn = static_cast<double>(link.gyration_ratio) * link.length * link.length;
+        weight += link.weight, centrifugal += link.weight * y;
+        // about the lower end, centrifugal forces outwards and weights down; of a turned rod its product of inertia
+        moment +=
+            link.weight * (y * z + height * y - turn * std::sin(shape.inclination[m]) * std::cos(shape.inclination[m]));
+    }
+    CHECK(std::abs(shape.lower_pull[0] + shape.upper_pull[0] - centrifugal) < 4e-15 * centrifugal);
+    CHECK(std::abs(shape.lower_pull[1] + shape.upper_pull[1] + height * weight) < 4e-15 * height * weight);
+    CHECK(std::abs(shape.upper_pull[0] * span - moment) < 8e-15 * moment);
+
+    SECTION("other units") {
+        std::vector<revchain::Link<double>> links;
+        for (Index m = 0; m < chain.size(); ++m) {
+            auto link = chain.link(m);
+            link.weight *= 0x1p40, link.length *= 0x1p-30, link.centroid *= 0x1p-30;
+            links.push_back(link);
+        }
+        const HeldShape same =
+            revchain::held_shapes(Chain<double>(links), span * 0x1p-30, height * 0x1p-30).shapes.at(0);
+        CHECK(same.inclination == shape.inclination);
+        CHECK(same.lower_pull[0] == shape.lower_pull[0] * 0x1p10);
+        CHECK(same.moment_of_inertia == shape.moment_of_inertia * 0x1p-20);
+        CHECK(same.height_times_energy == shape.height_times_energy * 0x1p-20);
+    }
+    SECTION("symmetric without gravity") {
+        const HeldShape even = revchain::held_shapes(Chain<double>::uniform_rods(11), 0.5, 0.0).shapes.at(0);
+        for (Index m = 0; m < 11; ++m) CHECK(std::abs(even.inclination[m] + even.inclination[10 - m]) < 2.3e-16);
+    }
+    SECTION("the speed, in two words") {
+        const auto at = revchain::held_shapes_at_speed(chain, span, std::sqrt(9.81 / height), 9.81).shapes.at(0);
+        CHECK((at.inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-15);
+        const auto none = revchain::held_shapes_at_speed(chain, span, 5.0, 0.0).shapes.at(0);
+        CHECK(none.inclination == revchain::held_shapes(chain, span, 0.0).shapes.at(0).inclination);
+    }
+    SECTION("tension instead of span") {
+        const double wanted = shape.height_times_tension[chain.size()];
+        const auto found = revchain::held_shapes_under_tension(chain, wanted, height);
+        REQUIRE(found.shapes.size() == 1);
+        double nearest = length;
+        for (const HeldShape& other : found.shapes) {
+            CHECK(std::abs(other.height_times_tension[chain.size()] / wanted - 1) < 1e-15);
+            nearest = std::min(nearest, std::abs(other.span - span));
+        }
+        CHECK(nearest < 1e-12 * length);
+        CHECK(revchain::held_shapes_under_tension(chain, 10 * wanted, height).shapes.empty());
+    }
+    SECTION("change of inclinations with the span") {
+        const double by = 1e-6;
+        double worst = 0;
+        for (const auto& [further, slower] : {std::pair{1 + by, 1.0}, {1.0, 1 + by}}) {
+            const HeldShape moved = revchain::held_shapes(chain, span * further, height * slower).shapes.at(0);
+            worst = std::max(worst, (moved.inclination - shape.inclination).cwiseAbs().maxCoeff() / by);
+        }
+        CHECK(std::abs(worst / shape.condition - 1) < 1e-5);
+    }
+}
+
+TEST_CASE("held at both ends: refused, and nothing where a chain folds") {
+    const Chain<double> chain = Chain<double>::uniform_rods(20);
+    using revchain::InvalidArgument;
+    CHECK_THROWS_AS(revchain::held_shapes(chain, 0.0, 0.1), InvalidArgument);
+    CHECK_THROWS_AS(revchain::held_shapes(chain, 1.01, 0.1), InvalidArgument);
+    CHECK_THROWS_AS(revchain::held_shapes(chain, 0.5, -0.1), InvalidArgument);
+    CHECK_THROWS_AS(revchain::held_shapes(chain, 0.5, NAN), InvalidArgument);
+    CHECK_THROWS_AS(revchain::held_shapes(chain, 0.5, 0.1, {.most_half_waves = 0}), InvalidArgument);
+    CHECK_THROWS_AS(revchain::held_shapes_at_speed(chain, 0.5, 0.0, 9.8), InvalidArgument);
+    CHECK_THROWS_AS(revchain::held_shapes_at_speed(chain, 0.5, 1.0, -9.8), InvalidArgument);
+    CHECK_THROWS_AS(revchain::held_shapes_under_tension(chain, 0.0, 0.1), InvalidArgument);
+    CHECK_THROWS_AS(revchain::taut_modes(chain, 0.0, 1), InvalidArgument);
+    CHECK_THROWS_AS(revchain::taut_modes(chain, 1.0, 0), InvalidArgument);
+    const auto slow = revchain::held_shapes(chain, 0.5, 10.0, {.most_half_waves = 2});
+    CHECK(slow.shapes.empty());
+    CHECK(slow.missing == std::vector<int>{1, 2});
+    CHECK(revchain::held_shapes(Chain<double>::uniform_rods(1), 0.5, 0.1).shapes.empty());
+}
+
+TEST_CASE("held straight: heights within an ulp of the assembled pencil in quadruple precision") {
+    for (const auto& family : support::families())
+        for (const Index size : {2, 5, 40})
+            for (const double pull : {1e-3, 1.0, 1e3}) {
+                const Chain<double> chain = family.make(size);
+                const double tension = pull * chain.total_weight();
+                const auto modes = revchain::taut_modes(chain, tension, 5);
+                // negative pivots of height K - M, the lowest pin left out
+                const auto above = [&](Quad height) {
+                    Index negative = 0;
+                    Quad below = 0, pivot = 0, stiff_below = 0, upper_mass = 0, mixed_below = 0;
+                    for (Index m = 0; m < size; ++m) {
+                        const auto link = chain.link(m);
+                        const Quad W = link.weight, a = link.length, p = Quad(link.centroid) / a, q = 1 - p,
+                                   turn = quad(link.gyration_ratio);
+                        const Quad k = height * ((W * p + below) + Quad(tension)) / a;
+                        below += W;
+                        if (m > 0) {
+                            const Quad diagonal = stiff_below + k - upper_mass - W * (p * p + turn);
+                            pivot = diagonal - (m > 1 ? mixed_below * mixed_below / pivot : 0);
+                            if (pivot < 0) ++negative;
+                        }
+                        stiff_below = k, upper_mass = W * (q * q + turn), mixed_below = -k - W * (p * q - turn);
+                    }
+                    return negative;
+                };
+                for (Index k = 0; k < modes.conical_height.size(); ++k) {
+                    INFO(family.name << " " << size << " " << pull << " mode " << k + 1);
+                    const Quad height = modes.conical_height[k], by = modes.error_bound[k];
+                    CHECK(above(height * (1 - by)) == k + 1);
+                    CHECK(above(height * (1 + by)) == k);
+                }
+            }
+}
+
+TEST_CASE("held straight: where shapes of finite amplitude begin") {
+    const Chain<double> chain = support::families()[2].make(9);
+    const double length = chain.total_length(), height = 0.03 * length;
+    for (const double slack : {1e-4, 1e-6}) {
+        const HeldShape shape = revchain::held_shapes(chain, length * (1 - slack), height).shapes.at(0);
+        const auto modes = revchain::taut_modes(chain, shape.lower_pull[1] / height, 1);
+        CHECK(std::abs(modes.conical_height[0] / height - 1) < 3 * slack);
+        const revchain::Vector<double> scaled = shape.offset / shape.offset.cwiseAbs().maxCoeff();
+        CHECK((scaled.transpose() - modes.shape.row(0)).cwiseAbs().maxCoeff() < 3 * slack);
+    }
+}

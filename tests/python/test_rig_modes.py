@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MPL-2.0
+"""Modes of rigs from Python: closed forms by mpmath, a dense linearisation by scipy, what is asked and what comes."""
+
+import mpmath
+import numpy as np
+import pytest
+import scipy.linalg
+
+import revchain as rc
+
+G = 9.80665
+
+
+def matrices(rig: rc.Rig) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """K, G and M assembled, small amplitude, from the energies."""
+    chain, n = rig.chain, rig.size
+    K, S, M = (np.zeros((n + 1, n + 1)) for _ in range(3))
+    hung = 0.0
+    for m in range(n):
+        W, a, h, k = chain.weight[m], chain.length[m], chain.centroid[m], chain.radius_of_gyration[m]
+        sign = -1 if rig.standing[m] else 1
+        D = np.zeros(n + 1)
+        D[m], D[m + 1] = 1 / a, -1 / a
+        K += sign * (W * h + a * hung) * np.outer(D, D)
+        S += sign * rig.momentum[m] * np.outer(D, D)
+        Y = np.zeros(n + 1)
+        Y[m], Y[m + 1] = h / a, 1 - h / a
+        M += W * np.outer(Y, Y) + (W * k**2 - rig.axial_moment[m]) * np.outer(D, D)
+        hung += W
+    if np.isfinite(rig.stiffness):
+        K[n, n] += rig.stiffness
+        M[n, n] += rig.carriage_weight
+        return K, S, M
+    return K[:n, :n], S[:n, :n], M[:n, :n]
+
+
+def speeds(rig: rc.Rig) -> np.ndarray:
+    K, S, M = matrices(rig)
+    n = len(K)
+    inverse = np.linalg.inv(M / G)
+    companion = np.block([[np.zeros((n, n)), np.eye(n)], [inverse @ K, inverse @ S]])
+    return scipy.linalg.eigvals(companion)
+
+
+def test_one_gyrostat() -> None:
+    for H in (-3.0, 0.02, 40.0):
+        m = rc.modes(rc.Rig(rc.Chain(weight=3.0, length=1.0, centroid=0.7, radius_of_gyration=0.3), momentum=H))
+        with mpmath.workdps(40):
+            A = 3 * (mpmath.mpf(0.7) ** 2 + mpmath.mpf(0.3) ** 2) / mpmath.mpf(G)
+            root = mpmath.sqrt(mpmath.mpf(H) ** 2 + 4 * A * 3 * mpmath.mpf(0.7))
+            exact = sorted([(H - root) / 2 / A, (H + root) / 2 / A], key=abs)
+            for n, x, bound in zip(m.angular_speed(), exact, [m.forward, m.backward], strict=True):
+                assert abs(n / x - 1) <= 1.2e-16
+                assert bound.speed_error_bound[0] <= 2.3e-16
+        assert m.complete and m.has_momentum and m.status == "success" and m.method == "counts"
+        assert list(m.sense) == [np.sign(n) for n in m.angular_speed()]
+
+
+def test_chain_of_wheels_against_a_dense_linearisation() -> None:
+    rng = np.random.default_rng(71)
+    for stiffness in (np.inf, 30.0):
+        chain = rc.Chain(
+            weight=rng.uniform(0.5, 2, 12),
+            length=rng.uniform(0.5, 2, 12),
+            centroid=0.4,
+            radius_of_gyration=rng.uniform(0.2, 0.5, 12),
+        )
+        rig = rc.Rig(chain, momentum=rng.normal(0, 1, 12), stiffness=stiffness, carriage_weight=0.5)
+        m = rc.modes(rig)
+        expected = np.sort(speeds(rig).real)
+        assert len(m) == expected.size
+        assert np.allclose(np.sort(m.angular_speed()), expected, rtol=1e-10)
+        assert m.shape is not None and m.shape.shape == (len(m), 13)
+        assert np.all(np.diff(m.conical_height) <= 0)
+        for row, n in zip(m.shape, m.angular_speed(), strict=True):
+            K, S, M = matrices(rig)
+            y = row[: len(K)]
+            terms = np.abs(K) @ np.abs(y) + n * n / G * np.abs(M) @ np.abs(y)
+            assert np.abs((K + n * S - n * n / G * M) @ y).max() <= 4e-15 * terms.max()
+
+
+def test_sleeping_top() -> None:
+    chain = rc.Chain(weight=1.0, length=1.0, centroid=0.5, radius_of_gyration=0.3)
+    asleep = rc.modes(rc.Rig(chain, standing=True, momentum=2.0))
+    assert len(asleep.forward) + len(asleep.backward) == 2 and len(asleep.other) == 0
+    falls = rc.modes(rc.Rig(chain, standing=True, momentum=0.1))
+    assert len(falls) == 0 and len(falls.other) == 2
+    assert falls.other.growth_rate == pytest.approx(abs(speeds(falls.rig).imag.max()), rel=1e-13)
+    assert np.all(falls.other.error_bound < 1e-14) and falls.complete
+
+
+def test_standing_and_floats_have_others() -> None:
+    stick = rc.modes(rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), standing=[True, False]))
+    assert stick.conical_height == pytest.approx([np.sqrt(0.75)], rel=1e-15)
+    assert stick.other.conical_height == pytest.approx([-np.sqrt(0.75)], rel=1e-15)
+    assert stick.other.growth_rate == pytest.approx([np.sqrt(G / np.sqrt(0.75))], rel=1e-15)
+    buoy = rc.modes(rc.Rig(rc.Chain(weight=[1.0, 4.0], length=1.0), displaced_weight=[2.0, 0.0], fluid="turning"))
+    assert len(buoy) == 0 and buoy.angular_speed().size == 0
+    assert buoy.other.conical_height == pytest.approx([1 + 1j / np.sqrt(3), 1 - 1j / np.sqrt(3)], rel=4e-16)
+
+
+def test_nothing_on_it_is_the_chain_itself() -> None:
+    chain = rc.Chain.uniform_rods(30, length=2.0)
+    plain, same = rc.modes(chain), rc.modes(rc.Rig(chain))
+    assert np.array_equal(plain.conical_height, same.conical_height)
+    assert np.array_equal(plain.angular_speed(), same.angular_speed())
+    assert same.method == "modes" and len(same.backward) == 0 and not same.has_momentum
+
+
+def test_what_was_asked() -> None:
+    rig = rc.Rig(rc.Chain.uniform_rods(30, length=2.0), momentum=0.001)
+    all_of_them = rc.modes(rig)
+    some = rc.modes(rig, modes=range(4, 7))
+    assert list(some.forward.number) == [4, 5, 6] == list(some.backward.number)
+    assert np.array_equal(some.forward.angular_speed, all_of_them.forward.angular_speed[3:6])
+    assert len(rc.modes(rig, 2)) == 4
+    assert rc.modes(rig, 2, shapes=False).shape is None
+    slow = rc.modes(rig, 2, gravity=G / 4)
+    assert slow.gravity == G / 4 and np.all(slow.forward.angular_speed < all_of_them.forward.angular_speed[:2])
+    assert "30 modes forward, 30 backward" in repr(all_of_them)
+    assert not all_of_them.conical_height.flags.writeable and not some.forward.shape.flags.writeable
+    wrongs = ({"count": 31}, {"count": 0}, {"gravity": 0.0}, {"rtol": 1e-3}, {"method": "dense"}, {"certify": True})
+    for wrong in wrongs:
+        with pytest.raises(ValueError, match=r"revchain\.?:?"):
+            rc.modes(rig, **wrong)
+    with pytest.raises(ValueError, match="only one of"):
+        rc.modes(rig, 2, modes=range(1, 3))
+    with pytest.raises(TypeError):
+        rc.modes("a rig")  # type: ignore[call-overload]
+
+
+def test_links_that_go_slack() -> None:
+    chain = rc.Chain(weight=[1.0, 2.0], length=[1.0, 0.5], centroid=[0.5, 0.25], radius_of_gyration=0.2)
+    m = rc.modes(rc.Rig(chain, momentum=[0.0, -0.5]))
+    assert list(m.slack_link) == [1] and list(m.slack_speed) == [2.0]
+
+
+def test_picture() -> None:
+    pytest.importorskip("matplotlib")
+    rig = rc.Rig(rc.Chain.uniform_rods(6, length=2.0), momentum=0.1, standing=[True] * 2 + [False] * 4)
+    ax = rc.modes(rig).plot(most=4)
+    assert len(ax.get_xticks()) == 4
+    ax.figure.savefig("/dev/null", format="png")
+    with pytest.raises(ValueError, match="shapes=True"):
+        rc.modes(rig, shapes=False).plot()
