@@ -30,5 +30,7 @@
 #include "revchain/linear/jointed_links.hpp"      // IWYU pragma: export
 #include "revchain/linear/modes.hpp"              // IWYU pragma: export
 #include "revchain/linear/recurrence.hpp"         // IWYU pragma: export
+#include "revchain/linear/response.hpp"           // IWYU pragma: export
+#include "revchain/linear/small_oscillation.hpp"  // IWYU pragma: export
 #include "revchain/linear/string_of_weights.hpp"  // IWYU pragma: export
 #include "revchain/linear/two_links.hpp"          // IWYU pragma: export

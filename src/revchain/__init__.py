@@ -47,6 +47,7 @@ from ._held import (
 from ._modes import Certificate, Modes
 from ._rig import Rig, driven_flywheel, free_flywheel
 from ._rig_modes import OtherModes, RigModes, WhirlModes
+from ._response import Response, SmallOscillation, response, small_oscillation
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
 from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
@@ -79,8 +80,10 @@ __all__ = [
     "OtherModes",
     "Rig",
     "RigModes",
+    "Response",
     "SceneError",
     "SkippingRope",
+    "SmallOscillation",
     "Stability",
     "StabilityWindow",
     "SteadyShape",
@@ -109,6 +112,8 @@ __all__ = [
     "modes",
     "plummet",
     "recurrence_matrices",
+    "response",
+    "small_oscillation",
     "steady_shape",
     "steady_shapes",
     "tapered_chain",

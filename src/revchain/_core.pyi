@@ -642,3 +642,17 @@ def steady_shape(
 def stability_windows(
     chain: Chain, branch: Branch, driven: bool, tolerance: float, samples: int
 ) -> list[tuple[float, float, float, float, str]]: ...
+
+_Flags = numpy.typing.NDArray[numpy.bool_]
+
+def response(
+    chain: Chain, given: _Floats, speeds: bool, support_radius: float, pins: _Whole | None, gravity: float
+) -> tuple[_Floats, _Floats, _Whole, _Flags, _Flags, _Floats, _Floats]: ...
+def rig_response(
+    rig: Rig, given: _Floats, speeds: bool, support_radius: float, pins: _Whole | None, gravity: float
+) -> tuple[_Floats, _Floats, _Whole, _Flags, _Flags, _Floats, _Floats]: ...
+def small_oscillation(
+    chain: Chain, offsets: _Floats, velocities: _Floats, time: _Floats, modes: int | None, gravity: float
+) -> tuple[
+    _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, _Floats, bool, float, _Floats, _Floats
+]: ...

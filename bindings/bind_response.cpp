@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
+#include <vector>
+
+#include "bindings.hpp"
+#include "revchain/linear/response.hpp"
+#include "revchain/linear/small_oscillation.hpp"
+#include "watched.hpp"
+
+namespace {
+
+using revchain::Chain;
+using revchain::Index;
+using revchain::Rig;
+using Numbers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+std::vector<double> as_vector(const Array& array) { return {array.data(), array.data() + array.size()}; }
+
+py::array flags(const std::vector<char>& values) {
+    py::array_t<bool> array(static_cast<py::ssize_t>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) array.mutable_data()[i] = values[i] != 0;
+    return frozen(std::move(array));
+}
+
+py::array whole(const revchain::Vector<Index>& values) {
+    py::array_t<std::int64_t> array(values.size());
+    for (Index i = 0; i < values.size(); ++i) array.mutable_data()[i] = values[i];
+    return frozen(std::move(array));
+}
+
+template <class Carried>
+py::tuple response(const Carried& carried, const Array& given, bool speeds, double support_radius,
+                   const std::optional<Numbers>& pins, double gravity) {
+    revchain::ResponseOptions options{.support_radius = support_radius, .gravity = gravity};
+    if (pins) options.pins = std::vector<Index>(pins->data(), pins->data() + pins->size());
+    const std::vector<double> at = as_vector(given);
+    constexpr double a_moment = 2e6;  // links times speeds
+    const auto found =
+        watched<revchain::Response>(static_cast<double>(carried.size()) * static_cast<double>(at.size()) / a_moment,
+                                    nullptr, [&](revchain::Progress* seen) {
+                                        revchain::ResponseOptions watching = options;
+                                        watching.progress = seen;
+                                        return speeds ? revchain::response_at_speed(carried, at, watching)
+                                                      : revchain::response(carried, at, watching);
+                                    });
+    return py::make_tuple(to_numpy(found.offset), to_numpy(found.error_bound), whole(found.modes_below),
+                          flags(found.reversed), flags(found.resonant), to_numpy(found.support_force),
+                          to_numpy(found.support_force_error));
+}
+
+py::tuple small_oscillation(const Chain<double>& chain, const Array& offsets, const Array& velocities,
+                            const Array& time, std::optional<Index> modes, double gravity) {
+    const auto column = [](const Array& array) {
+        return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(array.data(), array.size()));
+    };
+    const auto from = column(offsets), speed = column(velocities);
+    const std::vector<double> at = as_vector(time);
+    const double kept = static_cast<double>(modes.value_or(chain.mode_count())),
+                 links = static_cast<double>(chain.size());
+    const auto found = watched<revchain::SmallOscillation>(
+        kept * links * (1e-5 + 1e-8 * static_cast<double>(at.size())), nullptr, [&](revchain::Progress* seen) {
+            return revchain::small_oscillation(chain, from, speed, at,
+                                               {.modes = modes, .gravity = gravity, .progress = seen});
+        });
+    return py::make_tuple(to_numpy(found.offset), to_numpy(found.velocity), to_numpy(found.angular_frequency),
+                          to_numpy(found.energy), to_numpy(found.shape), to_numpy(found.cosine), to_numpy(found.sine),
+                          to_numpy(found.start), found.projected, found.energy_left_out,
+                          to_numpy(found.truncation_error), to_numpy(found.error_bound));
+}
+
+}  // namespace
+
+void bind_response(py::module_& module) {
+    module.def("response", &response<Chain<double>>, "chain"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
+               "gravity"_a);
+    module.def("rig_response", &response<Rig>, "rig"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
+               "gravity"_a);
+    module.def("small_oscillation", &small_oscillation, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a,
+               "gravity"_a);
+}

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A chain in a hand that moves round a circle of 1 cm, faster and faster; and the same chain plucked and let go.
+
+Greenhill (1908) section 1 (9) for a chain. Below its first whirl speed the chain goes out with the hand, past it the
+free end is on the other side, and so at each whirl speed; in between, speeds at which a link stays still.
+
+python carried_chain.py [FOLDER]
+"""
+
+import numpy as np
+from _picture import COLOURS, hang, panels, save
+
+import revchain as rc
+
+LENGTH, LINKS, HAND = 0.36, 120, 0.01  # m, and the radius of the hand's circle
+chain = rc.Chain.uniform_rods(LINKS, length=LENGTH)
+whirls = rc.modes(chain, count=3, shapes=False).angular_speed()
+
+print("turns a second  modes passed  free end, mm  over the hand's 10 mm")
+for turns in (0.5, 0.9, 1.1, 1.5, 2.2, 2.4):
+    at = rc.response(chain, angular_speed=2 * np.pi * turns, support_radius=HAND, pins=0)
+    print(f"{turns:14.1f}  {int(at.modes_below):12}  {1000 * float(at.offset):12.2f}  {float(at.amplification):8.3f}")
+
+speeds = np.linspace(1, 28, 1400)
+sweep = rc.response(chain, angular_speed=speeds, support_radius=HAND)
+print(f"{speeds.size} speeds: error bounds up to {sweep.error_bound.max():.2g} of the largest offset")
+
+figure, (curve, shapes, time) = panels(3, [1.6, 0.8, 1.3])
+for pin, name in ((0, "free end"), (LINKS // 2, "half way")):
+    size, side = 1000 * np.abs(sweep.offset[:, pin]), np.sign(sweep.offset[:, pin])
+    colour = COLOURS[0 if pin == 0 else 1]
+    curve.plot(speeds / (2 * np.pi), np.where(side > 0, size, np.nan), color=colour, label=name)
+    curve.plot(speeds / (2 * np.pi), np.where(side < 0, size, np.nan), color=colour, linestyle="--")
+for n in whirls:
+    curve.axvline(n / (2 * np.pi), color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+curve.axhline(1000 * HAND, color="0.6", linewidth=0.8, zorder=0)
+curve.set(yscale="log", ylim=(0.3, 1000), xlabel="turns a second", ylabel="from the axis, mm")
+curve.set_title("hand carried round 10 mm; dashed: opposite")
+curve.legend(loc="upper right")
+
+depth = np.linspace(LENGTH, 0, LINKS + 1)
+for number, turns in enumerate((0.5, 1.5, 2.8)):
+    one = rc.response(chain, angular_speed=2 * np.pi * turns, support_radius=HAND)
+    hang(shapes, 1000 * one.offset, depth, color=COLOURS[number], label=f"{turns}")
+shapes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+shapes.set(xlabel="from the axis, mm", ylabel="below the hand, m", ylim=(0.37, -0.01), title="shapes, turns/s")
+shapes.legend(loc="upper left", fontsize=7)
+
+# Plucked in the middle by 1 cm: all 120 modes, and the three slowest.
+plucked = HAND * np.interp(depth, [0, LENGTH / 2, LENGTH], [0, 1, 0])
+moments = np.linspace(0, 4, 2000)
+swing = rc.small_oscillation(chain, plucked, None, moments)
+few = rc.small_oscillation(chain, plucked, None, moments, modes=3)
+share = swing.energy / swing.energy.sum()
+print("plucked in the middle, share of the energy of modes 1 to 5:", " ".join(f"{100 * x:.1f} %" for x in share[:5]))
+print(
+    f"three modes leave out at most {1000 * few.truncation_error[0]:.1f} mm of the free end; "
+    f"all, with rounding, {(swing.truncation_error[0] + swing.error_bound.max()):.1g} m"
+)
+time.plot(moments, 1000 * swing.offset[:, 0], color=COLOURS[0], linewidth=0.9, label="all modes")
+time.plot(moments, 1000 * few.offset[:, 0], color=COLOURS[1], linewidth=0.9, linestyle="--", label="three")
+time.set(xlabel="seconds", ylabel="free end, mm", title="plucked 10 mm half way")
+time.legend(loc="lower right", fontsize=7)
+save(figure)

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/chain/rig.hpp"
+#include "revchain/core/progress.hpp"
+#include "revchain/linalg/driven_lanes.hpp"
+#include "revchain/linear/assembly.hpp"
+
+namespace revchain::detail {
+
+using linalg::Driving;
+
+/// A chain, or a rig, as the elements between its free end and what carries its support.
+struct DrivenChain {
+    std::vector<linalg::DrivenElement> elements;
+    ChainUnits units;
+    bool one_unit = true;  ///< of weight
+    bool turning = false;  ///< whether a stiffness goes with the speed
+    Index standing = 0;    ///< links that stand: so many negative pivots are no modes
+};
+
+inline const Chain<double>& base_chain(const Chain<double>& chain) { return chain; }
+inline const Chain<double>& base_chain(const Rig& rig) { return rig.chain(); }
+inline bool tells_senses_apart(const Chain<double>&) { return false; }
+inline bool tells_senses_apart(const Rig& rig) { return rig.has_momentum(); }
+
+inline DrivenChain driven_chain(const Chain<double>& chain) {
+    const AssembledChain<double> assembled = assemble(chain);
+    const auto& pencil = assembled.pencil;
+    DrivenChain result{{}, assembled.units, pencil.units.empty(), false, 0};
+    result.elements.reserve(pencil.elements.size());
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        const auto& e = pencil.elements[m];
+        linalg::DrivenElement element{e.stiffness, 0.0, e.lower, e.upper, e.cross};
+        element.stiffness_error = e.stiffness.high * pencil.entry_error + pencil.stiffness_underflow;
+        element.lower_error = pencil.entry_error * e.lower.high;
+        element.upper_error = pencil.entry_error * e.upper.high;
+        element.cross_error = pencil.entry_error * (std::abs(e.cross.high) + 2 * e.turning.high);
+        element.step = pencil.step_down(m);
+        result.elements.push_back(element);
+    }
+    return result;
+}
+
+/// The numbers of `rig_links` are within 1e-28 of the sums of the sizes of their terms: those are added up here.
+inline DrivenChain driven_chain(const Rig& rig) {
+    const Chain<double>& chain = rig.chain();
+    const std::vector<RigLink> links = rig_links(rig);
+    DrivenChain result{{}, chain.units(), true, rig.has_momentum(), 0};
+    result.elements.reserve(links.size() + 1);
+    const auto weights = [&](double x) { return std::ldexp(x, -result.units.weight_exponent); };
+    const auto lengths = [&](double x) { return std::ldexp(x, -result.units.length_exponent); };
+    constexpr double part = 1.01e-28;
+    double hung = 0;
+    for (Index m = 0; m < rig.size(); ++m) {
+        const RigLink& link = links[static_cast<std::size_t>(m)];
+        const Link<double> own = chain.link(m);
+        const Displaced fluid = rig.displaced(m);
+        const double a = link.length.high;
+        const double turning =
+            std::ldexp(weights(rig.flywheel(m).axial_moment), -2 * result.units.length_exponent) / (a * a);
+        double bearing = hung, lower = turning, upper = turning, cross = turning;
+        const auto add = [&](double bears, double moves, double centroid, double gyration) {
+            const double p = lengths(centroid) / a, q = (a - lengths(centroid)) / a;
+            hung += bears, bearing += bears * std::abs(p);
+            lower += moves * (p * p + gyration), upper += moves * (q * q + gyration);
+            cross += moves * (std::abs(p * q) + gyration);
+        };
+        add(weights(own.weight), weights(own.weight), own.centroid, own.gyration_ratio.high);
+        add(weights(fluid.weight), weights(std::max(fluid.weight, fluid.added_weight)), fluid.centroid,
+            fluid.gyration_ratio.high);
+        linalg::DrivenElement e{link.tension / link.length, link.spin / link.length, link.lower, link.upper,
+                                link.cross};
+        if (rig.stands(m)) e.stiffness = -e.stiffness, e.spin = -e.spin, ++result.standing;
+        e.stiffness_error = part * bearing / a;
+        e.lower_error = part * lower, e.upper_error = part * upper, e.cross_error = part * cross;
+        result.elements.push_back(e);
+    }
+    const Support& support = rig.support();
+    if (!support.is_firm()) {
+        linalg::DrivenElement e;
+        e.stiffness = std::ldexp(support.stiffness, result.units.length_exponent - result.units.weight_exponent);
+        e.lower = weights(support.carriage_weight);
+        result.elements.push_back(e);
+    }
+    return result;
+}
+
+/// Beside rounding an offset to double.
+inline bool is_negligible(const linalg::Driven& found) { return found.error_bound <= 0x1p-56; }
+
+/// `driven_lanes` for any number of drives, and sharper bounds for those whose own is not negligible beside rounding.
+/// `put(row, which, offset)`, and then `take(row, found)` for each.
+template <class Put, class Take>
+void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, linalg::DrivenPins& pins, const Put& put,
+                     const Take& take, Progress* progress) {
+    simd([&](auto registers) __attribute__((always_inline)) {
+        using V = Pack<double, registers.doubles>;
+        constexpr bool fused = registers.fused;
+        constexpr std::size_t together = linalg::driven_together<V>;
+        std::vector<double> scratch;
+        Driving padded[together];
+        linalg::Driven found[together];
+        for (std::size_t i = 0; i < at.size(); i += together) {
+            const std::size_t taken = std::min(together, at.size() - i);
+            for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
+            const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y)
+                __attribute__((always_inline)) {
+                if (lane < taken) put(static_cast<Index>(i + lane), which, y);
+            };
+            if (chain.turning)
+                linalg::driven_lanes<true, fused, V>(chain.elements, padded, pins, found, offset);
+            else
+                linalg::driven_lanes<false, fused, V>(chain.elements, padded, pins, found, offset);
+            bool sharp = true;
+            for (std::size_t j = 0; j < taken; ++j) sharp = sharp && (!found[j].decided || is_negligible(found[j]));
+            if (!sharp && chain.turning) linalg::sharpen<true, fused, V>(chain.elements, padded, found, scratch);
+            if (!sharp && !chain.turning) linalg::sharpen<false, fused, V>(chain.elements, padded, found, scratch);
+            for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
+            advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
+        }
+    });
+}
+
+}  // namespace revchain::detail
