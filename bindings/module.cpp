@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     gsl_set_error_handler_off();
     bind_core(module);
     bind_chain(module);
+    bind_rig(module);
     bind_linear(module);
     bind_finite(module);
     bind_branches(module);

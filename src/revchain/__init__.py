@@ -36,6 +36,7 @@ from ._continuous import (
 )
 from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
 from ._modes import Certificate, Modes
+from ._rig import Rig, driven_flywheel, free_flywheel
 from ._scene_error import SceneError
 from ._solve import count_modes, modes, recurrence_matrices
 from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
@@ -62,6 +63,7 @@ __all__ = [
     "FunicularPolygon",
     "GovernorMotion",
     "Modes",
+    "Rig",
     "SceneError",
     "SkippingRope",
     "Stability",
@@ -78,7 +80,9 @@ __all__ = [
     "continuous_critical_heights",
     "continuous_shapes",
     "count_modes",
+    "driven_flywheel",
     "elliptic",
+    "free_flywheel",
     "funicular_polygon",
     "heavy_chain",
     "hoop",

@@ -51,6 +51,23 @@ class Chain:
     @property
     def radius_of_gyration(self) -> _Floats: ...
 
+class Rig:
+    def __init__(
+        self,
+        chain: Chain,
+        stiffness: float,
+        carriage_weight: float,
+        support_radius: float,
+        standing: numpy.typing.NDArray[numpy.bool_] | None,
+        momentum: _Floats | None,
+        axial_moment: _Floats | None,
+        displaced_weight: _Floats | None,
+        displaced_centroid: _Floats | None,
+        displaced_radius_of_gyration: _Floats | None,
+        added_weight: _Floats | None,
+        turning_fluid: bool,
+    ) -> None: ...
+
 _Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
 _Whole = numpy.typing.NDArray[numpy.int64]
 

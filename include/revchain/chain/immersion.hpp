@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/core/double_word.hpp"
+#include "revchain/chain/link.hpp"
 
 namespace revchain {
 
@@ -17,5 +17,10 @@ struct Displaced {
 
     friend bool operator==(const Displaced&, const Displaced&) = default;
 };
+
+/// Of a body of one density throughout, whose fluid it displaces has its centre and radius of gyration.
+inline Displaced displaced_by(const Link<double>& link, double weight, double added_weight = 0) {
+    return {weight, link.centroid, link.gyration_ratio, added_weight};
+}
 
 }  // namespace revchain
