@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
 from ._batch import conical_heights
+from ._bell import BellAndClapper, bell_and_clapper
 from ._branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
 from ._chain import Chain
 from ._continuous import (
@@ -38,9 +39,18 @@ from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicula
 from ._modes import Certificate, Modes
 from ._rig import Rig, driven_flywheel, free_flywheel
 from ._scene_error import SceneError
+from ._sensitivity import (
+    Derivatives,
+    RigSensitivity,
+    Sensitivity,
+    Uncertainty,
+    momentum_for_speed,
+    rig_sensitivity,
+)
 from ._solve import count_modes, modes, recurrence_matrices
 from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
 from ._storage import load
+from ._tune import Tuned, tune
 from .buffer_impact import BufferImpact
 from .governor import GovernorMotion
 from .ropes import SkippingRope, TortuousRope
@@ -51,6 +61,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "BellAndClapper",
     "Branch",
     "Branches",
     "BufferImpact",
@@ -59,12 +70,15 @@ __all__ = [
     "ContinuousPlace",
     "ContinuousShape",
     "ContinuousShapes",
+    "Derivatives",
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
     "Modes",
     "Rig",
+    "RigSensitivity",
     "SceneError",
+    "Sensitivity",
     "SkippingRope",
     "Stability",
     "StabilityWindow",
@@ -72,7 +86,10 @@ __all__ = [
     "SteadyShapes",
     "TortuousRope",
     "TransverseModes",
+    "Tuned",
+    "Uncertainty",
     "__version__",
+    "bell_and_clapper",
     "branch",
     "branches",
     "conical_heights",
@@ -88,13 +105,16 @@ __all__ = [
     "hoop",
     "load",
     "modes",
+    "momentum_for_speed",
     "plummet",
     "recurrence_matrices",
+    "rig_sensitivity",
     "steady_shape",
     "steady_shapes",
     "tapered_chain",
     "tip_mass",
     "transverse_modes",
+    "tune",
     "two_links",
 ]
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them

@@ -155,3 +155,25 @@ TEST_CASE("a firm support has no stiffness to change, and units are units", "[li
     CHECK_THROWS_AS(revchain::rig_sensitivity(rig, 0.0, revchain::Vector<double>::Ones(2)), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::rig_sensitivity(rig, 1.0, revchain::Vector<double>::Ones(3)), revchain::InvalidArgument);
 }
+
+TEST_CASE("the momentum that a speed asks for makes it a whirl speed", "[linear]") {
+    double worst = 0;
+    for (const bool turning : {false, true})
+        for (const double speed : {-7.0, -1.25, 2.5, 6.0})
+            for (const std::size_t link : {1U, 2U, 3U}) {
+                Rigged rigged;
+                rigged.turning = turning;
+                const double momentum =
+                    revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(link), speed, 9.8125);
+                rigged.H[link - 1] = momentum;
+                const Quad near = rigged.speed(speed);
+                CAPTURE(turning, speed, link, momentum);
+                worst = std::max(worst, std::abs(static_cast<double>(near - speed) / speed));
+            }
+    CAPTURE(worst);
+    CHECK(worst < 1e-14);
+    const Chain<double> one({revchain::plummet(2.0, 3.0)});
+    const double A = 18 / 9.80665;
+    CHECK(std::abs(revchain::momentum_for_speed(revchain::Rig(one, {}), 1, 2.0) / (A * 2 - 3) - 1) < 1e-15);
+    CHECK_THROWS_AS(revchain::momentum_for_speed(revchain::Rig(one, {}), 2, 2.0), revchain::InvalidArgument);
+}
