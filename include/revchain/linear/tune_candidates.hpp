@@ -122,13 +122,13 @@ inline std::vector<double> tune_candidates(const Chain<double>& chain, Index num
     S D(0.0), E(0.0);
     for (std::size_t m = 0; m < at; ++m) {
         const auto& e = elements[m];
-        D = across<S>(e, lambda * e.stiffness, D, e.lower, e.upper).stiffness;
+        D = linalg::detail::across<S>(e, lambda * e.stiffness, D, e.lower, e.upper).stiffness;
     }
     const bool top = at + 1 == n;
     for (std::size_t m = n; m-- > at + 1;) {
         const auto& e = elements[m];
         const S stiffness = lambda * e.stiffness;
-        E = m + 1 == n ? stiffness - e.lower : across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
+        E = m + 1 == n ? stiffness - e.lower : linalg::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
     }
     const ScaledLink<S> link = scaled_links(chain)[at];
     const auto& [W, a, h, rho, below] = link;
