@@ -146,9 +146,9 @@ inline Candidate looked_at(const Tuning& tuning, double x, double low, double hi
     return {};
 }
 
-/// The first value from `from` towards `to` at which a weight does it. |d ln(height)/d ln(weight)| <= c, c the most by which W h
-/// and a S of a link cancel (1 for centroids that are not above their pins), since W dM <= M and W dK <= c K: so that no
-/// height wanted is passed within a logarithmic step of |ln(height/wanted)|/c. `proved`: whether the search went all the way.
+/// The first value from `from` towards `to` at which a weight does it. With c the bound of `weight_influence`, no height wanted
+/// is passed within a logarithmic step of |ln(height/wanted)|/c; where Newton's step is 5 per cent at most, what lies just
+/// beyond is looked at, and between the two bisected. `proved`: whether the search went all the way.
 struct Search {
     std::optional<Enclosed> found{};
     bool proved = false;
@@ -164,7 +164,7 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
         seen.highest_height = std::max(seen.highest_height, height);
         if (height > 0 && std::abs(away) < 0.2) {  // Newton's step and a quarter beyond: is the other side there?
             const double slope = tuning.slope(at, height), newton = -away / slope;
-            if (newton * direction >= 0 && std::abs(newton) < 1) {
+            if (newton * direction >= 0 && std::abs(newton) < (round < 60 ? 0.05 : 1.0)) {
                 const double beyond = at * std::exp(1.25 * newton + direction * 0x1p-48);
                 const double end = direction > 0 ? std::min(beyond, to) : std::max(beyond, to);
                 const int here = tuning.side(at), there = tuning.side(end);
@@ -175,16 +175,22 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
             }
         }
         if (at == to) return {std::nullopt, true};
-        double step = height > 0 ? std::abs(away) : 0.7;
-        if (!(step > 1e-12)) return {};
-        step = std::min(step, 8.0) * (1 - 1e-6);
+        if (!(std::abs(away) > 1e-12)) return {};
+        const double least = std::min(height, tuning.wanted());
         double next = to;
-        for (;; step /= 2) {  // c of both ends: it is monotone between
-            next = at * std::exp(direction * step);
+        if (height > 0) {
+            double step = std::abs(std::log(to / at));
+            for (;; step *= 0.75) {
+                if (!(step > 1e-15)) return {};
+                next = at * std::exp(direction * step);
+                if ((next - to) * direction >= 0) next = to;
+                const double c = weight_influence(tuning.chain(), tuning.asked().link, std::min(at, next),
+                                                  std::max(at, next), least);
+                if (step * c <= std::abs(away) * (1 - 1e-6)) break;
+            }
+        } else {
+            next = at * (direction > 0 ? 2 : 0.5);  // no such mode: from here on until there is weight
             if ((next - to) * direction >= 0) next = to;
-            const double c = std::max(weight_cancellation(tuning.chain(), tuning.asked().link, at),
-                                      weight_cancellation(tuning.chain(), tuning.asked().link, next));
-            if (std::abs(std::log(next / at)) * c <= std::abs(away) || !(height > 0)) break;
         }
         at = next;
     }

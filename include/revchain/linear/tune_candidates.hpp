@@ -55,19 +55,35 @@ inline Link<double> with_datum(Link<double> link, Datum datum, double x) {
     return link;
 }
 
-/// The most by which W h and a S of a link cancel, where link number `link` has this weight: max (W |h| + a S)/(W h + a S).
-inline double weight_cancellation(const Chain<double>& chain, Index link, double weight) {
-    double worst = 1, below = 0;
+/// Bound of |d ln(height)/d ln(weight)| of link number `link`, while its weight W is between `low` and `high` and the height
+/// at least `least`: the larger of the shares that the weight can have in y^T M y and in y^T K y (their sum where its
+/// centroid is above the pin). With w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r + a_r S_r, W
+/// included, and W/kappa monotone in W, both follow from the ends. Never more than 1 where all centroids are at or
+/// below their pins, since W dM <= M and W dK <= K. Cost O(N).
+inline double weight_influence(const Chain<double>& chain, Index link, double low, double high, double least) {
+    double below_low = 0, below_high = 0, flexibility = 0, bears = 0, own = 0;
+    bool all_hang = true;
     for (Index m = 0; m < chain.size(); ++m) {
         const Link<double> it = chain.link(m);
-        const double W = m + 1 == link ? weight : it.weight;
-        if (m + 1 >= link && it.centroid < 0) {
-            const double up = -W * it.centroid, down = it.length * below;
-            worst = std::max(worst, (down + up) / (down - up) * (1 + 1e-9));
+        const double w_low = m + 1 == link ? low : it.weight, w_high = m + 1 == link ? high : it.weight;
+        if (m + 1 >= link) {
+            const double h = it.centroid / it.length;
+            const double share =
+                std::max(low / (w_low * h + below_low), high / (w_high * h + below_high));  // a W/kappa
+            if (m + 1 == link)
+                own = share / it.length;
+            else
+                flexibility += it.length * share, bears = std::max(bears, share);
+            all_hang = all_hang && h >= 0;
         }
-        below += W;
+        below_low += w_low, below_high += w_high;
     }
-    return worst;
+    const Link<double> it = chain.link(link - 1);
+    const double h = std::abs(it.centroid), rho = radius_of_gyration(it);
+    const double centre = std::sqrt(flexibility) + h * std::sqrt(own);
+    const double moves = (centre * centre + rho * rho * own) / least;
+    bears = std::max(bears, h * own);
+    return (all_hang ? std::min(1.0, std::max(moves, bears)) : moves + bears) * (1 + 1e-9);
 }
 
 struct TuneRange {

@@ -110,8 +110,12 @@ TEST_CASE("what was changed is found again, for every datum and mode", "[linear]
             auto& it = links[static_cast<std::size_t>(link - 1)];
             it = revchain::detail::with_datum(it, datum, other);
             const double height = revchain::modes(Chain<double>(links), {.first = mode, .count = 1}).conical_height[0];
-            const auto tuned =
-                revchain::tune(chain, {.mode = mode, .link = link, .datum = datum, .conical_height = height});
+            const auto tuned = revchain::tune(chain, {.mode = mode,
+                                                      .link = link,
+                                                      .datum = datum,
+                                                      .conical_height = height,
+                                                      .low = present / 4,
+                                                      .high = present * 4});
             CAPTURE(round, n, d, link, mode, present, other, tuned.error_bound, tuned.value);
             require_height(tuned, mode, height);
             const double nearest = std::abs(tuned.value - present);
@@ -153,6 +157,7 @@ TEST_CASE("a long chain, and a bell above its pin", "[linear]") {
     const auto rods = Chain<double>::uniform_rods(2000);
     const double wanted = revchain::modes(rods, {.first = 3, .count = 1}).conical_height[0] * 1.001;
     for (const Datum datum : {Datum::weight, Datum::length_in_proportion}) {
+        CAPTURE(datum == Datum::weight);
         const auto tuned = revchain::tune(rods, {.mode = 3, .link = 1500, .datum = datum, .conical_height = wanted});
         require_height(tuned, 3, wanted);
     }
