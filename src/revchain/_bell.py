@@ -46,8 +46,9 @@ class BellAndClapper:
     >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
     >>> bell = rc.bell_and_clapper(chain)
     >>> round(bell.inclination_ratio[0], 4)
-    1.5092
+    1.2352
     >>> {name: round(value, 4) for name, value in bell.with_ratio(1.0).items() if name in ("joint", "bell_centroid")}
+    {'joint': 0.1174, 'bell_centroid': 0.1785}
     """
 
     chain: Chain
@@ -79,11 +80,12 @@ class BellAndClapper:
 
         Examples
         --------
-        How far down must the clapper be hung to swing half as far again as its bell?
+        How far below the axle must the clapper be hung to swing half as far again as its bell?
 
         >>> import revchain as rc
         >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
         >>> round(rc.bell_and_clapper(chain).with_ratio(1.5)["joint"], 4)
+        0.1928
         """
         wanted = real("revchain.BellAndClapper.with_ratio", "ratio", ratio)
         values = _core.bell_and_clapper_with_ratio(self.chain._compiled, wanted)
@@ -127,6 +129,7 @@ def bell_and_clapper(chain: Chain) -> BellAndClapper:
     >>> import revchain as rc
     >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
     >>> rc.bell_and_clapper(chain).derivative["bell_centroid"] > 0
+    True
     """
     height, ratio, silent, mismatch, present, derivative = _core.bell_and_clapper(
         compiled("revchain.bell_and_clapper", chain)
@@ -134,8 +137,8 @@ def bell_and_clapper(chain: Chain) -> BellAndClapper:
     names = _core.BELL_DATA
     return BellAndClapper(
         chain,
-        tuple(height),
-        tuple(ratio),
+        (height[0], height[1]),
+        (ratio[0], ratio[1]),
         silent,
         mismatch,
         dict(zip(names, present, strict=True)),

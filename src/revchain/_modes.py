@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -80,8 +80,14 @@ class Certificate:
     __hash__ = None  # type: ignore[assignment]
 
 
+class _Derived:
+    """What is computed when first asked for: no field, and no part of what two results are compared by."""
+
+    __slots__ = ("_sensitivity",)
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Modes:
+class Modes(_Derived):
     """Modes of a chain, slowest first.
 
     Attributes
@@ -144,7 +150,6 @@ class Modes:
     precision: str = "double"
     certificate: Certificate | None = None
     conical_height_low: Floats | None = None
-    _sensitivity: Sensitivity | None = field(default=None, init=False)
 
     def __post_init__(self) -> None:
         _freeze(self)
@@ -280,15 +285,16 @@ class Modes:
         --------
         >>> import revchain as rc
         >>> rc.modes(rc.Chain.uniform_rods(2)).sensitivity.relative.length_in_proportion.round(4)
-        array([[0.3882, 0.6118],
-               [0.6118, 0.3882]])
+        array([[0.4055, 0.5945],
+               [0.5945, 0.4055]])
         """
-        if self._sensitivity is None:
+        found: Sensitivity | None = getattr(self, "_sensitivity", None)
+        if found is None:
             from ._sensitivity import of_modes
 
-            object.__setattr__(self, "_sensitivity", of_modes(self))
-        assert self._sensitivity is not None
-        return self._sensitivity
+            found = of_modes(self)
+            object.__setattr__(self, "_sensitivity", found)
+        return found
 
     def uncertainty(
         self,
@@ -499,7 +505,7 @@ class Modes:
 
 
 def _values(record: Certificate | Modes) -> tuple[Any, ...]:
-    return tuple(getattr(record, each.name) for each in fields(record) if each.init)
+    return tuple(getattr(record, field.name) for field in fields(record))
 
 
 def _freeze(record: Certificate | Modes) -> None:

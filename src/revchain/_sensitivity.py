@@ -193,7 +193,8 @@ def of_modes(modes: Modes) -> Sensitivity:
     relative = [
         read_only(value * (data[name] / heights[:, None])) for name, value in zip(_core.DATA, values, strict=True)
     ]
-    return Sensitivity(*values, Derivatives(*bounds), Derivatives(*relative))  # type: ignore[arg-type]
+    named = dict(zip(_core.DATA, values, strict=True))
+    return Sensitivity(**named, error_bound=Derivatives(*bounds), relative=Derivatives(*relative))  # type: ignore[arg-type]
 
 
 def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty:

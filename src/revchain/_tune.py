@@ -23,7 +23,8 @@ class Tuned:
     chain : Chain or None
         The chain with `value` in place.
     value : float
-        The one nearest to the present value (of weights, in ratio); NaN where none was found.
+        The one nearest to the present value (of weights, in ratio, and but for others within a few per cent of
+        it); NaN where none was found.
     error_bound : float
         Absolute, proved: `value` is that near to one that does exactly.
     values : ndarray
@@ -121,7 +122,7 @@ def tune(
     >>> chain = rc.Chain(weight=[1.0, 3.0], length=1.0)
     >>> tuned = rc.tune(chain, mode=2, link=1, quantity="weight", angular_speed=4.0, gravity=9.81)
     >>> round(tuned.value, 12)
-    0.528480466172
+    0.528051454425
     >>> rc.modes(tuned.chain).angular_speed(gravity=9.81).round(12)[1]
     np.float64(4.0)
     """
