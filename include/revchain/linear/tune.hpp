@@ -155,7 +155,7 @@ struct Search {
 };
 
 inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) {
-    constexpr int longest = 400;
+    const int longest = 400 + static_cast<int>(20000 / tuning.chain().size());
     const double direction = to > from ? 1 : -1;
     double at = from;
     for (int round = 0; round < longest; ++round) {
