@@ -179,11 +179,10 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
         const double least = std::min(height, tuning.wanted());
         double next = to;
         if (height > 0) {
-            double step = std::abs(std::log(to / at));
-            for (;; step *= 0.75) {
-                if (!(step > 1e-15)) return {};
-                next = at * std::exp(direction * step);
-                if ((next - to) * direction >= 0) next = to;
+            const double whole = std::abs(std::log(to / at));
+            for (double step = whole;; step *= 0.75) {
+                if (step < whole && !(step > 1e-15)) return {};
+                next = step < whole ? at * std::exp(direction * step) : to;
                 const double c = weight_influence(tuning.chain(), tuning.asked().link, std::min(at, next),
                                                   std::max(at, next), least);
                 if (step * c <= std::abs(away) * (1 - 1e-6)) break;

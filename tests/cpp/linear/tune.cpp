@@ -153,6 +153,37 @@ TEST_CASE("a speed, and a range in which none does", "[linear]") {
     CHECK(narrow.status == TuneStatus::no_value);
 }
 
+TEST_CASE("a weight that does nothing of the kind is shown not to, up to the ends of the range", "[linear]") {
+    // found or not, and if not, the heights reached are all on one side of the one wanted
+    support::Random random(41);
+    int found = 0, none = 0;
+    for (int round = 0; round < 60; ++round) {
+        const Index n = 1 + round % 6;
+        const auto chain = support::chain_of(n, [&](Index) {
+            const double a = random.log_between(0.1, 10);
+            return revchain::compound_pendulum<double>({.weight = random.log_between(0.01, 100),
+                                                        .length = a,
+                                                        .centroid = a * random.between(0.05, 1.5),
+                                                        .radius_of_gyration = a * random.log_between(0.02, 2)});
+        });
+        const Index mode = 1 + round % n, link = 1 + (round / 6) % n;
+        const double wanted =
+            revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0] * random.log_between(0.6, 1.6);
+        const auto tuned = revchain::tune(chain, {.mode = mode, .link = link, .conical_height = wanted});
+        CAPTURE(round, n, mode, link, tuned.lowest_height / wanted, tuned.highest_height / wanted);
+        CHECK(tuned.status != TuneStatus::undecided);
+        if (tuned.status == TuneStatus::found) {
+            require_height(tuned, mode, wanted);
+            ++found;
+        } else {
+            CHECK((tuned.lowest_height > wanted || tuned.highest_height < wanted));
+            ++none;
+        }
+    }
+    CHECK(found > 15);
+    CHECK(none > 15);
+}
+
 TEST_CASE("a long chain, and a bell above its pin", "[linear]") {
     const auto rods = Chain<double>::uniform_rods(2000);
     const double wanted = revchain::modes(rods, {.first = 3, .count = 1}).conical_height[0] * 1.001;
