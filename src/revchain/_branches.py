@@ -602,8 +602,8 @@ def steady_shape(
     Returns
     -------
     SteadyShape or tuple of SteadyShape
-        Inclinations to 2.3e-16, times ``condition`` where that exceeds 1 (measured), and within ``error_bound``,
-        proved but at a fold. That the state is on this branch is checked at every step, see `branch`.
+        Inclinations to 2.3e-16 at a given height or speed (measured), and within ``error_bound``, proved but at
+        a fold. That the state is on this branch is checked at every step, see `branch`.
 
     Raises
     ------

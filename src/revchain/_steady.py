@@ -139,7 +139,9 @@ class SteadyShape:
         """Largest change of an inclination, rad, over the relative change of the forces that makes it.
 
         Forces are weights and centrifugal forces, each changed by the same share of itself, whatever the
-        signs. Rounding in double could not leave less than 1e-16 of it; here two doubles are used.
+        signs (moments of them in a list with links that stand or have several inclinations; on a branch, where
+        something else than the height is given, a few patterns of signs are tried, and what is given is
+        changed, too). Rounding in double could not leave less than 1e-16 of it; here two doubles are used.
         """
         return self._compiled.condition
 

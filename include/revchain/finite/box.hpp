@@ -36,6 +36,12 @@ Box<T> mirrored(Box<T> x) {
     for (Interval<T>& t : x) t = -t;
     return x;
 }
+template <Real T>
+std::vector<T> middle_of(const Box<T>& x) {
+    std::vector<T> result;
+    for (const Interval<T>& t : x) result.push_back(t.middle());
+    return result;
+}
 
 namespace detail {
 
@@ -93,8 +99,7 @@ class WholeBalance {
     /// All zeros of F that the box holds lie in what is returned (Krawczyk); if that lies strictly within the box, the box
     /// holds exactly one. Nothing is returned where the derivative has no inverse. Cost N^3.
     std::optional<Box<T>> narrowed(const Box<T>& box) const {
-        std::vector<T> centre(size_);
-        for (std::size_t m = 0; m < size_; ++m) centre[m] = box[m].middle();
+        const std::vector<T> centre = middle_of(box);
         const auto inverse = inverse_at(centre);
         if (!inverse) return std::nullopt;
         const Box<T> left = scaled(*inverse, value(centre));
@@ -133,32 +138,24 @@ class WholeBalance {
         return largest;
     }
 
-    /// Largest moment left over, over the sizes of its terms, and largest change of an inclination for a relative change 1
-    /// of those terms.
-    struct Quality {
-        double residual = 0, condition = 0;
-    };
-    std::optional<Quality> quality(const std::vector<T>& t) const {
+    /// Largest change of an inclination, rad, where each F_m changes by the sizes of its terms, times it; if any.
+    std::optional<double> condition(const std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
-        using std::abs;
-        const Box<T> left = value(t);
         std::vector<double> terms(size_);
-        Quality result;
+        double largest = 0;
         for (std::size_t m = 0; m < size_; ++m) {
             terms[m] = std::abs(static_cast<double>(stiffness_[m].middle() * t[m]));
             for (std::size_t r = 0; r < size_; ++r)
                 terms[m] += std::abs(middle_[m * size_ + r] * static_cast<double>(sine(r, Interval<T>(t[r])).middle()));
-            const double off = static_cast<double>(abs(left[m].middle()));
-            if (terms[m] > 0) result.residual = std::max(result.residual, off / terms[m]);
         }
         for (std::size_t m = 0; m < size_; ++m) {
             double change = 0;
             for (std::size_t r = 0; r < size_; ++r) change += std::abs((*inverse)[m * size_ + r]) * terms[r];
             const double tangent = static_cast<double>(t[m]);
-            result.condition = std::max(result.condition, change / (1 + tangent * tangent));
+            largest = std::max(largest, change / (1 + tangent * tangent));
         }
-        return result;
+        return largest;
     }
 
    private:

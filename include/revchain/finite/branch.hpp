@@ -51,21 +51,22 @@ struct Branch {
 
 namespace finite {
 
-/// A shape from a point of a branch and one condition; the error bound is what the condition number leaves, no proof.
+/// The shape next to a point of a branch at which one condition holds: at a given height with what `verified` proves. Where
+/// the height is found from something else that is proved of the shape at that height, and the bound adds what Newton's
+/// method left of the balance, times the condition; where nothing is proved, as at a fold, it is that alone.
 inline std::optional<SteadyShape> shape_at(const Links<Wide<double>>& chain, const BranchState& near,
                                            const Condition<Wide<double>>& condition) {
     auto found = polished(chain.links, near, condition);
     if (!found.shape.converged) return std::nullopt;
-    // of mirror images that with the free end at a positive offset
-    if (found.shape.offset[0] < Wide<double>(0))
-        for (auto& y : found.shape.offset) y = -y;
-    SteadyShape shape = described(chain, found.height, found.shape);
-    const Verified proved =
-        verified(enclosed<DoubleDouble>(chain.links), Interval<DoubleDouble>(DoubleDouble(found.height)),
-                 {found.shape.offset.begin(), found.shape.offset.end()});
-    const double moved =
-        shape.condition * (found.shape.residual + 1e-30);  // with the height, where that is not what is given
-    shape.error_bound = (proved.inclination_error < 1 ? proved.inclination_error : 0.0) + moved + 0x1p-52;
+    const bool given = condition.gives_height();
+    const auto height =
+        given ? enclosed<DoubleDouble>(found.height) : Interval<DoubleDouble>(DoubleDouble(found.height));
+    SteadyShape shape =
+        verified_shape(chain, enclosed<DoubleDouble>(chain.links), found.height, height, std::move(found.shape), given);
+    const bool proved = shape.error_bound < 1;
+    if (given && proved) return shape;
+    shape.condition = found.condition;
+    shape.error_bound = (proved ? shape.error_bound : 0x1p-52) + found.condition * (found.residual + 1e-30);
     return shape;
 }
 
@@ -208,7 +209,7 @@ inline Branch branch(const Chain<double>& chain, Index mode, double conical_heig
     vertical.half_waves = onset.half_waves;
     // the direction there: along the mode
     const double small = 1e-7 / onset.steepest;
-    vertical.tangent = finite::point_of_onset(onset, onset.state(root.corrector.links(), small), small).tangent;
+    vertical.tangent = onset.point(root.corrector.links(), small).tangent;
     vertical.tangent.log_height = 0;
     finite::append(result, vertical);
     result.conical_height.front() = root.height;  // no logarithm's rounding

@@ -5,14 +5,12 @@
 
 namespace revchain::finite {
 
-/// A steady shape as offsets of the pins, free end first, the support's 0 last; what Newton's method left of the balance.
+/// A steady shape as offsets of the pins, free end first, the support's 0 last.
 template <class S>
 struct Balanced {
     std::vector<S> offset;
     std::vector<Posture> posture;  ///< of each link; empty where all hang
-    double residual = 0;           ///< largest force left over at a pin, over the sum of sizes of its terms
-    double condition = 0;          ///< largest change of an inclination for a relative change 1 of forces, as tried
-    bool converged = false;
+    bool converged = false;        ///< Newton's method, to the last digits of S
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
 };
@@ -49,29 +47,6 @@ class Tridiagonal {
     std::vector<double> pivot_, upper_;
 };
 
-/// Largest change of an inclination for forces changed by `size`, in a few patterns of signs.
-template <class S>
-double condition(const std::vector<Link<S>>& links, const std::vector<S>& y, const Tridiagonal& stiffness,
-                 const std::vector<double>& size) {
-    const std::size_t n = links.size();
-    double worst = 0;
-    for (unsigned pattern = 0; pattern < 4; ++pattern) {
-        std::vector<double> force(size);
-        unsigned state = 2463534242U + pattern;
-        for (double& f : force) {
-            state ^= state << 13, state ^= state >> 17, state ^= state << 5;
-            if (pattern > 0 && (state & 64U)) f = -f;
-        }
-        const std::vector<double> change = stiffness.solve(std::move(force));
-        for (std::size_t m = 0; m < n; ++m) {
-            const double d = change[m] - (m + 1 < n ? change[m + 1] : 0.0);
-            const double cosine = static_cast<double>(cosine_of(links[m].length, S(y[m] - y[m + 1])));
-            worst = std::max(worst, std::abs(d) / (static_cast<double>(links[m].length) * cosine));
-        }
-    }
-    return worst;
-}
-
 }  // namespace detail
 
 /// Newton's method on all pins at once, from offsets near a steady shape, each link in its posture: the balance of forces
@@ -85,12 +60,11 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
     Balanced<S> result{std::move(start), std::move(posture)};
     std::vector<S>& y = result.offset;
     y[n] = S(0);
-    std::vector<double> diagonal(n), upper(n), force(n), size(n);
+    std::vector<double> diagonal(n), upper(n), force(n);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
         S carried(0);  // lambda sigma tan d + a X sin d, minus what mass asks, of the link below
-        double below_stiffness = 0, below_mass = 0, below_size = 0;
-        result.residual = 0;
+        double below_stiffness = 0, below_mass = 0;
         for (std::size_t m = 0; m < n; ++m) {
             const Link<S>& link = links[m];
             const S d = y[m] - y[m + 1];
@@ -99,21 +73,14 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
             const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
                     at_upper = link.rest * y[m + 1];
             // Forces times lambda on the lower pin: pull - W h/a (its own offset) + X d ..., on the upper the opposite.
-            const S lower = pull + turn - at_lower;
-            const S left = carried + lower;
-            force[m] = -static_cast<double>(left);
+            force[m] = -static_cast<double>(carried + (pull + turn - at_lower));
             const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
             const double stiffness =
                 static_cast<double>(height * link.pull) / (a * c * c * c) + static_cast<double>(link.cross);
             diagonal[m] = below_stiffness - below_mass + stiffness - static_cast<double>(link.moment);
             upper[m] = -stiffness;
-            size[m] = below_size + static_cast<double>(abs(pull)) + static_cast<double>(abs(turn)) +
-                      static_cast<double>(abs(at_lower));
-            result.residual = std::max(result.residual, size[m] > 0 ? std::abs(force[m]) / size[m] : 0.0);
             carried = -(pull + turn) - at_upper;
             below_stiffness = stiffness, below_mass = static_cast<double>(link.rest);
-            below_size =
-                static_cast<double>(abs(pull)) + static_cast<double>(abs(turn)) + static_cast<double>(abs(at_upper));
         }
         const detail::Tridiagonal tangent_stiffness(diagonal, upper);
         const std::vector<double> change = tangent_stiffness.solve(force);
@@ -126,7 +93,6 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
         if (!(largest < std::numeric_limits<double>::infinity())) return result;
         if (largest < 1e-14 && (largest > 0.25 * last || largest < static_cast<double>(epsilon<S>()))) {
             result.converged = true;
-            result.condition = detail::condition(links, y, tangent_stiffness, size);
             break;
         }
         last = largest;

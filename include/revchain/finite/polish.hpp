@@ -16,6 +16,7 @@ struct Condition {
                                       std::vector<double>& row) const = 0;
     /// What a relative change 1 of the number given leaves of it; 0 where none is given.
     virtual double size(const S& height) const = 0;
+    virtual bool gives_height() const { return false; }
 };
 
 /// The conical height.
@@ -29,6 +30,7 @@ struct GivenHeight : Condition<S> {
         return {(wanted - height) / wanted, static_cast<double>(height / wanted)};
     }
     double size(const S&) const override { return 1; }
+    bool gives_height() const override { return true; }
 };
 
 /// sin(inclination of the lowest link - wanted) = 0: as well told near the horizontal as elsewhere.
@@ -116,6 +118,11 @@ template <class S>
 struct Polished {
     Balanced<S> shape;
     S height;
+    double residual = 0;  ///< largest force left over at a pin, over the sum of sizes of its terms
+    /// Largest change of an inclination, rad, where each force changes by its own size, times it, in a few patterns of
+    /// signs; or where the number given does. The height being free, the inverse has a third vector beside the two of
+    /// `verified`, and the worst pattern would cost O(N^2).
+    double condition = 0;
 };
 
 /// Newton's method on all pins and the height at once, the balance in S, its derivative in double: see `balance`, beside
@@ -124,7 +131,7 @@ template <class S>
 Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start, const Condition<S>& condition) {
     using std::abs;
     const std::size_t n = links.size();
-    Polished<S> result{{std::vector<S>(n + 1), {}, 0, 0, false}, S(std::exp(start.log_height))};
+    Polished<S> result{{std::vector<S>(n + 1), {}}, S(std::exp(start.log_height))};
     std::vector<S>& y = result.shape.offset;
     S& height = result.height;
     for (std::size_t m = n; m-- > 0;) {  // a - a sin, not a sin, told in double: the link may be all but horizontal
@@ -138,7 +145,7 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
     for (int round = 0; round < 40; ++round) {
         S sum(0), before(0);
         double below_size = 0;
-        result.shape.residual = 0;
+        result.residual = 0;
         for (std::size_t m = 0; m < n; ++m) {
             const Link<S>& link = links[m];
             const S d = y[m] - y[m + 1];
@@ -155,7 +162,7 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
             size[m] = below_size + parts + static_cast<double>(abs(at_lower));
             below_size = parts + static_cast<double>(abs(at_upper));
             const double force = std::abs(static_cast<double>(whole - before));
-            if (size[m] > 0) result.shape.residual = std::max(result.shape.residual, force / size[m]);
+            if (size[m] > 0) result.residual = std::max(result.residual, force / size[m]);
             before = whole;
             sum = sum + at_lower + at_upper;
         }
@@ -200,9 +207,8 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
         // forces in a few patterns of signs; and the number given
         border.solve([&](std::size_t m) { return left[m]; }, pattern < 4 ? 0.0 : condition.size(height), reach);
         for (std::size_t m = 0; m < n; ++m)
-            result.shape.condition =
-                std::max(result.shape.condition,
-                         std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links[m].length)));
+            result.condition = std::max(
+                result.condition, std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links[m].length)));
     }
     return result;
 }

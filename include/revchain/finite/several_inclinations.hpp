@@ -7,10 +7,11 @@
 
 namespace revchain::finite {
 
-/// A shape, its tangents and how far they may be from the true ones.
+/// A shape and how far it may be from the true one.
 struct Settled {
     Balanced<Wide<double>> shape;
-    double error = 0;  ///< of every inclination, rad
+    double error = 0;      ///< of every inclination, rad
+    double condition = 0;  ///< see WholeBalance::condition
 };
 
 /// Steady shapes with links that have several inclinations under one load, or stand.
@@ -30,8 +31,7 @@ namespace detail {
 inline std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble>& balance,
                                                   const Box<DoubleDouble>& near) {
     using Far = DoubleDouble;
-    std::vector<Far> t;
-    for (const Interval<Far>& x : near) t.push_back(x.middle());
+    std::vector<Far> t = middle_of(near);
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 20; ++round) {
         const auto change = balance.improve(t);
@@ -83,15 +83,13 @@ inline std::optional<Settled> settled(const std::vector<Link<Wide<double>>>& lin
         offset[m] = offset[m + 1] + links[m].length * sine;
         if (!(*box)[m].contains(DoubleDouble(0))) lowest_inclined = sine;
     }
+    const auto condition = balance.condition(middle_of(*box));
+    if (!condition) return std::nullopt;
     Settled result;
+    result.condition = *condition;
     result.shape = finite::balance(links, height, offset, 60, balance.posture());
-    if (!result.shape.converged || !agrees(links, result.shape, *box)) {  // links too near the horizontal for offsets
-        std::vector<DoubleDouble> tangents;
-        for (const Interval<DoubleDouble>& t : *box) tangents.push_back(t.middle());
-        const auto quality = balance.quality(tangents);
-        if (!quality) return std::nullopt;
-        result.shape = {std::move(offset), balance.posture(), quality->residual, quality->condition, true};
-    }
+    if (!result.shape.converged || !agrees(links, result.shape, *box))  // links too near the horizontal for offsets
+        result.shape = {std::move(offset), balance.posture(), true};
     const S tip = result.shape.offset[0];
     if (abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0))
         for (S& y : result.shape.offset) y = -y;

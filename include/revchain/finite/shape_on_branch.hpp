@@ -137,9 +137,10 @@ ShapesOnBranch searched(BranchRoot& root, const Measure& measure, const Conditio
 ///
 /// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the height in two words with
 /// what is given as a condition. Next to the vertical the onset of the branch serves as a start.
-/// Accuracy: inclinations within 1e-14, times `condition` where that exceeds 1 (measured, 1 to 1000 links, modes 1 to 10,
-/// from 1e-8 above the critical speed to a conical height of 1e-4 of the length: tests/cpp/finite/branch.cpp). That the
-/// state is on this branch is checked step by step, not proved. `shapes` is empty where the number is not met.
+/// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is proved (measured: 0.7 of
+/// it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed to a conical height of 1e-4 of the length:
+/// tests/cpp/finite/branch.cpp). That the state is on this branch is checked step by step, not proved. `shapes` is empty
+/// where the number is not met.
 /// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
 /// Throws InvalidArgument for a mode that is none, for anything but one number given, for one out of its range, for a
 /// `down_to` not below the height of the mode, and for a speed at which this branch does not exist yet.

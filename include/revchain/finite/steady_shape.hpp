@@ -19,7 +19,10 @@ struct SteadyShape {
     double conical_height = 0;            ///< of the speed
     double residual = 0;                  ///< largest moment left over, over total weight and total length
     double error_bound = 0;               ///< of every inclination, rad: proved (at a fold an estimate)
-    double condition = 0;          ///< largest change of an inclination for a relative change 1 of data and height
+    /// Largest change of an inclination, rad, where each force changes by its own size, times it, whatever the signs (in a
+    /// list with links that stand or have several inclinations: each moment about a link's upper pin). On a branch, where
+    /// something else than the height is given, the largest of a few patterns of signs, and of what is given changed.
+    double condition = 0;
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared (over g: a moment of inertia)
     double effective_energy = 0;   ///< U = -sum of weight times depth - moment_of_inertia/(2 lambda)
 
@@ -50,7 +53,7 @@ inline double beyond(double angle, bool backwards) {
 
 }  // namespace detail
 
-/// Everything about a shape from the offsets of its pins.
+/// Everything about a shape that the offsets of its pins tell: all but its error bound and condition.
 inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& height,
                              const Balanced<Wide<double>>& found) {
     using S = Wide<double>;
@@ -95,7 +98,7 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
         inertia = inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }
-    shape.residual = worst_moment / (hung * reach), shape.condition = found.condition;
+    shape.residual = worst_moment / (hung * reach);
     shape.conical_height = length(height);
     shape.moment_of_inertia = weight(std::ldexp(static_cast<double>(inertia), 2 * chain.units.length_exponent));
     shape.effective_energy = weight(length(energy - inertia / (S(2) * height)));

@@ -167,18 +167,12 @@ inline void add_single_valued(const Links<Wide<double>>& links, const Wide<doubl
             leave_open(bracket);
             continue;
         }
-        const Verified proved =
-            verified(narrow, enclosed<DoubleDouble>(height), {found->shape.offset.begin(), found->shape.offset.end()});
-        std::transform(proved.offset.begin(), proved.offset.end(), found->shape.offset.begin(),
-                       [](const DoubleDouble& y) { return y.word(); });
-        double error = proved.inclination_error;
-        if (error > 1e-16)  // all but horizontal, or all but critical: the sweep may say more
-            error = std::min(error, inclination_error(narrow, height, bracket, DoubleDouble(found->tangent)));
-        if (found->shape.offset[0] < Wide<double>(0.0))  // the lowest link's l > a: its free end across the axis
-            for (Wide<double>& y : found->shape.offset) y = -y;
-        SteadyShape& shape = result.shapes.emplace_back(described(links, height, found->shape));
-        shape.error_bound = error + 0x1p-52;  // and two roundings of an angle below pi/2
-        shape.condition = proved.condition;
+        SteadyShape& shape = result.shapes.emplace_back(
+            verified_shape(links, narrow, height, enclosed<DoubleDouble>(height), std::move(found->shape), true));
+        if (shape.error_bound > 0x1.8p-52) {  // all but horizontal, or all but critical: the sweep may say more
+            const double error = inclination_error(narrow, height, bracket, DoubleDouble(found->tangent));
+            shape.error_bound = std::min(shape.error_bound, error + 0x1p-52);
+        }
     }
 }
 
@@ -192,7 +186,7 @@ inline void add_several_valued(const Links<Wide<double>>& links, const Wide<doub
     result.cells = found.cells;
     for (const Settled& settled : found.shapes) {
         result.shapes.push_back(described(links, height, settled.shape));
-        result.shapes.back().error_bound = settled.error;
+        result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
     }
     for (const auto& part : found.open) {
         const double low = std::atan(part.low), high = std::atan(part.high);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "revchain/core/double_double.hpp"
-#include "revchain/finite/newton.hpp"
+#include "revchain/finite/steady_shape.hpp"
 
 namespace revchain::finite {
 
@@ -188,6 +188,35 @@ inline Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links,
     }
     if (proved && worst == worst) result.inclination_error = worst;
     return result;
+}
+
+/// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of mirror
+/// images that with the free end at a positive offset. All links hang. The bound is infinite where nothing is proved. Else,
+/// where the height is given, the digits are those of `verified`; where it was found too they stay, as next to the vertical
+/// the height's own rounding moves the shape, and the bound holds what they are off.
+inline SteadyShape verified_shape(const Links<Wide<double>>& chain,
+                                  const std::vector<Link<Interval<DoubleDouble>>>& enclosed_links,
+                                  const Wide<double>& height, const Interval<DoubleDouble>& within,
+                                  Balanced<Wide<double>> found, bool height_is_given) {
+    std::vector<Wide<double>>& y = found.offset;
+    const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()});
+    double off = 0;
+    if (height_is_given && std::isfinite(proved.inclination_error)) {
+        std::transform(proved.offset.begin(), proved.offset.end(), y.begin(),
+                       [](const DoubleDouble& digits) { return digits.word(); });
+    } else {
+        for (std::size_t m = 0; m < chain.links.size(); ++m) {
+            const Wide<double> d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
+                               adjacent = chain.links[m].length * detail::cosine_of(chain.links[m].length, d);
+            off = std::max(off, 1.01 * std::abs(static_cast<double>((d - right) / adjacent)));
+        }
+    }
+    if (y[0] < Wide<double>(0))
+        for (Wide<double>& offset : y) offset = -offset;
+    SteadyShape shape = described(chain, height, found);
+    shape.error_bound = proved.inclination_error + off + 0x1p-52;  // and two roundings of an angle below pi/2
+    shape.condition = proved.condition;
+    return shape;
 }
 
 }  // namespace revchain::finite
