@@ -18,19 +18,25 @@ struct OpenPart {
 /// are functions of that of the lowest, by the upward sweep of Greenhill (1908) §8 (4), (12), with derivatives wherever no
 /// link comes near a joint of its pieces. Parts of a path that the offset of the support rules out are dropped, the others
 /// split, until what they leave of the tangents of all links is a box that `Zeros` settles.
-template <Real T>
+template <Real T, class End = OnAxis>
 class PathSearch {
    public:
     PathSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-               const std::vector<Posture>& posture)
-        : links_(links), balance_(links, height, posture), zeros_(balance_), box_(links.size()) {
+               const std::vector<Posture>& posture, const End& support = {})
+        : links_(links),
+          support_(support),
+          balance_(links, height, posture, support),
+          zeros_(balance_),
+          box_(links.size()) {
         respond(height);
     }
     /// The same in more digits.
-    template <class Fewer>
-    PathSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const PathSearch<Fewer>& before)
+    template <class Fewer, class FewerEnd>
+    PathSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
+               const PathSearch<Fewer, FewerEnd>& before, const End& support = {})
         : links_(links),
-          balance_(links, height, before.balance_.posture()),
+          support_(support),
+          balance_(links, height, before.balance_.posture(), support),
           zeros_(balance_, before.zeros_),
           box_(links.size()) {
         respond(height);
@@ -38,8 +44,8 @@ class PathSearch {
     PathSearch(const PathSearch&) = delete;
     PathSearch& operator=(const PathSearch&) = delete;
 
-    const WholeBalance<T>& balance() const { return balance_; }
-    const std::vector<typename Zeros<T>::Zero>& zeros() const { return zeros_.found(); }
+    const WholeBalance<T, End>& balance() const { return balance_; }
+    const std::vector<typename Zeros<T, End>::Zero>& zeros() const { return zeros_.found(); }
     const std::vector<OpenPart<T>>& open() const { return open_; }
 
     /// The first path: the lowest link needs no pieces, its tangent is given.
@@ -67,8 +73,9 @@ class PathSearch {
     /// beyond the budget, which it leaves open. Returns the parts looked at, and N^3/256 for each test of the whole chain.
     long search(const OpenPart<T>& whole, const T& last, const T& narrowest, long budget) {
         using std::sqrt;
-        const bool straight = std::none_of(whole.path.begin(), whole.path.end(),
-                                           [](Piece p) { return p == Piece::right || p == Piece::left; });
+        const bool straight =
+            support_.is_symmetric() && std::none_of(whole.path.begin(), whole.path.end(),
+                                                    [](Piece p) { return p == Piece::right || p == Piece::left; });
         std::vector<std::pair<T, T>> stack{{whole.low, whole.high}};
         std::minstd_rand random(1);
         long cells = 0;
@@ -104,7 +111,7 @@ class PathSearch {
     }
 
    private:
-    template <Real>
+    template <Real, class>
     friend class PathSearch;
 
     void respond(const Interval<T>& height) {
@@ -143,6 +150,12 @@ class PathSearch {
             sum = R;
             if (!(link.rest.low == T(0) && link.rest.high == T(0))) sum = sum + link.rest * y;
             if (smooth) sum = cell.centred(sum);
+        }
+        if constexpr (is_held<End>) {
+            if (smooth)
+                y = support_.miss(cell, y, sum);
+            else
+                y.value = support_.miss(y.value, sum.value);
         }
         if (holds_straight) {
             if (smooth && !y.slope.may_vanish()) return true;
@@ -187,8 +200,9 @@ class PathSearch {
     }
 
     const std::vector<Link<Interval<T>>>& links_;
-    WholeBalance<T> balance_;
-    Zeros<T> zeros_;
+    [[no_unique_address]] End support_;
+    WholeBalance<T, End> balance_;
+    Zeros<T, End> zeros_;
     Box<T> box_;
     std::vector<Response<T>> response_;
     std::vector<OpenPart<T>> open_;
