@@ -58,6 +58,24 @@ struct Measured {
     long shapes = 0, lists = 0, incomplete = 0;
 };
 
+/// Reactions, energy, moment of inertia, over the sizes of what they are sums of.
+void check_forces(const Rig& rig, const QuadRig::Balance& exact, const SteadyShape& shape) {
+    const Index n = rig.size();
+    for (Index m = 0; m < n; ++m) {
+        const Quad x = exact.sideways[static_cast<std::size_t>(m)], z = exact.upright[static_cast<std::size_t>(m)];
+        const Quad size = hypotq(x, z), tension = shape.tension[m], phi = shape.reaction_inclination[m];
+        const double weight = rig.chain().total_weight();
+        CHECK(fabsq(tension - size) <= 1e-14 * (size + weight));
+        // the pin's pull is towards the axis where the chain's is away from it
+        CHECK(fabsq(tension * sinq(phi) + x) <= 1e-14 * (size + weight));
+        CHECK(fabsq(tension * cosq(phi) - z) <= 1e-14 * (size + weight));
+    }
+    CHECK(fabsq(exact.inertia - shape.moment_of_inertia) <= 1e-14 * fabsq(exact.inertia));
+    const Quad size = fabsq(exact.energy) + rig.chain().total_weight() * rig.chain().total_length() +
+                      fabsq(exact.inertia) / shape.conical_height;
+    CHECK(fabsq(exact.energy - shape.effective_energy) <= 1e-15 * size);
+}
+
 /// Every shape of a list is one, within its bound.
 void check_shapes(const Rig& rig, double height, const SteadyShapes& found, int sense, Measured& measured) {
     const QuadRig truth = truth_of(rig, height, sense);
@@ -67,6 +85,7 @@ void check_shapes(const Rig& rig, double height, const SteadyShapes& found, int 
         CHECK(truth.balance(state_of(shape)).worst <= 1e-14);
         const auto exact = truth.settled(state_of(shape));
         REQUIRE(exact);
+        check_forces(rig, truth.balance(*exact), shape);
         const double off = static_cast<double>(apart(shape, *exact));
         CHECK(off <= shape.error_bound);
         measured.error = std::max(measured.error, off);
@@ -75,7 +94,7 @@ void check_shapes(const Rig& rig, double height, const SteadyShapes& found, int 
         const Index n = rig.size();
         Quad y = exact->top;
         const double reach = rig.chain().total_length() + std::abs(shape.offset[n]);
-        CHECK(fabsq(y - shape.offset[n]) <= 1e-15 * reach * (1 + 0 * shape.condition));
+        CHECK(fabsq(y - shape.offset[n]) <= 1e-15 * reach);
         for (Index m = n; m-- > 0;) {
             y += Quad(rig.chain().link(m).length) * sinq(exact->inclination[static_cast<std::size_t>(m)]);
             CHECK(fabsq(y - shape.offset[m]) <= 1e-15 * reach);
@@ -432,4 +451,207 @@ TEST_CASE("rigs of every kind, in any posture: nothing missing that random start
     CHECK(met > 500);
     CHECK(measured.error <= 4.5e-16);
     CHECK(measured.residual <= 1e-25);
+}
+
+TEST_CASE("a compound link on a spring, at any inclination", "[finite][rig]") {
+    Random random(8);
+    Measured measured;
+    long met = 0;
+    for (int i = 0; i < 40; ++i) {
+        const auto chain = random_chain(1, random);
+        const double l = chain.total_length(), lambda = l * random.log_between(0.05, 2);
+        const Rig rig(chain, {.support = horizontal_spring(chain.total_weight() / l * random.log_between(0.3, 100))});
+        for (const bool hanging : {true, false}) {
+            const auto found = revchain::steady_shapes(rig, lambda, {.hanging_only = hanging});
+            check_shapes(rig, lambda, found, 1, measured);
+            if (!hanging) check_by_random_starts(rig, lambda, found, 1, 60, random, met);
+        }
+    }
+    print("compound link on a spring", measured);
+    CHECK(measured.incomplete == 0);
+    CHECK(met > 200);
+    CHECK(measured.error <= 4.5e-16);
+}
+
+TEST_CASE("a rig with nothing is its chain, bit for bit; with zeros, to the last digit", "[finite][rig]") {
+    Random random(9);
+    for (int i = 0; i < 20; ++i) {
+        const auto chain = random_chain(1 + i % 5, random);
+        const double lambda = chain.total_length() * random.log_between(0.02, 0.5);
+        for (const bool hanging : {true, false}) {
+            if (!hanging && chain.size() > 3) continue;
+            const auto want = revchain::steady_shapes(chain, lambda, {.hanging_only = hanging});
+            const auto found = revchain::steady_shapes(Rig(chain, {}), lambda, {.hanging_only = hanging});
+            REQUIRE(found.shapes.size() == want.shapes.size());
+            CHECK(found.cells == want.cells);
+            for (std::size_t k = 0; k < want.shapes.size(); ++k) {
+                CHECK(found.shapes[k].inclination == want.shapes[k].inclination);
+                CHECK(found.shapes[k].effective_energy == want.shapes[k].effective_energy);
+            }
+            // wheels at rest, a fluid of no weight: the same numbers by what is made for rigs
+            const auto size = static_cast<std::size_t>(chain.size());
+            const Rig zeros(chain,
+                            {.flywheels = std::vector<Flywheel>(size), .displaced = std::vector<Displaced>(size)});
+            const auto same = revchain::steady_shapes(zeros, lambda, {.hanging_only = hanging});
+            REQUIRE(same.shapes.size() == want.shapes.size());
+            CHECK(same.complete == want.complete);
+            for (std::size_t k = 0; k < want.shapes.size(); ++k) {
+                const SteadyShape &x = same.shapes[k], &y = want.shapes[k];
+                CHECK((x.inclination - y.inclination).cwiseAbs().maxCoeff() <= 2.3e-16);
+                CHECK((x.tension - y.tension).cwiseAbs().maxCoeff() <= 1e-15 * y.tension.maxCoeff());
+                CHECK(x.half_waves == y.half_waves);
+                CHECK(x.error_bound <= 1.01 * y.error_bound + 1e-18);
+            }
+        }
+    }
+}
+
+TEST_CASE("a support hardly off the axis: each shape twice, and the chain all but straight", "[finite][rig]") {
+    Random random(10);
+    for (int i = 0; i < 12; ++i) {
+        const auto chain = i % 2 == 0 ? Chain<double>::uniform_plummets(1 + i % 4, 1.0, 1.0)
+                                      : Chain<double>::uniform_rods(1 + i % 4, 1.0, 1.0);
+        const double lambda = random.log_between(0.02, 0.9);
+        const auto axis = revchain::steady_shapes(chain, lambda);
+        REQUIRE(axis.complete);
+        double before = 0;
+        for (const double b : {1e-6, 1e-9}) {
+            const auto found = revchain::steady_shapes(Rig(chain, {.support = carried_round(b)}), lambda);
+            REQUIRE(found.complete);
+            REQUIRE(found.shapes.size() == 2 * axis.shapes.size() + 1);
+            double worst = 0;
+            int straight = 0;
+            for (const SteadyShape& shape : found.shapes) {
+                double nearest = shape.inclination.cwiseAbs().maxCoeff();
+                bool is_straight = true;
+                for (const SteadyShape& other : axis.shapes)
+                    for (const int sign : {1, -1}) {
+                        const double off = (shape.inclination - sign * other.inclination).cwiseAbs().maxCoeff();
+                        if (off < nearest) nearest = off, is_straight = false;
+                    }
+                straight += is_straight;
+                worst = std::max(worst, nearest);
+            }
+            CHECK(straight == 1);
+            CHECK(worst <= 1e5 * b);
+            if (before > 0) CHECK(worst <= 1.1e-3 * before);  // in proportion to b
+            before = worst;
+        }
+        // on the axis itself, with the shape of the spring's place alone changed
+        const auto none = revchain::steady_shapes(Rig(chain, {.support = carried_round(0)}), lambda);
+        CHECK(none.shapes.size() == axis.shapes.size());
+    }
+}
+
+TEST_CASE("floats: a cork under water stands, and whirls where the turning water does not", "[finite][rig]") {
+    // One plummet lighter than water by half its weight, W - B = -W/2, moves with W: it stands, and nothing lifts it.
+    const Chain<double> one({plummet<double>(1.0, 1.0)});
+    const auto in = [&](double weight, double added, Fluid fluid) {
+        Rigging with;
+        with.fluid = fluid;
+        Displaced cork = revchain::displaced_by(one.link(0), weight, added);
+        with.displaced = {cork};
+        return Rig(one, with);
+    };
+    for (const double lambda : {0.2, 0.9}) {
+        // hanging: lambda (W - B)/cos d = W + added: cos d of either sign
+        for (const double B : {0.5, 0.9, 1.1, 1.5}) {
+            const Quad cosine = Quad(lambda) * (1 - Quad(B)) / (1 + Quad(0.5));
+            const auto found = revchain::steady_shapes(in(B, 0.5, Fluid::still), lambda, {.hanging_only = false});
+            REQUIRE(found.complete);
+            REQUIRE(found.shapes.size() == 1);
+            CHECK(apart(found.shapes[0].inclination[0], acosq(cosine)) <= found.shapes[0].error_bound);
+        }
+        // turning: net weights in both
+        const auto found = revchain::steady_shapes(in(1.5, 0, Fluid::turning), lambda, {.hanging_only = false});
+        REQUIRE(found.complete);
+        REQUIRE(found.shapes.size() == 1);
+        CHECK(apart(found.shapes[0].inclination[0], acosq(Quad(lambda))) <= found.shapes[0].error_bound);
+    }
+    CHECK_THROWS_WITH(revchain::steady_shapes(in(1.0, 0, Fluid::still), 0.5), ContainsSubstring("effective tension"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(in(1.0, 0, Fluid::turning), 0.5), ContainsSubstring("link 1"));
+}
+
+TEST_CASE("a rig's own posture: a broomstick on a hanging rod, and nothing else", "[finite][rig]") {
+    Random random(11);
+    Measured measured;
+    int stood = 0;
+    for (int i = 0; i < 20; ++i) {
+        const auto chain = random_chain(2, random);
+        const Rig rig(chain, {.support = carried_round(0.05), .posture = {Posture::stands, Posture::hangs}});
+        const double lambda = chain.total_length() * random.log_between(0.05, 1);
+        const auto own = revchain::steady_shapes(rig, lambda),
+                   any = revchain::steady_shapes(rig, lambda, {.hanging_only = false});
+        check_shapes(rig, lambda, own, 1, measured);
+        std::size_t count = 0;
+        for (const SteadyShape& shape : any.shapes)
+            count += std::cos(shape.inclination[0]) < 0 && std::cos(shape.inclination[1]) > 0;
+        CHECK(own.shapes.size() == count);
+        stood += static_cast<int>(count);
+    }
+    CHECK(measured.incomplete == 0);
+    CHECK(stood > 10);
+}
+
+TEST_CASE("bells carried round, the lowest link in the axis: met from both sides, counted once", "[finite][rig]") {
+    // Link 2 carries no load and leans either way, as lambda sigma/cos d = -a X: link 1 hangs straight in the axis if the
+    // support is where link 2 then ends.
+    const Chain<double> chain(
+        {plummet<double>(1.0, 1.0), revchain::compound_pendulum<double>(
+                                        {.weight = 1.0, .length = 1.0, .centroid = 0.5, .radius_of_gyration = 1.5})});
+    // sigma = 1.5, -a X = 2.25 - 0.25 = 2: cos d = lambda 0.75
+    const double lambda = 0.8;
+    const double b = 0.8;  // sin d = 0.8 where cos d = 0.6
+    const auto found =
+        revchain::steady_shapes(Rig(chain, {.support = carried_round(b)}), lambda, {.hanging_only = false});
+    CHECK(found.complete);
+    Measured measured;
+    const Rig rig(chain, {.support = carried_round(b)});
+    check_shapes(rig, lambda, found, 1, measured);
+    long met = 0;
+    Random random(12);
+    check_by_random_starts(rig, lambda, found, 1, 400, random, met);
+    CHECK(met > 100);
+    for (std::size_t i = 0; i < found.shapes.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            CHECK((found.shapes[i].inclination - found.shapes[j].inclination).cwiseAbs().maxCoeff() > 1e-6);
+    int in_axis = 0;
+    for (const SteadyShape& shape : found.shapes) in_axis += std::abs(shape.inclination[0]) < 1e-12;
+    CHECK(in_axis == 1);
+}
+
+TEST_CASE("long carousels: outwards at rest and at speed", "[finite][rig]") {
+    for (const Index size : {100, 1000}) {
+        const auto chain = Chain<double>::uniform_rods(size, 1.0, 1.0);
+        const Rig rig(chain, {.support = carried_round(0.5)});
+        const auto found = revchain::steady_shapes(rig, 2.0);
+        CHECK(found.complete);
+        REQUIRE(found.shapes.size() == 1);
+        CHECK(found.shapes[0].residual <= 1e-20);
+        CHECK(found.shapes[0].inclination.minCoeff() > 0);
+        CHECK(found.shapes[0].error_bound < 3e-16);
+    }
+}
+
+TEST_CASE("what cannot be told is said", "[finite][rig]") {
+    const auto chain = Chain<double>::uniform_plummets(2, 1.0, 1.0);
+    // lambda E is all the weight: nothing keeps the support from running away
+    for (const double radius : {0.0, 0.1}) {
+        auto held = horizontal_spring(4.0);
+        held.radius = radius;
+        const auto found = revchain::steady_shapes(Rig(chain, {.support = held}), 0.25);
+        CHECK_FALSE(found.complete);
+        CHECK_FALSE(found.undecided.empty());
+    }
+    const auto poor = revchain::steady_shapes(Rig(chain, {.support = carried_round(0.1)}), 0.1, {.budget = 4});
+    CHECK_FALSE(poor.complete);
+    const Rig rig(chain, {.flywheels = {{-1.0}, {0.0}}});
+    for (const double bad : {0.0, -1.0, std::nan("")}) {
+        CHECK_THROWS_AS(revchain::steady_shapes(rig, bad), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shapes(rig, 1.0, {.gravity = bad}), revchain::InvalidArgument);
+    }
+    CHECK_THROWS_AS(revchain::steady_shapes(rig, 1.0, {.sense = 0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::steady_shapes_at_speed(rig, 0.0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::steady_shapes_at_speed(rig, 1e-200), revchain::InvalidArgument);
+    CHECK_FALSE(revchain::steady_shapes_at_speed(rig, 1e200).complete);
 }

@@ -19,8 +19,10 @@ class QuadRig {
         Quad top = 0;  // offset of the topmost pin
     };
     struct Balance {
-        std::vector<Quad> torque;  // on each link; last, of a support that yields, the force on its carriage
-        Quad worst = 0;            // of them, over weight times length, and over weight
+        std::vector<Quad> torque;             // on each link; last, of a support that yields, the force on its carriage
+        std::vector<Quad> sideways, upright;  // force with which each upper pin holds what hangs there
+        Quad inertia = 0, energy = 0;         // about the axis, times gravity; potential, less what turning does
+        Quad worst = 0;                       // of the torques, over weight times length, and of the force, over weight
     };
 
     QuadRig(const revchain::Rig& rig, Quad speed, Quad gravity) : rig_(rig), speed_(speed), gravity_(gravity) {}
@@ -30,9 +32,11 @@ class QuadRig {
     Balance balance(const State& at) const {
         const revchain::Index n = rig_.size();
         Balance result;
-        std::vector<Quad> y(static_cast<std::size_t>(n) + 1, at.top);
-        for (revchain::Index m = n; m-- > 0;)
-            y[index(m)] = y[index(m) + 1] + Quad(rig_.chain().link(m).length) * sinq(at.inclination[index(m)]);
+        std::vector<Quad> y(static_cast<std::size_t>(n) + 1, at.top), height(y.size(), 0);
+        for (revchain::Index m = n; m-- > 0;) {
+            const Quad a = rig_.chain().link(m).length, d = at.inclination[index(m)];
+            y[index(m)] = y[index(m) + 1] + a * sinq(d), height[index(m)] = height[index(m) + 1] - a * cosq(d);
+        }
         Quad Fx = 0, Fz = 0, weight = 0;  // on the lower pin, from below
         for (revchain::Index m = 0; m < n; ++m) {
             const auto link = rig_.chain().link(m);
@@ -42,6 +46,8 @@ class QuadRig {
             for (const Body& body : bodies(m)) {
                 const Quad gx = y[index(m) + 1] - body.centroid * ex, x = -body.centroid * ex, z = -body.centroid * ez;
                 const Quad outwards = body.moves / gravity_ * speed_ * speed_ * gx, down = -body.bears;
+                result.inertia += body.moves * (gx * gx + body.gyration * ex * ex);
+                result.energy += body.bears * (height[index(m) + 1] + z);
                 torque += z * outwards - x * down, force_x += outwards, force_z += down;
                 // turned with the speed (0, 0, n), less what is along the link
                 const Quad along = speed_ * ez, across_x = -along * ex;
@@ -49,19 +55,26 @@ class QuadRig {
             }
             const auto wheel = rig_.flywheel(m);
             momentum_x += (Quad(wheel.momentum) + Quad(wheel.axial_moment) / gravity_ * speed_ * ez) * ex;
+            result.inertia += Quad(wheel.axial_moment) * ez * ez;
+            result.energy -= speed_ * Quad(wheel.momentum) * ez;
             torque -= speed_ * momentum_x;  // of (0, 0, n) x momentum
             result.torque.push_back(torque);
             Fx = force_x, Fz = force_z;
+            result.sideways.push_back(-Fx), result.upright.push_back(-Fz);
             weight += Quad(link.weight);
         }
         const Quad scale = weight * Quad(rig_.chain().total_length());
         for (const Quad torque : result.torque) result.worst = std::max(result.worst, fabsq(torque) / scale);
         if (yields()) {
             const auto& support = rig_.support();
+            const Quad drawn = at.top - Quad(support.radius);
+            result.inertia += Quad(support.carriage_weight) * at.top * at.top;
+            result.energy += Quad(support.stiffness) * drawn * drawn / 2;
             const Quad force = Fx + Quad(support.carriage_weight) / gravity_ * speed_ * speed_ * at.top -
                                Quad(support.stiffness) * (at.top - Quad(support.radius));
             result.torque.push_back(force), result.worst = std::max(result.worst, fabsq(force) / weight);
         }
+        result.energy -= result.inertia / gravity_ * speed_ * speed_ / 2;
         return result;
     }
 
