@@ -14,23 +14,22 @@ namespace revchain::finite {
 /// may be singular, as it is where a branch folds.
 class BorderedChain {
    public:
-    explicit BorderedChain(std::size_t size) : below_(size), pivot_(size), force_(2 * size), along_height_(size) {}
+    explicit BorderedChain(std::size_t size)
+        : size_(size), below_(size), pivot_(size), force_(size), along_height_(size), weight_(size) {}
 
     /// Factors at a shape: element stiffnesses, masses at the lower and upper pin, pull = lambda sigma tan delta, the
     /// condition's row and its share of the height.
     template <class Stiffness, class Link, class Pull, class Row>
-    void factor(std::size_t size, const Stiffness& stiffness, const std::vector<Link>& links, const Pull& pull,
-                const Row& row, double row_height) {
-        size_ = size;
-        weight_.resize(size);
+    void factor(const Stiffness& stiffness, const std::vector<Link>& links, const Pull& pull, const Row& row,
+                double row_height) {
         corner_ = row_height;
         double dynamic = 0, eliminated = 0, share = 0;
-        for (std::size_t m = 0; m < size; ++m) {
+        for (std::size_t m = 0; m < size_; ++m) {
             const double k = stiffness(m), u = dynamic - static_cast<double>(links[m].moment);
             const double p = guarded(u + k, k), inverse = 1 / p, ratio = u * inverse;
             const double h = pull(m) - eliminated, whole = share + row(m);
             below_[m] = u, pivot_[m] = p, along_height_[m] = h, weight_[m] = whole;
-            if (m + 1 == size) break;
+            if (m + 1 == size_) break;
             corner_ -= whole * inverse * h;
             share = (share * k - row(m) * u) * inverse;
             eliminated += ratio * h;
@@ -81,7 +80,7 @@ class BorderedChain {
         return std::numeric_limits<double>::quiet_NaN();
     }
 
-    std::size_t size_ = 0;
+    std::size_t size_;
     std::vector<double> below_, pivot_, force_, along_height_, weight_;
     double corner_ = 0;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <functional>
+
 #include "revchain/finite/branch.hpp"
 #include "revchain/finite/diagram_proof.hpp"
 #include "revchain/finite/steady_shapes.hpp"

@@ -122,7 +122,7 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
             }
             law = tip.law();
         }
-        law = law.of_next(crossing);
+        law = law.of_one_before(crossing);
     }
     std::reverse(result.shapes.begin(), result.shapes.end());
     return result;

@@ -62,17 +62,9 @@ inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x
 /// The time of a series at which it reaches an arc length: arc' = pace T > 0. A step whose start was moved may end a little
 /// earlier.
 inline double time_at(const PathSeries& series, double arc, double duration) {
-    double low = 0, high = 1.05 * duration, t = duration / 2;
-    for (int i = 0; i < 100; ++i) {
-        const double value = PathSeries::at(series.arc, t) - arc;
-        (value < 0 ? low : high) = t;
-        double next = t - value / (series.pace * PathSeries::at(series.tension, t));
-        if (std::abs(next - t) <= 0x1p-52 * duration) break;
-        if (!(next > low && next < high)) next = low + (high - low) / 2;
-        if (next == low || next == high) break;
-        t = next;
-    }
-    return t;
+    return time_of_zero(duration, 1.05 * duration, [&](double t) {
+        return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
+    });
 }
 
 /// Places, residual, error and condition of the path that ends at the support, gathered as it is followed.
@@ -88,12 +80,12 @@ class ShapeSamples {
         starts_.push_back(series.change(0));
         if constexpr (std::is_same_v<Series, PathSeries>) {
             sample(series, duration);
+            last_ = series, last_duration_ = duration;
         } else {
             for (int i = 0; i < per_step; ++i)
                 places_.push_back(series.state(duration * i / per_step)),
                     changes_.push_back(series.change(duration * i / per_step));
         }
-        if constexpr (std::is_same_v<Series, PathSeries>) last_ = series, last_duration_ = duration;
     }
 
     /// The shape: the path, moved in first order by what its last crossing misses the support.

@@ -27,6 +27,13 @@ inline BranchState moved(BranchState x, double share, const BranchState& directi
     x.log_height += share * direction.log_height;
     return x;
 }
+/// Makes a direction of length 1 along the arc; returns what its length was.
+inline double normalise(BranchState& direction) {
+    const double length = std::sqrt(inner(direction, direction));
+    for (double& rise : direction.rise) rise /= length;
+    direction.log_height /= length;
+    return length;
+}
 inline double largest_rise(const BranchState& x) {
     double largest = 0;
     for (const double rise : x.rise) largest = std::max(largest, std::abs(rise));
@@ -53,14 +60,13 @@ class Corrector {
           left_(links_.size()),
           row_(links_.size()),
           reach_(links_.size()) {
-        for (std::size_t m = 1; m < links_.size(); ++m) counts_ = counts_ && !(links_[m].cross < 0);  // l <= a
-        counts_ = counts_ && !(links_[0].cross < 0);
+        for (const Link<double>& link : links_) half_waves_are_kept_ = half_waves_are_kept_ && !(link.cross < 0);
     }
     std::size_t size() const { return links_.size(); }
     const std::vector<Link<double>>& links() const { return links_; }
     /// Whether the number of half waves is the same all along a branch: where l <= a for all links. A pin on the axis
     /// has then its neighbours on opposite sides, so that no sign change can come or go.
-    bool half_waves_are_kept() const { return counts_; }
+    bool half_waves_are_kept() const { return half_waves_are_kept_; }
 
     struct Change {
         BranchState correction, tangent;
@@ -73,9 +79,8 @@ class Corrector {
         Change change{{std::vector<double>(n), 0}, {std::vector<double>(n), 0}};
         balance_at(at, height);
         for (std::size_t m = 0; m < n; ++m) row_[m] = share * across.rise[m] * growth_[m];
-        border_.factor(
-            n, [&](std::size_t m) { return stiffness_[m]; }, links_, [&](std::size_t m) { return pull_[m]; },
-            [&](std::size_t m) { return row_[m]; }, across.log_height);
+        border_.factor([&](std::size_t m) { return stiffness_[m]; }, links_, [&](std::size_t m) { return pull_[m]; },
+                       [&](std::size_t m) { return row_[m]; }, across.log_height);
         const auto in_rise = [&](BranchState& direction) {
             for (std::size_t m = 0; m < n; ++m) direction.rise[m] = reach_[m] * growth_[m];
         };
@@ -83,9 +88,7 @@ class Corrector {
         in_rise(change.correction);
         change.tangent.log_height = border_.solve([](std::size_t) { return 0.0; }, 1, reach_);
         in_rise(change.tangent);
-        const double length = std::sqrt(inner(change.tangent, change.tangent));
-        for (double& rise : change.tangent.rise) rise /= length;
-        change.tangent.log_height /= length;
+        normalise(change.tangent);
         return change;
     }
 
@@ -158,7 +161,7 @@ class Corrector {
     std::vector<Link<double>> links_;
     BorderedChain border_;
     std::vector<double> sine_, growth_, pull_, stiffness_, left_, row_, reach_;
-    bool counts_ = true;
+    bool half_waves_are_kept_ = true;
 };
 
 }  // namespace revchain::finite

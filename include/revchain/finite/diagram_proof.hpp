@@ -147,15 +147,10 @@ class DiagramProver {
             detail::rounding_rules(from_zero ? y.x : y.value, from_zero ? y.centre_x : y.centre_value))
             return false;
         Rectangle<double> first = part, second = part;
-        const double share = 0.45 + 0.1 * static_cast<double>(random_()) / static_cast<double>(random_.max());
-        if (low || (!thin && by_x >= by_height)) {
-            const double cut = from_zero                  ? part.high / 16
-                               : part.high > 2 * part.low ? std::sqrt(part.low) * std::sqrt(part.high)
-                                                          : part.low + share * width;
-            first.high = second.low = cut;
-        } else {
-            first.height_high = second.height_low = part.height_low + share * height;
-        }
+        if (low || (!thin && by_x >= by_height))
+            first.high = second.low = cutting_.between(part.low, part.high);
+        else
+            first.height_high = second.height_low = part.height_low + cutting_.share() * height;
         stack_.push_back(first);
         stack_.push_back(second);
         return true;
@@ -164,7 +159,7 @@ class DiagramProver {
     std::vector<Link<Interval<double>>> links_;
     long budget_;
     std::vector<Rectangle<double>> stack_;
-    std::minstd_rand random_{1};
+    detail::Cutting<double> cutting_;
 };
 
 /// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <random>
 
 #include "revchain/finite/jet.hpp"
@@ -74,15 +74,40 @@ bool rounding_rules(const Interval<T>& over, const Interval<T>& centre) {
     return !(T(4) * centre.width() < over.width());
 }
 
+/// Where ranges of tangents, or of what grows in proportion, are cut in two: 0 at the least.
+template <Real T>
+class Cutting {
+   public:
+    /// Nearly a half, at random, since a cut in the middle can meet a shape for ever.
+    T share() { return T(0.45 + 0.1 * static_cast<double>(random_()) / static_cast<double>(random_.max())); }
+    /// At the geometric mean where the ends differ by more than a factor of 2, and next to 0 by sixteenths.
+    T between(const T& low, const T& high) {
+        using std::sqrt;
+        const T at = share();
+        if (low == T(0)) return high / T(16);
+        if (high > T(2) * low) return sqrt(low) * sqrt(high) * (T(1) + (at - T(0.5)) / T(4));
+        return low + at * (high - low);
+    }
+    /// None where the range is narrower than `narrowest` of its upper end, or of `last` next to 0.
+    std::optional<T> between(const T& low, const T& high, const T& narrowest, const T& last) {
+        const T cut = between(low, high);
+        const bool narrow =
+            low == T(0) ? high < narrowest * last : high - low < narrowest * high || !(low < cut && cut < high);
+        return narrow ? std::nullopt : std::optional<T>(cut);
+    }
+
+   private:
+    std::minstd_rand random_{1};
+};
+
 /// Splits 0 ... `last` until each cell is seen to hold no shape or one, or is narrower than `narrowest` of its upper end,
 /// or of `last` next to 0. The straight chain, at 0, is left out.
 template <Real T, class End = OnAxis>
 Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Part<T>& whole,
                      const T& narrowest, long budget, const End& support = {}) {
-    using std::sqrt;
     Isolation<T> found;
     std::vector<Part<T>> stack{whole};
-    std::minstd_rand random(1);
+    Cutting<T> cutting;
     while (!stack.empty()) {
         const Part<T> part = stack.back();
         stack.pop_back();
@@ -91,7 +116,7 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
             continue;
         }
         const Jet<T> end = support_offset(links, height, Cell<T>(part.low, part.high), support);
-        const bool from_zero = part.low == T(0) && support.is_symmetric(), first = part.low == T(0);
+        const bool from_zero = part.low == T(0) && support.is_symmetric();
         if (!from_zero && !end.value.may_vanish()) continue;
         if (!end.slope.may_vanish()) {
             if (from_zero) continue;  // the straight chain alone
@@ -100,23 +125,15 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
                 continue;
             }
         }
-        // A cut at random, since one in the middle can meet a shape for ever.
-        const T share = T(0.45 + 0.1 * static_cast<double>(random()) / static_cast<double>(random.max()));
-        const T cut = first ? part.high / T(16)
-                      : part.high > T(2) * part.low
-                          ? sqrt(part.low) * sqrt(part.high) * (T(1) + (share - T(0.5)) / T(4))
-                          : part.low + share * (part.high - part.low);
-        const bool narrow = first
-                                ? part.high < narrowest * whole.high
-                                : part.high - part.low < narrowest * part.high || !(part.low < cut && cut < part.high);
-        if (narrow ||
+        const auto cut = cutting.between(part.low, part.high, narrowest, whole.high);
+        if (!cut ||
             rounding_rules(from_zero ? end.slope : end.value, from_zero ? end.centre_slope : end.centre_value)) {
             found.undecided.push_back({part.low, part.high});
             continue;
         }
-        const int sign = sign_at(links, height, cut, support);
-        stack.push_back({cut, part.high, sign, part.high_sign});
-        stack.push_back({part.low, cut, part.low_sign, sign});
+        const int sign = sign_at(links, height, *cut, support);
+        stack.push_back({*cut, part.high, sign, part.high_sign});
+        stack.push_back({part.low, *cut, part.low_sign, sign});
     }
     return found;
 }

@@ -45,9 +45,7 @@ struct BranchOnset {
     BranchPoint point(BranchState state, double amplitude) const {
         BranchPoint result{state, std::move(state), 0, half_waves};
         result.tangent.log_height = -2 * curvature * amplitude * amplitude;
-        result.arc = std::sqrt(inner(result.tangent, result.tangent));
-        for (double& rise : result.tangent.rise) rise /= result.arc;
-        result.tangent.log_height /= result.arc;
+        result.arc = normalise(result.tangent);
         return result;
     }
     BranchPoint point(const std::vector<Link<double>>& links, double amplitude) const {

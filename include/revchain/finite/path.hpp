@@ -135,21 +135,15 @@ class Path {
         return count;
     }
     void note_crossing(const PathSeries& series, double duration, bool with_change) {
-        const double before = series.offset[0];
-        double low = 0, high = duration, t = duration / 2;
-        for (int i = 0; i < 100; ++i) {
+        const double sign = series.offset[0] > 0 ? -1 : 1;
+        const double t = time_of_zero(duration, duration, [&](double time) {
             double value = series.offset[PathSeries::order], slope = 0;
             for (std::size_t k = PathSeries::order; k-- > 0;) {
-                slope = slope * t + value;
-                value = value * t + series.offset[k];
+                slope = slope * time + value;
+                value = value * time + series.offset[k];
             }
-            (value * before > 0 ? low : high) = t;
-            double next = t - value / slope;
-            if (std::abs(next - t) <= 0x1p-52 * duration) break;
-            if (!(next > low && next < high)) next = low + (high - low) / 2;
-            if (next == low || next == high) break;
-            t = next;
-        }
+            return std::pair(sign * value, sign * slope);
+        });
         Crossing crossing{PathSeries::at(series.arc, t), 0, steps_.size(), t};
         if (with_change) {
             const PathChange change = series.change(t);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "revchain/finite/line_density.hpp"
 
@@ -263,6 +264,24 @@ class PathSeries {
     Coefficients density{}, mass{};  // rho, rho T: with a density
     bool has_change_ = false, is_dense_ = false;
 };
+
+/// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so, to
+/// 2^-52 of the step: Newton's method held within the bracket. Unlike `zero_between` it does not go on to the last digit of
+/// the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)` returns a pair.
+template <class F>
+double time_of_zero(double duration, double latest, const F& value_and_slope) {
+    double low = 0, high = latest, t = duration / 2;
+    for (int i = 0; i < 100; ++i) {
+        const auto [value, slope] = value_and_slope(t);
+        (value < 0 ? low : high) = t;
+        double next = t - value / slope;
+        if (std::abs(next - t) <= 0x1p-52 * duration) break;
+        if (!(next > low && next < high)) next = low + (high - low) / 2;
+        if (next == low || next == high) break;
+        t = next;
+    }
+    return t;
+}
 
 /// The series of a uniform chain without a tip weight about its free end, in sigma, where T = 0: with u = sigma q,
 ///     (sigma q)' = -eta,   eta' = q/sqrt(1 + q^2),   xi' = 1/sqrt(1 + q^2),   q(0) = -eta(0).

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <random>
-
+#include "revchain/finite/isolation.hpp"
 #include "revchain/finite/zeros.hpp"
 
 namespace revchain::finite {
@@ -69,15 +68,15 @@ class PathSearch {
         return false;
     }
 
-    /// Settles low ... high of a path, but parts narrower than `narrowest` of their upper end (of `last` next to 0) or
-    /// beyond the budget, which it leaves open. Returns the parts looked at, and N^3/256 for each test of the whole chain.
+    /// Settles low ... high of a path, but parts narrower than `narrowest` of their upper end (of `last` next to 0), those
+    /// in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts looked at, and
+    /// N^3/256 for each test of the whole chain.
     long search(const OpenPart<T>& whole, const T& last, const T& narrowest, long budget) {
-        using std::sqrt;
         const bool straight =
             support_.is_symmetric() && std::none_of(whole.path.begin(), whole.path.end(),
                                                     [](Piece p) { return p == Piece::right || p == Piece::left; });
         std::vector<std::pair<T, T>> stack{{whole.low, whole.high}};
-        std::minstd_rand random(1);
+        detail::Cutting<T> cutting;
         long cells = 0;
         while (!stack.empty()) {
             const auto [low, high] = stack.back();
@@ -88,24 +87,16 @@ class PathSearch {
             }
             ++cells;
             cells_of_tests_ = 0;
-            const bool from_zero = low == T(0);
-            if (settled(whole.path, low, high, from_zero && straight)) {
-                cells += cells_of_tests_;
-                continue;
-            }
+            const Part part = judged(whole.path, low, high, straight && low == T(0));
             cells += cells_of_tests_;
-            const T share = T(0.45 + 0.1 * static_cast<double>(random()) / static_cast<double>(random.max()));
-            const T cut = from_zero           ? high / T(16)
-                          : high > T(2) * low ? sqrt(low) * sqrt(high) * (T(1) + (share - T(0.5)) / T(4))
-                                              : low + share * (high - low);
-            const bool narrow =
-                from_zero ? high < narrowest * last : high - low < narrowest * high || !(low < cut && cut < high);
-            if (narrow) {
+            if (part == Part::settled) continue;
+            const auto cut = cutting.between(low, high, narrowest, last);
+            if (!cut || part == Part::ruled_by_rounding) {
                 open_.push_back({whole.path, low, high});
                 continue;
             }
-            stack.push_back({cut, high});
-            stack.push_back({low, cut});
+            stack.push_back({*cut, high});
+            stack.push_back({low, *cut});
         }
         return cells;
     }
@@ -119,8 +110,9 @@ class PathSearch {
             response_.emplace_back(links_[m], height, balance_.posture()[m]);
     }
 
-    /// Whether a part of a path holds no shape that is not in the list.
-    bool settled(const std::vector<Piece>& path, const T& low, const T& high, bool holds_straight) {
+    /// Of a part of a path: holds no shape that is not in the list; may show more if split; will not.
+    enum class Part { settled, open, ruled_by_rounding };
+    Part judged(const std::vector<Piece>& path, const T& low, const T& high, bool holds_straight) {
         const Cell<T> cell(low, high);
         Jet<T> y, sum, t = cell.x();
         bool smooth = true;
@@ -132,7 +124,7 @@ class PathSearch {
                 R = sum + link.moment * y;
                 if (smooth) R = cell.centred(R);
                 const Met<T> met = response.met(path[m], R.value);
-                if (!met.possible) return true;
+                if (!met.possible) return Part::settled;
                 smooth = smooth && met.smooth;
                 t.value = met.tangent;
                 if (smooth) smooth = derive(response, path[m], R, t);
@@ -157,13 +149,12 @@ class PathSearch {
             else
                 y.value = support_.miss(y.value, sum.value);
         }
-        if (holds_straight) {
-            if (smooth && !y.slope.may_vanish()) return true;
-        } else if (!y.value.may_vanish()) {
-            return true;
-        }
+        if (holds_straight ? smooth && !y.slope.may_vanish() : !y.value.may_vanish()) return Part::settled;
         cells_of_tests_ = static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
-        return zeros_.settles(box_);
+        if (zeros_.settles(box_)) return Part::settled;
+        const bool rounding = smooth && (holds_straight ? detail::rounding_rules(y.slope, y.centre_slope)
+                                                        : detail::rounding_rules(y.value, y.centre_value));
+        return rounding ? Part::ruled_by_rounding : Part::open;
     }
 
     /// Derivatives of the tangent that carries R.

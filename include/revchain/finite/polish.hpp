@@ -167,9 +167,8 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
             sum = sum + at_lower + at_upper;
         }
         const auto [open, row_height] = condition.left(links, y, height, row);
-        border.factor(
-            n, [&](std::size_t m) { return stiffness[m]; }, links, [&](std::size_t m) { return pull[m]; },
-            [&](std::size_t m) { return row[m]; }, row_height);
+        border.factor([&](std::size_t m) { return stiffness[m]; }, links, [&](std::size_t m) { return pull[m]; },
+                      [&](std::size_t m) { return row[m]; }, row_height);
         if (result.shape.converged) break;  // what is left has been told, the factors are those of the result
         const double log_change =
             border.solve([&](std::size_t m) { return left[m]; }, static_cast<double>(open), reach);

@@ -116,11 +116,10 @@ template <class AnyLinks>
 std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& height,
                                  const Bracket<DoubleDouble>& bracket) {
     using S = Wide<double>;
-    const S& lambda = height;
     const std::vector<Link<S>>& links = chain.links;
     const auto support = support_of(chain);
     S low = bracket.low.word(), high = bracket.high.word();
-    const auto falls_short = [&](const S& t) { return missed(links, lambda, t, support) < S(0); };
+    const auto falls_short = [&](const S& t) { return missed(links, height, t, support) < S(0); };
     const bool rises = falls_short(low);
     const auto halve = [&]() {
         const S middle = low + (high - low) * S(0.5);
@@ -128,7 +127,7 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
         return middle;
     };
     for (int round = 0; round < 16; ++round) {
-        auto found = balance(links, lambda, swept(links, lambda, halve()), 60, {}, support);
+        auto found = balance(links, height, swept(links, height, halve()), 60, {}, support);
         if (found.converged) {
             const S d = found.offset[0] - found.offset[1];
             const S tangent = d / (links[0].length * detail::cosine_of(links[0].length, d));

@@ -24,10 +24,10 @@ struct CrossingLaw {
         return {rise * (1 + b) / (tip_offset * tip_offset), b / tip_offset};
     }
     /// That of the crossing before `crossing`, off the uniform chain's by as much.
-    CrossingLaw of_next(int crossing) const {
+    CrossingLaw of_one_before(int crossing) const {
         if (crossing < 2) return *this;
-        const CrossingLaw here = uniform(crossing), next = uniform(crossing - 1);
-        return {quadratic * next.quadratic / here.quadratic, bend * next.bend / here.bend};
+        const CrossingLaw here = uniform(crossing), before = uniform(crossing - 1);
+        return {quadratic * before.quadratic / here.quadratic, bend * before.bend / here.bend};
     }
     double tip_offset(double rise) const {
         const double half = 0.5 * bend * rise;

@@ -413,6 +413,24 @@ TEST_CASE("above the first critical height there is no shape in any posture", "[
     }
 }
 
+TEST_CASE("exactly a critical height: what rounding leaves open is narrow, and told soon", "[finite]") {
+    Random random(307);
+    for (int i = 0; i < 48; ++i) {
+        const auto chain = chain_of_kind(i % 4, 1 + i % 3, random);
+        const auto heights = revchain::modes(chain, {.shapes = false}).conical_height;
+        for (const double height : heights) {
+            CAPTURE(i, chain.size(), height);
+            const auto found = all_shapes(chain, height);
+            CHECK(found.cells < 800);
+            for (const auto& range : found.undecided) CHECK(range.high - range.low < 1e-9);
+            // none that is certain is lost: there are as many just above
+            const auto above = all_shapes(chain, height * (1 + 1e-9));
+            REQUIRE(above.complete);
+            CHECK(found.shapes.size() >= above.shapes.size());
+        }
+    }
+}
+
 TEST_CASE("a lowest link that hangs, or stands, in the axis", "[finite]") {
     // Link 2 carries no load and leans at 60 degrees, as lambda sigma/cos d = -a X does; link 3 leans as much against it.
     const Chain<double> chain(
