@@ -8,14 +8,17 @@ import operator
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from numbers import Real
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _core
+
 Floats = NDArray[np.float64]
 Numbers = NDArray[Any]  # float32, float64 or longdouble, by the precision asked for
 Whole = NDArray[np.int64]
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
@@ -65,6 +68,13 @@ def limit(place: str, name: str, value: object) -> int:
     return int(min(max(integer(place, name, value), -largest), largest))
 
 
+def boolean(place: str, name: str, value: object) -> bool:
+    """`value` as a bool; anything else, 0 and 1 too, is refused with a TypeError."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{place}: {name} must be True or False, got {shown(value)}")
+    return bool(value)
+
+
 def counts(place: str, name: str, value: ArrayLike) -> Whole:
     """`value` as an int64 array of numbers from 1 to 2**53."""
     whole = np.asarray(value)
@@ -98,6 +108,35 @@ def positive(place: str, name: str, value: ArrayLike) -> Floats:
     array = floats(place, name, value)
     refuse_where(~((array > 0) & (array < math.inf)), array, f"{place}: {name} must be positive and finite")
     return array
+
+
+def one_positive(place: str, name: str, value: object) -> float:
+    """`value` as a positive finite float; anything but one real number is refused with a ValueError."""
+    return float(positive(place, name, real(place, name, value)))
+
+
+def exactly_one(place: str, **given: float | None) -> tuple[str, float]:
+    """Name and value, positive and finite, of the only one that is not None."""
+    known = [name for name, value in given.items() if value is not None]
+    if len(known) != 1:
+        *others, last = given
+        raise ValueError(
+            f"{place}: give exactly one of {', '.join(others)} and {last}, got {' and '.join(known) or 'none'}"
+        )
+    return known[0], one_positive(place, known[0], given[known[0]])
+
+
+def height_of(
+    place: str, conical_height: float | None, speed: float | None, gravity: float, speed_name: str = "angular_speed"
+) -> float:
+    """The conical height given, or that of the speed given."""
+    name, value = exactly_one(place, conical_height=conical_height, **{speed_name: speed})
+    if name == "conical_height":
+        return value
+    g = one_positive(place, "gravity", gravity)
+    return one_positive(
+        place, f"gravity / {speed_name}**2", _core.conical_pendulum_height(np.asarray(value), np.asarray(g))
+    )
 
 
 def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
@@ -144,7 +183,7 @@ def shown(value: object, width: int = 60) -> str:
     return text if len(text) <= width else text[: width - 3] + "..."
 
 
-def read_only(array: NDArray[np.generic]) -> NDArray[np.generic]:
+def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
     """A view of `array` that cannot be written to."""
     view = array.view()
     view.flags.writeable = False

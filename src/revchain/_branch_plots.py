@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._arguments import Floats
-from ._plots import new_axes
+from ._plots import half_waves_style, new_axes
 from ._solve import modes
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from ._branches import Branch
@@ -28,9 +29,7 @@ QUANTITIES = {
 CLOSEST = 0.03  # of the width, between births that are written out
 
 
-def plot_branches(
-    branches: Sequence[Branch], chain: Chain, ax: Axes | None, *, quantity: str, place: str
-) -> Axes:
+def plot_branches(branches: Sequence[Branch], chain: Chain, ax: Axes | None, *, quantity: str, place: str) -> Axes:
     """See `Branches.plot`."""
     if quantity not in QUANTITIES:
         raise ValueError(f"{place}: quantity must be one of {', '.join(QUANTITIES)}, got {quantity!r}")
@@ -38,27 +37,25 @@ def plot_branches(
         ax = new_axes(7.2, 5.0)
     first = float(modes(chain, count=1, shapes=False).conical_height[0])
     named: set[int] = set()
-    births: list[tuple[float, int]] = []
+    curves: dict[Artist, int] = {}
+    births: list[tuple[float, str]] = []
     for branch in branches:
         waves = int(branch.half_waves[0])
         speed = np.sqrt(first / branch.conical_height)
         value = _values(branch, quantity)
-        label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
-        named.add(waves)
-        colour = f"C{(waves - 1) % 10}"
+        colour, label = half_waves_style(waves, named)
         style = "-" if branch.mode is not None else "--"
-        ax.plot(speed, value, style, color=colour, linewidth=1.6, label=label)
+        curves[ax.plot(speed, value, style, color=colour, linewidth=1.6, label=label)[0]] = waves
         if branch.mode is not None:
             ax.plot(speed[0], value[0], "o", color=colour, markersize=5.0)
         folds = branch.folds
         ax.plot(speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="white", zorder=3)
         if branch.mode is None and folds.size:
             born = int(folds[np.argmin(speed[folds])])
-            births.append((float(speed[born]), waves))
+            births.append((float(speed[born]), colour))
     left, right = ax.get_xlim()
     last = -np.inf
-    for at, waves in sorted(births):
-        colour = f"C{(waves - 1) % 10}"
+    for at, colour in sorted(births):
         ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
         if at - last < CLOSEST * (right - left):
             continue
@@ -80,11 +77,12 @@ def plot_branches(
     ax.set_axisbelow(True)
     if named:
         handles, labels = ax.get_legend_handles_labels()
-        order = sorted(range(len(labels)), key=lambda i: int(labels[i].split()[0]))
+        order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # what was there before: last
         ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="upper left", bbox_to_anchor=(1.01, 1.0))
     return ax
 
 
 def _values(branch: Branch, quantity: str) -> Floats:
+    """The numbers to draw: inclinations in degrees."""
     values: Floats = getattr(branch, quantity)
     return np.degrees(values) if quantity == "tip_inclination" else values

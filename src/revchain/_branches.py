@@ -3,21 +3,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Literal, overload
 
-import numpy as np
-
-from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, Whole, count, integer, limit, positive, real
+from . import _core, conical_pendulum
+from ._arguments import (
+    STANDARD_GRAVITY,
+    Floats,
+    Whole,
+    boolean,
+    count,
+    exactly_one,
+    height_of,
+    integer,
+    limit,
+    one_positive,
+)
 from ._chain import Chain, compiled
-from ._steady import SteadyShape
+from ._results import Result, Results
+from ._steady import SteadyShape, is_driven
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-GIVEN = ("conical_height", "angular_speed", "tip_inclination", "tip_radius", "top_tension")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,21 +46,13 @@ class StabilityWindow:
     arc: tuple[float, float]
 
 
-class Branch:
+class Branch(Result[_core.Branch, Chain]):
     """A branch of steady shapes, point by point along its arc, in the units of the chain.
 
     Returned by `branch`, and in what `branches` returns. Arrays have one number for each point.
     """
 
-    __slots__ = ("_chain", "_compiled")
-    _compiled: _core.Branch
-    _chain: Chain
-
-    @classmethod
-    def _wrap(cls, compiled: _core.Branch, chain: Chain) -> Branch:
-        result = object.__new__(cls)
-        result._compiled, result._chain = compiled, chain
-        return result
+    __slots__ = ()
 
     @property
     def mode(self) -> int | None:
@@ -148,9 +147,8 @@ class Branch:
         >>> branch.angular_speed()[[0, -1]].round(4)
         array([2.3968, 9.9029])
         """
-        place = "revchain.Branch.angular_speed"
-        g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-        speed: Floats = np.sqrt(g) / np.sqrt(self.conical_height)
+        g = one_positive("revchain.Branch.angular_speed", "gravity", gravity)
+        speed: Floats = conical_pendulum.angular_speed(self.conical_height, g)
         return speed
 
     def shape(self, point: int) -> SteadyShape:
@@ -182,7 +180,7 @@ class Branch:
         wanted = integer(place, "point", point)
         if not -len(self) <= wanted < len(self):
             raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
-        return SteadyShape._wrap(self._compiled.shape(wanted % len(self)), self._chain._compiled)
+        return SteadyShape._wrap(self._compiled.shape(wanted % len(self)), self._given._compiled)
 
     def at(
         self,
@@ -220,8 +218,8 @@ class Branch:
         >>> branch.at(conical_height=0.2)
         (SteadyShape: half_waves 1, lowest link at 84.2496 degrees,)
         """
-        height = _height("revchain.Branch.at", conical_height, angular_speed, gravity)
-        return tuple(SteadyShape._wrap(s, self._chain._compiled) for s in self._compiled.states_at(height))
+        height = height_of("revchain.Branch.at", conical_height, angular_speed, gravity)
+        return tuple(SteadyShape._wrap(s, self._given._compiled) for s in self._compiled.states_at(height))
 
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
@@ -230,7 +228,7 @@ class Branch:
 
         Parameters
         ----------
-        frame : {"free", "driven"}
+        frame : {"free", "driven"}, optional
             As for `SteadyShape.stability`.
         tolerance : float, optional
             Of the edges, relative in conical height and absolute in arc.
@@ -259,11 +257,10 @@ class Branch:
         unstable 0.1
         """
         place = "revchain.Branch.stability_windows"
-        if frame not in ("free", "driven"):
-            raise ValueError(f"{place}: frame must be 'free' or 'driven', got {frame!r}")
-        wide = float(positive(place, "tolerance", real(place, "tolerance", tolerance)))
+        driven = is_driven(place, frame)
+        wide = one_positive(place, "tolerance", tolerance)
         places = min(count(place, "samples", samples), 10**6)
-        found = _core.stability_windows(self._chain._compiled, self._compiled, frame == "driven", wide, places)
+        found = _core.stability_windows(self._given._compiled, self._compiled, driven, wide, places)
         return [StabilityWindow(verdict, (h0, h1), (s0, s1)) for s0, s1, h0, h1, verdict in found]
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
@@ -296,7 +293,7 @@ class Branch:
         """
         from ._branch_plots import plot_branches
 
-        return plot_branches([self], self._chain, ax, quantity=quantity, place="revchain.Branch.plot")
+        return plot_branches([self], self._given, ax, quantity=quantity, place="revchain.Branch.plot")
 
     def __len__(self) -> int:
         return int(self.arc.size)
@@ -307,19 +304,18 @@ class Branch:
         return f"Branch {name}: {len(self)} points{folds}, ends at {self.end}"
 
 
-class Branches(Sequence[Branch]):
+class Branches(Results[Branch]):
     """All branches found down to one conical height: those of the modes, slowest first, then isolated ones."""
 
-    __slots__ = ("_branches", "_chain", "_compiled")
+    __slots__ = ("_chain", "_compiled")
     _compiled: _core.Branches
-    _branches: tuple[Branch, ...]
     _chain: Chain
 
     @classmethod
     def _wrap(cls, compiled: _core.Branches, chain: Chain) -> Branches:
         result = object.__new__(cls)
         result._compiled, result._chain = compiled, chain
-        result._branches = tuple(Branch._wrap(each, chain) for each in compiled.branches)
+        result._items = tuple(Branch._wrap(each, chain) for each in compiled.branches)
         return result
 
     @property
@@ -341,19 +337,6 @@ class Branches(Sequence[Branch]):
     def remark(self) -> str:
         """What may be missing, in a sentence."""
         return self._compiled.remark
-
-    @overload
-    def __getitem__(self, index: int) -> Branch: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Branch, ...]: ...
-    def __getitem__(self, index: int | slice) -> Any:
-        return self._branches[index]
-
-    def __len__(self) -> int:
-        return len(self._branches)
-
-    def __iter__(self) -> Iterator[Branch]:
-        return iter(self._branches)
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
         """Draw the diagram: a number of every branch against the speed over the first critical one.
@@ -387,8 +370,8 @@ class Branches(Sequence[Branch]):
         """
         from ._branch_plots import plot_branches
 
-        ax = plot_branches(self._branches, self._chain, ax, quantity=quantity, place="revchain.Branches.plot")
-        if not self._branches:
+        ax = plot_branches(self, self._chain, ax, quantity=quantity, place="revchain.Branches.plot")
+        if not self:
             ax.set_title("no shape at or above this conical height")
         else:
             ax.set_title("all branches: proved complete" if self.complete else "branches found: not proved complete")
@@ -456,9 +439,9 @@ def branch(
     """
     place = "revchain.branch"
     number = count(place, "mode", mode)
-    height = _height(place, conical_height, angular_speed, gravity)
+    height = height_of(place, conical_height, angular_speed, gravity)
     points = count(place, "most_points", most_points)
-    step = float(positive(place, "longest_step", real(place, "longest_step", longest_step)))
+    step = one_positive(place, "longest_step", longest_step)
     return Branch._wrap(_core.branch(compiled(place, chain), number, height, points, step), chain)
 
 
@@ -525,7 +508,7 @@ def branches(
     np.float64(3.9037621569)
     """
     place = "revchain.branches"
-    height = _height(place, conical_height, up_to, gravity, speed_name="up_to")
+    height = height_of(place, conical_height, up_to, gravity, speed_name="up_to")
     at = min(count(place, "lists", lists), 10**6)
     most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
     return Branches._wrap(_core.branches(compiled(place, chain), height, at, most, most_of_proof), chain)
@@ -631,32 +614,19 @@ def steady_shape(
     """
     place = "revchain.steady_shape"
     number = count(place, "mode", mode)
-    values = (conical_height, angular_speed, tip_inclination, tip_radius, top_tension)
-    given = [(name, value) for name, value in zip(GIVEN, values, strict=True) if value is not None]
-    if len(given) != 1:
-        raise ValueError(f"{place}: give exactly one of {', '.join(GIVEN)}")
-    name = given[0][0]
-    value = float(positive(place, name, real(place, name, given[0][1])))
-    g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-    if not isinstance(all, (bool, np.bool_)):
-        raise TypeError(f"{place}: all must be True or False, got {all!r}")
-    lowest = None if down_to is None else float(positive(place, "down_to", real(place, "down_to", down_to)))
-    if not all:
-        return SteadyShape._wrap(
-            _core.steady_shape(compiled(place, chain), number, name, value, g, lowest), chain._compiled
-        )
-    found = _core.shapes_on_branch(compiled(place, chain), number, name, value, g, lowest)
-    return tuple(SteadyShape._wrap(shape, chain._compiled) for shape in found)
-
-
-def _height(
-    place: str, conical_height: float | None, speed: float | None, gravity: float, speed_name: str = "angular_speed"
-) -> float:
-    """The conical height given, or that of the speed given."""
-    if (conical_height is None) == (speed is None):
-        raise ValueError(f"{place}: give exactly one of conical_height and {speed_name}")
-    if conical_height is not None:
-        return float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
-    n = positive(place, speed_name, real(place, speed_name, speed))
-    g = positive(place, "gravity", real(place, "gravity", gravity))
-    return float(_core.conical_pendulum_height(n, g))
+    name, value = exactly_one(
+        place,
+        conical_height=conical_height,
+        angular_speed=angular_speed,
+        tip_inclination=tip_inclination,
+        tip_radius=tip_radius,
+        top_tension=top_tension,
+    )
+    g = one_positive(place, "gravity", gravity)
+    every = boolean(place, "all", all)
+    lowest = None if down_to is None else one_positive(place, "down_to", down_to)
+    core = compiled(place, chain)
+    if not every:
+        return SteadyShape._wrap(_core.steady_shape(core, number, name, value, g, lowest), core)
+    found = _core.shapes_on_branch(core, number, name, value, g, lowest)
+    return tuple(SteadyShape._wrap(shape, core) for shape in found)

@@ -3,49 +3,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, integer, positive, real, refuse_where
+from ._arguments import STANDARD_GRAVITY, Floats, floats, height_of, integer, numbers, one_positive, real, refuse_where, shown
 from ._arguments import count as checked_count
+from ._results import Result, Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
 class ContinuousPlace(NamedTuple):
-    """Places on a whirling chain; numbers, or arrays of one shape."""
+    """What there is at places of a whirling chain.
+
+    Attributes
+    ----------
+    offset : float or ndarray
+        From the axis.
+    height : float or ndarray
+        Above the support: negative where the chain hangs.
+    inclination : float or ndarray
+        To the vertical, rad; positive where the chain leads towards the axis going up, as it does at the free end.
+    tension : float or ndarray
+        In the unit of line density times length.
+    """
 
     offset: Any
-    """From the axis."""
     height: Any
-    """Above the support: negative where the chain hangs."""
     inclination: Any
-    """To the vertical, rad; positive where the chain leads towards the axis going up, as it does at the free end."""
     tension: Any
-    """In the unit of line density times length."""
 
 
-class ContinuousShape:
+class ContinuousShape(Result[_core.ContinuousShape, _core.LineDensity | None]):
     """One steady shape of a chain without links, in the units of the chain.
 
     Returned by `continuous_shapes`. Call it for the place at an arc length; the arrays are dense where the
     chain turns sharply.
     """
 
-    __slots__ = ("_compiled", "_density")
-    _compiled: _core.ContinuousShape
-    _density: _core.LineDensity | None  # which the compiled shape points to
-
-    @classmethod
-    def _wrap(cls, compiled: _core.ContinuousShape, density: _core.LineDensity | None) -> ContinuousShape:
-        shape = object.__new__(cls)
-        shape._compiled, shape._density = compiled, density
-        return shape
+    __slots__ = ()  # the compiled shape points to the density given
 
     @property
     def arc_length(self) -> Floats:
@@ -134,7 +135,7 @@ class ContinuousShape:
         place = "revchain.ContinuousShape"
         arc = floats(place, "arc_length", arc_length)
         refuse_where(~((arc >= 0) & (arc <= self.length)), arc, f"{place}: arc_length must lie between 0 and length")
-        return ContinuousPlace(*(values[()] for values in self._compiled.at(arc)))
+        return ContinuousPlace(*numbers(self._compiled.at(arc)))
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw the shape, true to scale.
@@ -162,44 +163,32 @@ class ContinuousShape:
         >>> ax.get_ylabel()
         'above the support (m)'
         """
-        return _drawn([self], ax, length_unit)
+        from ._plots import plot_shapes
+
+        return plot_shapes([self], ax, linked=False, length_unit=length_unit)
 
     def __repr__(self) -> str:
         tip = np.degrees(self.inclination[0])
         return f"ContinuousShape: half_waves {self.half_waves}, free end at {tip:.6g} degrees"
 
 
-class ContinuousShapes(Sequence[ContinuousShape]):
+class ContinuousShapes(Results[ContinuousShape]):
     """Steady shapes of a chain without links at one speed, by half waves, then offset of the free end."""
 
-    __slots__ = ("_complete", "_shapes")
+    __slots__ = ("_complete",)
     _complete: bool
-    _shapes: tuple[ContinuousShape, ...]
 
     @classmethod
     def _wrap(cls, compiled: _core.ContinuousShapes, density: _core.LineDensity | None) -> ContinuousShapes:
         result = object.__new__(cls)
         result._complete = compiled.complete
-        result._shapes = tuple(ContinuousShape._wrap(shape, density) for shape in compiled.shapes)
+        result._items = tuple(ContinuousShape._wrap(shape, density) for shape in compiled.shapes)
         return result
 
     @property
     def complete(self) -> bool:
         """Whether a theorem says that none is missing."""
         return self._complete
-
-    @overload
-    def __getitem__(self, index: int) -> ContinuousShape: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[ContinuousShape, ...]: ...
-    def __getitem__(self, index: int | slice) -> Any:
-        return self._shapes[index]
-
-    def __len__(self) -> int:
-        return len(self._shapes)
-
-    def __iter__(self) -> Iterator[ContinuousShape]:
-        return iter(self._shapes)
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw all shapes over one another, true to scale, coloured by half waves.
@@ -226,7 +215,9 @@ class ContinuousShapes(Sequence[ContinuousShape]):
         >>> rc.continuous_shapes(1.0, conical_height=0.02).plot().get_title()
         '4 shapes, all there are'
         """
-        axes = _drawn(self._shapes, ax, length_unit)
+        from ._plots import plot_shapes
+
+        axes = plot_shapes(self, ax, linked=False, length_unit=length_unit)
         number = f"{len(self)} shape{'s' * (len(self) != 1)}"
         axes.set_title(f"{number}, all there are" if self.complete else f"{number}; there may be more")
         return axes
@@ -235,38 +226,20 @@ class ContinuousShapes(Sequence[ContinuousShape]):
         return f"ContinuousShapes: {len(self)}, {'all there are' if self.complete else 'there may be more'}"
 
 
-def _drawn(shapes: Sequence[ContinuousShape], ax: Axes | None, length_unit: str) -> Axes:
-    from ._plots import keep_room, new_axes
-
-    if ax is None:
-        ax = new_axes(5.0, 6.0)
-    ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-    named = set()
-    for shape in shapes:
-        waves = shape.half_waves
-        label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
-        named.add(waves)
-        ax.plot(shape.offset, shape.height, color=f"C{(waves - 1) % 10}", linewidth=1.4, label=label)
-        ax.plot(shape.offset[0], shape.height[0], color=f"C{(waves - 1) % 10}", marker="o", markersize=3.5)
-    ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
-    ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the support ({length_unit})", aspect="equal")
-    keep_room(ax)
-    if named:
-        ax.legend(fontsize="small")
-    return ax
-
-
-def _chain(
+def _checked(
     place: str, length: float, tip_weight: float, line_density: Callable[[float], float] | None
 ) -> tuple[float, float, _core.LineDensity | None]:
-    long = float(positive(place, "length", real(place, "length", length)))
+    """Length, tip weight and line density as the compiled module takes them."""
+    long = one_positive(place, "length", length)
     tip = real(place, "tip_weight", tip_weight)
     if not 0 <= tip < np.inf:
         raise ValueError(f"{place}: tip_weight must be finite and not negative, got {tip:g}")
     if line_density is None:
         return long, tip, None
     if not callable(line_density):
-        raise TypeError(f"{place}: line_density must be a function of the distance from the free end")
+        raise TypeError(
+            f"{place}: line_density must be a function of the distance from the free end, got {shown(line_density)}"
+        )
 
     def checked(s: float) -> float:
         return real(place, f"line_density({s:g})", line_density(s))
@@ -342,18 +315,11 @@ def continuous_shapes(
     2.705556715
     """
     place = "revchain.continuous_shapes"
-    if (conical_height is None) == (angular_speed is None):
-        raise ValueError(f"{place}: give exactly one of conical_height and angular_speed")
+    height = height_of(place, conical_height, angular_speed, gravity)
     looks = integer(place, "scanned", scanned)
     if not 1 <= looks <= 10**6:
         raise ValueError(f"{place}: scanned must be from 1 to 1000000, got {looks}")
-    if conical_height is not None:
-        height = float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
-    else:
-        speed = float(positive(place, "angular_speed", real(place, "angular_speed", angular_speed)))
-        g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-        height = float(positive(place, "gravity / angular_speed**2", g / speed / speed))
-    long, tip, density = _chain(place, length, tip_weight, line_density)
+    long, tip, density = _checked(place, length, tip_weight, line_density)
     return ContinuousShapes._wrap(_core.continuous_shapes(long, tip, density, height, looks), density)
 
 
@@ -404,5 +370,5 @@ def continuous_critical_heights(
     number = checked_count(place, "count", count)
     if number > 100_000:
         raise ValueError(f"{place}: count must be at most 100000, got {number}")
-    long, tip, density = _chain(place, length, tip_weight, line_density)
+    long, tip, density = _checked(place, length, tip_weight, line_density)
     return _core.continuous_critical_heights(long, tip, density, number)

@@ -5,17 +5,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, positive, real
+from . import _core, conical_pendulum
+from ._arguments import STANDARD_GRAVITY, Floats, floats, one_positive, positive, read_only, real
+from ._results import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class ForceDiagram:
+class ForceDiagram(Result[_core.ForceDiagram, None]):
     """The graphical construction of a steady shape as data; links lowest first, pins free end first.
 
     Returned by `SteadyShape.force_diagram`. Points are rows ``(x from the axis, z upwards)``. The vertices
@@ -24,14 +24,7 @@ class ForceDiagram:
     what pulls along it.
     """
 
-    __slots__ = ("_compiled",)
-    _compiled: _core.ForceDiagram
-
-    @classmethod
-    def _wrap(cls, compiled: _core.ForceDiagram) -> ForceDiagram:
-        result = object.__new__(cls)
-        result._compiled = compiled
-        return result
+    __slots__ = ()
 
     @property
     def pin(self) -> Floats:
@@ -159,32 +152,23 @@ class TransverseModes(NamedTuple):
         >>> rc.transverse_modes([2.0], [0.0, 1.0, 2.0], tension=8.0).period().round(4)
         array([0.7094])
         """
-        place = "revchain.TransverseModes.period"
-        g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-        seconds: Floats = 2 * np.pi * np.sqrt(self.conical_height / g)
+        g = one_positive("revchain.TransverseModes.period", "gravity", gravity)
+        seconds: Floats = conical_pendulum.period(self.conical_height, g)
         return seconds
 
 
-class FunicularPolygon:
+class FunicularPolygon(Result[_core.FunicularPolygon, Floats]):
     """Weights on a thread between two supports, at rest in a vertical plane.
 
     Returned by `funicular_polygon`; from the first support to the last.
     """
 
-    __slots__ = ("_compiled", "_weight")
-    _compiled: _core.FunicularPolygon
-    _weight: Floats
-
-    @classmethod
-    def _wrap(cls, compiled: _core.FunicularPolygon, weight: Floats) -> FunicularPolygon:
-        result = object.__new__(cls)
-        result._compiled, result._weight = compiled, weight
-        return result
+    __slots__ = ()
 
     @property
     def weight(self) -> Floats:
         """The weights, shape (n,)."""
-        return self._weight
+        return self._given
 
     @property
     def place(self) -> Floats:
@@ -321,9 +305,7 @@ def funicular_polygon(
         real(name, "first_height", first_height),
         real(name, "last_height", last_height),
     )
-    kept = weights.copy()
-    kept.flags.writeable = False
-    return FunicularPolygon._wrap(compiled, kept)
+    return FunicularPolygon._wrap(compiled, read_only(weights.copy()))
 
 
 def transverse_modes(weight: ArrayLike, place: ArrayLike, tension: float) -> TransverseModes:
@@ -366,6 +348,7 @@ def transverse_modes(weight: ArrayLike, place: ArrayLike, tension: float) -> Tra
 
 
 def _string(name: str, weight: ArrayLike, place: ArrayLike) -> tuple[Floats, Floats]:
+    """Weights, positive, and places, both of one axis; how many there are is left to the compiled module."""
     weights, at = positive(name, "weight", weight), floats(name, "place", place)
     for given, array in (("weight", weights), ("place", at)):
         if array.ndim != 1:

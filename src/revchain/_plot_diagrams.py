@@ -3,13 +3,11 @@
 
 from __future__ import annotations
 
-import sys
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._extras import require
-from ._plots import keep_room
+from ._plots import keep_room, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,14 +18,13 @@ MOST_LETTERED = 8  # points of one kind with a letter each
 
 
 def _two_axes(width: float, height: float) -> tuple[Axes, Axes]:
-    free = require("matplotlib.figure", "plot", "plotting").Figure
-    pyplot = sys.modules.get("matplotlib.pyplot")
-    figure = (pyplot.figure if pyplot is not None else free)(figsize=(width, height), layout="constrained")
-    left, right = figure.subplots(1, 2)
+    """Side by side on a figure of their own."""
+    left, right = new_figure(width, height).subplots(1, 2)
     return left, right
 
 
 def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black") -> None:
+    """Write a letter beside a point, to the right of it or to the left."""
     ax.annotate(
         f"${text}$",
         (x, z),
@@ -39,6 +36,7 @@ def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: 
 
 
 def _finish(ax: Axes, across: str, up: str, title: str) -> None:
+    """Write what the axes are, and leave room for the letters."""
     ax.margins(0.12)
     ax.set(xlabel=across, ylabel=up, title=title, aspect="equal")
     keep_room(ax)

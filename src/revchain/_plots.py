@@ -4,19 +4,21 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import Numbers, Whole, integer, positive, real
+from ._arguments import Numbers, Whole, integer, one_positive
 from ._extras import require
 from ._tables import digits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from ._chain import Chain
+    from ._continuous import ContinuousShape
     from ._modes import Modes
     from ._steady import SteadyShape
     from .governor import GovernorMotion
@@ -29,21 +31,26 @@ SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches 
 WIDEST_RATIO = 1e3  # of weights on a linear scale
 
 
-def new_axes(width: float, height: float) -> Axes:
-    """Axes on a new figure: pyplot's where the caller uses pyplot, so that it shows; else a free one."""
+def new_figure(width: float, height: float) -> Figure:
+    """A figure: pyplot's where the caller uses pyplot, so that it shows; else a free one."""
     free = require("matplotlib.figure", "plot", "plotting").Figure
     pyplot = sys.modules.get("matplotlib.pyplot")
-    figure = (pyplot.figure if pyplot is not None else free)(figsize=(width, height), layout="constrained")
-    axes: Axes = figure.add_subplot()
-    return axes
+    figure: Figure = (pyplot.figure if pyplot is not None else free)(figsize=(width, height), layout="constrained")
+    return figure
+
+
+def new_axes(width: float, height: float) -> Axes:
+    """Axes on a figure of their own."""
+    return new_figure(width, height).add_subplot()
 
 
 def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gravity: float, length_unit: str) -> Axes:
     """See `Modes.plot`."""
+    place = "revchain.Modes.plot"
     if modes.shape is None or modes.nodes is None:
-        raise ValueError("Modes.plot: there are no shapes; compute them with shapes=True")
-    gravity = float(positive("Modes.plot", "gravity", real("Modes.plot", "gravity", gravity)))
-    chosen = _chosen(modes.number, which)
+        raise ValueError(f"{place}: there are no shapes; compute them with shapes=True")
+    gravity = one_positive(place, "gravity", gravity)
+    chosen = _chosen(place, modes.number, which)
     first = int(modes.number[0])
     if ax is None:
         ax = new_axes(max(4.0, 1.6 + 1.25 * len(chosen)), 6.0)
@@ -52,9 +59,9 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gr
     speeds = modes.angular_speed(gravity)
     turns = 60 * modes.revolutions_per_second(gravity)
     marker = "o" if depth.size <= MOST_PINS_AS_DOTS else ""
-    for place, mode in enumerate(chosen):
-        axis = SPACING * place
-        colour = f"C{place % 10}"
+    for nth, mode in enumerate(chosen):
+        axis = SPACING * nth
+        colour = f"C{nth % 10}"
         shape = modes.shape[mode - first]
         kept = thinned(shape)
         ax.plot([axis, axis], [depth[0], 0.0], color="0.6", linestyle="--", linewidth=0.9, zorder=1)
@@ -83,7 +90,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gr
         ax.plot(axis, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
     ax.set_xlim(-SPACING / 2, SPACING * (len(chosen) - 0.5))
     ax.set_xticks(
-        [SPACING * place for place in range(len(chosen))],
+        [SPACING * nth for nth in range(len(chosen))],
         [
             f"mode {mode}\n{digits(speeds[mode - first], 4)} rad/s\n{digits(turns[mode - first], 4)} rev/min"
             for mode in chosen
@@ -165,18 +172,18 @@ def thinned(curve: Numbers) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
     return np.array(sorted(kept), dtype=np.intp)
 
 
-def _chosen(available: Whole, which: Iterable[int] | None) -> list[int]:
+def _chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[int]:
     """Numbers of the modes to draw."""
     if available.size == 0:
-        raise ValueError("Modes.plot: there are no modes")
+        raise ValueError(f"{place}: there are no modes")
     if which is None:
         return [int(number) for number in available[:MOST_SHAPES]]
-    chosen = [integer("Modes.plot", "modes", mode) for mode in which]
+    chosen = [integer(place, "modes", mode) for mode in which]
     for mode in chosen:
         if not available[0] <= mode <= available[-1]:
-            raise ValueError(f"Modes.plot: mode must be from {available[0]} to {available[-1]}, got {mode}")
+            raise ValueError(f"{place}: mode must be from {available[0]} to {available[-1]}, got {mode}")
     if not chosen:
-        raise ValueError("Modes.plot: modes names no mode")
+        raise ValueError(f"{place}: modes names no mode")
     return chosen
 
 
@@ -214,12 +221,12 @@ def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None, half_waves: float, *
 
 def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | None) -> Axes:
     """See `GovernorMotion.plot`."""
-    place = "GovernorMotion.plot"
+    place = "revchain.GovernorMotion.plot"
     if duration is None:
         if motion.regime == "asymptotic":
             raise ValueError(f"{place}: give duration: the motion never returns")
         duration = 2 * motion.period if motion.period > 0 else 1.0
-    time = np.linspace(0.0, float(positive(place, "duration", real(place, "duration", duration))), 801)
+    time = np.linspace(0.0, one_positive(place, "duration", duration), 801)
     if ax is None:
         ax = new_axes(6.4, 4.0)
     for angle in (motion.least_angle, motion.greatest_angle):
@@ -241,30 +248,32 @@ def keep_room(ax: Axes, share: float = 0.35) -> None:
         ax.set_xlim((left + right - share * tall) / 2, (left + right + share * tall) / 2)
 
 
-def plot_steady_shapes(shapes: Sequence[SteadyShape], ax: Axes | None, *, length_unit: str) -> Axes:
-    """See `SteadyShapes.plot`."""
+def half_waves_style(waves: int, named: set[int]) -> tuple[str, str | None]:
+    """Colour of a curve with so many half waves, and its label if none is in `named` yet, which grows by it."""
+    label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
+    named.add(waves)
+    return f"C{(waves - 1) % 10}", label
+
+
+def plot_shapes(
+    shapes: Iterable[SteadyShape | ContinuousShape], ax: Axes | None, *, linked: bool, length_unit: str
+) -> Axes:
+    """See `SteadyShapes.plot` and `ContinuousShapes.plot`; dots mark the pins of linked shapes, else the free end."""
     if ax is None:
         ax = new_axes(5.0, 6.0)
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-    named = set()
+    named: set[int] = set()
     for shape in shapes:
-        marker = "o" if shape.offset.size <= MOST_PINS_AS_DOTS else ""
-        waves = shape.half_waves
-        label = None if waves in named else f"{waves} half wave{'s' * (waves != 1)}"
-        named.add(waves)
-        kept = thinned(shape.offset)
-        ax.plot(
-            shape.offset[kept],
-            shape.height[kept],
-            color=f"C{(waves - 1) % 10}",
-            linewidth=1.4,
-            marker=marker,
-            markersize=3.0,
-            label=label,
-        )
+        x, z = shape.offset, shape.height
+        colour, label = half_waves_style(shape.half_waves, named)
+        marker = "o" if linked and x.size <= MOST_PINS_AS_DOTS else ""
+        kept = thinned(x) if linked else slice(None)
+        ax.plot(x[kept], z[kept], color=colour, linewidth=1.4, marker=marker, markersize=3.0, label=label)
+        if not linked:
+            ax.plot(x[0], z[0], color=colour, marker="o", markersize=3.5)
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
     ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the support ({length_unit})", aspect="equal")
     keep_room(ax)
     if named:
-        ax.legend()
+        ax.legend(fontsize=None if linked else "small")
     return ax

@@ -24,7 +24,7 @@ LINK_COLUMNS = ("weight", "length", "centroid", "pendulum_length", "radius_of_gy
 
 def to_dict(modes: Modes, gravity: float, shapes: bool) -> dict[str, Any]:
     """See `Modes.to_dict`."""
-    gravity = real("Modes.to_dict", "gravity", gravity)
+    gravity = real("revchain.Modes.to_dict", "gravity", gravity)
     height, low = two_floats(modes.conical_height, modes.conical_height_low)
     columns: dict[str, list[Any]] = {
         "mode": modes.number.tolist(),

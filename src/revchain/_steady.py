@@ -3,41 +3,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, limit, positive, real
+from . import _core, conical_pendulum
+from ._arguments import STANDARD_GRAVITY, Floats, boolean, exactly_one, limit, one_positive, shown
 from ._chain import Chain, compiled
 from ._diagrams import ForceDiagram
+from ._results import Result, Results
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class Stability:
+def is_driven(place: str, frame: str) -> bool:
+    """Whether `frame` is the driven one; a ValueError unless it is that or the free one."""
+    if not isinstance(frame, str) or frame not in ("free", "driven"):
+        raise ValueError(f"{place}: frame must be 'free' or 'driven', got {shown(frame)}")
+    return frame == "driven"
+
+
+class Stability(Result[_core.Stability, str]):
     """What becomes of a small disturbance of a steady shape; times in units of 1/n, the turning speed.
 
     Returned by `SteadyShape.stability`.
     """
 
-    __slots__ = ("_compiled", "_frame")
-    _compiled: _core.Stability
-    _frame: str
-
-    @classmethod
-    def _wrap(cls, compiled: _core.Stability, frame: str) -> Stability:
-        result = object.__new__(cls)
-        result._compiled, result._frame = compiled, frame
-        return result
+    __slots__ = ()
 
     @property
     def frame(self) -> str:
         """``free`` or ``driven``."""
-        return self._frame
+        return self._given
 
     @property
     def verdict(self) -> str:
@@ -73,21 +72,13 @@ class Stability:
         return f"Stability ({self.frame}): {self.verdict}, growth rate {self.growth_rate:.3g} n"
 
 
-class SteadyShape:
+class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
     """One steady shape: links lowest first, pins free end first, in the units of the chain.
 
     Returned by `steady_shapes`.
     """
 
-    __slots__ = ("_chain", "_compiled")
-    _compiled: _core.SteadyShape
-    _chain: _core.Chain
-
-    @classmethod
-    def _wrap(cls, compiled: _core.SteadyShape, chain: _core.Chain) -> SteadyShape:
-        shape = object.__new__(cls)
-        shape._compiled, shape._chain = compiled, chain
-        return shape
+    __slots__ = ()
 
     @property
     def inclination(self) -> Floats:
@@ -181,15 +172,15 @@ class SteadyShape:
         0.338701
         """
         place = "revchain.SteadyShape.angular_momentum"
-        g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-        return self.moment_of_inertia / g * float(np.sqrt(g / self.conical_height))
+        g = one_positive(place, "gravity", gravity)
+        return self.moment_of_inertia / g * float(conical_pendulum.angular_speed(self.conical_height, g))
 
     def stability(self, *, frame: str = "free") -> Stability:
         """Say what becomes of a small disturbance.
 
         Parameters
         ----------
-        frame : {"free", "driven"}
+        frame : {"free", "driven"}, optional
             ``free``: ball joints and no torque about the axis. ``driven``: axles at right angles to a plane
             that is made to turn, so that links move in that plane alone.
 
@@ -211,9 +202,8 @@ class SteadyShape:
         >>> [shape.stability().verdict for shape in pair]
         ['minimum', 'unstable']
         """
-        if frame not in ("free", "driven"):
-            raise ValueError(f"revchain.SteadyShape.stability: frame must be 'free' or 'driven', got {frame!r}")
-        return Stability._wrap(_core.stability(self._chain, self._compiled, frame == "driven"), frame)
+        driven = is_driven("revchain.SteadyShape.stability", frame)
+        return Stability._wrap(_core.stability(self._given, self._compiled, driven), frame)
 
     def force_diagram(self) -> ForceDiagram:
         """Return the graphical construction of the shape: force diagram and funicular polygon.
@@ -238,7 +228,7 @@ class SteadyShape:
         >>> bool(np.allclose(side[:, 0] / side[:, 1], diagram.ray[:, 0] / diagram.ray[:, 1], rtol=1e-14))
         True
         """
-        return ForceDiagram._wrap(_core.force_diagram(self._chain, self._compiled))
+        return ForceDiagram._wrap(_core.force_diagram(self._given, self._compiled), None)
 
     def transferred_to_axis(self) -> Chain:
         """Return the straight chain whose weights hang on the axis, level with where they are in the shape.
@@ -261,8 +251,7 @@ class SteadyShape:
         >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
         array([0.5       , 0.08366581])
         """
-
-        return Chain._wrap(_core.transferred_to_axis(self._chain, self._compiled))
+        return Chain._wrap(_core.transferred_to_axis(self._given, self._compiled))
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw the shape, true to scale.
@@ -290,27 +279,26 @@ class SteadyShape:
         >>> ax.get_xlabel()
         'from the axis (m)'
         """
-        from ._plots import plot_steady_shapes
+        from ._plots import plot_shapes
 
-        return plot_steady_shapes([self], ax, length_unit=length_unit)
+        return plot_shapes([self], ax, linked=True, length_unit=length_unit)
 
     def __repr__(self) -> str:
         tip = np.degrees(self.inclination[0])
         return f"SteadyShape: half_waves {self.half_waves}, lowest link at {tip:.6g} degrees"
 
 
-class SteadyShapes(Sequence[SteadyShape]):
+class SteadyShapes(Results[SteadyShape]):
     """All steady shapes of a chain at one speed, by half waves, then inclination of the lowest link."""
 
-    __slots__ = ("_compiled", "_shapes")
+    __slots__ = ("_compiled",)
     _compiled: _core.SteadyShapes
-    _shapes: tuple[SteadyShape, ...]
 
     @classmethod
     def _wrap(cls, compiled: _core.SteadyShapes, chain: Chain) -> SteadyShapes:
         result = object.__new__(cls)
         result._compiled = compiled
-        result._shapes = tuple(SteadyShape._wrap(shape, chain._compiled) for shape in compiled.shapes)
+        result._items = tuple(SteadyShape._wrap(shape, chain._compiled) for shape in compiled.shapes)
         return result
 
     @property
@@ -327,19 +315,6 @@ class SteadyShapes(Sequence[SteadyShape]):
     def cells(self) -> int:
         """How many parts of the range had to be looked at."""
         return self._compiled.cells
-
-    @overload
-    def __getitem__(self, index: int) -> SteadyShape: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[SteadyShape, ...]: ...
-    def __getitem__(self, index: int | slice) -> Any:
-        return self._shapes[index]
-
-    def __len__(self) -> int:
-        return len(self._shapes)
-
-    def __iter__(self) -> Iterator[SteadyShape]:
-        return iter(self._shapes)
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw all shapes over one another, true to scale, coloured by half waves.
@@ -367,9 +342,9 @@ class SteadyShapes(Sequence[SteadyShape]):
         >>> ax.get_title()
         '5 shapes, proved complete'
         """
-        from ._plots import plot_steady_shapes
+        from ._plots import plot_shapes
 
-        axes = plot_steady_shapes(self._shapes, ax, length_unit=length_unit)
+        axes = plot_shapes(self, ax, linked=True, length_unit=length_unit)
         count = f"{len(self)} shape{'s' * (len(self) != 1)}"
         axes.set_title(f"{count}, proved complete" if self.complete else f"{count}; there may be more")
         return axes
@@ -422,6 +397,8 @@ def steady_shapes(
     ValueError
         If not exactly one of `conical_height` and `angular_speed` is given, or a number is not positive
         and finite.
+    TypeError
+        If `hanging_only` is not a bool.
 
     Notes
     -----
@@ -444,16 +421,11 @@ def steady_shapes(
     [3, 14]
     """
     place = "revchain.steady_shapes"
-    if (conical_height is None) == (angular_speed is None):
-        raise ValueError(f"{place}: give exactly one of conical_height and angular_speed")
+    name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
     core = compiled(place, chain)
     most = limit(place, "budget", budget)
-    if not isinstance(hanging_only, (bool, np.bool_)):
-        raise TypeError(f"{place}: hanging_only must be True or False, got {hanging_only!r}")
-    hanging = bool(hanging_only)
-    if conical_height is not None:
-        height = float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
-        return SteadyShapes._wrap(_core.steady_shapes(core, height, most, hanging), chain)
-    speed = float(positive(place, "angular_speed", real(place, "angular_speed", angular_speed)))
-    g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-    return SteadyShapes._wrap(_core.steady_shapes_at_speed(core, speed, g, most, hanging), chain)
+    hanging = boolean(place, "hanging_only", hanging_only)
+    if name == "conical_height":
+        return SteadyShapes._wrap(_core.steady_shapes(core, value, most, hanging), chain)
+    g = one_positive(place, "gravity", gravity)
+    return SteadyShapes._wrap(_core.steady_shapes_at_speed(core, value, g, most, hanging), chain)

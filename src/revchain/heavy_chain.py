@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, counts, places, positive, real, together
+from ._arguments import STANDARD_GRAVITY, Floats, counts, one_positive, places, positive, together
 from ._arguments import count as checked_count
 
 __all__ = [
@@ -278,9 +278,7 @@ def nodes(mode: int, length: float = 1.0) -> Floats:
     array([0.0772, 0.4069])
     """
     place = "revchain.heavy_chain.nodes"
-    return _core.heavy_chain_nodes(
-        checked_count(place, "mode", mode), float(positive(place, "length", real(place, "length", length)))
-    )
+    return _core.heavy_chain_nodes(checked_count(place, "mode", mode), one_positive(place, "length", length))
 
 
 def vertical_points(mode: int, length: float = 1.0) -> Floats:
@@ -314,9 +312,7 @@ def vertical_points(mode: int, length: float = 1.0) -> Floats:
     array([0.1961, 0.6572])
     """
     place = "revchain.heavy_chain.vertical_points"
-    return _core.heavy_chain_vertical_points(
-        checked_count(place, "mode", mode), float(positive(place, "length", real(place, "length", length)))
-    )
+    return _core.heavy_chain_vertical_points(checked_count(place, "mode", mode), one_positive(place, "length", length))
 
 
 def revolutions_per_second(count: int, length: ArrayLike = 1.0, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:

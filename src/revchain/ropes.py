@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, count, floats, numbers, positive, real
+from ._arguments import STANDARD_GRAVITY, count, floats, numbers, one_positive, real
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -475,9 +475,7 @@ class TortuousRope:
         """
         return TortuousPoints(*numbers(self._compiled.at(floats("revchain.TortuousRope.at", "x", x))))
 
-    def plot(
-        self, ax: Axes | None = None, *, half_waves: float = 4.0, length_unit: str = "m"
-    ) -> Axes:
+    def plot(self, ax: Axes | None = None, *, half_waves: float = 4.0, length_unit: str = "m") -> Axes:
         """Draw the rope seen along its axis, and the two circles between which it stays.
 
         Parameters
@@ -510,12 +508,8 @@ class TortuousRope:
         """
         from ._plots import plot_tortuous_rope
 
-        return plot_tortuous_rope(
-            self,
-            ax,
-            float(positive("TortuousRope.plot", "half_waves", real("TortuousRope.plot", "half_waves", half_waves))),
-            length_unit=length_unit,
-        )
+        long = one_positive("revchain.TortuousRope.plot", "half_waves", half_waves)
+        return plot_tortuous_rope(self, ax, long, length_unit=length_unit)
 
     def __repr__(self) -> str:
         return (

@@ -76,6 +76,7 @@ def _link(place: str, centroid: ArrayLike, radius_of_gyration: ArrayLike, **give
 
 
 def _reals(place: str, **given: object) -> list[float]:
+    """Single numbers, whose ranges are left to the compiled module."""
     return [real(place, name, value) for name, value in given.items()]
 
 

@@ -4,24 +4,8 @@
 import numpy as np
 import pytest
 import revchain as rc
+from mechanics import KINDS, random_chain
 from revchain import two_links
-
-RNG = np.random.default_rng(3)
-
-
-def plummets(count):
-    return rc.Chain(weight=RNG.uniform(0.5, 2, count), length=RNG.uniform(0.5, 2, count))
-
-
-def compound(count):
-    length = RNG.uniform(0.5, 2, count)
-    return rc.Chain(
-        weight=RNG.uniform(0.5, 2, count),
-        length=length,
-        centroid=length * RNG.uniform(0.2, 0.8, count),
-        radius_of_gyration=length * RNG.uniform(0.05, 0.3, count),
-    )
-
 
 def shapes_of(chain, share):
     return rc.steady_shapes(chain, conical_height=share * rc.modes(chain, modes=[1]).conical_height[0], budget=20_000)
@@ -36,7 +20,7 @@ def sine(first, second):
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 8])
 @pytest.mark.parametrize("share", [0.9, 0.3, 0.08])
 def test_plummets_as_the_paper_draws_them(count, share):
-    chain = plummets(count)
+    chain = random_chain("plummets", count, 3)
     for shape in shapes_of(chain, share):
         diagram = shape.force_diagram()
         x, height = shape.offset[:-1], shape.conical_height
@@ -59,15 +43,24 @@ def test_plummets_as_the_paper_draws_them(count, share):
         assert abs(diagram.pin[0] + steps.sum(axis=0)).max() < 1e-11
 
 
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "massless"])
 @pytest.mark.parametrize("count", [1, 2, 4, 7])
-def test_links_of_any_kind(count):
-    chain = compound(count)
-    for shape in shapes_of(chain, 0.2):
+def test_links_of_any_kind(kind, count):
+    chain = random_chain(kind, count, 4)
+    shapes = shapes_of(chain, 0.2)
+    assert len(shapes) > 0
+    for shape in shapes:
         diagram = shape.force_diagram()
         assert abs(sine(np.diff(diagram.pin, axis=0), diagram.ray)).max() < 1e-12
         np.testing.assert_allclose(np.hypot(*diagram.reaction.T), shape.tension, rtol=1e-12)
         np.testing.assert_allclose(
             np.arctan2(-diagram.reaction[:, 0], diagram.reaction[:, 1]), shape.reaction_inclination, atol=1e-13
+        )
+        across, up = np.sin(shape.inclination), -np.cos(shape.inclination)
+        centre = diagram.pin[1:] + chain.centroid[:, None] * np.stack([across, up], axis=1)
+        below = np.cumsum(chain.weight)[:, None]
+        np.testing.assert_allclose(
+            diagram.centre_of_gravity, np.cumsum(chain.weight[:, None] * centre, axis=0) / below, atol=1e-12
         )
         straight = shape.transferred_to_axis()
         assert straight.total_length == pytest.approx(-shape.height[0], rel=1e-14)
@@ -79,9 +72,10 @@ def test_links_of_any_kind(count):
 
 def test_funicular_polygon_and_its_oscillation_against_a_dense_solver():
     scipy_linalg = pytest.importorskip("scipy.linalg")
+    rng = np.random.default_rng(3)
     for count in (1, 2, 6, 20):
-        weight = RNG.uniform(0.2, 3, count)
-        place = np.concatenate([[0.0], np.cumsum(RNG.uniform(0.2, 2, count + 1))])
+        weight = rng.uniform(0.2, 3, count)
+        place = np.concatenate([[0.0], np.cumsum(rng.uniform(0.2, 2, count + 1))])
         polygon = rc.funicular_polygon(weight, place, 1.7, first_height=0.5, last_height=-1.0)
         assert polygon.height[0] == 0.5 and polygon.height[-1] == -1.0
         np.testing.assert_array_equal(polygon.weight, weight)
@@ -139,14 +133,14 @@ def test_the_energy_of_weights_swung_sideways():
 
 def test_pictures(tmp_path):
     pytest.importorskip("matplotlib")
-    shape = shapes_of(plummets(4), 0.15)[0]
+    shape = shapes_of(random_chain("plummets", 4, 3), 0.15)[0]
     figure, forces = shape.force_diagram().plot(length_unit="ft", weight_unit="lb")
     assert figure.get_xlabel() == "from the axis (ft)" and forces.get_ylabel() == "upwards (lb)"
     letters = {text.get_text() for text in forces.texts}
     assert {"$O$", "$N$", "$Q_1$", "$Q_4$", "$P_1$", "$W_4$"} <= letters
     assert figure.figure is forces.figure
     figure.figure.savefig(tmp_path / "plummets.png")
-    again = shapes_of(compound(3), 0.2)[0].force_diagram().plot((figure, forces))
+    again = shapes_of(random_chain("rods", 3, 3), 0.2)[0].force_diagram().plot((figure, forces))
     assert again == (figure, forces)
     many = rc.steady_shapes(rc.Chain.uniform_plummets(30, length=1.0), conical_height=0.4)[0].force_diagram()
     many.plot()[0].figure.savefig(tmp_path / "many.png")
@@ -157,7 +151,7 @@ def test_pictures(tmp_path):
 
 
 def test_words():
-    shape = shapes_of(plummets(2), 0.5)[0]
+    shape = shapes_of(random_chain("plummets", 2, 3), 0.5)[0]
     assert repr(shape.force_diagram()).startswith("ForceDiagram: 2 links, conical height ")
     assert repr(rc.funicular_polygon([1.0], [0, 1, 2], 2.0)) == "FunicularPolygon: 1 weights, horizontal tension 2"
     for array in (shape.force_diagram().ray, rc.funicular_polygon([1.0], [0, 1, 2], 2.0).height):
@@ -172,15 +166,18 @@ def test_words():
         ([1, 1], [0, 1, 2], 1.0, "places must be two more than weights"),
         ([1, 1], [0, 1, 1, 2], 1.0, "places must be finite and increase"),
         ([1, 1], [0, 1, np.nan, 2], 1.0, "places must be finite and increase"),
+        ([1, np.nan], [0, 1, 2, 3], 1.0, "weight must be positive and finite"),
         ([1, 1], [0, 1, 2, 3], 0.0, "tension must be positive"),
+        ([1, 1], [0, 1, 2, 3], np.nan, "tension must be positive"),
         ([1, 1], [[0, 1, 2, 3]], 1.0, "place must be a list of numbers"),
     ],
 )
 def test_wrong_polygons(weight, place, pull, message):
-    with pytest.raises(ValueError, match=message):
-        rc.funicular_polygon(weight, place, pull)
-    with pytest.raises(ValueError, match=message):
-        rc.transverse_modes(weight, place, pull)
+    for call in (rc.funicular_polygon, rc.transverse_modes):
+        with pytest.raises(ValueError, match=f"{message}.*, got ") as error:
+            call(weight, place, pull)
+        assert str(error.value).count("got") == 1
+        assert "string_of_weights" not in str(error.value)  # what both call
 
 
 BELL = dict(upper_weight=3.0, upper_length=0.4, upper_centroid=0.1, upper_radius_of_gyration=0.6)
@@ -223,6 +220,8 @@ def test_a_silent_bell_is_silent_at_any_inclination():
 
 def test_a_jointed_rod():
     np.testing.assert_allclose(two_links.joint_without_bending(2.0, [0.5, 0.8]), [0.5, 0.05], rtol=1e-15)
+    for rod, pin in ((1.0, 0.3), (1.0, 0.45)):  # CG.CD = CA^2, A the end above
+        assert pin * two_links.joint_without_bending(rod, pin) == pytest.approx((rod / 2 - pin) ** 2, rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -248,6 +247,9 @@ def test_wrong_bells_and_rods():
             bell_weight=1, bell_centroid=0.5, bell_radius_of_gyration=0.1,
             clapper_weight=1, clapper_centroid=0.7, clapper_radius_of_gyration=0.1,
         )  # fmt: skip
-    for pin in (0.1, 1.0):
+    for pin in (0.1, 1.0, 1 / 3, 1.2):
         with pytest.raises(ValueError, match="outside the middle third"):
+            two_links.joint_without_bending(2.0, pin)
+    for pin in (np.nan, -0.3):
+        with pytest.raises(ValueError, match="pin must be positive and finite, got"):
             two_links.joint_without_bending(2.0, pin)

@@ -1,37 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finite amplitude as the docstrings promise it, against mechanics written out here and nothing of the library's."""
 
-import os
-
-os.environ.setdefault("MPLBACKEND", "Agg")
-
-import subprocess
-import sys
 import threading
 
 import mpmath as mp
 import numpy as np
 import pytest
 import revchain as rc
+from mechanics import KINDS, inertia, parts, plummets, random_chain, rods, scan, turned
 
 tl = rc.two_links
 
 
 # ---------------------------------------------------------------- independent mechanics
-def parts(chain):
-    return [np.array(v, float) for v in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration)]
-
-
-def inertia(chain):
-    """Inertia matrix A over the links' unit vectors, and first moments kappa."""
-    w, a, h, rho = parts(chain)
-    c = np.zeros((w.size, w.size))
-    for r in range(w.size):
-        c[r, r] = h[r]
-        c[r, r + 1 :] = a[r + 1 :]
-    return c.T @ (w[:, None] * c) + np.diag(w * rho**2), w @ c
-
-
 def exact(chain, height, start):
     """Newton's method in 40 digits on the gradient of the effective potential."""
     with mp.workdps(40):
@@ -61,39 +42,6 @@ def exact(chain, height, start):
         return d
 
 
-def scan(chain, height, hanging, starts=3000, seed=3):
-    """All shapes that Newton's method finds from many random places; a lower bound on what there is."""
-    inert, kappa = inertia(chain)
-    count = kappa.size
-    rng = np.random.default_rng(seed)
-    reach = np.pi / 2 if hanging else np.pi
-    d = rng.uniform(-reach, reach, (starts, count))
-    half = starts // 2
-    d[:half] = rng.choice([-1, 1], (half, count)) * (np.pi / 2) * (1 - rng.uniform(0, 1, (half, count)) ** 4)
-    scale = np.abs(kappa) + np.abs(inert).sum(1) / height
-    i = np.arange(count)
-    step = residual = None
-    for _ in range(50):
-        s, c = np.sin(d), np.cos(d)
-        force = s @ inert / height
-        residual = kappa * s - c * force
-        jac = -inert / height * c[:, :, None] * c[:, None, :]
-        jac[:, i, i] += kappa * c + s * force + 1e-300
-        step = np.clip(np.linalg.solve(jac, residual[:, :, None])[:, :, 0], -0.5, 0.5)
-        d = d - step
-    good = (np.abs(residual / scale).max(1) < 1e-11) & (np.abs(step).max(1) < 1e-9)
-    d = (d[good] + np.pi) % (2 * np.pi) - np.pi
-    d = d[np.abs(np.sin(d)).max(1) > 1e-6]
-    if hanging:
-        d = d[(np.abs(d) < np.pi / 2).all(1)]
-    d = d * np.where(np.sin(d) @ parts(chain)[1] < 0, -1, 1)[:, None]
-    return d[np.unique(d.round(6), axis=0, return_index=True)[1]]
-
-
-def turned(a, b):
-    return np.abs(np.angle(np.exp(1j * (a - b)))).max(axis=-1)
-
-
 def linearised(shape, chain, frame):
     """Exponents, and the eigenvalues of the energy's second variation, of thin links."""
     inert, kappa = inertia(chain)
@@ -117,29 +65,7 @@ def linearised(shape, chain, frame):
     return np.linalg.eigvals(big), second
 
 
-def random_chain(kind, count, seed):
-    rng = np.random.default_rng(seed)
-    w, a = np.exp(rng.normal(0, 1, count)), np.exp(rng.normal(0, 0.6, count))
-    if kind == "plummets":
-        return rc.Chain(weight=w, length=a)
-    if kind == "rods":
-        return rc.Chain(weight=w, length=a, centroid=a / 2, radius_of_gyration=a / 12**0.5)
-    if kind == "massless":
-        w[1::2] = 0
-        return rc.Chain(weight=w, length=a)
-    return rc.Chain(weight=w, length=a, centroid=a * rng.uniform(0.2, 1.5, count),
-                    radius_of_gyration=a * rng.uniform(0.2, 1.5, count))
-
-
-def plummets(count):
-    return rc.Chain.uniform_plummets(count, length=float(count))
-
-
-def rods(count):
-    return rc.Chain.uniform_rods(count, length=float(count))
-
-
-CHAINS = [(k, n, s) for k in ("plummets", "rods", "massless", "long pendulums") for n in (1, 2, 3, 4) for s in (1, 2)]
+CHAINS = [(kind, count, seed) for kind in KINDS for count in (1, 2, 3, 4) for seed in (1, 2)]
 
 
 # ---------------------------------------------------------------- steady_shapes
@@ -168,13 +94,6 @@ def test_list_is_complete_exact_and_in_order(kind, count, seed, hanging):
             signs = np.sign(shape.offset[:-1])
             signs = signs[signs != 0]
             assert shape.half_waves == 1 + np.count_nonzero(np.diff(signs))
-
-
-@pytest.mark.parametrize(("count", "deep", "number"), [(6, 3000 / 16, None), (8, 35.4025, 84), (10, 50.0, 412)])
-def test_known_counts(count, deep, number):
-    shapes = rc.steady_shapes(plummets(count), conical_height=1 / deep)
-    assert shapes.complete
-    assert number is None or len(shapes) == number
 
 
 def test_compound_links_with_several_roots_are_all_listed():
@@ -220,6 +139,7 @@ def test_scale_invariance(length, weight):
 def test_small_budget_is_owned_up_to(budget):
     shapes = rc.steady_shapes(plummets(3), conical_height=0.03, budget=budget)
     full = rc.steady_shapes(plummets(3), conical_height=0.03)
+    assert shapes.complete == (budget == 2**31)
     if not shapes.complete:
         assert shapes.undecided.shape[0] > 0
         for s in full:
@@ -258,11 +178,11 @@ def test_both_or_no_speed():
     chain = plummets(2)
     for call in (lambda **k: rc.steady_shapes(chain, **k), lambda **k: rc.steady_shape(chain, **k),
                  lambda **k: rc.branch(chain, 1, **k), lambda **k: rc.branch(chain, 1, conical_height=0.1).at(**k)):
-        for given in ({}, {"conical_height": 0.1, "angular_speed": 1.0}):
-            with pytest.raises(ValueError, match="exactly one"):
+        for given, got in (({}, "none"), ({"conical_height": 0.1, "angular_speed": 1.0}, "conical_height and angular_speed")):
+            with pytest.raises(ValueError, match=rf"exactly one of conical_height.* and \w+, got {got}$"):
                 call(**given)
-    for given in ({}, {"conical_height": 0.1, "up_to": 1.0}):
-        with pytest.raises(ValueError, match="exactly one"):
+    for given, got in (({}, "none"), ({"conical_height": 0.1, "up_to": 1.0}, "conical_height and up_to")):
+        with pytest.raises(ValueError, match=rf"exactly one of conical_height and up_to, got {got}$"):
             rc.branches(chain, **given)
 
 
@@ -292,42 +212,29 @@ def test_a_budget_beyond_all_bounds(budget):
 def test_no_chain(chain):
     for call in (lambda: rc.steady_shapes(chain, conical_height=0.1), lambda: rc.steady_shape(chain, conical_height=0.1),
                  lambda: rc.branch(chain, 1, conical_height=0.1), lambda: rc.branches(chain, conical_height=0.1)):
-        with pytest.raises((TypeError, ValueError), match="chain"):
+        with pytest.raises(TypeError, match=f"chain must be a revchain.Chain, got {chain!r}"):
             call()
-
-
-@pytest.mark.parametrize("value", ["yes", 2, None])
-def test_all_is_a_bool_as_hanging_only_is(value):
-    with pytest.raises((TypeError, ValueError), match="all"):
-        rc.steady_shape(plummets(2), tip_inclination=1.0, all=value)
 
 
 def test_hopelessly_slow_speed_is_no_nan():
-    for call in (lambda: rc.steady_shapes(plummets(2), angular_speed=1e-300),
-                 lambda: rc.steady_shape(plummets(2), angular_speed=1e-300)):
-        try:
-            call()
-        except ValueError as error:
-            assert "nan" not in str(error)  # noqa: PT017
+    assert repr(rc.steady_shapes(plummets(2), angular_speed=1e-300)) == "SteadyShapes: 0, proved complete"
+    for call in (lambda **k: rc.steady_shape(plummets(2), **k), lambda **k: rc.branch(plummets(2), 1, **k)):
+        with pytest.raises(ValueError, match=r"must be positive and finite, got inf"):
+            call(angular_speed=1e-300)
 
 
 # ---------------------------------------------------------------- crashes and hangs, each in a process of its own
-def alone(code, seconds=6):
-    return subprocess.run([sys.executable, "-c", "import revchain as rc\n" + code], timeout=seconds,
-                          capture_output=True, text=True, check=False)
-
-
 @pytest.mark.parametrize("height", ["5e-324", "1e-308", "1e-300", "1e-100", "1e-20"])
-def test_absurd_speed_ends(height):
-    run = alone(f"print(rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height={height}))")
+def test_absurd_speed_ends(python, height):
+    run = python("-c", f"import revchain as rc\nprint(rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height={height}))", timeout=6)
     assert run.returncode == 0, run.stderr
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
 @pytest.mark.parametrize("less", ["1e-10", "1e-13", "1e-14", "1e-15"])
-def test_branches_just_below_critical_does_not_crash(count, less):
-    run = alone(f"c = rc.Chain.uniform_plummets({count}, length={count}.0)\n"
-                f"print(len(rc.branches(c, conical_height=rc.modes(c).conical_height[0] * (1 - {less}))))")
+def test_branches_just_below_critical_does_not_crash(python, count, less):
+    run = python("-c", f"import revchain as rc\nc = rc.Chain.uniform_plummets({count}, length={count}.0)\n"
+                 f"print(len(rc.branches(c, conical_height=rc.modes(c).conical_height[0] * (1 - {less}))))", timeout=6)
     assert run.returncode == 0, f"status {run.returncode} {run.stderr[-300:]}"
     assert run.stdout == "1\n"
 
@@ -346,14 +253,6 @@ def test_inverse_problems(make, mode):
         again = rc.steady_shape(chain, mode=mode, all=True, **given)
         assert isinstance(again, tuple)
         assert min(abs(a.conical_height / height - 1) for a in again) < 1e-11
-
-
-@pytest.mark.parametrize("given", [{"tip_inclination": 1e-6}, {"tip_inclination": 1e-8}, {"tip_inclination": 1e-12},
-                                   {"tip_radius": 1e-6}, {"tip_radius": 1e-8}, {"tip_radius": 1e-12}])
-def test_tiny_amplitudes_are_met(given):
-    shape = rc.steady_shape(plummets(3), **given)
-    got = shape.inclination[0] if "tip_inclination" in given else shape.offset[0]
-    assert abs(got) == pytest.approx(next(iter(given.values())), rel=1e-6)
 
 
 @pytest.mark.parametrize("given", [{"tip_inclination": 1.57}, {"tip_radius": 2.9999999}, {"top_tension": 3.00001},
@@ -414,17 +313,7 @@ def test_branch_at_near_its_beginning(make, mode, less):
 def test_branch_at_its_very_beginning_has_no_straight_shape():
     chain = plummets(3)
     critical = rc.modes(chain).conical_height[1]
-    for shape in rc.branch(chain, 2, conical_height=0.5 * critical).at(conical_height=critical):
-        assert np.abs(shape.inclination).max() > 0
-
-
-@pytest.mark.parametrize("less", [1e-6, 1e-12, 1e-14, 1e-15])
-def test_branch_begins_with_the_straight_chain(less):
-    chain = plummets(3)
-    height = rc.modes(chain).conical_height[0] * (1 - less)
-    branch = rc.branch(chain, 1, conical_height=height)
-    assert len(branch) >= 1
-    assert branch.tip_inclination[0] == 0
+    assert rc.branch(chain, 2, conical_height=0.5 * critical).at(conical_height=critical) == ()
 
 
 @pytest.mark.parametrize("points", [1, 2, 7])
@@ -436,18 +325,6 @@ def test_most_points(points):
 def test_diagram_just_below_critical_is_consistent(less):
     chain = plummets(3)
     assert rc.branches(chain, conical_height=rc.modes(chain).conical_height[0] * (1 - less)).consistent
-
-
-def test_diagram_below_first_speed_and_three_plummets():
-    empty = rc.branches(plummets(3), conical_height=10.0)
-    assert len(empty) == 0
-    assert empty.consistent
-    diagram = rc.branches(plummets(3), up_to=5.0, gravity=1.0)
-    assert [b.mode for b in diagram] == [1, 2, 3, None]
-    for height in (0.05, 0.3):
-        listed = rc.steady_shapes(plummets(3), conical_height=height)
-        met = [s for b in diagram for s in b.at(conical_height=height)]
-        assert len(met) == len(listed)
 
 
 # ---------------------------------------------------------------- stability
@@ -486,69 +363,9 @@ def test_a_massless_joint_does_not_change_stability(frame):
         assert a.verdict == b.verdict
 
 
-def test_window_edges_of_two_plummets():
-    chain = plummets(2)
-    second = rc.modes(chain).conical_height[1]
-    branch = rc.branch(chain, 2, conical_height=0.1 * second)
-    windows = branch.stability_windows()
-    assert [w.verdict for w in windows] == ["spectrally stable", "unstable"]
-    assert windows[0].conical_height[1] / second == pytest.approx(0.463321, abs=2e-6)
-    for p, q in zip(windows, windows[1:], strict=False):
-        assert p.conical_height[1] == q.conical_height[0]
-    assert [w.verdict for w in branch.stability_windows(frame="driven")] == ["unstable"]
-
-
 # ---------------------------------------------------------------- diagrams
-@pytest.mark.parametrize(("kind", "count", "seed"), [c for c in CHAINS if c[0] != "massless"])
-def test_force_diagram_and_transfer(kind, count, seed):
-    chain = random_chain(kind, count, seed)
-    height = rc.modes(chain).conical_height[0] / 4
-    w, _, h, _ = parts(chain)
-    for shape in rc.steady_shapes(chain, conical_height=height):
-        fd = shape.force_diagram()
-        side = fd.pin[1:] - fd.pin[:-1]
-        size = np.hypot(*fd.ray.T) * np.hypot(*side.T)
-        assert (np.abs(side[:, 0] * fd.ray[:, 1] - side[:, 1] * fd.ray[:, 0]) <= 1e-12 * size).all()
-        centre = np.stack([fd.pin[1:, 0] + h * np.sin(shape.inclination), fd.pin[1:, 1] - h * np.cos(shape.inclination)], 1)
-        total = np.cumsum(w)[:, None]
-        assert np.allclose(fd.centre_of_gravity, np.cumsum(w[:, None] * centre, 0) / total, atol=1e-12)
-        assert np.allclose(np.hypot(*fd.reaction.T), shape.tension, rtol=1e-12)
-        straight = shape.transferred_to_axis()
-        assert np.abs(rc.modes(straight).conical_height / height - 1).min() < 1e-11
-
-
-def test_funicular_polygon_against_moments():
-    rng = np.random.default_rng(1)
-    w, x = rng.uniform(0.1, 3, 9), np.cumsum(rng.uniform(0.1, 1, 11))
-    line = rc.funicular_polygon(w, x, 2.5, first_height=1.0, last_height=-2.0)
-    vertical = 2.5 * np.diff(line.height) / np.diff(x)
-    assert np.allclose(np.diff(vertical), w, rtol=1e-11)
-    assert np.allclose(vertical, line.rise, rtol=1e-11)
-    assert (line.height[0], line.height[-1]) == (1.0, -2.0)
-    k = np.diag(2.5 / np.diff(x)[:-1] + 2.5 / np.diff(x)[1:]) - np.diag(2.5 / np.diff(x)[1:-1], 1) - np.diag(2.5 / np.diff(x)[1:-1], -1)
-    mine = 1 / np.linalg.eigvalsh(k / np.sqrt(np.outer(w, w)))
-    got = line.transverse_modes()
-    assert np.allclose(got.conical_height, mine, rtol=1e-12)
-    assert got.shape.shape == (9, 11)
-    assert np.allclose(np.abs(got.shape).max(1), 1)
-
-
-@pytest.mark.parametrize("given", [([1.0, 1.0], [0, 1, 2], 1.0), ([1.0], [0, 0, 1], 1.0), ([0.0], [0, 1, 2], 1.0),
-                                   ([1.0], [0, 1, 2], 0.0), ([1.0], [0, 1, 2], np.nan), ([np.nan], [0, 1, 2], 1.0)])
-def test_funicular_refuses_in_one_clean_sentence(given):
-    for call in (rc.funicular_polygon, rc.transverse_modes):
-        with pytest.raises(ValueError, match="got") as error:
-            call(*given)
-        assert "got, got" not in str(error.value)
-        assert "string_of_weights" not in str(error.value)
-
-
 def test_funicular_overflow_is_not_silent():
-    try:
-        height = rc.funicular_polygon([1.0], [-1e290, 0.0, 1e290], 1.0).height
-    except ValueError:
-        return
-    assert height[1] == pytest.approx(-0.5e290)
+    assert rc.funicular_polygon([1.0], [-1e290, 0.0, 1e290], 1.0).height.tolist() == [0.0, -0.5e290, 0.0]
 
 
 # ---------------------------------------------------------------- two links
@@ -578,53 +395,20 @@ def test_jointed_links_and_all_their_shapes():
             assert min(np.abs(both - s.inclination).max(1).min(), np.abs(both + s.inclination).max(1).min()) < 1e-10
 
 
-def test_silent_clapper_and_joint():
-    bell = dict(bell_weight=5000.0, bell_centroid=0.9, bell_radius_of_gyration=0.6)
-    clapper = dict(clapper_weight=180.0, clapper_centroid=0.5, clapper_radius_of_gyration=0.2)
-    pin = float(tl.pin_of_silent_clapper(**bell, **clapper))
-    pair = dict(lower_weight=180.0, lower_centroid=0.5, lower_radius_of_gyration=0.2, upper_weight=5000.0,
-                upper_length=pin, upper_centroid=0.9, upper_radius_of_gyration=0.6)
-    line = pin + 0.5 + 0.04 / 0.5
-    assert np.abs(tl.jointed_links(**pair) / line - 1).min() < 1e-13
-    together = [s for s in tl.jointed_links_shapes(**pair, height=0.6 * line) if abs(np.diff(s.inclination)[0]) < 1e-12]
-    assert len(together) == 1
-    for rod, c in ((2.0, 0.5), (1.0, 0.3), (1.0, 0.45)):
-        d = float(tl.joint_without_bending(rod, c))
-        # CG.CD = CA^2, A the end above
-        assert c * d == pytest.approx((rod / 2 - c) ** 2, rel=1e-14)
-    for c in (1 / 6, 0.5, 0.1, 0.6, np.nan, -0.3):
-        with pytest.raises(ValueError, match="got"):
-            tl.joint_without_bending(1.0, c)
-
-
 @pytest.mark.parametrize("value", [1e-300, 1e300])
-def test_jointed_links_never_return_nan(value):
+def test_links_of_absurd_proportions_are_refused(value):
     pair = dict(lower_weight=1.0, lower_centroid=value, lower_radius_of_gyration=0.4, upper_weight=1.0,
                 upper_length=0.25, upper_centroid=0.125, upper_radius_of_gyration=0.45)
-    try:
-        heights = tl.jointed_links(**pair)
-    except ValueError:
-        return
-    assert not np.isnan(heights).any()
+    with pytest.raises(ValueError, match="must not be more than 1e77 apart"):
+        tl.jointed_links(**pair)
 
 
 # ---------------------------------------------------------------- Python manners
-def test_results_are_read_only_sequences():
-    shapes = rc.steady_shapes(plummets(3), conical_height=0.05)
-    assert shapes[0] in shapes
-    assert len(list(reversed(shapes))) == len(shapes[:]) == len(shapes)
-    with pytest.raises(IndexError):
-        shapes[99]
-    with pytest.raises(ValueError, match="read-only"):
-        shapes[0].inclination[0] = 1.0
-
-
-def results():
+def drawable():
     shapes = rc.steady_shapes(plummets(3), conical_height=0.05)
     line = rc.funicular_polygon([1.0, 2.0], [0.0, 1.0, 2.0, 3.0], 1.0)
     branch = rc.branch(plummets(3), 2, conical_height=0.05)
-    return [shapes, shapes[0], shapes[0].stability(), shapes[0].force_diagram(), branch, line, line.transverse_modes(),
-            rc.branches(plummets(2), conical_height=0.1), branch.stability_windows()[0]]
+    return [shapes, shapes[0], shapes[0].force_diagram(), branch, line, rc.branches(plummets(2), conical_height=0.1)]
 
 
 def test_threads():
@@ -645,21 +429,13 @@ def test_threads():
 
 
 def test_plots():
-    plt = pytest.importorskip("matplotlib.pyplot")
-    for thing in results():
-        if hasattr(thing, "plot"):
-            thing.plot()
-            plt.gcf().canvas.draw()
-            plt.close("all")
+    agg = pytest.importorskip("matplotlib.backends.backend_agg")
+    for thing in drawable():
+        axes = thing.plot()
+        agg.FigureCanvasAgg((axes[0] if isinstance(axes, tuple) else axes).figure).draw()
     for quantity in ("tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"):
         rc.branches(plummets(3), conical_height=0.04).plot(quantity=quantity)
-        plt.close("all")
     with pytest.raises(ValueError, match="quantity"):
         rc.branch(plummets(2), 1, conical_height=0.1).plot(quantity="x")
 
 
-def test_plot_of_a_branch_too_short_to_step():
-    plt = pytest.importorskip("matplotlib.pyplot")
-    chain = plummets(3)
-    rc.branch(chain, 1, conical_height=np.nextafter(rc.modes(chain).conical_height[0], 0)).plot()
-    plt.close("all")

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Chains to try, and their mechanics written out here with nothing of the library's."""
+
+import numpy as np
+import revchain as rc
+
+
+KINDS = ("plummets", "rods", "massless", "long pendulums")
+
+
+def random_chain(kind, count, seed):
+    """Links of one of `KINDS`; the last hang by pins near their centres of gravity, above them or below."""
+    rng = np.random.default_rng(seed)
+    w, a = np.exp(rng.normal(0, 1, count)), np.exp(rng.normal(0, 0.6, count))
+    if kind == "plummets":
+        return rc.Chain(weight=w, length=a)
+    if kind == "rods":
+        return rc.Chain(weight=w, length=a, centroid=a / 2, radius_of_gyration=a / 12**0.5)
+    if kind == "massless":
+        w[1::2] = 0
+        return rc.Chain(weight=w, length=a)
+    return rc.Chain(weight=w, length=a, centroid=a * rng.uniform(0.2, 1.5, count),
+                    radius_of_gyration=a * rng.uniform(0.2, 1.5, count))
+
+
+def plummets(count):
+    """On threads of 1."""
+    return rc.Chain.uniform_plummets(count, length=float(count))
+
+
+def rods(count):
+    """Of length 1."""
+    return rc.Chain.uniform_rods(count, length=float(count))
+
+
+def parts(chain):
+    """Weights, lengths, centroids and radii of gyration."""
+    return [np.array(v, float) for v in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration)]
+
+
+def inertia(chain):
+    """Inertia matrix A over the links' unit vectors, and first moments kappa."""
+    w, a, h, rho = parts(chain)
+    c = np.zeros((w.size, w.size))
+    for r in range(w.size):
+        c[r, r] = h[r]
+        c[r, r + 1 :] = a[r + 1 :]
+    return c.T @ (w[:, None] * c) + np.diag(w * rho**2), w @ c
+
+
+def scan(chain, height, hanging, starts=3000, seed=3):
+    """All shapes that Newton's method finds from many random places; a lower bound on what there is."""
+    inert, kappa = inertia(chain)
+    count = kappa.size
+    rng = np.random.default_rng(seed)
+    reach = np.pi / 2 if hanging else np.pi
+    d = rng.uniform(-reach, reach, (starts, count))
+    half = starts // 2
+    d[:half] = rng.choice([-1, 1], (half, count)) * (np.pi / 2) * (1 - rng.uniform(0, 1, (half, count)) ** 4)
+    scale = np.abs(kappa) + np.abs(inert).sum(1) / height
+    i = np.arange(count)
+    step = residual = None
+    for _ in range(50):
+        s, c = np.sin(d), np.cos(d)
+        force = s @ inert / height
+        residual = kappa * s - c * force
+        jac = -inert / height * c[:, :, None] * c[:, None, :]
+        jac[:, i, i] += kappa * c + s * force + 1e-300
+        step = np.clip(np.linalg.solve(jac, residual[:, :, None])[:, :, 0], -0.5, 0.5)
+        d = d - step
+    good = (np.abs(residual / scale).max(1) < 1e-11) & (np.abs(step).max(1) < 1e-9)
+    d = (d[good] + np.pi) % (2 * np.pi) - np.pi
+    d = d[np.abs(np.sin(d)).max(1) > 1e-6]
+    if hanging:
+        d = d[(np.abs(d) < np.pi / 2).all(1)]
+    d = d * np.where(np.sin(d) @ parts(chain)[1] < 0, -1, 1)[:, None]
+    return d[np.unique(d.round(6), axis=0, return_index=True)[1]]
+
+
+def turned(a, b):
+    """The largest angle by which inclinations differ, whole turns left out."""
+    return np.abs(np.angle(np.exp(1j * (a - b)))).max(axis=-1)
