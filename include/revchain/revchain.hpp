@@ -15,6 +15,7 @@
 #include "revchain/finite/force_diagram.hpp"      // IWYU pragma: export
 #include "revchain/finite/funicular_polygon.hpp"  // IWYU pragma: export
 #include "revchain/finite/jointed_links.hpp"      // IWYU pragma: export
+#include "revchain/finite/rig_shapes.hpp"         // IWYU pragma: export
 #include "revchain/finite/shape_on_branch.hpp"    // IWYU pragma: export
 #include "revchain/finite/steady_shapes.hpp"      // IWYU pragma: export
 #include "revchain/finite/two_links.hpp"          // IWYU pragma: export

@@ -30,9 +30,10 @@ inline SteadyShape mirrored(SteadyShape shape) {
     return shape;
 }
 
-/// Whether two shapes, each alone within its error bound, are one.
+/// Whether two shapes whose lowest link is in the axis, each alone within its error bound, are one.
 inline bool same(const SteadyShape& x, const SteadyShape& y) {
     const double off = x.error_bound + y.error_bound;
+    if (!(std::abs(x.inclination[0]) <= off && off < 1e-12)) return false;
     for (Index m = 0; m < x.inclination.size(); ++m)
         if (!(std::abs(x.inclination[m] - y.inclination[m]) <= off)) return false;
     return true;
@@ -45,21 +46,22 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     if (rig == Rig(rig.chain(), {})) return steady_shapes(rig.chain(), height, options);
     const double scaled = std::ldexp(static_cast<double>(height), -rig.chain().units().length_exponent);
     SteadyShapes result;
-    const auto leave_all = [&](double low) {
-        const double end = asked.hanging_only ? std::numbers::pi / 2 : std::numbers::pi;
-        result.undecided = {{rig.support().radius > 0 ? -end : low, end}};
+    const auto leave_all = [&] {
+        const double end = asked.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;
+        result.undecided = {{rig.support().radius > 0 ? -end : 0, end}};
         return result;
     };
-    if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) return leave_all(0);  // tangents overflow
+    if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) return leave_all();  // tangents overflow
     RiggedLinks links = rigged_links(rig, height, speed);
     const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
     const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !asked.hanging_only,
                                          enclosed<double>(links.support));
-    if (!(last <= std::numeric_limits<double>::max())) return leave_all(0);
+    if (!(last <= std::numeric_limits<double>::max())) return leave_all();
     result = listed(links, lambda, options);
     if (links.support.is_symmetric()) return result;
     links.support.radius = -links.support.radius;
-    SteadyShapes other = listed(links, lambda, {asked.budget - result.cells, asked.hanging_only});
+    SteadyShapes other =
+        listed(links, lambda, {asked.budget - result.cells * static_cast<long>(rig.size()), asked.hanging_only});
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
         shape = mirrored(std::move(shape));

@@ -59,11 +59,11 @@ std::vector<Link<Interval<T>>> swept_links(const RiggedLinks& rig) {
     return result;
 }
 
-/// An upper end for the tangent of the lowest link of a rig. The topmost pin is no farther from the axis than
+/// An upper end for the tangent of the lowest link of a rig, whether it hangs or stands. The topmost pin is no farther from the axis than
 /// (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda E)|, the others no farther from it than the links reach; and the lowest
 /// link's balance is  lambda pull t + a X s = moment y. Not finite where lambda E is W, all the weight that moves.
 template <class T>
-T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool either_posture,
+T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool,
                    const Held<Interval<T>>& support) {
     const auto size = [](const Interval<T>& x) {
         using std::abs;
@@ -80,9 +80,8 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
         drawn = drawn / (yields.negative() ? -yields : yields);
     }
     const Interval<T> turning = links[0].length * links[0].cross;
-    const T backwards = either_posture ? size(turning) : std::max(T(0), T(-turning.low));
     const Interval<T> far =
-        (Interval<T>(size(links[0].moment)) * (reach + drawn) + Interval<T>(backwards)) / (height * links[0].pull);
+        (Interval<T>(size(links[0].moment)) * (reach + drawn) + Interval<T>(size(turning))) / (height * links[0].pull);
     return far.high;
 }
 
