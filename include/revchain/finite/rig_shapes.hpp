@@ -88,7 +88,8 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
 /// Where that is negative (a wheel against the rotation, a float) a link leans against its load: it is followed along each
 /// inclination, as those links are that may have several.
 /// Accuracy, cost, and `complete`: as of chains (measured: tests/cpp/finite/rigs.cpp); about twice the cost with b > 0.
-/// Also not complete: where lambda E is exactly all the weight that moves, or within rounding of it.
+/// Also not complete: where one of more than some 160 links is such, and where lambda E is all the weight that moves, to
+/// rounding.
 /// Throws InvalidArgument for a height or gravity not positive and finite, a sense not 1 or -1, an effective tension that
 /// vanishes, and weights that move so that the lowest link balances about its pin.
 inline SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options = {}) {

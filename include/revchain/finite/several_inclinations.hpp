@@ -120,6 +120,10 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
     const std::size_t n = posture.size();
     const auto cube = static_cast<long>(n * n * n);
     result.cells += cube / 256;
+    if (cube >= 256 && result.cells >= budget) {  // not even one test of the whole chain
+        result.open.push_back({posture[0], 0.0, last});
+        return;
+    }
     using Far = DoubleDouble;
     const auto narrow = swept_links<double>(chain);
     const auto wide = swept_links<Far>(chain);

@@ -645,6 +645,9 @@ TEST_CASE("what cannot be told is said", "[finite][rig]") {
     }
     const auto poor = revchain::steady_shapes(Rig(chain, {.support = carried_round(0.1)}), 0.1, {.budget = 4});
     CHECK_FALSE(poor.complete);
+    // wheels against the rotation on a chain too long for boxes of all its tangents
+    const Rig many(Chain<double>::uniform_rods(300, 1.0, 1.0), {.flywheels = std::vector<Flywheel>(300, {-1e-3})});
+    CHECK_FALSE(revchain::steady_shapes(many, 0.1).complete);
     const Rig rig(chain, {.flywheels = {{-1.0}, {0.0}}});
     for (const double bad : {0.0, -1.0, std::nan("")}) {
         CHECK_THROWS_AS(revchain::steady_shapes(rig, bad), revchain::InvalidArgument);
