@@ -435,6 +435,7 @@ def steady_shapes(
 
     Examples
     --------
+    >>> import numpy as np
     >>> import revchain as rc
     >>> shapes = rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=1 / 35.4025)
     >>> shapes
@@ -443,15 +444,14 @@ def steady_shapes(
     >>> [len(rc.steady_shapes(rods, conical_height=0.05, hanging_only=only)) for only in (True, False)]
     [3, 14]
 
-    A chair on a chain of 4 m, carried round on an arm of 3 m, twelve turns a minute: outwards, and inwards
-    in two ways.
+    A chair on a chain of 4 m, on an arm of 1 m, at twelve turns a minute; and at 3 rad/s, where it could also
+    hang inwards in two ways:
 
-    >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support_radius=3.0)
+    >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support_radius=1.0)
     >>> rc.steady_shapes(carousel, angular_speed=1.2566)
     SteadyShapes: 1, proved complete
-    >>> shapes = rc.steady_shapes(carousel, angular_speed=3.0)
-    >>> [round(float(x), 1) for x in np.degrees([shape.inclination[0] for shape in shapes])]
-    [80.6, -65.0, -51.3]
+    >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
+    [77.5, -68.1, -20.7]
     """
     place = "revchain.steady_shapes"
     name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
