@@ -178,7 +178,7 @@ class Rig:
     def standing(self) -> NDArray[np.bool_]:
         """Which links stand, shape (N,), lowest first; read-only."""
         flags = self._given["standing"]
-        return np.broadcast_to(np.False_, self.size) if flags is None else flags  # type: ignore[no-any-return]
+        return np.broadcast_to(np.False_, self.size) if flags is None else flags
 
     @property
     def momentum(self) -> Floats:
@@ -212,7 +212,7 @@ class Rig:
 
     def _column(self, name: str, otherwise: float | Floats) -> Floats:
         given = self._given[name]
-        return np.broadcast_to(np.asarray(otherwise), self.size) if given is None else given  # type: ignore[no-any-return]
+        return np.broadcast_to(np.asarray(otherwise), self.size) if given is None else given
 
     def __len__(self) -> int:
         return self.size
