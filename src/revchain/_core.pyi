@@ -516,6 +516,12 @@ def steady_shapes(chain: Chain, height: float, budget: int, hanging_only: bool) 
 def steady_shapes_at_speed(
     chain: Chain, angular_speed: float, gravity: float, budget: int, hanging_only: bool
 ) -> SteadyShapes: ...
+def steady_shapes_of_rig(
+    rig: Rig, height: float, budget: int, hanging_only: bool, sense: int, gravity: float
+) -> SteadyShapes: ...
+def steady_shapes_of_rig_at_speed(
+    rig: Rig, angular_speed: float, budget: int, hanging_only: bool, gravity: float
+) -> SteadyShapes: ...
 
 class HeldShape:
     @property
