@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
+#include "revchain/finite/rig_shapes.hpp"
 #include "revchain/finite/stability.hpp"
 #include "revchain/finite/steady_shapes.hpp"
 
@@ -77,4 +78,21 @@ void bind_finite(py::module_& module) {
                                                     {.budget = budget, .hanging_only = hanging_only});
         },
         "chain"_a, "angular_speed"_a, "gravity"_a, "budget"_a, "hanging_only"_a);
+    using revchain::Rig;
+    module.def(
+        "steady_shapes_of_rig",
+        [](const Rig& rig, double height, long budget, bool hanging_only, int sense, double gravity) {
+            const py::gil_scoped_release release;
+            return revchain::steady_shapes(
+                rig, height, {.budget = budget, .hanging_only = hanging_only, .sense = sense, .gravity = gravity});
+        },
+        "rig"_a, "height"_a, "budget"_a, "hanging_only"_a, "sense"_a, "gravity"_a);
+    module.def(
+        "steady_shapes_of_rig_at_speed",
+        [](const Rig& rig, double angular_speed, long budget, bool hanging_only, double gravity) {
+            const py::gil_scoped_release release;
+            return revchain::steady_shapes_at_speed(
+                rig, angular_speed, {.budget = budget, .hanging_only = hanging_only, .gravity = gravity});
+        },
+        "rig"_a, "angular_speed"_a, "budget"_a, "hanging_only"_a, "gravity"_a);
 }

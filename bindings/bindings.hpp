@@ -53,6 +53,7 @@ py::tuple columns(const Function& function, const Array& first, const Arrays&...
 void bind_core(py::module_& module);
 void bind_chain(py::module_& module);
 void bind_rig(py::module_& module);
+void bind_sensitivity(py::module_& module);
 void bind_linear(py::module_& module);
 void bind_rig_modes(py::module_& module);
 void bind_finite(py::module_& module);

@@ -11,6 +11,7 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_core(module);
     bind_chain(module);
     bind_rig(module);
+    bind_sensitivity(module);
     bind_linear(module);
     bind_rig_modes(module);
     bind_finite(module);

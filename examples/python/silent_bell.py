@@ -10,30 +10,21 @@ import revchain as rc
 
 H1, RHO1, A1, W1 = 0.52, 0.08, 0.65, 18.0  # clapper: centroid, radius of gyration, length (m), mass (kg)
 RHO2, A2, W2 = 0.30, 0.15, 500.0  # bell: radius of gyration, gudgeons to the clapper's pin, mass
-L1 = H1 + RHO1**2 / H1  # equivalent simple pendulum
 
 
-def silence(h2):
-    """Zero where the bell is silent: relation (16)."""
-    m = W2 * h2 / (W1 * A2)
-    return (m + 1) * L1 + m * (A2 - (h2 + RHO2**2 / h2)) - H1
+def hung(h2):
+    """The bell hung this high above its centre of gravity, and its clapper."""
+    return rc.Chain(weight=[W1, W2], length=[A1, A2], centroid=[H1, h2], radius_of_gyration=[RHO1, RHO2])
 
-
-def inclinations(h2):
-    """Inclination of the clapper over that of the bell, in both modes."""
-    chain = rc.Chain(weight=[W1, W2], length=[A1, A2], centroid=[H1, h2], radius_of_gyration=[RHO1, RHO2])
-    shape = rc.modes(chain).shape
-    return ((shape[:, 0] - shape[:, 1]) / A1) / ((shape[:, 1] - shape[:, 2]) / A2)
-
-
-low, high = 0.10, 0.30
-assert silence(low) < 0 < silence(high)
-while high - low > 1e-12:
-    middle = (low + high) / 2
-    low, high = (middle, high) if silence(middle) < 0 else (low, middle)
 
 print("centroid of the bell m  clapper/bell inclination, mode 1 and 2")
-for h2 in (0.05, 0.10, low, 0.25):
-    first, second = inclinations(h2)
+bell = rc.bell_and_clapper(hung(0.10))
+silent = bell.with_ratio(1.0)["bell_centroid"]
+for h2 in (0.05, 0.10, silent, 0.25):
+    first, second = rc.bell_and_clapper(hung(h2)).inclination_ratio
     print(f"{h2:22.4f}  {first:+.6f}  {second:+.6f}")
-print(f"hung {1000 * low:.1f} mm above its centre of gravity the bell is silent in one of its modes")
+print(f"hung {1000 * silent:.1f} mm above its centre of gravity the bell is silent in its slower mode")
+print("from 100 mm, what would silence it, and what would make its clapper swing 1.5 times as far:")
+louder = bell.with_ratio(1.5)
+for name, value in bell.with_ratio(1.0).items():
+    print(f"{name:27} now {bell.present[name]:8.4f}, silent {value:8.4f}, ringing {louder[name]:8.4f}")

@@ -22,6 +22,7 @@
 #include "revchain/finite/held_chain.hpp"         // IWYU pragma: export
 #include "revchain/finite/held_cord.hpp"          // IWYU pragma: export
 #include "revchain/finite/jointed_links.hpp"      // IWYU pragma: export
+#include "revchain/finite/rig_shapes.hpp"         // IWYU pragma: export
 #include "revchain/finite/shape_on_branch.hpp"    // IWYU pragma: export
 #include "revchain/finite/steady_shapes.hpp"      // IWYU pragma: export
 #include "revchain/finite/two_links.hpp"          // IWYU pragma: export

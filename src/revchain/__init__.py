@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
 from ._batch import conical_heights
+from ._bell import BellAndClapper, bell_and_clapper
 from ._branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
 from ._chain import Chain
 from ._continuous import (
@@ -49,9 +50,18 @@ from ._response import Response, SmallOscillation, response, small_oscillation
 from ._rig import Rig, driven_flywheel, free_flywheel
 from ._rig_modes import OtherModes, RigModes, WhirlModes
 from ._scene_error import SceneError
+from ._sensitivity import (
+    Derivatives,
+    RigSensitivity,
+    Sensitivity,
+    Uncertainty,
+    momentum_for_speed,
+    rig_sensitivity,
+)
 from ._solve import count_modes, modes, recurrence_matrices
 from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
 from ._storage import load
+from ._tune import Tuned, tune
 from .buffer_impact import BufferImpact
 from .governor import GovernorMotion
 from .ropes import SkippingRope, TortuousRope
@@ -62,6 +72,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "BellAndClapper",
     "Branch",
     "Branches",
     "BufferImpact",
@@ -70,6 +81,7 @@ __all__ = [
     "ContinuousPlace",
     "ContinuousShape",
     "ContinuousShapes",
+    "Derivatives",
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
@@ -81,7 +93,10 @@ __all__ = [
     "Response",
     "Rig",
     "RigModes",
+    "Response",
+    "RigSensitivity",
     "SceneError",
+    "Sensitivity",
     "SkippingRope",
     "SmallOscillation",
     "Stability",
@@ -92,7 +107,10 @@ __all__ = [
     "TortuousRope",
     "TransverseModes",
     "WhirlModes",
+    "Tuned",
+    "Uncertainty",
     "__version__",
+    "bell_and_clapper",
     "branch",
     "branches",
     "conical_heights",
@@ -110,16 +128,19 @@ __all__ = [
     "hoop",
     "load",
     "modes",
+    "momentum_for_speed",
     "plummet",
     "recurrence_matrices",
     "response",
     "small_oscillation",
+    "rig_sensitivity",
     "steady_shape",
     "steady_shapes",
     "tapered_chain",
     "taut_modes",
     "tip_mass",
     "transverse_modes",
+    "tune",
     "two_links",
 ]
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them

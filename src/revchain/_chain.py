@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, link_arrays, real, shown
+from ._arguments import Floats, integer, link_arrays, real, shown
 from ._arguments import count as checked_count
 
 if TYPE_CHECKING:
@@ -214,6 +214,103 @@ class Chain:
     def radius_of_gyration(self) -> Floats:
         """Radius of gyration of each link about its centre of gravity, shape (N,); read-only."""
         return self._column(self._compiled.radius_of_gyration)
+
+    def with_weight(self, weight: float, pin: int = 0, *, radius_of_gyration: float = 0.0) -> Chain:
+        """Return the chain with a weight fixed at one of its pins.
+
+        Parameters
+        ----------
+        weight : float
+            Positive.
+        pin : int
+            0 for the free end, else the number of links below the pin, less than N.
+        radius_of_gyration : float
+            Of a body, about its centre of gravity, which lies in the pin; it turns with the link above. A
+            point weight has none.
+
+        Returns
+        -------
+        Chain
+            The link above the pin and the weight are one body in it: weight and centroid rounded once, the
+            radius of gyration kept in two words. Heights within 3 ulp of the exact body's.
+
+        Raises
+        ------
+        ValueError
+            If there is no such pin, or a number is out of range.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.Chain.uniform_plummets(2, length=2.0).with_weight(1.5).weight
+        array([2. , 0.5])
+        """
+        place = "revchain.Chain.with_weight"
+        return self._wrap(
+            _core.with_weight(
+                self._compiled,
+                real(place, "weight", weight),
+                integer(place, "pin", pin),
+                real(place, "radius_of_gyration", radius_of_gyration),
+            )
+        )
+
+    def with_thread(self, length: float, pin: int) -> Chain:
+        """Return the chain with a massless thread put in.
+
+        Parameters
+        ----------
+        length : float
+            Positive.
+        pin : int
+            Where: the number of links below it, 1 to N; N is the support, which the thread then hangs from.
+
+        Returns
+        -------
+        Chain
+            Of N + 1 links.
+
+        Raises
+        ------
+        ValueError
+            If there is no such pin, or the length is not positive and finite.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Chain(weight=1.0, length=1.0).with_thread(0.5, pin=1)).conical_height
+        array([1.5])
+        """
+        place = "revchain.Chain.with_thread"
+        return self._wrap(
+            _core.with_thread(self._compiled, real(place, "length", length), integer(place, "pin", pin))
+        )
+
+    def clamped(self, link: int) -> Chain:
+        """Return the chain with two neighbouring links locked in line, as one rigid link.
+
+        Parameters
+        ----------
+        link : int
+            Number of the lower of the two, from 1 for the lowest link.
+
+        Returns
+        -------
+        Chain
+            Of N - 1 links. Its conical heights lie between those of this chain.
+
+        Raises
+        ------
+        ValueError
+            If `link` is not from 1 to N - 1.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.Chain.uniform_rods(3, length=3.0).clamped(1).length
+        array([2., 1.])
+        """
+        return self._wrap(_core.clamped(self._compiled, integer("revchain.Chain.clamped", "link", link)))
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m", weight_unit: str = "N") -> Axes:
         """Draw the chain at rest: pins, centres of gravity and weights.

@@ -7,6 +7,8 @@ import numpy.typing
 _Floats = numpy.typing.NDArray[numpy.float64]
 
 METHODS: tuple[str, ...]
+DATA: tuple[str, ...]
+BELL_DATA: tuple[str, ...]
 PRECISIONS: tuple[str, ...]
 
 class Cancelled(RuntimeError): ...
@@ -67,6 +69,35 @@ class Rig:
         added_weight: _Floats | None,
         turning_fluid: bool,
     ) -> None: ...
+
+def sensitivity(
+    chain: Chain, first: int, conical_height: _Floats
+) -> tuple[tuple[_Floats, ...], tuple[_Floats, ...]]: ...
+def uncertainty(
+    conical_height: _Floats, derivatives: list[_Floats], deviations: list[_Floats | None]
+) -> tuple[_Floats, _Floats, tuple[_Floats, ...], list[str], list[int]]: ...
+def tune(
+    chain: Chain,
+    mode: int,
+    link: int,
+    quantity: str,
+    conical_height: float | None,
+    angular_speed: float | None,
+    gravity: float,
+    low: float | None,
+    high: float | None,
+) -> tuple[str, float, float, float, _Floats, bool, float, float, float, float, Chain | None]: ...
+def with_weight(chain: Chain, weight: float, pin: int, radius_of_gyration: float) -> Chain: ...
+def with_thread(chain: Chain, length: float, pin: int) -> Chain: ...
+def clamped(chain: Chain, link: int) -> Chain: ...
+def bell_and_clapper(
+    chain: Chain,
+) -> tuple[tuple[float, float], tuple[float, float], float, float, tuple[float, ...], tuple[float, ...]]: ...
+def bell_and_clapper_with_ratio(chain: Chain, ratio: float) -> tuple[float, ...]: ...
+def rig_sensitivity(
+    rig: Rig, angular_speed: float, offset: _Floats, gravity: float
+) -> tuple[_Floats, _Floats, _Floats, float, float]: ...
+def momentum_for_speed(rig: Rig, link: int, angular_speed: float, gravity: float) -> float: ...
 
 _Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
 _Whole = numpy.typing.NDArray[numpy.int64]
@@ -484,6 +515,12 @@ def stability(chain: Chain, shape: SteadyShape, driven: bool) -> Stability: ...
 def steady_shapes(chain: Chain, height: float, budget: int, hanging_only: bool) -> SteadyShapes: ...
 def steady_shapes_at_speed(
     chain: Chain, angular_speed: float, gravity: float, budget: int, hanging_only: bool
+) -> SteadyShapes: ...
+def steady_shapes_of_rig(
+    rig: Rig, height: float, budget: int, hanging_only: bool, sense: int, gravity: float
+) -> SteadyShapes: ...
+def steady_shapes_of_rig_at_speed(
+    rig: Rig, angular_speed: float, budget: int, hanging_only: bool, gravity: float
 ) -> SteadyShapes: ...
 
 class HeldShape:

@@ -272,7 +272,10 @@ def plot_shapes(
         ax.plot(x[kept], z[kept], color=colour, linewidth=1.4, marker=marker, markersize=3.0, label=label)
         if not linked:
             ax.plot(x[0], z[0], color=colour, marker="o", markersize=3.5)
-    ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
+    for top in sorted({float(shape.offset[-1]) for shape in shapes} or {0.0}):
+        if top:
+            ax.plot([0.0, top], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=1)
+        ax.plot(top, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
     ax.set(xlabel=f"from the axis ({length_unit})", ylabel=f"above the support ({length_unit})", aspect="equal")
     keep_room(ax)
     if named:

@@ -3,16 +3,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core, conical_pendulum
-from ._arguments import STANDARD_GRAVITY, Floats, boolean, exactly_one, limit, one_positive, shown
+from ._arguments import STANDARD_GRAVITY, Floats, boolean, exactly_one, integer, limit, one_positive, shown
 from ._chain import Chain, compiled
 from ._diagrams import ForceDiagram
 from ._results import Result, Results
+from ._rig import Rig
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -72,7 +73,14 @@ class Stability(Result[_core.Stability, str]):
         return f"Stability ({self.frame}): {self.verdict}, growth rate {self.growth_rate:.3g} n"
 
 
-class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
+class TurnedRig(NamedTuple):
+    """A rig and the sense in which it turns."""
+
+    rig: Rig
+    sense: int
+
+
+class SteadyShape(Result[_core.SteadyShape, _core.Chain | TurnedRig]):
     """One steady shape: links lowest first, pins free end first, in the units of the chain.
 
     Returned by `steady_shapes`.
@@ -87,7 +95,7 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
 
     @property
     def offset(self) -> Floats:
-        """Of each pin from the axis, shape (N + 1,); the support's 0 last."""
+        """Of each pin from the axis, shape (N + 1,); the support's last, 0 but for a `Rig` that moves it."""
         return self._compiled.offset
 
     @property
@@ -157,7 +165,8 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         Returns
         -------
         float
-            In weight times length times s.
+            In weight times length times s; of a `Rig` with what its flywheels keep, negative where all that
+            turns the other way.
 
         Raises
         ------
@@ -173,7 +182,11 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         """
         place = "revchain.SteadyShape.angular_momentum"
         g = one_positive(place, "gravity", gravity)
-        return self.moment_of_inertia / g * float(conical_pendulum.angular_speed(self.conical_height, g))
+        turning = self.moment_of_inertia / g * float(conical_pendulum.angular_speed(self.conical_height, g))
+        if not isinstance(self._given, TurnedRig):
+            return turning
+        rig, sense = self._given
+        return sense * turning + float(np.sum(rig.momentum * np.cos(self.inclination)))
 
     def stability(self, *, frame: str = "free") -> Stability:
         """Say what becomes of a small disturbance.
@@ -203,7 +216,7 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         ['minimum', 'unstable']
         """
         driven = is_driven("revchain.SteadyShape.stability", frame)
-        return Stability._wrap(_core.stability(self._given, self._compiled, driven), frame)
+        return Stability._wrap(_core.stability(self._chain("stability"), self._compiled, driven), frame)
 
     def force_diagram(self) -> ForceDiagram:
         """Return the graphical construction of the shape: force diagram and funicular polygon.
@@ -228,7 +241,7 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         >>> bool(np.allclose(side[:, 0] / side[:, 1], diagram.ray[:, 0] / diagram.ray[:, 1], rtol=1e-14))
         True
         """
-        return ForceDiagram._wrap(_core.force_diagram(self._given, self._compiled), None)
+        return ForceDiagram._wrap(_core.force_diagram(self._chain("force_diagram"), self._compiled), None)
 
     def transferred_to_axis(self) -> Chain:
         """Return the straight chain whose weights hang on the axis, level with where they are in the shape.
@@ -251,7 +264,7 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
         >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
         array([0.5       , 0.08366581])
         """
-        return Chain._wrap(_core.transferred_to_axis(self._given, self._compiled))
+        return Chain._wrap(_core.transferred_to_axis(self._chain("transferred_to_axis"), self._compiled))
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw the shape, true to scale.
@@ -283,6 +296,11 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain]):
 
         return plot_shapes([self], ax, linked=True, length_unit=length_unit)
 
+    def _chain(self, method: str) -> _core.Chain:
+        if isinstance(self._given, TurnedRig):
+            raise TypeError(f"revchain.SteadyShape.{method}: shapes of a Chain have it, those of a Rig do not")
+        return self._given
+
     def __repr__(self) -> str:
         tip = np.degrees(self.inclination[0])
         return f"SteadyShape: half_waves {self.half_waves}, lowest link at {tip:.6g} degrees"
@@ -295,10 +313,10 @@ class SteadyShapes(Results[SteadyShape]):
     _compiled: _core.SteadyShapes
 
     @classmethod
-    def _wrap(cls, compiled: _core.SteadyShapes, chain: Chain) -> SteadyShapes:
+    def _wrap(cls, compiled: _core.SteadyShapes, given: _core.Chain | TurnedRig) -> SteadyShapes:
         result = object.__new__(cls)
         result._compiled = compiled
-        result._items = tuple(SteadyShape._wrap(shape, chain._compiled) for shape in compiled.shapes)
+        result._items = tuple(SteadyShape._wrap(shape, given) for shape in compiled.shapes)
         return result
 
     @property
@@ -354,33 +372,36 @@ class SteadyShapes(Results[SteadyShape]):
 
 
 def steady_shapes(
-    chain: Chain,
+    chain: Chain | Rig,
     *,
     conical_height: float | None = None,
     angular_speed: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     budget: int = 3_000_000,
     hanging_only: bool = True,
+    sense: int = 1,
 ) -> SteadyShapes:
-    """Find all shapes in which a chain whirls steadily at a given speed, at any inclination.
+    """Find all shapes in which a chain, or a rig, whirls steadily at a given speed, at any inclination.
 
     Parameters
     ----------
-    chain : Chain
-        The chain of N links.
+    chain : Chain or Rig
+        The chain of N links, or what it is rigged with: a support on a spring or carried round, flywheels, a fluid.
     conical_height : float
         Of the speed, in the unit of the chain's lengths, positive.
     angular_speed : float
         Instead of `conical_height`: the speed in rad/s, positive.
     gravity : float, optional
-        For `angular_speed`; standard gravity, in metres, if left out.
+        For `angular_speed`, and for a rig's flywheels; standard gravity, in metres, if left out.
     budget : int, optional
         How many links to look at, at the most, while parts of the range of the lowest link's inclination are
         split: half a microsecond each, or two where ``l < a``; the default takes some 2 to 10 seconds. With 0
         and less nothing is looked at, and the list is empty and not complete.
     hanging_only : bool, optional
         Whether to leave out shapes with links that stand: more than a right angle from the downward
-        vertical.
+        vertical. Of a rig: shapes with links that do not stand or hang as the rig has them.
+    sense : {1, -1}, optional
+        Of the rotation. It matters to a rig with flywheels.
 
     Returns
     -------
@@ -391,14 +412,16 @@ def steady_shapes(
         inclined link); by half waves, then inclination of the lowest link. ``complete`` is true where it
         is proved that none is missing. Inclinations within ``error_bound``, proved, mostly 2.2e-16.
         Empty and complete where the height is greater than the first of `modes`, in any posture.
+        Of a rig whose support is carried round: every shape, outwards positive, those inwards too.
 
     Raises
     ------
     ValueError
-        If not exactly one of `conical_height` and `angular_speed` is given, or a number is not positive
-        and finite.
+        If not exactly one of `conical_height` and `angular_speed` is given, a number is not positive
+        and finite, `sense` is neither 1 nor -1, or a link of a rig has no effective tension (tension and
+        speed times momentum over length) at the speed.
     TypeError
-        If `hanging_only` is not a bool.
+        If `chain` is neither a `Chain` nor a `Rig`, or `hanging_only` is not a bool.
 
     Notes
     -----
@@ -412,6 +435,7 @@ def steady_shapes(
 
     Examples
     --------
+    >>> import numpy as np
     >>> import revchain as rc
     >>> shapes = rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=1 / 35.4025)
     >>> shapes
@@ -419,13 +443,30 @@ def steady_shapes(
     >>> rods = rc.Chain.uniform_rods(3, length=3.0)
     >>> [len(rc.steady_shapes(rods, conical_height=0.05, hanging_only=only)) for only in (True, False)]
     [3, 14]
+
+    A chair on a chain of 4 m, on an arm of 1 m, at twelve turns a minute; and at 3 rad/s, where it could also
+    hang inwards in two ways:
+
+    >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support_radius=1.0)
+    >>> rc.steady_shapes(carousel, angular_speed=1.2566)
+    SteadyShapes: 1, proved complete
+    >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
+    [77.5, -68.1, -20.7]
     """
     place = "revchain.steady_shapes"
     name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
-    core = compiled(place, chain)
     most = limit(place, "budget", budget)
     hanging = boolean(place, "hanging_only", hanging_only)
+    if integer(place, "sense", sense) not in (1, -1):
+        raise ValueError(f"{place}: sense must be 1 or -1, got {shown(sense)}")
+    if isinstance(chain, Rig):
+        rig, turned, g = chain._compiled, TurnedRig(chain, int(sense)), one_positive(place, "gravity", gravity)
+        if name == "conical_height":
+            return SteadyShapes._wrap(_core.steady_shapes_of_rig(rig, value, most, hanging, turned.sense, g), turned)
+        speed = turned.sense * value
+        return SteadyShapes._wrap(_core.steady_shapes_of_rig_at_speed(rig, speed, most, hanging, g), turned)
+    core = compiled(place, chain)
     if name == "conical_height":
-        return SteadyShapes._wrap(_core.steady_shapes(core, value, most, hanging), chain)
+        return SteadyShapes._wrap(_core.steady_shapes(core, value, most, hanging), core)
     g = one_positive(place, "gravity", gravity)
-    return SteadyShapes._wrap(_core.steady_shapes_at_speed(core, value, g, most, hanging), chain)
+    return SteadyShapes._wrap(_core.steady_shapes_at_speed(core, value, g, most, hanging), core)

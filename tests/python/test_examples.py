@@ -84,6 +84,8 @@ def test_what_the_programs_say(python):
     shapes = python(ROOT / "examples/python/all_shapes.py")
     assert "SteadyShapes: 5, proved complete" in shapes.stdout and "SteadyShapes: 84" in shapes.stdout
     assert "two are born at 3.903762157 sqrt(g/a)" in shapes.stdout
+    carousel = python(ROOT / "examples/python/swing_carousel.py")
+    assert "at 6 rad/s: SteadyShapes: 5, proved complete" in carousel.stdout
 
 
 @pytest.mark.parametrize("path", EXPERIMENTS, ids=lambda path: path.stem)

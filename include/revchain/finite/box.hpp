@@ -77,11 +77,18 @@ inline bool invert(std::vector<double>& a, std::size_t n) {
 ///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal:
 /// linear but for the sines, so that its derivative over a box is known as sharply as those of the sines. Here nothing
 /// is singular at a joint of two pieces.
-template <Real T>
+/// Of a rig sigma is, in B, of the weights that move, its highest pin at  y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1 - W/
+/// (lambda E)), W all that moves, and F_m less by sigma_m y.
+template <Real T, class End = OnAxis>
 class WholeBalance {
    public:
-    WholeBalance(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, std::vector<Posture> posture)
+    WholeBalance(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, std::vector<Posture> posture,
+                 const End& support = {})
         : size_(links.size()), posture_(std::move(posture)), matrix_(size_ * size_) {
+        if constexpr (is_held<End>) {
+            add_held(links, height, support);
+            return;
+        }
         for (std::size_t m = 0; m < size_; ++m) {
             stiffness_.push_back(height * links[m].pull);
             for (std::size_t r = 0; r < size_; ++r) {
@@ -93,6 +100,19 @@ class WholeBalance {
         }
     }
     const std::vector<Posture>& posture() const { return posture_; }
+    bool is_symmetric() const {
+        if constexpr (is_held<End>) return top_.symmetric;
+        return true;
+    }
+    /// Offset of the topmost pin.
+    Interval<T> top(const std::vector<Interval<T>>& sines) const {
+        Interval<T> y(T(0));
+        if constexpr (is_held<End>) {
+            y = top_.at_rest;
+            for (std::size_t r = 0; r < size_; ++r) y = y + top_.drawn[r] * sines[r];
+        }
+        return y;
+    }
 
     Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, detail::Sine<T>(t).value); }
 
@@ -159,6 +179,31 @@ class WholeBalance {
     }
 
    private:
+    void add_held(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const End& support) {
+        Interval<T> below(T(0));
+        std::vector<Interval<T>> moving;  // sigma
+        for (const Link<Interval<T>>& link : links) {
+            stiffness_.push_back(height * link.pull);
+            moving.push_back(below + link.moment);
+            below = moving.back() + link.rest;
+        }
+        const Interval<T> yields = Interval<T>(T(1)) - support.compliance * (below + support.carriage);
+        top_.at_rest = support.firm ? support.radius : support.radius / yields;
+        top_.symmetric = support.symmetric;
+        for (std::size_t r = 0; r < size_; ++r)
+            top_.drawn.push_back(support.firm ? Interval<T>(T(0))
+                                              : support.compliance / yields * moving[r] * links[r].length);
+        for (std::size_t m = 0; m < size_; ++m) {
+            top_.load.push_back(moving[m] * top_.at_rest);
+            for (std::size_t r = 0; r < size_; ++r) {
+                Interval<T>& entry = matrix_[m * size_ + r];
+                entry = (r == m ? moving[m] - links[m].cross : moving[std::min(m, r)]) * links[r].length;
+                if (!support.firm) entry = entry + moving[m] * top_.drawn[r];
+                middle_.push_back(static_cast<double>(entry.middle()));
+            }
+        }
+    }
+
     Interval<T> signed_(std::size_t m, const Interval<T>& x) const { return posture_[m] == Posture::hangs ? x : -x; }
 
     Box<T> value(const std::vector<T>& t) const {
@@ -166,6 +211,7 @@ class WholeBalance {
         for (std::size_t r = 0; r < size_; ++r) sines[r] = sine(r, Interval<T>(t[r]));
         for (std::size_t m = 0; m < size_; ++m) {
             F[m] = stiffness_[m] * Interval<T>(t[m]);
+            if constexpr (is_held<End>) F[m] = F[m] - top_.load[m];
             for (std::size_t r = 0; r < size_; ++r) F[m] = F[m] - matrix_[m * size_ + r] * sines[r];
         }
         return F;
@@ -192,6 +238,13 @@ class WholeBalance {
     std::vector<Posture> posture_;
     Box<T> stiffness_, matrix_;
     std::vector<double> middle_;
+    struct OnTheAxis {};
+    struct Top {
+        Interval<T> at_rest;  // offset of the topmost pin under vertical links
+        Box<T> drawn, load;   // what each sine adds to it; sigma times it at rest
+        bool symmetric;
+    };
+    [[no_unique_address]] std::conditional_t<is_held<End>, Top, OnTheAxis> top_;
 };
 
 }  // namespace revchain::finite

@@ -24,10 +24,12 @@ struct Isolation {
 
 namespace detail {
 
-/// Offset of the support for tangents of the lowest link within an interval, and, if asked, those of all links.
-template <Real T>
+/// Offset of the support (how far it is off where the `support` holds it) for tangents of the lowest link within an interval, and, if asked,
+/// those of all links.
+template <Real T, class End = OnAxis>
 Interval<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-                           const Interval<T>& lowest, std::vector<Interval<T>>* tangents = nullptr) {
+                           const Interval<T>& lowest, std::vector<Interval<T>>* tangents = nullptr,
+                           const End& support = {}) {
     Interval<T> y, sum, t = lowest;
     for (std::size_t m = 0; m < links.size(); ++m) {
         const Link<Interval<T>>& link = links[m];
@@ -48,13 +50,14 @@ Interval<T> support_offset(const std::vector<Link<Interval<T>>>& links, const In
         y = y - link.length * s;
         sum = R + link.rest * y;
     }
-    return y;
+    return support.miss(y, sum);
 }
 
 /// Its sign at one tangent: 0 where rounding leaves it open.
-template <Real T>
-int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t) {
-    const Interval<T> y = support_offset(links, height, Interval<T>(t));
+template <Real T, class End = OnAxis>
+int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t,
+            const End& support = {}) {
+    const Interval<T> y = support_offset<T>(links, height, Interval<T>(t), nullptr, support);
     return y.positive() ? 1 : y.negative() ? -1 : 0;
 }
 
@@ -99,9 +102,9 @@ class Cutting {
 
 /// Splits 0 ... `last` until each cell is seen to hold no shape or one, or is narrower than `narrowest` of its upper end,
 /// or of `last` next to 0. The straight chain, at 0, is left out.
-template <Real T>
+template <Real T, class End = OnAxis>
 Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Part<T>& whole,
-                     const T& narrowest, long budget) {
+                     const T& narrowest, long budget, const End& support = {}) {
     Isolation<T> found;
     std::vector<Part<T>> stack{whole};
     Cutting<T> cutting;
@@ -112,8 +115,8 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
             found.undecided.push_back({part.low, part.high});
             continue;
         }
-        const Jet<T> end = support_offset(links, height, Cell<T>(part.low, part.high));
-        const bool from_zero = part.low == T(0);
+        const Jet<T> end = support_offset(links, height, Cell<T>(part.low, part.high), support);
+        const bool from_zero = part.low == T(0) && support.is_symmetric();
         if (!from_zero && !end.value.may_vanish()) continue;
         if (!end.slope.may_vanish()) {
             if (from_zero) continue;  // the straight chain alone
@@ -128,7 +131,7 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
             found.undecided.push_back({part.low, part.high});
             continue;
         }
-        const int sign = sign_at(links, height, *cut);
+        const int sign = sign_at(links, height, *cut, support);
         stack.push_back({*cut, part.high, sign, part.high_sign});
         stack.push_back({part.low, *cut, part.low_sign, sign});
     }

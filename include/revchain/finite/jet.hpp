@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/links.hpp"
+#include "revchain/finite/support_end.hpp"
 
 namespace revchain::finite {
 
@@ -123,8 +123,10 @@ Interval<T> tangent(const Interval<T>& stiffness, const Interval<T>& turning, co
 }  // namespace detail
 
 /// Offset of the support over a cell of tangents of the lowest link: zero for every steady shape. `height` is lambda.
-template <Real T>
-Jet<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Cell<T>& cell) {
+/// Of a support that is not a firm point on the axis: how far it is off where it is held.
+template <Real T, class End = OnAxis>
+Jet<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Cell<T>& cell,
+                      const End& support = {}) {
     const Interval<T> zero(T(0)), three(T(3));
     Jet<T> y, sum, t = cell.x();  // offset of the pin below; H; tangent
     for (std::size_t m = 0; m < links.size(); ++m) {
@@ -161,7 +163,7 @@ Jet<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interva
         if (!(link.rest.low == T(0) && link.rest.high == T(0))) sum = sum + link.rest * y;
         sum = cell.centred(sum);
     }
-    return y;
+    return support.miss(cell, y, sum);
 }
 
 }  // namespace revchain::finite

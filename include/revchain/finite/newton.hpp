@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/links.hpp"
+#include "revchain/finite/support_end.hpp"
 
 namespace revchain::finite {
 
@@ -59,15 +59,16 @@ class Tridiagonal {
 /// Newton's method on all pins at once, from offsets near a steady shape, each link in its posture: the balance of forces
 /// at each pin in S, its derivative, the tridiagonal tangent stiffness  lambda k sec^3 [1 -1; -1 1] - M  of the elements,
 /// in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N) a step.
-template <class S>
+template <class S, class End = OnAxis>
 Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int most_steps = 60,
-                    std::vector<Posture> posture = {}) {
+                    std::vector<Posture> posture = {}, const End& support = {}) {
     using std::abs;
     const std::size_t n = links.size();
     Balanced<S> result{std::move(start), std::move(posture)};
     std::vector<S>& y = result.offset;
-    y[n] = S(0);
-    std::vector<double> diagonal(n), upper(n), force(n);
+    support.place(y);
+    const std::size_t rows = n + (support.yields() ? 1 : 0);  // the topmost pin is unknown too
+    std::vector<double> diagonal(rows), upper(rows), force(rows);
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps; ++step) {
         S carried(0);  // lambda sigma tan d + a X sin d, minus what mass asks, of the link below
@@ -89,10 +90,17 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
             carried = -(pull + turn) - at_upper;
             below_stiffness = stiffness, below_mass = static_cast<double>(link.rest);
         }
+        if constexpr (is_held<End>) {
+            if (support.yields()) {
+                force[n] = -static_cast<double>(carried + support.stiffness * (y[n] - support.radius) -
+                                                support.carriage * y[n]);
+                diagonal[n] = below_stiffness - below_mass + static_cast<double>(support.stiffness - support.carriage);
+            }
+        }
         const detail::Tridiagonal tangent_stiffness(diagonal, upper);
         const std::vector<double> change = tangent_stiffness.solve(force);
         double largest = 0;
-        for (std::size_t m = 0; m < n; ++m) {
+        for (std::size_t m = 0; m < rows; ++m) {
             const double share = static_cast<double>(abs(y[m]));
             largest = std::max(largest, share > 0 ? std::abs(change[m]) / share : std::abs(change[m]));
             y[m] = y[m] + S(change[m]);

@@ -17,19 +17,25 @@ struct OpenPart {
 /// are functions of that of the lowest, by the upward sweep of Greenhill (1908) §8 (4), (12), with derivatives wherever no
 /// link comes near a joint of its pieces. Parts of a path that the offset of the support rules out are dropped, the others
 /// split, until what they leave of the tangents of all links is a box that `Zeros` settles.
-template <Real T>
+template <Real T, class End = OnAxis>
 class PathSearch {
    public:
     PathSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-               const std::vector<Posture>& posture)
-        : links_(links), balance_(links, height, posture), zeros_(balance_), box_(links.size()) {
+               const std::vector<Posture>& posture, const End& support = {})
+        : links_(links),
+          support_(support),
+          balance_(links, height, posture, support),
+          zeros_(balance_),
+          box_(links.size()) {
         respond(height);
     }
     /// The same in more digits.
-    template <class Fewer>
-    PathSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const PathSearch<Fewer>& before)
+    template <class Fewer, class FewerEnd>
+    PathSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
+               const PathSearch<Fewer, FewerEnd>& before, const End& support = {})
         : links_(links),
-          balance_(links, height, before.balance_.posture()),
+          support_(support),
+          balance_(links, height, before.balance_.posture(), support),
           zeros_(balance_, before.zeros_),
           box_(links.size()) {
         respond(height);
@@ -37,8 +43,8 @@ class PathSearch {
     PathSearch(const PathSearch&) = delete;
     PathSearch& operator=(const PathSearch&) = delete;
 
-    const WholeBalance<T>& balance() const { return balance_; }
-    const std::vector<typename Zeros<T>::Zero>& zeros() const { return zeros_.found(); }
+    const WholeBalance<T, End>& balance() const { return balance_; }
+    const std::vector<typename Zeros<T, End>::Zero>& zeros() const { return zeros_.found(); }
     const std::vector<OpenPart<T>>& open() const { return open_; }
 
     /// The first path: the lowest link needs no pieces, its tangent is given.
@@ -66,8 +72,9 @@ class PathSearch {
     /// in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts looked at, and
     /// N^3/256 for each test of the whole chain.
     long search(const OpenPart<T>& whole, const T& last, const T& narrowest, long budget) {
-        const bool straight = std::none_of(whole.path.begin(), whole.path.end(),
-                                           [](Piece p) { return p == Piece::right || p == Piece::left; });
+        const bool straight =
+            support_.is_symmetric() && std::none_of(whole.path.begin(), whole.path.end(),
+                                                    [](Piece p) { return p == Piece::right || p == Piece::left; });
         std::vector<std::pair<T, T>> stack{{whole.low, whole.high}};
         detail::Cutting<T> cutting;
         long cells = 0;
@@ -95,7 +102,7 @@ class PathSearch {
     }
 
    private:
-    template <Real>
+    template <Real, class>
     friend class PathSearch;
 
     void respond(const Interval<T>& height) {
@@ -135,6 +142,12 @@ class PathSearch {
             sum = R;
             if (!(link.rest.low == T(0) && link.rest.high == T(0))) sum = sum + link.rest * y;
             if (smooth) sum = cell.centred(sum);
+        }
+        if constexpr (is_held<End>) {
+            if (smooth)
+                y = support_.miss(cell, y, sum);
+            else
+                y.value = support_.miss(y.value, sum.value);
         }
         if (holds_straight ? smooth && !y.slope.may_vanish() : !y.value.may_vanish()) return Part::settled;
         cells_of_tests_ = static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
@@ -178,8 +191,9 @@ class PathSearch {
     }
 
     const std::vector<Link<Interval<T>>>& links_;
-    WholeBalance<T> balance_;
-    Zeros<T> zeros_;
+    [[no_unique_address]] End support_;
+    WholeBalance<T, End> balance_;
+    Zeros<T, End> zeros_;
     Box<T> box_;
     std::vector<Response<T>> response_;
     std::vector<OpenPart<T>> open_;

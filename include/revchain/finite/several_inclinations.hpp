@@ -28,8 +28,9 @@ struct SeveralInclinations {
 namespace detail {
 
 /// A box that holds one zero for certain, as small as two words allow, about one known to double precision.
-inline std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble>& balance,
-                                                  const Box<DoubleDouble>& near) {
+template <class End>
+std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble, End>& balance,
+                                           const Box<DoubleDouble>& near) {
     using Far = DoubleDouble;
     std::vector<Far> t = middle_of(near);
     double last = std::numeric_limits<double>::infinity();
@@ -69,28 +70,37 @@ inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<
 
 /// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link that
 /// is inclined) is at a positive offset.
-inline std::optional<Settled> settled(const std::vector<Link<Wide<double>>>& links, const Wide<double>& height,
-                                      const WholeBalance<DoubleDouble>& balance, const Box<DoubleDouble>& near) {
+template <class AnyLinks, class End>
+std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height,
+                               const WholeBalance<DoubleDouble, End>& balance, const Box<DoubleDouble>& near) {
     using S = Wide<double>;
-    const auto box = sharpened(balance, near);
+    const std::vector<Link<S>>& links = chain.links;
+    auto box = sharpened(balance, near);
     if (!box) return std::nullopt;
+    const auto condition = balance.condition(middle_of(*box));
+    if (!condition) return std::nullopt;
     const std::size_t n = links.size();
     std::vector<S> offset(n + 1, S(0));
+    if constexpr (is_held<End>) {
+        std::vector<Interval<DoubleDouble>> sines;
+        for (std::size_t m = 0; m < n; ++m) sines.push_back(balance.sine(m, (*box)[m].middle()));
+        offset[n] = balance.top(sines).middle().word();
+        chain.turn(*box);
+    }
     S lowest_inclined(0);
     for (std::size_t m = n; m-- > 0;) {
         const S sine = balance.sine(m, Interval<DoubleDouble>((*box)[m].middle())).middle().word();
         offset[m] = offset[m + 1] + links[m].length * sine;
         if (!(*box)[m].contains(DoubleDouble(0))) lowest_inclined = sine;
     }
-    const auto condition = balance.condition(middle_of(*box));
-    if (!condition) return std::nullopt;
     Settled result;
     result.condition = *condition;
-    result.shape = finite::balance(links, height, offset, 60, balance.posture());
+    result.shape = finite::balance(links, height, offset, 60, balance.posture(), support_of(chain));
     if (!result.shape.converged || !agrees(links, result.shape, *box))  // links too near the horizontal for offsets
         result.shape = {std::move(offset), balance.posture(), true};
     const S tip = result.shape.offset[0];
-    if (abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0))
+    const bool inwards = abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0);
+    if (inwards && balance.is_symmetric())
         for (S& y : result.shape.offset) y = -y;
     for (std::size_t m = 0; m < n; ++m) {
         const double middle = static_cast<double>((*box)[m].middle()), width = static_cast<double>((*box)[m].width());
@@ -103,21 +113,28 @@ inline std::optional<Settled> settled(const std::vector<Link<Wide<double>>>& lin
 }  // namespace detail
 
 /// All shapes with links in one posture, found in double and, where that leaves parts open, in two words.
-inline void search_posture(const std::vector<Link<Wide<double>>>& links, const Wide<double>& height,
-                           const std::vector<Posture>& posture, double last, long budget, SeveralInclinations& result) {
-    const auto cube = static_cast<long>(links.size() * links.size() * links.size());
+template <class AnyLinks>
+void search_posture(const AnyLinks& chain, const Wide<double>& height, const std::vector<Posture>& posture, double last,
+                    long budget, SeveralInclinations& result) {
+    const std::size_t n = posture.size();
+    const auto cube = static_cast<long>(n * n * n);
     result.cells += cube / 256;
+    if (cube >= 256 && result.cells >= budget) {  // not even one test of the whole chain
+        result.open.push_back({posture[0], 0.0, last});
+        return;
+    }
     using Far = DoubleDouble;
-    const auto narrow = enclosed<double>(links);
-    const auto wide = enclosed<Far>(links);
-    PathSearch<double> first(narrow, enclosed<double>(height), posture);
+    const auto narrow = swept_links<double>(chain);
+    const auto wide = swept_links<Far>(chain);
+    const auto support = support_of(chain);
+    PathSearch first(narrow, enclosed<double>(height), posture, enclosed<double>(support));
     auto path = first.first_path();
     do {
         result.cells += first.search({path, 0.0, last}, last, 1e-14, budget - result.cells);
     } while (result.cells < budget && first.next_path(path));
     if (result.cells >= budget) result.open.push_back({posture[0], 0.0, last});
     // In two words, parts that touch are one.
-    PathSearch<Far> second(wide, enclosed<Far>(height), first);
+    PathSearch second(wide, enclosed<Far>(height), first, enclosed<Far>(support));
     for (std::size_t i = 0, end = 0; i < first.open().size(); i = end) {
         const auto& part = first.open()[i];
         double high = part.high;
@@ -134,28 +151,29 @@ inline void search_posture(const std::vector<Link<Wide<double>>>& links, const W
     for (const auto& part : second.open()) leave_open(part.low, part.high);
     for (const auto& zero : second.zeros()) {
         if (zero.straight) continue;
-        if (auto shape = detail::settled(links, height, second.balance(), zero.near))
+        if (auto shape = detail::settled(chain, height, second.balance(), zero.near))
             result.shapes.push_back(std::move(*shape));
         else
             leave_open(zero.near[0].low, zero.near[0].high);
     }
 }
 
-/// Shapes with all links hanging or, if asked, with any of them standing.
-inline SeveralInclinations several_inclinations(const std::vector<Link<Wide<double>>>& links,
-                                                const Wide<double>& height, double last, bool hanging_only,
-                                                long budget) {
-    const std::size_t n = links.size();
+/// Shapes with all links hanging (a rig's: in its own posture) or, if asked, with any of them standing.
+template <class AnyLinks>
+SeveralInclinations several_inclinations(const AnyLinks& chain, const Wide<double>& height, double last,
+                                         bool hanging_only, long budget) {
+    const std::size_t n = chain.links.size();
     SeveralInclinations result;
-    std::vector<Posture> posture(n, Posture::hangs);
+    std::vector<Posture> posture = hanging_only ? posture_of(chain) : std::vector<Posture>(n, Posture::hangs);
     const auto next = [&] {  // all but the last, in which all stand: there no load would be borne
         std::size_t m = 0;
         while (m < n && posture[m] == Posture::stands) posture[m++] = Posture::hangs;
         if (m < n) posture[m] = Posture::stands;
-        return m < n && std::any_of(posture.begin(), posture.end(), [](Posture p) { return p == Posture::hangs; });
+        return m < n && (may_all_stand(chain) ||
+                         std::any_of(posture.begin(), posture.end(), [](Posture p) { return p == Posture::hangs; }));
     };
     do {
-        search_posture(links, height, posture, last, budget, result);
+        search_posture(chain, height, posture, last, budget, result);
     } while (!hanging_only && result.cells < budget && next());
     return result;
 }

@@ -53,9 +53,18 @@ inline double beyond(double angle, bool backwards) {
 
 }  // namespace detail
 
+/// Weights that bear on the upper pins, from the lowest link up, and in all: of a chain, those that move.
+struct OwnWeights {
+    double total = 0;
+    double bearing_on(std::size_t, const Link<Wide<double>>& link) {
+        return total += static_cast<double>(link.moment + link.rest);
+    }
+};
+
 /// Everything about a shape that the offsets of its pins tell: all but its error bound and condition.
-inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& height,
-                             const Balanced<Wide<double>>& found) {
+template <class Weights = OwnWeights>
+SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found,
+                      Weights weights = {}) {
     using S = Wide<double>;
     const std::size_t n = chain.links.size();
     const auto size = static_cast<Index>(n);
@@ -90,7 +99,7 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
         worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));
         reach += static_cast<double>(link.length);
         sideways = sideways + link.moment * lower + link.rest * upper;
-        hung += static_cast<double>(link.moment + link.rest);
+        hung = weights.bearing_on(m, link);
         const double across = static_cast<double>(sideways / height);
         shape.tension[i] = weight(std::hypot(hung, across));
         shape.reaction_inclination[i] = std::atan2(across, hung);
@@ -98,7 +107,7 @@ inline SteadyShape described(const Links<Wide<double>>& chain, const Wide<double
         inertia = inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }
-    shape.residual = worst_moment / (hung * reach);
+    shape.residual = worst_moment / (weights.total * reach);
     shape.conical_height = length(height);
     shape.moment_of_inertia = weight(std::ldexp(static_cast<double>(inertia), 2 * chain.units.length_exponent));
     shape.effective_energy = weight(length(energy - inertia / (S(2) * height)));

@@ -36,8 +36,8 @@ namespace finite {
 /// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the chain
 /// reaches.  y0 = lambda t + (a X/moment) s.
 template <class T>
-T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-                   bool either_posture = false) {
+T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool either_posture = false,
+                   OnAxis = {}) {
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
@@ -55,30 +55,38 @@ bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T
     });
 }
 
+inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Interval<double>& height) {
+    return single_valued(enclosed<double>(links.links), height);
+}
+
 /// Isolated in double, where that leaves cells open in two words; what the proof leaves open is scanned.
-inline Isolation<DoubleDouble> isolated(const std::vector<Link<Wide<double>>>& links, const Wide<double>& height,
-                                        long links_to_look_at) {
+template <class AnyLinks>
+Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, long links_to_look_at) {
     using Far = DoubleDouble;
-    const long budget = links_to_look_at / static_cast<long>(links.size());
-    const auto narrow = enclosed<double>(links);
+    const long budget = links_to_look_at / static_cast<long>(chain.links.size());
+    const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
-    const double last = farthest_tangent(narrow, lambda);
+    const auto support = enclosed<double>(support_of(chain));
+    const double last = farthest_tangent(narrow, lambda, false, support);
+    const auto sign_at = [&](double t) { return detail::sign_at(narrow, lambda, t, support); };
+    const int first_sign = support.is_symmetric() ? 0 : sign_at(0);
     const Isolation<double> first =
-        detail::isolate<double>(narrow, lambda, {0.0, last, 0, detail::sign_at(narrow, lambda, last)}, 1e-14, budget);
+        detail::isolate<double>(narrow, lambda, {0.0, last, first_sign, sign_at(last)}, 1e-14, budget, support);
     Isolation<Far> found;
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
     if (first.undecided.empty()) return found;
-    const auto wide = enclosed<Far>(links);
+    const auto wide = swept_links<Far>(chain);
     const Interval<Far> height_wide = enclosed<Far>(height);
+    const auto support_wide = enclosed<Far>(support_of(chain));
+    const auto wide_sign_at = [&](const Far& t) { return detail::sign_at(wide, height_wide, t, support_wide); };
     const std::size_t count = first.undecided.size();
     for (std::size_t i = 0, end = 0; i < count; i = end) {
         for (end = i + 1; end < count && first.undecided[end].low == first.undecided[end - 1].high;) ++end;
         const Far low(first.undecided[i].low), high(first.undecided[end - 1].high);  // cells that touch are one
-        const int low_sign = low == Far(0) ? 0 : detail::sign_at(wide, height_wide, low);
-        const auto again =
-            detail::isolate<Far>(wide, height_wide, {low, high, low_sign, detail::sign_at(wide, height_wide, high)},
-                                 Far(1e-26), std::max(0L, budget - found.cells));
+        const int low_sign = low == Far(0) ? first_sign : wide_sign_at(low);
+        const auto again = detail::isolate<Far>(wide, height_wide, {low, high, low_sign, wide_sign_at(high)},
+                                                Far(1e-26), std::max(0L, budget - found.cells), support_wide);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
         for (const Bracket<Far>& b : again.undecided) {
@@ -90,8 +98,8 @@ inline Isolation<DoubleDouble> isolated(const std::vector<Link<Wide<double>>>& l
     }
     if (found.undecided.empty()) return found;
     const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
-        const int sign = detail::sign_at(narrow, lambda, static_cast<double>(t));
-        return sign != 0 ? sign : detail::sign_at(wide, height_wide, t);
+        const int sign = sign_at(static_cast<double>(t));
+        return sign != 0 ? sign : wide_sign_at(t);
     });
     found.shapes.insert(found.shapes.end(), more.begin(), more.end());
     return found;
@@ -104,18 +112,22 @@ struct Finished {
 };
 
 /// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
-inline std::optional<Finished> finished(const std::vector<Link<Wide<double>>>& links, const Wide<double>& height,
-                                        const Bracket<DoubleDouble>& bracket) {
+template <class AnyLinks>
+std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& height,
+                                 const Bracket<DoubleDouble>& bracket) {
     using S = Wide<double>;
+    const std::vector<Link<S>>& links = chain.links;
+    const auto support = support_of(chain);
     S low = bracket.low.word(), high = bracket.high.word();
-    const bool rises = swept(links, height, low).back() < S(0);
+    const auto falls_short = [&](const S& t) { return missed(links, height, t, support) < S(0); };
+    const bool rises = falls_short(low);
     const auto halve = [&]() {
         const S middle = low + (high - low) * S(0.5);
-        ((swept(links, height, middle).back() < S(0)) == rises ? low : high) = middle;
+        (falls_short(middle) == rises ? low : high) = middle;
         return middle;
     };
     for (int round = 0; round < 16; ++round) {
-        auto found = balance(links, height, swept(links, height, halve()));
+        auto found = balance(links, height, swept(links, height, halve()), 60, {}, support);
         if (found.converged) {
             const S tangent = detail::tangent_in(found, links, 0);
             if (bracket.low.word() < tangent && tangent < bracket.high.word())
@@ -128,16 +140,18 @@ inline std::optional<Finished> finished(const std::vector<Link<Wide<double>>>& l
 
 /// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of the
 /// support's offset on both sides of its lowest tangent, as near as two words can tell, and what all links then may do.
-inline double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
-                                const Bracket<DoubleDouble>& bracket, const Finished& found,
-                                const std::vector<Link<Wide<double>>>& middle) {
+template <class End>
+double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
+                         const Bracket<DoubleDouble>& bracket, const Finished& found,
+                         const std::vector<Link<Wide<double>>>& middle, const End& support) {
     using Far = DoubleDouble;
     const Interval<Far> lambda = enclosed<Far>(height);
     const Far tangent(found.tangent);
-    for (Far reach = tangent * Far(1e-28);; reach = reach * Far(16)) {
+    for (Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);; reach = reach * Far(16)) {
         const Far low = std::max(bracket.low, tangent - reach), high = std::min(bracket.high, tangent + reach);
         const bool whole = low == bracket.low && high == bracket.high;
-        if (!whole && detail::sign_at(links, lambda, low) * detail::sign_at(links, lambda, high) != -1) continue;
+        const auto sign_at = [&](const Far& t) { return detail::sign_at(links, lambda, t, support); };
+        if (!whole && sign_at(low) * sign_at(high) != -1) continue;
         std::vector<Interval<Far>> tangents;
         detail::support_offset(links, lambda, Interval<Far>(low, high), &tangents);
         double worst = 0;
@@ -154,10 +168,10 @@ inline double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>&
 }
 
 /// Of the lists made one link at a time, where each hangs at one inclination.
-inline void add_single_valued(const Links<Wide<double>>& links, const Wide<double>& height, long budget,
-                              SteadyShapes& result) {
-    const auto narrow = enclosed<DoubleDouble>(links.links);
-    const auto isolation = isolated(links.links, height, budget);
+template <class AnyLinks>
+void add_single_valued(const AnyLinks& links, const Wide<double>& height, long budget, SteadyShapes& result) {
+    const auto narrow = swept_links<DoubleDouble>(links);
+    const auto isolation = isolated(links, height, budget);
     result.cells = isolation.cells;
     const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
         const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
@@ -165,7 +179,7 @@ inline void add_single_valued(const Links<Wide<double>>& links, const Wide<doubl
     };
     for (const auto& bracket : isolation.undecided) leave_open(bracket);
     for (const auto& bracket : isolation.shapes) {
-        auto found = finished(links.links, height, bracket);
+        auto found = finished(links, height, bracket);
         if (!found) {
             leave_open(bracket);
             continue;
@@ -173,9 +187,11 @@ inline void add_single_valued(const Links<Wide<double>>& links, const Wide<doubl
         SteadyShape& shape = result.shapes.emplace_back(
             verified_shape(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
         if (shape.error_bound > 0x1.8p-52) {  // all but horizontal, or all but critical: the sweep may say more
-            const double error = inclination_error(narrow, height, bracket, *found, links.links) + 0x1p-52;
+            const auto support = enclosed<DoubleDouble>(support_of(links));
+            const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
             if (error < shape.error_bound) {
                 const double condition = shape.condition;
+                turn_outwards(found->shape, support);
                 shape = described(links, height, found->shape);
                 shape.error_bound = error, shape.condition = condition;
             }
@@ -184,11 +200,12 @@ inline void add_single_valued(const Links<Wide<double>>& links, const Wide<doubl
 }
 
 /// And of the others.
-inline void add_several_valued(const Links<Wide<double>>& links, const Wide<double>& height,
-                               const SteadyShapesOptions& options, SteadyShapes& result) {
-    const double last =
-        farthest_tangent(enclosed<double>(links.links), enclosed<double>(height), !options.hanging_only);
-    const auto found = several_inclinations(links.links, height, last, options.hanging_only,
+template <class AnyLinks>
+void add_several_valued(const AnyLinks& links, const Wide<double>& height, const SteadyShapesOptions& options,
+                        SteadyShapes& result) {
+    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(height), !options.hanging_only,
+                                         enclosed<double>(support_of(links)));
+    const auto found = several_inclinations(links, height, last, options.hanging_only,
                                             options.budget / static_cast<long>(links.links.size()));
     result.cells = found.cells;
     for (const Settled& settled : found.shapes) {
@@ -204,24 +221,33 @@ inline void add_several_valued(const Links<Wide<double>>& links, const Wide<doub
     }
 }
 
-inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
-                                  const SteadyShapesOptions& options) {
-    const auto links = links_of(chain);
-    const Wide<double> scaled = ldexp(height, -links.units.length_exponent);
+inline void sort(SteadyShapes& found) {
+    std::sort(found.shapes.begin(), found.shapes.end(), [](const SteadyShape& x, const SteadyShape& y) {
+        return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
+    });
+    found.complete = found.undecided.empty();
+}
+
+/// All shapes at a height in the units of the links.
+template <class AnyLinks>
+SteadyShapes listed(const AnyLinks& links, const Wide<double>& scaled, const SteadyShapesOptions& options) {
     SteadyShapes result;
     if (!(static_cast<double>(scaled) > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
         result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;
     }
-    if (options.hanging_only && single_valued(enclosed<double>(links.links), enclosed<double>(scaled)))
+    if (options.hanging_only && hangs_at_one_inclination(links, enclosed<double>(scaled)))
         add_single_valued(links, scaled, options.budget, result);
     else
         add_several_valued(links, scaled, options, result);
-    std::sort(result.shapes.begin(), result.shapes.end(), [](const SteadyShape& x, const SteadyShape& y) {
-        return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
-    });
-    result.complete = result.undecided.empty();
+    sort(result);
     return result;
+}
+
+inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
+                                  const SteadyShapesOptions& options) {
+    const auto links = links_of(chain);
+    return listed(links, ldexp(height, -links.units.length_exponent), options);
 }
 
 }  // namespace finite

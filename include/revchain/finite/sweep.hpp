@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/links.hpp"
+#include "revchain/finite/support_end.hpp"
 
 namespace revchain::finite {
 
@@ -51,6 +51,16 @@ std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S
         sum = R + link.rest * y.back();
     }
     return y;
+}
+
+/// How far the topmost pin is then off where it is held.
+template <class S, class End>
+S missed(const std::vector<Link<S>>& links, const S& height, const S& lowest_tangent, const End& support) {
+    const std::vector<S> y = swept(links, height, lowest_tangent);
+    S sum(0);
+    if constexpr (is_held<End>)
+        for (std::size_t m = 0; m < links.size(); ++m) sum = sum + links[m].moment * y[m] + links[m].rest * y[m + 1];
+    return support.miss(y.back(), sum);
 }
 
 }  // namespace revchain::finite

@@ -23,8 +23,9 @@ struct Forces {
     std::vector<double> size, cosine;  ///< of the terms of each force; of each link's inclination, from below
     bool known = true;
 
+    template <class End>
     Forces(const std::vector<Link<Interval<Far>>>& links, const Interval<Far>& height,
-           const std::vector<Interval<Far>>& y) {
+           const std::vector<Interval<Far>>& y, const End& support) {
         const std::size_t n = links.size();
         Interval<Far> carried(Far(0)), mass_below(Far(0));
         double size_below = 0;
@@ -48,6 +49,13 @@ struct Forces {
             cosine.push_back(static_cast<double>((adjacent / link.length).low));
             size_below = largest(pull) + largest(turn) + largest(at_upper);
             carried = -(pull + turn + at_upper), mass_below = link.rest;
+        }
+        if constexpr (is_held<End>) {  // a spring is a link more, the upper end of which stays where it is
+            if (!support.yields()) return;
+            const Interval<Far> pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
+            force.push_back(carried + pull - at_lower);
+            stiffness.push_back(support.stiffness), mass.push_back(mass_below + support.carriage);
+            size.push_back(size_below + largest(pull) + largest(at_lower));
         }
     }
     /// Row m of the derivative times a vector, 0 at the support.
@@ -104,14 +112,21 @@ struct Inverse {
 /// Newton's method to the end of two words, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969) 187,
 /// doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4 microseconds a link;
 /// and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
-inline Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
-                         std::vector<DoubleDouble> offset) {
+template <class End = OnAxis>
+Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
+                  std::vector<DoubleDouble> offset, const End& support = {}) {
     using Far = DoubleDouble;
     constexpr double unproved = std::numeric_limits<double>::infinity();
-    const std::size_t n = links.size();
-    const auto forces = [&] { return detail::Forces(links, height, {offset.begin(), offset.end()}); };
+    if constexpr (is_held<End>)
+        if (support.yields()) offset.push_back(support.radius.middle());
+    const std::size_t n = offset.size() - 1;
+    const auto forces = [&] { return detail::Forces(links, height, {offset.begin(), offset.end()}, support); };
     detail::Forces at = forces();
-    if (!at.known) return {offset, unproved, 0};
+    const auto nothing = [&] {
+        offset.resize(links.size() + 1);
+        return Verified{offset, unproved, 0};
+    };
+    if (!at.known) return nothing();
     const auto size = [](const Far& x) { return std::abs(static_cast<double>(x)); };
     detail::Inverse inverse(at);
     double last = std::numeric_limits<double>::infinity();
@@ -124,7 +139,7 @@ inline Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links,
         for (std::size_t m = 0; m < n; ++m) offset[m] = offset[m] + step[m];
         last = largest;
         at = forces();
-        if (!at.known) return {offset, unproved, 0};
+        if (!at.known) return nothing();
         inverse = detail::Inverse(at);
     }
     const auto& [p, q, w] = inverse;
@@ -156,8 +171,8 @@ inline Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links,
             {revchain::detail::down(offset[m] - Far(radius[m])), revchain::detail::up(offset[m] + Far(radius[m]))});
     }
     box.push_back(Interval<Far>(offset[n]));
-    const detail::Forces over(links, height, box);
-    if (!over.known) return {offset, unproved, 0};
+    const detail::Forces over(links, height, box, support);
+    if (!over.known) return nothing();
 
     // Rows of 1 - inverse times derivative: beside the diagonal p_i or q_i times what p and q leave of the equations.
     const Interval<Far> one(Far(1)), W(w);
@@ -180,6 +195,7 @@ inline Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links,
     bool proved = true;
     for (std::size_t m = 0; m < n; ++m) {
         proved = proved && step[m] + beside[m] + own[m] < radius[m];
+        if (is_held<End> && m == links.size()) break;  // the spring's end
         const double opposite = static_cast<double>(links[m].length.low) * over.cosine[m];
         worst = std::max(worst, (radius[m] + (m + 1 < n ? radius[m + 1] : 0.0)) / opposite);
         const Far p_above = m + 1 < n ? p[m + 1] : Far(0);
@@ -187,19 +203,28 @@ inline Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links,
         result.condition = std::max(result.condition, change * share / opposite);
     }
     if (proved && worst == worst) result.inclination_error = worst;
+    result.offset.resize(links.size() + 1);
     return result;
+}
+
+/// Of mirror images, where there are, the one with its free end at a positive offset.
+template <class End>
+void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
+    if (shape.offset[0] < Wide<double>(0) && support.is_symmetric())
+        for (Wide<double>& offset : shape.offset) offset = -offset;
 }
 
 /// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of mirror
 /// images that with the free end at a positive offset. All links hang. The bound is infinite where nothing is proved. Else,
 /// where the height is given, the digits are those of `verified`; where it was found too they stay, as next to the vertical
 /// the height's own rounding moves the shape, and the bound holds what they are off.
-inline SteadyShape verified_shape(const Links<Wide<double>>& chain,
-                                  const std::vector<Link<Interval<DoubleDouble>>>& enclosed_links,
-                                  const Wide<double>& height, const Interval<DoubleDouble>& within,
-                                  Balanced<Wide<double>> found, bool height_is_given) {
+template <class AnyLinks>
+SteadyShape verified_shape(const AnyLinks& chain, const std::vector<Link<Interval<DoubleDouble>>>& enclosed_links,
+                           const Wide<double>& height, const Interval<DoubleDouble>& within,
+                           Balanced<Wide<double>> found, bool height_is_given) {
     std::vector<Wide<double>>& y = found.offset;
-    const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()});
+    const auto support = enclosed<DoubleDouble>(support_of(chain));
+    const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()}, support);
     double off = 0;
     if (height_is_given && std::isfinite(proved.inclination_error)) {
         std::transform(proved.offset.begin(), proved.offset.end(), y.begin(),
@@ -211,8 +236,7 @@ inline SteadyShape verified_shape(const Links<Wide<double>>& chain,
             off = std::max(off, 1.01 * std::abs(static_cast<double>((d - right) / adjacent)));
         }
     }
-    if (y[0] < Wide<double>(0))
-        for (Wide<double>& offset : y) offset = -offset;
+    turn_outwards(found, support);
     SteadyShape shape = described(chain, height, found);
     shape.error_bound = proved.inclination_error + off + 0x1p-52;  // and two roundings of an angle below pi/2
     shape.condition = proved.condition;

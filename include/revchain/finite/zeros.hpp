@@ -6,7 +6,7 @@
 namespace revchain::finite {
 
 /// Zeros of the balance in one posture, each in a box that holds no other; mirror images are one.
-template <Real T>
+template <Real T, class End = OnAxis>
 class Zeros {
    public:
     struct Zero {
@@ -14,10 +14,12 @@ class Zeros {
         bool straight = false;
     };
 
-    explicit Zeros(const WholeBalance<T>& balance) : balance_(balance) { add_straight(balance.posture().size()); }
+    explicit Zeros(const WholeBalance<T, End>& balance) : balance_(balance) {
+        if (balance.is_symmetric()) add_straight(balance.posture().size());
+    }
     /// Those of the same balance found in fewer digits.
-    template <class Fewer>
-    Zeros(const WholeBalance<T>& balance, const Zeros<Fewer>& known) : balance_(balance) {
+    template <class Fewer, class FewerEnd>
+    Zeros(const WholeBalance<T, End>& balance, const Zeros<Fewer, FewerEnd>& known) : balance_(balance) {
         const auto same = [](const Box<Fewer>& x) {
             Box<T> result;
             for (const Interval<Fewer>& t : x) result.push_back({T(t.low), T(t.high)});
@@ -66,7 +68,7 @@ class Zeros {
     }
 
    private:
-    template <Real>
+    template <Real, class>
     friend class Zeros;
     struct Zone {
         Box<T> box;
@@ -90,14 +92,15 @@ class Zeros {
             }
             if (!(now < T(0.5) * before)) break;
         }
-        const Box<T> other = mirrored(near);
+        const bool both = balance_.is_symmetric();
+        const Box<T> other = both ? mirrored(near) : near;
         for (const Zone& zone : zones_) {
             if (!within(near, zone.box) && !within(other, zone.box)) continue;
             zones_.push_back({box, zone.zero});
             return true;
         }
         for (std::size_t i = 0; i < found_.size(); ++i) {
-            if (within(found_[i].near, box) || within(found_[i].near, mirrored(box))) {
+            if (within(found_[i].near, box) || (both && within(found_[i].near, mirrored(box)))) {
                 zones_.push_back({box, i});
                 return true;
             }
@@ -119,7 +122,7 @@ class Zeros {
         }
     }
 
-    const WholeBalance<T>& balance_;
+    const WholeBalance<T, End>& balance_;
     std::vector<Zero> found_;
     std::vector<Zone> zones_;
 };

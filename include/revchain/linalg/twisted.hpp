@@ -12,13 +12,13 @@ namespace revchain::linalg {
 namespace detail {
 
 /// cross / pivot, the ratio of two neighbouring offsets, from its difference to 1 where that is small: the slope of a
-/// smooth mode is then not the difference of two rounded offsets.
-template <Real S>
+/// smooth mode is then not the difference of two rounded offsets. The difference in digits of T, enough for offsets that
+/// are rounded to T in the end.
+template <class T, Real S>
 S ratio(const S& cross, const S& pivot) {
     using std::abs;
-    using T = Narrow<S>;
     const T change = static_cast<T>(cross - pivot) / static_cast<T>(pivot);
-    return abs(change) < T(0.5) ? S(T(1)) + S(change) : cross / pivot;
+    return abs(static_cast<Narrow<S>>(change)) < Narrow<S>(0.5) ? S(T(1)) + S(change) : cross / pivot;
 }
 
 /// Dynamic stiffness carried across an element by the one of equations (1) and (2) that rounds less, and the ratio of the
@@ -28,7 +28,7 @@ struct Across {
     S stiffness, ratio;
 };
 
-template <Real S>
+template <class Ratio, Real S>
 Across<S> across(const Element<S>& e, const S& stiffness, const S& near, const S& near_mass, const S& far_mass) {
     using std::abs;
     using T = Narrow<S>;
@@ -41,7 +41,7 @@ Across<S> across(const Element<S>& e, const S& stiffness, const S& near, const S
     const T by_weight = (k + far) * (abs(static_cast<T>(near)) / p) + (k + static_cast<T>(e.turning)) * (e.weight / p);
     return {by_coupling < by_weight ? carried_by_coupling(stiffness, far_mass, coupling, inverse)
                                     : carried(e, stiffness, near, far_mass, inverse),
-            ratio(coupling, pivot)};
+            ratio<Ratio>(coupling, pivot)};
 }
 
 /// x in another unit, held where it would leave the range of the scalar: all but rigid.
@@ -94,6 +94,14 @@ Eigenvector<T> normalised(Vector<T> offset) {
     return result;
 }
 
+/// The same before it is rounded to the narrower scalar: offsets over `largest`, whose sign makes the free end positive.
+template <Real S>
+struct UnroundedEigenvector {
+    std::vector<S> offset;
+    S largest;
+    std::vector<Crossing<Narrow<S>>> crossings;
+};
+
 /// Eigenvector of the pencil at an eigenvalue.
 ///
 /// Twisted factorisation: dynamic stiffness D of what hangs below each pin, going up, and E of what holds it from
@@ -104,8 +112,9 @@ Eigenvector<T> normalised(Vector<T> offset) {
 /// word 3.5e-16 for all modes up to N = 1000 and 6e-17 for the slowest at N = 1e5 (tests/cpp/linalg/twisted.cpp); with
 /// S = double 1.5e-15 / gap up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
 /// eigenvalue. An error e in `eigenvalue` adds e / gap.
-template <Real S>
-Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
+/// Ratio: what the ratios of neighbours are kept in. With S itself the slopes, too, are good to the digits of S.
+template <class Ratio, Real S>
+UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
     using std::abs;
     using T = Narrow<S>;
     const Index n = pencil.size();
@@ -120,7 +129,7 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
     for (std::size_t m = 0; m < pins.size(); ++m) {
         const Element<S>& e = pencil.elements[m];
         pins[m].stiffness_below = below = detail::rescaled(below, pencil.step_down(m));
-        const auto across = detail::across(e, eigenvalue * e.stiffness, below, e.lower, e.upper);
+        const auto across = detail::across<Ratio>(e, eigenvalue * e.stiffness, below, e.lower, e.upper);
         below = across.stiffness;
         pins[m].down = across.ratio;
     }
@@ -135,7 +144,7 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
             above = stiffness - e.lower;
         } else {
             above = detail::rescaled(above, -pencil.step_down(m + 1));
-            const auto across = detail::across(e, stiffness, above, e.upper, e.lower);
+            const auto across = detail::across<Ratio>(e, stiffness, above, e.upper, e.lower);
             pins[m].up = across.ratio;
             above = across.stiffness;
         }
@@ -158,8 +167,8 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
     for (std::size_t m = twist; m-- > 0;) offset[m] = pins[m].down * offset[m + 1];
     for (std::size_t m = twist; m < pins.size(); ++m) offset[m + 1] = pins[m].up * offset[m];
 
-    Eigenvector<T> result{Vector<T>(n + 1), {}};
-    S largest = zero;
+    UnroundedEigenvector<S> result{{}, zero, {}};
+    S& largest = result.largest;
     for (const S& y : offset)
         if (abs(y) > largest) largest = abs(y);
     for (std::size_t m = 0; m < pins.size(); ++m) {
@@ -170,8 +179,18 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
         }
         if (m >= twist && up < T(0)) result.crossings.push_back({static_cast<Index>(m), T(1) / (T(1) - up)});
     }
-    for (Index m = 0; m <= n; ++m)
-        result.offset[m] = static_cast<T>(offset[static_cast<std::size_t>(m)] / largest + zero);
+    result.offset = std::move(offset);
+    return result;
+}
+
+/// The same rounded.
+template <Real S>
+Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
+    using T = Narrow<S>;
+    UnroundedEigenvector<S> vector = unrounded_eigenvector<Narrow<S>>(pencil, eigenvalue);
+    Eigenvector<T> result{Vector<T>(pencil.size() + 1), std::move(vector.crossings)};
+    for (Index m = 0; m <= pencil.size(); ++m)
+        result.offset[m] = static_cast<T>(vector.offset[static_cast<std::size_t>(m)] / vector.largest + S(T(0)));
     return result;
 }
 

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A swing carousel, two chairs below one another on an arm: how they fly out, and every other way they could whirl.
+
+python swing_carousel.py [FOLDER]
+"""
+
+import numpy as np
+from _picture import COLOURS, save
+from matplotlib.figure import Figure
+
+import revchain as rc
+
+ARM = 0.5  # m
+SPEED = 6.0  # rad/s, for the picture of all shapes
+chairs = rc.Rig(rc.Chain(weight=[900.0, 900.0], length=[2.0, 2.0]), support_radius=ARM)
+
+
+def colour(shape):
+    return COLOURS[(shape.half_waves - 1) % len(COLOURS)]
+
+
+figure = Figure(figsize=(8, 4.5), dpi=100, layout="constrained")
+axes = figure.subplot_mosaic([["out", "speeds"], ["all", "speeds"]], width_ratios=[3, 2])
+
+for turns in (4, 8, 12, 16, 30):
+    shapes = rc.steady_shapes(chairs, angular_speed=turns * 2 * np.pi / 60)
+    outwards = max(shapes, key=lambda shape: shape.inclination[0])
+    axes["out"].plot(outwards.offset, outwards.height, "o-", markersize=4, label=f"{turns} a minute")
+    lower, upper = np.degrees(outwards.inclination)
+    print(f"{turns:2} turns a minute: upper chair at {upper:4.1f} degrees, lower at {lower:4.1f}")
+axes["out"].set_title("flying out")
+axes["out"].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
+
+shapes = rc.steady_shapes(chairs, angular_speed=SPEED)
+print(f"at {SPEED:g} rad/s: {shapes}, every inclination within {max(s.error_bound for s in shapes):.1e} rad")
+for shape in shapes:
+    axes["all"].plot(shape.offset, shape.height, "o-", markersize=4, color=colour(shape))
+    print(f"  {shape.half_waves} half waves, chairs at {np.degrees(shape.inclination).round(1)} degrees, lowest first")
+axes["all"].set(title=f"all {len(shapes)} shapes at {SPEED:g} rad/s", xlabel="from the axis, m")
+for name in ("out", "all"):
+    axes[name].axvline(0.0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+    axes[name].plot([0.0, ARM], [0.0, 0.0], color="0.3", linewidth=2, zorder=0)
+    axes[name].set(ylabel="above the arm, m", aspect="equal", xlim=(-4, 5), ylim=(-4.3, 0.6))
+
+for speed in np.linspace(0.05, 8.0, 240):
+    for shape in rc.steady_shapes(chairs, angular_speed=speed):
+        axes["speeds"].plot(speed, np.degrees(shape.inclination[0]), ".", markersize=2, color=colour(shape))
+axes["speeds"].axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
+axes["speeds"].set(
+    xlabel="speed, rad/s",
+    ylabel="inclination of the lower chair, degrees",
+    title="all shapes",
+    ylim=(-90, 90),
+    yticks=range(-90, 91, 30),
+)
+save(figure)

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/chain/rig.hpp"
+#include "revchain/core/conical_pendulum.hpp"
+
+namespace revchain {
+
+/// d(whirl speed)/d(what a chain is rigged with), of one mode; everything else held. Speeds may have either sign.
+struct RigSensitivity {
+    Vector<double> momentum;          ///< (N,) of each flywheel's H, per weight times length times time
+    Vector<double> displaced_weight;  ///< (N,) of the weight of the fluid displaced
+    Vector<double> added_weight;      ///< (N,) of what has to move with the link in still fluid
+    double stiffness;                 ///< of the support; 0 where it is firm
+    double carriage_weight;           ///< 0 where the support is firm
+};
+
+/// How what a chain is rigged with moves whirl speed n of a mode whose pins have these offsets (free end first, N + 1; the
+/// last that of the support's pin). From y^T (K + n G - n^2 M/g) y = 0, quadratic in n and stationary in y,
+///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
+/// With s a link's slope, dG of H is s^2 over links that hang, -s^2 over those that stand. Formed in two words: the error is
+/// that of the offsets, some 4 e (|K| + |n G| + n^2 |M|/g) over the denominator for offsets within e of the largest.
+/// Cost O(N). Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, offsets not N + 1.
+inline RigSensitivity rig_sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset,
+                                      double gravity = conical_pendulum::standard_gravity) {
+    using S = Wide<double>;
+    constexpr std::string_view place = "rig_sensitivity";
+    if (!std::isfinite(angular_speed) || angular_speed == 0)
+        detail::refuse(place, "angular speed must be finite and not 0", angular_speed);
+    detail::require_positive(place, "gravity", gravity);
+    if (offset.size() != rig.size() + 1)
+        detail::refuse(place, "there must be " + std::to_string(rig.size() + 1) + " offsets", offset.size());
+    const auto links = rig_links(rig);
+    const ChainUnits units = rig.chain().units();
+    const Index count = rig.size();
+    const S n(angular_speed);
+    // n^2/g times the unit of length, and n over the unit of weight times length times time
+    const S turning = ldexp(n * n / S(gravity), units.length_exponent);
+    const Support& support = rig.support();
+    S inertia(0.0), momentum(0.0);  // y^T M y, y^T G y
+    std::vector<S> slope;
+    for (Index m = 0; m < count; ++m) {
+        const RigLink& link = links[static_cast<std::size_t>(m)];
+        const S lower(offset[m]), upper(offset[m + 1]), s = (lower - upper) / link.length;
+        slope.push_back(s);
+        inertia =
+            inertia + (lower * (link.lower * lower + (link.cross + link.cross) * upper) + link.upper * upper * upper);
+        const S spins = link.spin * link.length * s * s;
+        momentum = momentum + (rig.stands(m) ? -spins : spins);
+    }
+    const S top(offset[count]);
+    if (!support.is_firm())
+        inertia = inertia + S(std::ldexp(support.carriage_weight, -units.weight_exponent)) * top * top;
+    const S denominator = momentum - S(2.0) * turning * inertia / n;
+    const auto rate = [&](const S& x) { return static_cast<double>(-x / denominator); };
+
+    RigSensitivity result{Vector<double>(count), Vector<double>(count), Vector<double>(count), 0, 0};
+    S above(0.0);  // sum of a s^2 over the links above, of those that stand less
+    for (Index m = count; m-- > 0;) {
+        const RigLink& link = links[static_cast<std::size_t>(m)];
+        const Displaced fluid = rig.displaced(m);
+        const S sign(rig.stands(m) ? -1.0 : 1.0), s = slope[static_cast<std::size_t>(m)], square = s * s;
+        const S h(std::ldexp(fluid.centroid, -units.length_exponent));
+        const S centre = S(offset[m + 1]) + h * s;
+        const S moves = turning * (centre * centre + fluid.gyration_ratio * (link.length * link.length) * square);
+        const S bears = sign * h * square + above;
+        const S displaced = rig.fluid() == Fluid::turning ? moves - bears : -bears;
+        result.momentum[m] = std::ldexp(rate(sign * n * square), -units.weight_exponent - units.length_exponent);
+        result.displaced_weight[m] = std::ldexp(rate(displaced), -units.weight_exponent);
+        result.added_weight[m] = rig.fluid() == Fluid::turning ? 0 : std::ldexp(rate(-moves), -units.weight_exponent);
+        above = above + sign * link.length * square;
+    }
+    if (!support.is_firm()) {
+        result.stiffness = std::ldexp(rate(top * top), units.length_exponent - units.weight_exponent);
+        result.carriage_weight = std::ldexp(rate(-turning * top * top), -units.weight_exponent);
+    }
+    return result;
+}
+
+/// The momentum of the flywheel of link number `link` (from 1 for the lowest), all else held, with which `angular_speed` is a
+/// whirl speed, of whichever mode. There is one: momentum adds to the tension, and what hangs below and what holds above are
+/// springs at the link's pins at that speed. Infinite or NaN where neither yields to it. `stiffness`-like numbers in two
+/// words: relative error 1e-15 beside the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
+/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link that is none.
+inline double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
+                                 double gravity = conical_pendulum::standard_gravity) {
+    using S = Wide<double>;
+    constexpr std::string_view place = "momentum_for_speed";
+    if (!std::isfinite(angular_speed) || angular_speed == 0)
+        detail::refuse(place, "angular speed must be finite and not 0", angular_speed);
+    detail::require_positive(place, "gravity", gravity);
+    if (link < 1 || link > rig.size())
+        detail::refuse(place, "link must be from 1, the lowest, to " + std::to_string(rig.size()), link);
+    const auto links = rig_links(rig);
+    const ChainUnits units = rig.chain().units();
+    const S n(angular_speed), turning = ldexp(n * n / S(gravity), units.length_exponent);
+    const auto stiffness = [&](std::size_t m) {
+        const S k = (links[m].tension + n * links[m].spin) / links[m].length;
+        return rig.stands(static_cast<Index>(m)) ? -k : k;
+    };
+    // what holds one pin of a link, seen from its other pin
+    const auto across = [&](std::size_t m, const S& at, const S& near, const S& far) {
+        const S k = stiffness(m), coupling = k + turning * links[m].cross;
+        return (k - turning * far) - coupling * coupling / (at + k - turning * near);
+    };
+    const std::size_t number = static_cast<std::size_t>(link) - 1;
+    S below(0.0), above(0.0);
+    for (std::size_t m = 0; m < number; ++m) below = across(m, below, links[m].lower, links[m].upper);
+    const Support& support = rig.support();
+    bool held = support.is_firm();
+    if (!held)
+        above = S(std::ldexp(support.stiffness, units.length_exponent - units.weight_exponent)) -
+                turning * S(std::ldexp(support.carriage_weight, -units.weight_exponent));
+    for (std::size_t m = links.size(); m-- > number + 1; held = false)
+        above = held ? stiffness(m) - turning * links[m].lower : across(m, above, links[m].upper, links[m].lower);
+    const RigLink& it = links[number];
+    const S p = below - turning * it.lower, q = above - turning * it.upper, x = turning * it.cross;
+    const S k = held ? -p : (x * x - p * q) / (p + q - x - x);
+    const S tension = (rig.stands(link - 1) ? -k : k) * it.length;
+    return std::ldexp(static_cast<double>((tension - it.tension) * it.length / n),
+                      units.weight_exponent + units.length_exponent);
+}
+
+}  // namespace revchain

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "revchain/linear/rig_sensitivity.hpp"
+
+#include "support/catch.hpp"
+#include "support/chains.hpp"
+#include "support/truth.hpp"
+
+using revchain::Chain;
+using revchain::Index;
+using support::Quad;
+
+namespace {
+
+/// Three links with a flywheel each, in a fluid, the top one's support on a spring, the middle one standing; all energies
+/// written out in quadruple precision, y of four pins.
+struct Rigged {
+    static constexpr std::size_t n = 3;
+    std::array<Quad, n> W{3, 1, 2}, a{1, 0.5, 2}, h{0.75, 0.25, 1.25}, k{0.5, 0.125, 0.75};
+    std::array<Quad, n> H{0.5, -0.25, 1.5}, B{0.25, 0.0625, 0.5}, hB{0.5, 0.25, 1}, kB{0.25, 0.125, 0.5},
+        added{0.5, 0, 0.25};
+    std::array<int, n> sign{1, -1, 1};
+    Quad E = 40, carriage = 1.5, g = Quad(9.8125);
+    bool turning = false;
+
+    using Matrix = std::array<std::array<Quad, 4>, 4>;
+    /// K + n G - n^2 M/g
+    Matrix matrix(Quad speed) const {
+        Matrix A{};
+        const auto square = [&](std::size_t m, Quad lower, Quad upper, Quad by) {  // by (lower y_m + upper y_{m+1})^2
+            A[m][m] += by * lower * lower, A[m + 1][m + 1] += by * upper * upper;
+            A[m][m + 1] += by * lower * upper, A[m + 1][m] += by * lower * upper;
+        };
+        Quad below = 0;
+        const Quad turn = speed * speed / g;
+        for (std::size_t m = 0; m < n; ++m) {
+            const Quad kappa = W[m] * h[m] - B[m] * hB[m] + a[m] * below;
+            square(m, 1, -1, sign[m] * (kappa + speed * H[m]) / (a[m] * a[m]));
+            const auto body = [&](Quad w, Quad c, Quad r) {
+                square(m, c / a[m], 1 - c / a[m], -turn * w);
+                square(m, 1, -1, -turn * w * r * r / (a[m] * a[m]));
+            };
+            body(W[m], h[m], k[m]);
+            body(turning ? -B[m] : added[m], hB[m], kB[m]);
+            below += W[m] - B[m];
+        }
+        A[3][3] += E - turn * carriage;
+        return A;
+    }
+    Quad determinant(Quad speed) const {
+        Matrix A = matrix(speed);
+        Quad d = 1;
+        for (std::size_t i = 0; i < 4; ++i) {
+            d *= A[i][i];
+            for (std::size_t r = i + 1; r < 4; ++r) {
+                const Quad f = A[r][i] / A[i][i];
+                for (std::size_t c = i; c < 4; ++c) A[r][c] -= f * A[i][c];
+            }
+        }
+        return d;
+    }
+    /// The whirl speed next to one.
+    Quad speed(Quad from) const {
+        for (int round = 0; round < 80; ++round) {
+            const Quad step = Quad(1e-12) * from, d = determinant(from);
+            const Quad change = d * 2 * step / (determinant(from + step) - determinant(from - step));
+            from -= change;
+            if (fabsq(change) < 1e-30 * fabsq(from)) break;
+        }
+        return from;
+    }
+    revchain::Vector<double> shape(Quad at) const {
+        const Matrix A = matrix(at);
+        std::array<Quad, 4> y{1, 0, 0, 0};
+        for (std::size_t m = 0; m < 3; ++m) {
+            Quad sum = 0;
+            for (std::size_t c = 0; c <= m; ++c) sum += A[m][c] * y[c];
+            y[m + 1] = -sum / A[m][m + 1];
+        }
+        revchain::Vector<double> result(4);
+        for (std::size_t m = 0; m < 4; ++m) result[static_cast<Index>(m)] = static_cast<double>(y[m]);
+        return result;
+    }
+    revchain::Rig rig() const {
+        const auto d = [](Quad x) { return static_cast<double>(x); };
+        std::vector<revchain::Link<double>> links;
+        revchain::Rigging with{.support = revchain::horizontal_spring(d(E), d(carriage)),
+                               .fluid = turning ? revchain::Fluid::turning : revchain::Fluid::still};
+        for (std::size_t m = 0; m < n; ++m) {
+            links.push_back(revchain::compound_pendulum<double>(
+                {.weight = d(W[m]), .length = d(a[m]), .centroid = d(h[m]), .radius_of_gyration = d(k[m])}));
+            with.posture.push_back(sign[m] > 0 ? revchain::Posture::hangs : revchain::Posture::stands);
+            with.flywheels.push_back({d(H[m]), 0});
+            const double ratio = d(kB[m] * kB[m] / (a[m] * a[m]));
+            with.displaced.push_back({d(B[m]), d(hB[m]), ratio, turning ? 0 : d(added[m])});
+        }
+        return {Chain<double>(links), with};
+    }
+};
+
+}  // namespace
+
+TEST_CASE("what rigging does to whirl speeds is what central differences in quadruple precision say", "[linear]") {
+    double worst = 0;
+    for (const bool turning : {false, true})
+        for (const double start : {-9.0, -5.0, -2.0, 1.5, 4.0, 8.0, 14.0}) {
+            Rigged rigged;
+            rigged.turning = turning;
+            const Quad speed = rigged.speed(start);
+            if (!(fabsq(rigged.determinant(speed)) < 1e-20)) continue;
+            const auto found = revchain::rig_sensitivity(rigged.rig(), static_cast<double>(speed), rigged.shape(speed),
+                                                         static_cast<double>(rigged.g));
+            const auto difference = [&](Quad& x) {
+                const Quad was = x, step = 1e-10;
+                x = was + step;
+                const Quad up = rigged.speed(speed);
+                x = was - step;
+                const Quad down = rigged.speed(speed);
+                x = was;
+                return static_cast<double>((up - down) / (2 * step));
+            };
+            double largest = 0;
+            std::vector<double> errors;
+            const auto compare = [&](double value, double exact) {
+                errors.push_back(std::abs(value - exact));
+                largest = std::max(largest, std::abs(exact));
+            };
+            for (std::size_t m = 0; m < 3; ++m) {
+                const Index i = static_cast<Index>(m);
+                compare(found.momentum[i], difference(rigged.H[m]));
+                compare(found.displaced_weight[i], difference(rigged.B[m]));
+                compare(found.added_weight[i], turning ? 0 : difference(rigged.added[m]));
+            }
+            compare(found.stiffness, difference(rigged.E));
+            compare(found.carriage_weight, difference(rigged.carriage));
+            CAPTURE(turning, start, static_cast<double>(speed));
+            for (const double error : errors) {
+                CHECK(error <= 1e-13 * largest);
+                worst = std::max(worst, error / largest);
+            }
+        }
+    CAPTURE(worst);
+    CHECK(worst > 0);
+    CHECK(worst < 1e-14);
+}
+
+TEST_CASE("a firm support has no stiffness to change, and units are units", "[linear]") {
+    const Chain<double> one({revchain::plummet(2.0, 3.0)});
+    const revchain::Rig rig(one, {.flywheels = {{0.75, 0}}});
+    // A n^2 - H n - W h = 0, A = W h l/g: dn/dH = n/(2 A n - H)
+    const double A = 18 / 9.80665, n = (0.75 + std::sqrt(0.75 * 0.75 + 4 * A * 6)) / (2 * A);
+    const auto found = revchain::rig_sensitivity(rig, n, (revchain::Vector<double>(2) << 1, 0).finished());
+    CHECK(std::abs(found.momentum[0] / (n / (2 * A * n - 0.75)) - 1) < 1e-15);
+    CHECK(found.stiffness == 0);
+    CHECK(found.carriage_weight == 0);
+    CHECK_THROWS_AS(revchain::rig_sensitivity(rig, 0.0, revchain::Vector<double>::Ones(2)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::rig_sensitivity(rig, 1.0, revchain::Vector<double>::Ones(3)), revchain::InvalidArgument);
+}
+
+TEST_CASE("the momentum that a speed asks for makes it a whirl speed", "[linear]") {
+    double worst = 0;
+    for (const bool turning : {false, true})
+        for (const double speed : {-7.0, -1.25, 2.5, 6.0})
+            for (const std::size_t link : {1U, 2U, 3U}) {
+                Rigged rigged;
+                rigged.turning = turning;
+                const double momentum =
+                    revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(link), speed, 9.8125);
+                rigged.H[link - 1] = momentum;
+                const Quad near = rigged.speed(speed);
+                CAPTURE(turning, speed, link, momentum);
+                worst = std::max(worst, std::abs(static_cast<double>(near - speed) / speed));
+            }
+    CAPTURE(worst);
+    CHECK(worst < 1e-14);
+    const Chain<double> one({revchain::plummet(2.0, 3.0)});
+    const double A = 18 / 9.80665;
+    CHECK(std::abs(revchain::momentum_for_speed(revchain::Rig(one, {}), 1, 2.0) / (A * 2 - 3) - 1) < 1e-15);
+    CHECK_THROWS_AS(revchain::momentum_for_speed(revchain::Rig(one, {}), 2, 2.0), revchain::InvalidArgument);
+}
