@@ -14,6 +14,7 @@
 #include "revchain/core/hoop.hpp"                 // IWYU pragma: export
 #include "revchain/core/inclined_pendulum.hpp"    // IWYU pragma: export
 #include "revchain/finite/branches.hpp"           // IWYU pragma: export
+#include "revchain/finite/continuous_chain.hpp"   // IWYU pragma: export
 #include "revchain/finite/force_diagram.hpp"      // IWYU pragma: export
 #include "revchain/finite/funicular_polygon.hpp"  // IWYU pragma: export
 #include "revchain/finite/held_chain.hpp"         // IWYU pragma: export
