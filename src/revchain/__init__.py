@@ -93,7 +93,6 @@ __all__ = [
     "Response",
     "Rig",
     "RigModes",
-    "Response",
     "RigSensitivity",
     "SceneError",
     "Sensitivity",
