@@ -31,7 +31,10 @@
 #include "revchain/linear/modes.hpp"              // IWYU pragma: export
 #include "revchain/linear/recurrence.hpp"         // IWYU pragma: export
 #include "revchain/linear/response.hpp"           // IWYU pragma: export
+#include "revchain/linear/rig_sensitivity.hpp"    // IWYU pragma: export
 #include "revchain/linear/sensitivity.hpp"        // IWYU pragma: export
 #include "revchain/linear/small_oscillation.hpp"  // IWYU pragma: export
 #include "revchain/linear/string_of_weights.hpp"  // IWYU pragma: export
+#include "revchain/linear/tune.hpp"               // IWYU pragma: export
 #include "revchain/linear/two_links.hpp"          // IWYU pragma: export
+#include "revchain/linear/uncertainty.hpp"        // IWYU pragma: export

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/linear/rig_sensitivity.hpp"
 
+#include "revchain/linear/rig_modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"
@@ -176,4 +177,38 @@ TEST_CASE("the momentum that a speed asks for makes it a whirl speed", "[linear]
     const double A = 18 / 9.80665;
     CHECK(std::abs(revchain::momentum_for_speed(revchain::Rig(one, {}), 1, 2.0) / (A * 2 - 3) - 1) < 1e-15);
     CHECK_THROWS_AS(revchain::momentum_for_speed(revchain::Rig(one, {}), 2, 2.0), revchain::InvalidArgument);
+}
+
+TEST_CASE("what rig_modes finds: derivatives of its speeds, and the momentum that gives one back", "[linear]") {
+    Rigged rigged;
+    rigged.sign = {1, 1, 1};
+    const auto speeds = [&] { return revchain::rig_modes(rigged.rig(), {.gravity = 9.8125}); };
+    const auto modes = speeds();
+    const double step = 0x1p-20;
+    for (std::size_t m = 0; m < 3; ++m) {
+        const Quad was = rigged.H[m];
+        rigged.H[m] = was + step;
+        const auto up = speeds();
+        rigged.H[m] = was - step;
+        const auto down = speeds();
+        rigged.H[m] = was;
+        for (const int sense : {1, -1}) {
+            const auto& some = sense > 0 ? modes.forward : modes.backward;
+            REQUIRE(some.size() == 3 + 1);  // the carriage's, too
+            for (Index j = 0; j < some.size(); ++j) {
+                const double n = sense * some.angular_speed[j];
+                const double more = (sense > 0 ? up.forward : up.backward).angular_speed[j],
+                             less = (sense > 0 ? down.forward : down.backward).angular_speed[j];
+                const auto found = revchain::rig_sensitivity(rigged.rig(), n, some.shape.row(j).transpose(), 9.8125);
+                CAPTURE(m, sense, j, n);
+                // the step squared, and what is left of the speeds' digits
+                CHECK(std::abs(found.momentum[static_cast<Index>(m)] - sense * (more - less) / (2 * step)) <
+                      2e-9 * (1 + std::abs(n)));
+                const double momentum =
+                    revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(m) + 1, n, 9.8125);
+                CHECK(std::abs(momentum - static_cast<double>(was)) * std::abs(found.momentum[static_cast<Index>(m)]) <=
+                      4e-16 * std::abs(n) * (1 + std::abs(found.momentum[static_cast<Index>(m)])));
+            }
+        }
+    }
 }
