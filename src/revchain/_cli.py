@@ -24,6 +24,7 @@ from ._files import written_aside
 from ._modes import Modes
 from ._progress import watched
 from ._report import NARROWEST, csv_text, json_text, table
+from ._rig_modes import RigModes
 from ._scene_error import SceneError
 from ._solve import solve as solve_chain
 from .scene import json_schema, load_scene
@@ -157,9 +158,9 @@ def solve(
     """Find the whirl speeds of a scene and print them as a table."""
     given = load_scene(scene)
     outputs = _outputs(scene, plot, json, csv, out)
-    chain = given.chain()
+    hung = given.rig() if given.is_rigged else given.chain()
     gravity = given.gravity_value()
-    asked = given.asked(chain)
+    asked = given.asked(given.chain())
     chosen = {"modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
     if len(named := [name for name, value in chosen.items() if value is not None]) > 0:
         if len(named) > 1:
@@ -176,7 +177,7 @@ def solve(
     with written_aside(*(path for path, _ in outputs)) as asides:
         try:
             found = watched(
-                lambda progress: solve_chain(chain, **asked, progress=progress), Console(stderr=True), quiet
+                lambda progress: solve_chain(hung, **asked, progress=progress), Console(stderr=True), quiet
             )
         except ValueError as error:  # the scene itself has been checked: it is what the options say
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
@@ -206,7 +207,7 @@ def validate(scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", he
     for path in scenes:
         try:
             scene = load_scene(path)
-            print(f"{path}: valid: {scene.chain()!r}")
+            print(f"{path}: valid: {scene.rig() if scene.is_rigged else scene.chain()!r}")
         except SceneError as error:
             bad += 1
             print(f"revchain: {error}", file=sys.stderr)
@@ -281,7 +282,7 @@ def _outputs(
     return outputs
 
 
-def _write(modes: Modes, path: Path, kind: str, title: str, gravity: float) -> None:
+def _write(modes: Modes | RigModes, path: Path, kind: str, title: str, gravity: float) -> None:
     if kind == ".json":
         path.write_text(json_text(modes, title, gravity), encoding="utf-8")
     elif kind == ".csv":
@@ -289,7 +290,7 @@ def _write(modes: Modes, path: Path, kind: str, title: str, gravity: float) -> N
     elif kind == ".npz":
         modes.save(path)
     else:
-        axes = modes.plot(gravity=gravity)
+        axes = modes.plot() if isinstance(modes, RigModes) else modes.plot(gravity=gravity)
         axes.set_title(title, wrap=True)
         figure: Any = axes.figure
         figure.savefig(path, dpi=150)

@@ -5,21 +5,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from threading import Event, Thread
+from typing import TypeVar
 
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from . import _core
-from ._modes import Modes
 
 PATIENCE = 2.0  # seconds before a bar is shown
 TICK = 0.1  # seconds between looks
+Result = TypeVar("Result")
 
 
-def watched(work: Callable[[_core.Progress], Modes], console: Console, quiet: bool = False) -> Modes:
+def watched(work: Callable[[_core.Progress], Result], console: Console, quiet: bool = False) -> Result:
     """Run `work` and return what it returns; KeyboardInterrupt cancels it and goes on to the caller."""
     progress = _core.Progress()
-    results: list[Modes] = []
+    results: list[Result] = []
     errors: list[BaseException] = []
     done = Event()  # Thread.join forgets a running thread when Ctrl-C interrupts it (Python 3.11)
 

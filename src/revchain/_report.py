@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 
 from rich import box
 from rich.console import Group
@@ -13,14 +14,17 @@ from rich.table import Table
 from rich.text import Text
 
 from ._modes import Modes
+from ._rig_modes import RigModes
 from ._tables import digits, which
 
 MOST_ROWS = 20
 NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
 
 
-def table(modes: Modes, title: str, gravity: float) -> Group:
+def table(modes: Modes | RigModes, title: str, gravity: float) -> Group:
     """The table with its heading."""
+    if isinstance(modes, RigModes):
+        return _rig_table(modes, title)
     chain = modes.chain
     links = f"{chain.size:,} link" + ("s" if chain.size > 1 else "")
     heading = Text(title, style="bold")
@@ -59,6 +63,56 @@ def table(modes: Modes, title: str, gravity: float) -> Group:
     return Group(*parts)
 
 
+def _rig_table(modes: RigModes, title: str) -> Group:
+    """Modes of both senses, what is no steady motion, and which links go slack."""
+    chain = modes.rig.chain
+    what = repr(modes.rig).partition(": ")[2]
+    counts = f"{len(modes)} of {modes.forward.available + modes.backward.available} modes by {modes.method}: "
+    facts = Text(
+        f"{chain!r} in m and N, gravity {modes.gravity:.6g} m/s²\n{what}\n{counts}"
+    )
+    met = modes.status == "success"
+    facts.append("success" if met else modes.status.replace("_", " "), style="green" if met else "bold yellow")
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    headings = [("mode", ""), ("speed", "rad/s"), ("speed", "rev/min"), ("period", "s"), ("height", "m"), ("error", "bound")]
+    for name, unit in headings:
+        grid.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
+    speed, period = modes.angular_speed(), modes.period()
+    words = {1: "forward ", -1: "backward "} if modes.has_momentum else {1: ""}
+    for k in range(min(len(modes), MOST_ROWS)):
+        grid.add_row(
+            f"{words[int(modes.sense[k])]}{modes.number[k]}",
+            digits(speed[k], 6),
+            digits(speed[k] * 30 / math.pi, 6),
+            digits(period[k], 6),
+            digits(modes.conical_height[k], 10),
+            f"{modes.error_bound[k]:.1e}",
+        )
+    parts: list[Text | Table] = [Text(title, style="bold"), facts, grid]
+    hidden = len(modes) - MOST_ROWS
+    if hidden > 0:
+        parts.append(Text(f"and {hidden:,} more; --json and --csv write all of them", style="dim"))
+    if len(modes.other):
+        parts.append(_others(modes))
+    for link, at in list(zip(modes.slack_link, modes.slack_speed, strict=True))[:MOST_ROWS]:
+        parts.append(Text(f"link {link + 1} goes slack at {digits(at, 6)} rad/s: its wheel bears all that it carries"))
+    parts.append(Text("height: of the equivalent conical pendulum; error bound: relative, of the height", style="dim"))
+    return Group(*parts)
+
+
+def _others(modes: RigModes) -> Table:
+    """Heights that no steady motion has."""
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True, title="no steady motion", title_justify="left")
+    for name in ("height\nm", "falls away as exp(r t)\nr in 1/s", "error\nbound"):
+        grid.add_column(name, justify="right", no_wrap=True)
+    other = modes.other
+    for k in range(min(len(other), MOST_ROWS)):
+        height = other.conical_height[k]
+        shown = digits(height.real, 10) if height.imag == 0 else f"{digits(height.real, 6)} {height.imag:+.6g}i"
+        grid.add_row(shown, digits(other.growth_rate[k], 6), f"{other.error_bound[k]:.1e}")
+    return grid
+
+
 def _proof(modes: Modes) -> Table:
     """The certificate: ends of each interval to all their digits, and the counts there."""
     grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
@@ -87,13 +141,16 @@ def _position(node: float) -> str:
     return f"{node:.3g}" if node < 1000 else f"{node:.0f}"
 
 
-def json_text(modes: Modes, title: str, gravity: float) -> str:
+def json_text(modes: Modes | RigModes, title: str, gravity: float) -> str:
     """Everything but the shapes; numbers with all their digits."""
-    return json.dumps({"title": title, **modes.to_dict(gravity, shapes=False)}, indent=2, ensure_ascii=False) + "\n"
+    data = modes.to_dict(shapes=False) if isinstance(modes, RigModes) else modes.to_dict(gravity, shapes=False)
+    return json.dumps({"title": title, **data}, indent=2, ensure_ascii=False) + "\n"
 
 
-def csv_text(modes: Modes, gravity: float) -> str:
+def csv_text(modes: Modes | RigModes, gravity: float) -> str:
     """One line for each mode; the positions of the nodes separated by blanks."""
+    if isinstance(modes, RigModes):
+        return _rig_csv(modes)
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     names = ["mode", "conical_height", "angular_speed", "period", "revolutions_per_minute", "error_bound"]
@@ -106,4 +163,19 @@ def csv_text(modes: Modes, gravity: float) -> str:
         nodes = mode["nodes"]
         proved = (mode["certificate"][name] for name in proof)
         writer.writerow([*(mode[name] for name in names), len(nodes), " ".join(map(repr, nodes)), *proved])
+    return text.getvalue()
+
+
+def _rig_csv(modes: RigModes) -> str:
+    """One line for each mode, then for each height that is no steady motion, without a number."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = ["mode", "sense", "conical_height", "angular_speed", "period", "revolutions_per_minute", "error_bound"]
+    writer.writerow([*names, "conical_height_imaginary", "growth_rate"])
+    found = modes.to_dict(shapes=False)
+    for mode in found["modes"]:
+        writer.writerow([*(mode[name] for name in names), 0.0, 0.0])
+    for other in found["other"]:
+        real, imaginary = other["conical_height"]
+        writer.writerow(["", "", real, "", "", "", other["error_bound"], imaginary, other["growth_rate"]])
     return text.getvalue()

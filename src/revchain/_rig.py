@@ -344,7 +344,7 @@ def _flags(place: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:
             f"{place}: standing must be True, False or an array of them, one for each of the {size} links, "
             f"got {shown(value)}"
         )
-    return read_only(np.ascontiguousarray(np.broadcast_to(flags, size))) if flags.any() else None  # type: ignore[return-value]
+    return read_only(np.ascontiguousarray(np.broadcast_to(flags, size))) if flags.any() else None
 
 
 def _column(place: str, name: str, value: ArrayLike | None, size: int) -> Floats | None:
@@ -358,7 +358,7 @@ def _column(place: str, name: str, value: ArrayLike | None, size: int) -> Floats
         )
     if not column.any() and name not in ("displaced_centroid", "displaced_radius_of_gyration"):
         return None
-    return read_only(np.ascontiguousarray(np.broadcast_to(column, size)))  # type: ignore[return-value]
+    return read_only(np.ascontiguousarray(np.broadcast_to(column, size)))
 
 
 def _restored(chain: Chain, given: dict[str, Any]) -> Rig:

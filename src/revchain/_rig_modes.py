@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -181,6 +182,112 @@ class RigModes:
         array([3.3651])
         """
         return self.sense * self._both(self._column("angular_speed"))  # type: ignore[no-any-return]
+
+    def period(self) -> Floats:
+        """Return the time of one turn of each mode, ``2 pi / |angular_speed|``.
+
+        Returns
+        -------
+        ndarray, shape (k,)
+            In seconds, descending.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Rig(rc.Chain(weight=1.0, length=0.5), stiffness=2.0)).period().round(4)
+        array([2.0064])
+        """
+        return 2 * np.pi / np.abs(self.angular_speed())
+
+    def to_dict(self, shapes: bool = True) -> dict[str, Any]:
+        """Return everything as plain Python numbers, lists and strings, ready for JSON.
+
+        Parameters
+        ----------
+        shapes : bool
+            Whether to include the shapes, which are long.
+
+        Returns
+        -------
+        dict
+            ``{"modes": [{"mode": 1, "sense": 1, "angular_speed": ..., "period": ...,
+            "revolutions_per_minute": ..., "conical_height": ..., "error_bound": ..., "residual": ...,
+            "shape": [...]}, ...], "other": [{"conical_height": [real, imaginary], "growth_rate": ...,
+            "error_bound": ...}, ...], "slack": [{"link": ..., "angular_speed": ...}], "complete": ...,
+            "method": ..., "status": ..., "gravity": ..., "chain": {...}, "rig": "..."}``; speeds are signed,
+            and links counted from 0.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rig = rc.Rig(rc.Chain(weight=1.0, length=2.0), stiffness=2.0)
+        >>> rc.modes(rig).to_dict()["modes"][0]["conical_height"]
+        2.5
+        """
+        speed = self.angular_speed()
+        columns = {
+            "mode": self.number.tolist(),
+            "sense": self.sense.tolist(),
+            "angular_speed": speed.tolist(),
+            "period": self.period().tolist(),
+            "revolutions_per_minute": (speed * (30 / np.pi)).tolist(),
+            "conical_height": self.conical_height.tolist(),
+            "error_bound": self.error_bound.tolist(),
+        }
+        if self.shape is not None and self.residual is not None:
+            columns["residual"] = self.residual.tolist()
+            if shapes:
+                columns["shape"] = self.shape.tolist()
+        other = self.other
+        others = zip(other.conical_height.tolist(), other.growth_rate.tolist(), other.error_bound.tolist(), strict=True)
+        slack = zip(self.slack_link.tolist(), self.slack_speed.tolist(), strict=True)
+        chain = self.rig.chain
+        return {
+            "modes": [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)],
+            "other": [
+                {"conical_height": [height.real, height.imag], "growth_rate": rate, "error_bound": bound}
+                for height, rate, bound in others
+            ],
+            "slack": [{"link": link, "angular_speed": at} for link, at in slack],
+            "complete": self.complete,
+            "method": self.method,
+            "status": self.status,
+            "gravity": self.gravity,
+            "chain": {"size": chain.size, "length": chain.total_length, "weight": chain.total_weight},
+            "rig": repr(self.rig),
+        }
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to a file, to be read again by `revchain.load`.
+
+        Parameters
+        ----------
+        path : path-like
+            Ends in ``.npz``.
+
+        Raises
+        ------
+        ValueError
+            If the path has another ending.
+        OSError
+            (a ValueError too) If the file cannot be written. It is written aside and renamed: what was
+            there before stays until the new file is whole.
+
+        Notes
+        -----
+        Nothing is rounded. No pickles inside.
+
+        Examples
+        --------
+        >>> import revchain as rc, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "result.npz"
+        >>> rc.modes(rc.Rig(rc.Chain(weight=1.0, length=2.0), stiffness=2.0)).save(path)
+        >>> rc.load(path).conical_height
+        array([2.5])
+        """
+        from ._storage import save
+
+        save(self, path)
 
     def plot(self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m") -> Axes:
         """Draw the shapes side by side along the straight chain, standing links upwards.

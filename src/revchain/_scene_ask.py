@@ -11,13 +11,15 @@ from msgspec import UNSET
 from ._chain import Chain
 from ._scene_chain import Numbers
 from ._scene_error import SceneError
-from ._scene_tables import Ask
+from ._scene_tables import MOST_LINKS, Ask
 
 DEFAULT_MODES = 10
 
 
-def asked(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str, Any]:
+def asked(ask: Ask, chain: Chain, gravity: float, source: str, rigged: bool) -> dict[str, Any]:
     """What differs from the defaults of `revchain.modes`, checked; `source` is what errors name."""
+    if rigged:
+        return _asked_of_rig(ask, gravity, source)
     arguments = _selection(ask, chain, gravity, source)
     if ask.rtol is not UNSET:
         if not math.isfinite(ask.rtol):
@@ -31,6 +33,21 @@ def asked(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str, Any]
     if ask.precision != "double" and ask.method not in ("auto", "bisection"):
         raise SceneError(source, "ask.precision", f'method = "{ask.method}" goes with "double" only')
     return arguments
+
+
+def _asked_of_rig(ask: Ask, gravity: float, source: str) -> dict[str, Any]:
+    """The modes of each sense of rotation, by their numbers: how many there are is found with them."""
+    defaults = Ask()
+    for name in ("conical_height", "angular_speed", "rtol", "certify", "precision", "method"):
+        if getattr(ask, name) != getattr(defaults, name):
+            raise SceneError(
+                source, f"ask.{name}", "is for a chain alone: with a support, standing links, flywheels or a fluid give modes"
+            )
+    first = 1 if ask.first is UNSET else ask.first
+    if ask.modes == "all":
+        return {"gravity": gravity} if first == 1 else {"gravity": gravity, "modes": range(first, 2 * MOST_LINKS)}
+    count = DEFAULT_MODES if ask.modes is UNSET else ask.modes
+    return {"gravity": gravity, "modes": range(first, first + count)}
 
 
 def _selection(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str, Any]:

@@ -12,8 +12,10 @@ from msgspec import UNSET
 from ._arguments import Floats
 from ._chain import Chain
 from ._scene_error import SceneError
-from ._scene_tables import MOST_LINKS, Link, UniformChain
+from ._scene_tables import MOST_LINKS, Displaced, Flywheel, Link, Support, UniformChain
 from ._units import si_value
+
+Weighed = Link | UniformChain | Flywheel | Displaced | Support
 
 
 class Numbers:
@@ -40,16 +42,22 @@ class Numbers:
             raise self.refuse(key, f"must not be negative, got {shown}")
         return number
 
-    def weight(self, table: Link | UniformChain, gravity: float, sign: str) -> float:
-        if (table.weight is UNSET) == (table.mass is UNSET):
-            raise self.refuse("", "give either weight or mass")
-        if table.weight is not UNSET:
-            return self.value("weight", table.weight, "weight", sign)
-        assert table.mass is not UNSET
-        weight = self.value("mass", table.mass, "mass", sign) * gravity
-        if not math.isfinite(weight):
-            raise self.refuse("mass", f"is too large, got {table.mass}")
-        return weight
+    def weight(self, table: Weighed, gravity: float, sign: str, prefix: str = "") -> float:
+        """Of the keys `weight` and `mass`, or `added_weight` and `added_mass` with that prefix, the one that is given."""
+        weight, mass = (getattr(table, prefix + name) for name in ("weight", "mass"))
+        if (weight is UNSET) == (mass is UNSET):
+            raise self.refuse("", f"give either {prefix}weight or {prefix}mass")
+        if weight is not UNSET:
+            return self.value(f"{prefix}weight", weight, "weight", sign)
+        found = self.value(f"{prefix}mass", mass, "mass", sign) * gravity
+        if not math.isfinite(found):
+            raise self.refuse(f"{prefix}mass", f"is too large, got {mass}")
+        return found
+
+    def weight_if_given(self, table: Weighed, gravity: float, prefix: str = "") -> float:
+        """The same of what may be left out, 0 then."""
+        given = [name for name in ("weight", "mass") if getattr(table, prefix + name) is not UNSET]
+        return self.weight(table, gravity, "not negative", prefix) if given else 0.0
 
 
 def uniform_chain(table: UniformChain, gravity: float, source: str) -> Chain:

@@ -23,6 +23,82 @@ class Table(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True,
     """What all tables of a scene share: fixed keys, no positional arguments."""
 
 
+class Flywheel(Table, frozen=True):
+    """A wheel that spins about its link's own axis. Numbers are SI or text with a unit.
+
+    Attributes
+    ----------
+    weight, mass : float or str
+        One of the two. The wheel's weight, and its inertia across its axis, belong to the link's own numbers.
+    radius_of_gyration : float or str
+        About its axis.
+    spin : float or str
+        In rad/s, or text such as ``"3000 rpm"``; positive where a hanging link's wheel turns in the sense of a
+        positive speed.
+    driven : bool
+        Whether a motor keeps the spin relative to a link that turns with the whole; else the wheel runs freely,
+        and its spin is as seen from outside.
+    """
+
+    radius_of_gyration: Annotated[NotNegative, Meta(description="About the axis of the wheel.")]
+    spin: Annotated[AnySign, Meta(description="rad/s; positive in the sense of a positive whirl speed.")]
+    weight: Annotated[NotNegative | UnsetType, Meta(description="Of the wheel (N); or give mass.")] = UNSET
+    mass: Annotated[NotNegative | UnsetType, Meta(description="Of the wheel (kg); or give weight.")] = UNSET
+    driven: Annotated[
+        bool, Meta(description="Whether the spin is relative to the link, kept by a motor; else it runs freely.")
+    ] = False
+
+
+class Displaced(Table, frozen=True):
+    """What a link displaces of the fluid around it. Numbers are SI or text with a unit.
+
+    Attributes
+    ----------
+    weight, mass : float or str
+        Of the fluid displaced; one of the two.
+    centroid, radius_of_gyration : float or str, optional
+        Of that fluid; those of the link if left out.
+    added_weight, added_mass : float or str, optional
+        Of still fluid that has to move with the link; at most one of the two.
+    """
+
+    weight: Annotated[NotNegative | UnsetType, Meta(description="Of the fluid displaced (N); or give mass.")] = UNSET
+    mass: Annotated[NotNegative | UnsetType, Meta(description="Of the fluid displaced (kg); or give weight.")] = UNSET
+    centroid: Annotated[
+        AnySign | UnsetType, Meta(description="Of that fluid, from the upper pin; the link's own if left out.")
+    ] = UNSET
+    radius_of_gyration: Annotated[
+        NotNegative | UnsetType, Meta(description="Of that fluid; the link's own if left out.")
+    ] = UNSET
+    added_weight: Annotated[
+        NotNegative | UnsetType, Meta(description="Of still fluid that moves with the link (N).")
+    ] = UNSET
+    added_mass: Annotated[
+        NotNegative | UnsetType, Meta(description="Of still fluid that moves with the link (kg).")
+    ] = UNSET
+
+
+class Support(Table, frozen=True):
+    """What the uppermost pin is held by. Numbers are SI or text with a unit.
+
+    Attributes
+    ----------
+    stiffness : float or str, optional
+        Of a spring that holds it sideways, in N/m; firm if left out.
+    weight, mass : float or str, optional
+        Of what moves sideways with it; at most one of the two.
+    radius : float or str, optional
+        Of the circle in which it is carried round; on the axis if left out.
+    """
+
+    stiffness: Annotated[Positive | UnsetType, Meta(description="Of a spring sideways (N/m); firm if left out.")] = UNSET
+    weight: Annotated[NotNegative | UnsetType, Meta(description="Of what moves sideways with it (N).")] = UNSET
+    mass: Annotated[NotNegative | UnsetType, Meta(description="Of what moves sideways with it (kg).")] = UNSET
+    radius: Annotated[
+        NotNegative | UnsetType, Meta(description="Of the circle in which it is carried round; 0 if left out.")
+    ] = UNSET
+
+
 class Link(Table, frozen=True):
     """One link, or several equal ones. Numbers are SI (m, kg, N) or text with a unit.
 
@@ -40,6 +116,10 @@ class Link(Table, frozen=True):
         One of the two goes with `centroid`.
     repeat : int
         How many such links follow one another.
+    standing : bool
+        Whether it stands on its upper pin, as a broomstick on the hand, in the straight chain.
+    flywheel : Flywheel, optional
+    displaced : Displaced, optional
     """
 
     length: Annotated[Positive, Meta(description="From pin to pin.")]
@@ -59,6 +139,9 @@ class Link(Table, frozen=True):
         NotNegative | UnsetType, Meta(description="About the centre of gravity; or give pendulum_length.")
     ] = UNSET
     repeat: Annotated[Count, Meta(description="How many equal links follow one another.")] = 1
+    standing: Annotated[bool, Meta(description="Whether it stands on its upper pin in the straight chain.")] = False
+    flywheel: Annotated[Flywheel | UnsetType, Meta(description="A wheel that spins about the link's axis.")] = UNSET
+    displaced: Annotated[Displaced | UnsetType, Meta(description="What it displaces of a fluid.")] = UNSET
 
 
 class UniformChain(Table, frozen=True):

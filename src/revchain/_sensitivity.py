@@ -194,7 +194,7 @@ def of_modes(modes: Modes) -> Sensitivity:
         read_only(value * (data[name] / heights[:, None])) for name, value in zip(_core.DATA, values, strict=True)
     ]
     named = dict(zip(_core.DATA, values, strict=True))
-    return Sensitivity(**named, error_bound=Derivatives(*bounds), relative=Derivatives(*relative))  # type: ignore[arg-type]
+    return Sensitivity(**named, error_bound=Derivatives(*bounds), relative=Derivatives(*relative))
 
 
 def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty:

@@ -143,25 +143,6 @@ def modes(
     >>> rc.modes(rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)).angular_speed().round(3)
     array([-2.47,  3.97])
     """
-    if isinstance(chain, Rig):
-        place = "revchain.modes"
-        refuse_for_rigs(
-            place,
-            (
-                ("conical_height", conical_height, None),
-                ("angular_speed", angular_speed, None),
-                ("rtol", rtol, None),
-                ("certify", certify, False),
-                ("precision", precision, "double"),
-                ("method", method, "auto"),
-            ),
-        )
-        if count is not None and modes is not None:
-            raise ValueError(f"{place}: give only one of count, modes, got count and modes")
-        first, wanted = (1, None if count is None else checked_count(place, "count", count))
-        if modes is not None:
-            first, wanted = _run_of_numbers(place, modes)
-        return rig_modes(place, chain, first, wanted, gravity, shapes, None)
     return solve(
         chain,
         count,
@@ -178,7 +159,7 @@ def modes(
 
 
 def solve(
-    chain: Chain,
+    chain: Chain | Rig,
     count: int | None = None,
     *,
     modes: Iterable[int] | None = None,
@@ -191,9 +172,27 @@ def solve(
     precision: str = "double",
     method: str = "auto",
     progress: _core.Progress | None = None,
-) -> Modes:
+) -> Modes | RigModes:
     """`modes`, watched: `progress` tells how far it is and can cancel it from another thread."""
     place = "revchain.modes"
+    if isinstance(chain, Rig):
+        refuse_for_rigs(
+            place,
+            (
+                ("conical_height", conical_height, None),
+                ("angular_speed", angular_speed, None),
+                ("rtol", rtol, None),
+                ("certify", certify, False),
+                ("precision", precision, "double"),
+                ("method", method, "auto"),
+            ),
+        )
+        if count is not None and modes is not None:
+            raise ValueError(f"{place}: give only one of count, modes, got count and modes")
+        first, wanted = (1, None if count is None else checked_count(place, "count", count))
+        if modes is not None:
+            first, wanted = _run_of_numbers(place, modes)
+        return rig_modes(place, chain, first, wanted, gravity, shapes, progress)
     core = compiled(place, chain)
     if (modes is not None) + (conical_height is not None) + (angular_speed is not None) + (count is not None) > 1:
         selectors = {"count": count, "modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}

@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import zipfile
 from collections.abc import Mapping
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -17,28 +18,34 @@ from ._extras import require
 from ._files import OutputError, written_aside
 from ._modes import Modes
 from ._record import extra_columns, extra_fields, to_xarray
+from ._rig import Rig
+from ._rig_modes import OtherModes, RigModes, WhirlModes
 
 KIND = "revchain modes 1"
+RIG_KIND = "revchain rig modes 1"
 STATE = "chain_state_"
+RIGGING = "rig_"
 
 
-def save(modes: Modes, path: str | os.PathLike[str]) -> None:
-    """See `Modes.save`."""
+def save(modes: Modes | RigModes, path: str | os.PathLike[str]) -> None:
+    """See `Modes.save`, `RigModes.save`."""
     ending = _ending(path)
-    dataset = _dataset(modes) if ending == ".nc" else None
+    if isinstance(modes, RigModes) and ending != ".npz":
+        raise ValueError(f"modes of a rig are kept in .npz files, got {os.fspath(path)}")
+    dataset = _dataset(modes) if isinstance(modes, Modes) and ending == ".nc" else None
     try:
         with written_aside(path) as [aside]:
             if dataset is not None:
                 dataset.to_netcdf(aside, engine="h5netcdf")
             else:
                 with open(aside, "wb") as file:  # given a name, numpy may add to it
-                    np.savez(file, allow_pickle=False, **_arrays(modes))
+                    np.savez(file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes)))
     except OSError as error:
         raise OutputError(error.errno, error.strerror or str(error), os.fspath(path)) from error
 
 
-def load(path: str | os.PathLike[str]) -> Modes:
-    """Read a result that `Modes.save` wrote.
+def load(path: str | os.PathLike[str]) -> Modes | RigModes:
+    """Read a result that `Modes.save` or `RigModes.save` wrote.
 
     Parameters
     ----------
@@ -47,7 +54,7 @@ def load(path: str | os.PathLike[str]) -> Modes:
 
     Returns
     -------
-    Modes
+    Modes or RigModes
         Equal to what was saved, bit for bit.
 
     Raises
@@ -126,7 +133,39 @@ def _arrays(modes: Modes) -> dict[str, Any]:
     return arrays
 
 
-def _from_arrays(arrays: Mapping[str, Any]) -> Modes:
+def _rig_arrays(modes: RigModes) -> dict[str, Any]:
+    arrays = {
+        "kind": np.asarray(RIG_KIND),
+        **{name: np.asarray(getattr(modes, name)) for name in _RIG_FACTS},
+        **_state(modes.rig.chain),
+        **{RIGGING + name: np.asarray(value) for name, value in modes.rig._given.items() if value is not None},
+    }
+    for part, kind in _RIG_PARTS.items():
+        for field in fields(kind):
+            value = getattr(getattr(modes, part), field.name)
+            if value is not None:
+                arrays[f"{part}_{field.name}"] = np.asarray(value)
+    return arrays
+
+
+def _rig_from_arrays(arrays: Mapping[str, Any]) -> RigModes:
+    given = {name.removeprefix(RIGGING): value for name, value in arrays.items() if name.startswith(RIGGING)}
+    rig = Rig(_chain(arrays), **{name: value if value.ndim else value.item() for name, value in given.items()})
+    parts: dict[str, Any] = {}
+    for part, kind in _RIG_PARTS.items():
+        columns = [arrays.get(f"{part}_{field.name}") for field in fields(kind)]
+        parts[part] = kind(*(x if x is None or x.ndim else x.item() for x in columns))
+    facts = {name: arrays[name] if arrays[name].ndim else arrays[name].item() for name in _RIG_FACTS}
+    return RigModes(rig=rig, **parts, **facts)
+
+
+_RIG_FACTS = ("gravity", "has_momentum", "slack_link", "slack_speed", "complete", "method", "status")
+_RIG_PARTS: dict[str, type[Any]] = {"forward": WhirlModes, "backward": WhirlModes, "other": OtherModes}
+
+
+def _from_arrays(arrays: Mapping[str, Any]) -> Modes | RigModes:
+    if str(arrays["kind"]) == RIG_KIND:
+        return _rig_from_arrays(arrays)
     if str(arrays["kind"]) != KIND:
         raise ValueError(f"its kind is {arrays['kind']}")
     nodes = None

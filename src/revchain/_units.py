@@ -22,6 +22,10 @@ SI = {
     "mass": ("kg", "a mass", "2 kg"),
     "weight": ("N", "a force", "20 N"),
     "gravity": ("m/s^2", "an acceleration", "9.81 m/s^2"),
+    "stiffness": ("N/m", "a force per length", "2 kN/m"),
+    "spin": ("rad/s", "an angular speed", "3000 rpm"),
+    "added_mass": ("kg", "a mass", "2 kg"),
+    "added_weight": ("N", "a force", "20 N"),
 }
 """Quantity: its SI unit, its name, an example."""
 

@@ -12,13 +12,26 @@ from . import _scene_file
 from ._arguments import STANDARD_GRAVITY
 from ._chain import Chain
 from ._modes import Modes
+from ._rig import Rig
+from ._rig_modes import RigModes
 from ._scene_ask import asked
 from ._scene_chain import Numbers, chain_of_links, uniform_chain
 from ._scene_error import SceneError
-from ._scene_tables import Ask, Link, Positive, Table, UniformChain
+from ._scene_rig import is_rigged, rig_of
+from ._scene_tables import Ask, Displaced, Flywheel, Link, Positive, Support, Table, UniformChain
 from ._solve import modes
 
-__all__ = ["Ask", "Link", "Scene", "UniformChain", "json_schema", "load_scene"]
+__all__ = [
+    "Ask",
+    "Displaced",
+    "Flywheel",
+    "Link",
+    "Scene",
+    "Support",
+    "UniformChain",
+    "json_schema",
+    "load_scene",
+]
 
 _WEIGHT = ("weight", "mass")  # one of the two
 
@@ -34,6 +47,10 @@ class Scene(Table, frozen=True):
         a chain of equal ones.
     gravity : float or str
         In m/s^2, or text with a unit.
+    support : Support, optional
+        What the chain hangs from, if not a firm point on the axis.
+    fluid : {"still", "turning"}
+        The fluid that links displace.
     ask : Ask
         What is asked.
     title, description : str
@@ -64,6 +81,13 @@ class Scene(Table, frozen=True):
     gravity: Annotated[Positive, Meta(description="In m/s^2.")] = STANDARD_GRAVITY
     links: Annotated[list[Link] | UnsetType, Meta(description="The links, lowest first.")] = UNSET
     uniform_chain: Annotated[UniformChain | UnsetType, Meta(description="Equal links, instead of links.")] = UNSET
+    support: Annotated[
+        Support | UnsetType, Meta(description="What the chain hangs from, if not a firm point on the axis.")
+    ] = UNSET
+    fluid: Annotated[
+        Literal["still", "turning"],
+        Meta(description="The fluid that links displace: at rest, or turning with the chain."),
+    ] = "still"
     ask: Annotated[Ask, Meta(description="What is asked.")] = Ask()
 
     @classmethod
@@ -153,6 +177,33 @@ class Scene(Table, frozen=True):
         """
         return self._chain("scene")
 
+    def rig(self) -> Rig:
+        """Build the chain with what it is rigged with.
+
+        Returns
+        -------
+        Rig
+            With nothing added where the scene says nothing of the kind.
+
+        Raises
+        ------
+        SceneError
+            If the numbers describe no chain, or nothing it can be rigged with.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> wheel = {"mass": 1.5, "radius_of_gyration": 0.29, "spin": 40.0}
+        >>> rc.Scene.from_dict({"links": [{"mass": 2.0, "length": 0.4, "flywheel": wheel}]}).rig()
+        Rig of a chain of 1 link: 1 link with momentum
+        """
+        return self._rig("scene")
+
+    @property
+    def is_rigged(self) -> bool:
+        """Whether anything in the scene goes beyond a chain that hangs from a firm point on the axis."""
+        return is_rigged(self._links(), self.support)
+
     def asked(self, chain: Chain) -> dict[str, Any]:
         """Return what is asked as keyword arguments of `revchain.modes`.
 
@@ -177,16 +228,16 @@ class Scene(Table, frozen=True):
         >>> scene.asked(scene.chain())
         {'modes': range(25, 31)}
         """
-        return asked(self.ask, chain, self.gravity_value(), "scene")
+        return asked(self.ask, chain, self.gravity_value(), "scene", self.is_rigged)
 
-    def modes(self) -> Modes:
+    def modes(self) -> Modes | RigModes:
         """Solve the scene.
 
         Returns
         -------
-        Modes
-            As `revchain.modes` does for the chain and what is asked. Speeds need the scene's
-            gravity: ``scene.modes().angular_speed(scene.gravity_value())``.
+        Modes or RigModes
+            As `revchain.modes` does for the chain, or the rig, and what is asked. Speeds of a chain need the
+            scene's gravity: ``scene.modes().angular_speed(scene.gravity_value())``; a rig's have it.
 
         Raises
         ------
@@ -199,13 +250,32 @@ class Scene(Table, frozen=True):
         >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1.5, "kind": "rod"}]})
         >>> scene.modes().conical_height.round(6)
         array([1.])
+
+        The same rod on a carriage that slides on a spring:
+
+        >>> support = {"stiffness": "50 N/m", "mass": 0.2}
+        >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1.5, "kind": "rod"}], "support": support})
+        >>> scene.modes().angular_speed().round(4)
+        array([ 2.9145, 12.8055])
         """
+        if self.is_rigged:
+            rig = self.rig()
+            return modes(rig, **self.asked(rig.chain))
         chain = self.chain()
         return modes(chain, **self.asked(chain))
 
     def _check(self, source: str) -> None:
-        """Whatever `chain`, `modes` and `gravity_value` would refuse, said with the name of the file."""
-        asked(self.ask, self._chain(source), self.gravity_value(), source)
+        """Whatever `chain`, `rig`, `modes` and `gravity_value` would refuse, said with the name of the file."""
+        chain = self._rig(source).chain if self.is_rigged else self._chain(source)
+        asked(self.ask, chain, self.gravity_value(), source, self.is_rigged)
+
+    def _links(self) -> list[Link]:
+        return [] if self.links is UNSET else self.links
+
+    def _rig(self, source: str) -> Rig:
+        chain = self._chain(source)
+        gravity = Numbers(source, "").value("gravity", self.gravity, "gravity", "positive")
+        return rig_of(chain, self._links(), self.support, self.fluid, gravity, source)
 
     def _chain(self, source: str) -> Chain:
         gravity = Numbers(source, "").value("gravity", self.gravity, "gravity", "positive")
@@ -260,9 +330,10 @@ def json_schema() -> dict[str, Any]:
     'revchain scene'
     """
     schema: dict[str, Any] = json.schema(Scene)
-    for name, pair in (("Scene", ("links", "uniform_chain")), ("Link", _WEIGHT), ("UniformChain", _WEIGHT)):
-        table = schema["$defs"][name]
-        table["description"] = table["description"].partition("\n")[0]
-        table["oneOf"] = [{"required": [key]} for key in pair]
-    schema["$defs"]["Ask"]["description"] = "What is asked."
+    for table in schema["$defs"].values():
+        if "description" in table:
+            table["description"] = table["description"].partition("\n")[0]
+    weighed = ("Link", "UniformChain", "Flywheel", "Displaced")
+    for name, pair in (("Scene", ("links", "uniform_chain")), *((name, _WEIGHT) for name in weighed)):
+        schema["$defs"][name]["oneOf"] = [{"required": [key]} for key in pair]
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "revchain scene", **schema}

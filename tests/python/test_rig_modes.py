@@ -119,7 +119,8 @@ def test_what_was_asked() -> None:
     assert slow.gravity == G / 4 and np.all(slow.forward.angular_speed < all_of_them.forward.angular_speed[:2])
     assert "30 modes forward, 30 backward" in repr(all_of_them)
     assert not all_of_them.conical_height.flags.writeable and not some.forward.shape.flags.writeable
-    wrongs = ({"count": 31}, {"count": 0}, {"gravity": 0.0}, {"rtol": 1e-3}, {"method": "dense"}, {"certify": True})
+    assert len(rc.modes(rig, 31)) == 60 and len(rc.modes(rig, modes=range(29, 40)).forward) == 2
+    wrongs = ({"count": 0}, {"gravity": 0.0}, {"rtol": 1e-3}, {"method": "dense"}, {"certify": True})
     for wrong in wrongs:
         with pytest.raises(ValueError, match=r"revchain\.?:?"):
             rc.modes(rig, **wrong)

@@ -120,9 +120,15 @@ struct RigLink {
     S cross;    ///< X
     S lower, upper;
     S hung;  ///< weight that bears on the upper pin, of this link and all below
+    /// Sums of the sizes of the terms of each: a number is within `error_part` of that sum of the exact one.
+    struct Sizes {
+        double tension, lower, upper, cross, hung;
+    } size;
+    static constexpr double error_part = 64 * operation_error<S>();
 };
 
-/// The numbers of a rig's links, lowest first, in `Wide<double>`: each within 1e-28 of the sum of the sizes of its terms.
+/// The numbers of a rig's links, lowest first, in `Wide<double>`, each as near as `RigLink::error_part` says: three
+/// operations for a body's share, a few for their sum, and weights hung below in a sum that carries its own rounding.
 /// Cost O(N). Throws InvalidArgument where the chain's weights are more than 1e123 apart.
 inline std::vector<RigLink> rig_links(const Rig& rig) {
     using S = Wide<double>;
@@ -134,35 +140,44 @@ inline std::vector<RigLink> rig_links(const Rig& rig) {
     const auto in_lengths = [&](double x) { return std::ldexp(x, -units.length_exponent); };
     std::vector<RigLink> links;
     links.reserve(static_cast<std::size_t>(rig.size()));
-    S hung(0.0);
+    detail::RunningSum<S> hung;
+    double hung_size = 0;
     for (Index m = 0; m < rig.size(); ++m) {
         const Link<double> link = chain.link(m);
         const Displaced fluid = rig.displaced(m);
         const Flywheel wheel = rig.flywheel(m);
-        const S a(in_lengths(link.length));
-        RigLink result{a, hung, S(0.0), S(0.0), S(0.0), S(0.0), S(0.0), S(0.0), hung};
+        const S a(in_lengths(link.length)), none(0.0), below = hung.value();
+        RigLink result{a, below, none, none, none, none, none, none, below, {hung_size, 0, 0, 0, hung_size}};
         /// A body of the link: bearing (or borne, if less than 0) by one weight, moving by another.
-        const auto add = [&](const S& bears, const S& moves, double centroid, const S& gyration) {
+        const auto add = [&](double bears, double moves, double centroid, const S& gyration) {
             const S h(in_lengths(centroid)), p = h / a, q = (a - h) / a;
-            result.tension = result.tension + bears * p, result.hung = result.hung + bears;
-            result.moment = result.moment + moves * p, result.rest = result.rest + moves * q;
-            result.cross = result.cross + (p * q - gyration) * moves;
-            result.lower = result.lower + (p * p + gyration) * moves;
-            result.upper = result.upper + (q * q + gyration) * moves;
+            hung.add(S(bears));
+            result.tension = result.tension + S(bears) * p;
+            result.moment = result.moment + S(moves) * p, result.rest = result.rest + S(moves) * q;
+            result.cross = result.cross + (p * q - gyration) * S(moves);
+            result.lower = result.lower + (p * p + gyration) * S(moves);
+            result.upper = result.upper + (q * q + gyration) * S(moves);
+            const double near = std::abs(p.high), far = std::abs(q.high), turn = gyration.high;
+            const double weight = std::abs(bears), moved = std::abs(moves);
+            result.size.tension += weight * near, result.size.hung += weight;
+            result.size.lower += moved * (near * near + turn), result.size.upper += moved * (far * far + turn);
+            result.size.cross += moved * (near * far + turn);
         };
-        const S weight(in_weights(link.weight));
+        const double weight = in_weights(link.weight);
         add(weight, weight, link.centroid, link.gyration_ratio);
         if (fluid.weight != 0 || fluid.added_weight != 0) {
-            const S borne(in_weights(fluid.weight)), added(in_weights(fluid.added_weight));
-            add(-borne, rig.fluid() == Fluid::turning ? -borne : added, fluid.centroid, fluid.gyration_ratio);
+            const double borne = in_weights(fluid.weight);
+            add(-borne, rig.fluid() == Fluid::turning ? -borne : in_weights(fluid.added_weight), fluid.centroid,
+                fluid.gyration_ratio);
         }
         if (wheel.axial_moment != 0) {  // turning with the link it lessens what a body resists turning with
             const S turning = S(std::ldexp(in_weights(wheel.axial_moment), -2 * units.length_exponent)) / (a * a);
             result.cross = result.cross + turning;
             result.lower = result.lower - turning, result.upper = result.upper - turning;
+            result.size.lower += turning.high, result.size.upper += turning.high, result.size.cross += turning.high;
         }
         result.spin = S(std::ldexp(in_weights(wheel.momentum), -units.length_exponent)) / a;
-        hung = result.hung;
+        result.hung = hung.value(), hung_size = result.size.hung;
         links.push_back(result);
     }
     return links;

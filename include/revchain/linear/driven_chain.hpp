@@ -42,38 +42,18 @@ inline DrivenChain driven_chain(const Chain<double>& chain) {
     return result;
 }
 
-/// The numbers of `rig_links` are within 1e-28 of the sums of the sizes of their terms: those are added up here.
 inline DrivenChain driven_chain(const Rig& rig) {
-    const Chain<double>& chain = rig.chain();
-    const std::vector<RigLink> links = rig_links(rig);
-    DrivenChain result{{}, chain.units(), true, rig.has_momentum(), 0};
-    result.elements.reserve(links.size() + 1);
+    DrivenChain result{{}, rig.chain().units(), true, rig.has_momentum(), 0};
     const auto weights = [&](double x) { return std::ldexp(x, -result.units.weight_exponent); };
-    const auto lengths = [&](double x) { return std::ldexp(x, -result.units.length_exponent); };
-    constexpr double part = 1.01e-28;
-    double hung = 0;
-    for (Index m = 0; m < rig.size(); ++m) {
-        const RigLink& link = links[static_cast<std::size_t>(m)];
-        const Link<double> own = chain.link(m);
-        const Displaced fluid = rig.displaced(m);
-        const double a = link.length.high;
-        const double turning =
-            std::ldexp(weights(rig.flywheel(m).axial_moment), -2 * result.units.length_exponent) / (a * a);
-        double bearing = hung, lower = turning, upper = turning, cross = turning;
-        const auto add = [&](double bears, double moves, double centroid, double gyration) {
-            const double p = lengths(centroid) / a, q = (a - lengths(centroid)) / a;
-            hung += bears, bearing += bears * std::abs(p);
-            lower += moves * (p * p + gyration), upper += moves * (q * q + gyration);
-            cross += moves * (std::abs(p * q) + gyration);
-        };
-        add(weights(own.weight), weights(own.weight), own.centroid, own.gyration_ratio.high);
-        add(weights(fluid.weight), weights(std::max(fluid.weight, fluid.added_weight)), fluid.centroid,
-            fluid.gyration_ratio.high);
+    Index m = 0;
+    for (const RigLink& link : rig_links(rig)) {
         linalg::DrivenElement e{link.tension / link.length, link.spin / link.length, link.lower, link.upper,
                                 link.cross};
-        if (rig.stands(m)) e.stiffness = -e.stiffness, e.spin = -e.spin, ++result.standing;
-        e.stiffness_error = part * bearing / a;
-        e.lower_error = part * lower, e.upper_error = part * upper, e.cross_error = part * cross;
+        if (rig.stands(m++)) e.stiffness = -e.stiffness, e.spin = -e.spin, ++result.standing;
+        constexpr double part = RigLink::error_part;
+        e.stiffness_error = 1.01 * part * link.size.tension / link.length.high;
+        e.lower_error = part * link.size.lower, e.upper_error = part * link.size.upper;
+        e.cross_error = part * link.size.cross;
         result.elements.push_back(e);
     }
     const Support& support = rig.support();

@@ -126,17 +126,13 @@ class CountedRoots {
     int side_;
 };
 
-/// The range of mode numbers asked for of so many, refused where there are none such.
-inline ModeRange chosen(const RigModesOptions& options, Index available, std::string_view kind) {
-    const std::string of = std::to_string(available) + " " + std::string(kind) + " of this rig";
+/// The range of mode numbers asked for of so many; fewer, or none, where there are not as many. How many there are of
+/// a sense is told by the result.
+inline ModeRange chosen(const RigModesOptions& options, Index available) {
     if (options.first < 1) refuse("rig_modes", "first must be at least 1", options.first);
     if (options.count && *options.count < 1) refuse("rig_modes", "count must be at least 1", *options.count);
-    if (!options.count && options.first == 1) return {1, available};
-    if (options.first > available) refuse("rig_modes", "first must not exceed the " + of, options.first);
-    const Index left = available - options.first + 1;
-    if (options.count.value_or(left) > left)
-        refuse("rig_modes", "count must not exceed what is left, from first on, of the " + of, *options.count);
-    return {options.first, options.count.value_or(left)};
+    const Index left = std::max<Index>(0, available - options.first + 1);
+    return {options.first, std::min(left, options.count.value_or(left))};
 }
 
 inline void make_room(WhirlModes& modes, const ModeRange& range, Index available, Index links, bool shapes) {
@@ -175,9 +171,8 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const lin
 
 /// Finds the modes of one sense; reports progress from one share to another.
 inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& pencil, const CountedRoots& roots,
-                           Index available, const RigModesOptions& options, std::string_view kind, double from,
-                           double to) {
-    const ModeRange range = chosen(options, available, kind);
+                           Index available, const RigModesOptions& options, double from, double to) {
+    const ModeRange range = chosen(options, available);
     make_room(modes, range, available, rig.size(), options.shapes);
     if (range.count == 0) return true;
     const double all = static_cast<double>(range.count);

@@ -23,8 +23,8 @@ inline constexpr Index dense_rig_limit = 200;
 /// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of `modes`. A rig without anything is
 /// given to `modes`.
 /// Cost: 1 microsecond per link and mode with shapes, O(N k) memory; discs take seconds at the limit.
-/// Throws InvalidArgument for mode numbers outside 1 ... those there are, gravity that is not positive, and beyond the
-/// limit. A bound that could not be proved is infinite and the status `tolerance_not_met`.
+/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, and beyond the limit. Of numbers beyond
+/// those there are, `available` of a sense, there are no modes. A bound that could not be proved is infinite and the status `tolerance_not_met`.
 RigModes rig_modes(const Rig& rig, const RigModesOptions& options = {});
 
 namespace detail {
@@ -33,7 +33,10 @@ namespace detail {
 inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
     RigModes result;
     const Index available = rig.chain().mode_count();
-    const ModeRange range = chosen(options, available, "modes");
+    const ModeRange range = chosen(options, available);
+    make_room(result.forward, range, available, rig.size(), options.shapes);
+    result.complete = true, result.method = "modes";
+    if (range.count == 0) return result;
     const Modes<double> plain =
         modes(rig.chain(),
               {.first = range.first, .count = range.count, .shapes = options.shapes, .progress = options.progress});
@@ -41,7 +44,7 @@ inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
         range.first,       available,   plain.conical_height, plain.error_bound, plain.angular_speed(options.gravity),
         plain.error_bound, plain.shape, plain.residual};
     for (double& bound : result.forward.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
-    result.complete = true, result.method = "modes", result.status = plain.status;
+    result.status = plain.status;
     return result;
 }
 
@@ -93,8 +96,7 @@ inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const R
     const CountedRoots roots(pencil.pencil, pencil.pace, -before, 1, 1);
     CountedRoots::Available available{pencil.pencil.size() - pencil.inertialess, true};
     if (!pencil.stiffness_positive || !pencil.mass_not_negative) available = roots.available();
-    const bool modes_proved =
-        count_modes_of(result.forward, rig, pencil, roots, available.count, options, "modes", 0, 0.9);
+    const bool modes_proved = count_modes_of(result.forward, rig, pencil, roots, available.count, options, 0, 0.9);
     Index negative = 0;
     bool others_proved = true;
     const Index size = pencil.pencil.size();
@@ -119,7 +121,7 @@ inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const Ri
                                    : roots.available();
         const bool proved =
             count_modes_of(forward ? result.forward : result.backward, rig, pencil, roots, available.count, options,
-                           forward ? "forward modes" : "backward modes", forward ? 0 : 0.5, forward ? 0.5 : 1);
+                           forward ? 0 : 0.5, forward ? 0.5 : 1);
         result.complete = result.complete && available.proved;
         if (!proved || !available.proved) result.status = Status::tolerance_not_met;
     }
@@ -161,15 +163,15 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Ri
                                     2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }
     }
-    const auto store = [&](WhirlModes& modes, const std::vector<FoundRoot>& found, bool ahead, std::string_view kind) {
-        const ModeRange range = chosen(options, static_cast<Index>(found.size()), kind);
+    const auto store = [&](WhirlModes& modes, const std::vector<FoundRoot>& found, bool ahead) {
+        const ModeRange range = chosen(options, static_cast<Index>(found.size()));
         make_room(modes, range, static_cast<Index>(found.size()), rig.size(), options.shapes);
         const auto sense = ahead ? pencil.pencil : pencil.pencil.reversed();
         for (Index j = 0; j < range.count; ++j)
             set_mode(modes, j, pencil, sense, found[static_cast<std::size_t>(range.first - 1 + j)], options.shapes);
     };
-    store(result.forward, forward, true, result.has_momentum ? "forward modes" : "modes");
-    if (result.has_momentum) store(result.backward, backward, false, "backward modes");
+    store(result.forward, forward, true);
+    if (result.has_momentum) store(result.backward, backward, false);
     return result;
 }
 

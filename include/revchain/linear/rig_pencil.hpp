@@ -94,9 +94,7 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
     result.pace = sqrt(S(std::ldexp(gravity, -result.units.length_exponent)));
     result.stiffness_positive = result.stiffness_certain = result.mass_not_negative = result.spins_held = true;
     result.not_positive = 0;
-    const double u = operation_error<S>();
     const auto in_weights = [&](double x) { return std::ldexp(x, -result.units.weight_exponent); };
-    const auto in_lengths = [&](double x) { return std::ldexp(x, -result.units.length_exponent); };
     const auto add = [&](const linalg::SignedElement<S>& e, const linalg::SignedElementError<double>& off,
                          bool mass_not_negative) {
         result.pencil.elements.push_back(e);
@@ -107,39 +105,17 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
         result.not_positive += k > 0 ? 0 : 1;
         result.mass_not_negative = result.mass_not_negative && mass_not_negative;
     };
-    double hung = 0;  // sizes of what is hung, added
     for (Index m = 0; m < rig.size(); ++m) {
         const RigLink& link = links[static_cast<std::size_t>(m)];
-        const Link<double> body = rig.chain().link(m);
-        const Displaced fluid = rig.displaced(m);
-        const double a = in_lengths(body.length),
-                     shared = rig.fluid() == Fluid::turning ? fluid.weight : fluid.added_weight;
-        // Sizes: of the terms of the tension, of those of the mass.
-        double tension = hung, lower = 0, cross = 0, upper = 0;
-        const auto body_sizes = [&](double bears, double moves, double centroid, double gyration) {
-            const double p = std::abs(in_lengths(centroid)) / a, q = std::abs(a - in_lengths(centroid)) / a;
-            tension += bears * p, hung += bears;
-            lower += moves * (p * p + gyration), cross += moves * (p * q + gyration);
-            upper += moves * (q * q + gyration);
-        };
-        body_sizes(in_weights(body.weight), in_weights(body.weight), body.centroid,
-                   static_cast<double>(body.gyration_ratio));
-        body_sizes(in_weights(fluid.weight), in_weights(shared), fluid.centroid,
-                   static_cast<double>(fluid.gyration_ratio));
-        const double axial = in_weights(rig.flywheel(m).axial_moment);
-        if (axial > 0) {
-            const double turning = std::ldexp(axial, -2 * result.units.length_exponent) / a / a;
-            lower += turning, cross += turning, upper += turning;
-        }
-        const double sign = rig.stands(m) ? -1 : 1;
+        const double sign = rig.stands(m) ? -1 : 1, part = RigLink::error_part;
         const linalg::SignedElement<S> e{link.tension / link.length * sign,
                                          link.spin / link.length * sign * result.pace, link.lower, link.upper,
                                          link.cross};
-        const double sums = 1.01 * static_cast<double>(2 * m + 8);
-        const linalg::SignedElementError<double> off{sums * u * tension / a,
-                                                     10 * u * std::abs(static_cast<double>(e.spin)), 12 * u * lower,
-                                                     12 * u * upper, 12 * u * cross};
-        const bool plain = axial == 0 && (rig.fluid() == Fluid::still || fluid.weight == 0);
+        const linalg::SignedElementError<double> off{1.01 * part * link.size.tension / link.length.high,
+                                                     part * std::abs(e.spin.high), part * link.size.lower,
+                                                     part * link.size.upper, part * link.size.cross};
+        const bool plain =
+            rig.flywheel(m).axial_moment == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
         add(e, off, plain || detail::is_not_negative(e, off));
         result.spins_held = result.spins_held && (link.spin == S(0.0) || detail::held_by(rig, m) == detail::Held::both);
     }

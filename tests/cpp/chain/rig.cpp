@@ -77,7 +77,7 @@ void check_numbers(const Rig& rig) {
             weight_of_link += body.bears, size_of_weight += fabsq(body.bears);
         }
         hung += weight_of_link, hung_size += size_of_weight;
-        constexpr double tolerance = 1e-29;
+        constexpr double tolerance = revchain::RigLink::error_part;
         CHECK(static_cast<double>(fabsq(length(link.length) - a) / a) == 0);
         CHECK(static_cast<double>(fabsq(weight(link.tension) - bearing / a) * a / bearing_size) < tolerance);
         CHECK(static_cast<double>(fabsq(weight(link.hung) - hung) / hung_size) < tolerance);

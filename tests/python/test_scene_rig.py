@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scene files of rigs: supports, standing links, flywheels, fluids; solved from the command line and kept in files."""
+
+from __future__ import annotations
+
+import csv
+import json
+
+import numpy as np
+import pytest
+
+import revchain as rc
+from revchain.scene import Scene
+
+G = 9.80665
+ROD = {"mass": 1.0, "length": 1.5, "kind": "rod"}
+WHEEL = {"mass": 1.5, "radius_of_gyration": 0.29, "spin": "300 rpm"}
+
+
+def scene(*links, **entries):
+    return Scene.from_dict({"links": list(links) or [dict(ROD)], **entries})
+
+
+def test_a_scene_says_what_a_rig_is():
+    given = scene(
+        {**ROD, "flywheel": WHEEL, "repeat": 2},
+        {"weight": 3.0, "length": 0.4, "standing": True},
+        {**ROD, "displaced": {"mass": 0.5, "added_mass": 0.25, "centroid": 0.7}},
+        {"mass": 1.0, "length": 1.0, "flywheel": {**WHEEL, "spin": -2.0, "driven": True}},
+        support={"stiffness": "2 kN/m", "mass": 0.2, "radius": "10 cm"},
+        fluid="still",
+        gravity=10.0,
+    )
+    rig = given.rig()
+    assert given.is_rigged
+    assert rig.chain == given.chain()
+    assert (rig.stiffness, rig.support_radius) == (2000.0, 0.1)
+    assert rig.carriage_weight == pytest.approx(2.0, rel=1e-15)
+    momentum = 1.5 * 0.29**2 * 300 * 2 * np.pi / 60
+    assert rig.momentum == pytest.approx([momentum, momentum, 0, 0, -2 * 1.5 * 0.29**2], rel=1e-14)
+    assert rig.axial_moment == pytest.approx([0, 0, 0, 0, 15 * 0.29**2], rel=1e-14)
+    assert rig.standing.tolist() == [False, False, True, False, False]
+    assert rig.displaced_weight.tolist() == [0, 0, 0, 5.0, 0]
+    assert rig.added_weight.tolist() == [0, 0, 0, 2.5, 0]
+    assert rig.displaced_centroid.tolist() == [0.75, 0.75, 0.4, 0.7, 1.0]
+
+
+def test_a_scene_without_any_of_it_is_a_chain():
+    given = scene()
+    assert not given.is_rigged
+    assert isinstance(given.modes(), rc.Modes)
+    assert given.rig() == rc.Rig(given.chain())
+
+
+def test_modes_of_a_scene_are_those_of_its_rig():
+    support = {"stiffness": 50.0, "mass": 0.2}
+    given = scene({**ROD, "flywheel": WHEEL, "repeat": 30}, support=support, ask={"modes": 4, "first": 2})
+    found = given.modes()
+    assert isinstance(found, rc.RigModes)
+    same = rc.modes(given.rig(), modes=range(2, 6), gravity=G)
+    assert np.array_equal(found.conical_height, same.conical_height)
+    assert len(found.forward) == len(found.backward) == 4
+    assert len(scene(ROD, support=support, ask={"modes": "all"}).modes()) == 2
+    assert len(scene(ROD, support=support).modes()) == 2
+    assert len(scene({**ROD, "repeat": 20}, support=support).modes()) == 10
+
+
+@pytest.mark.parametrize(
+    ("entries", "says"),
+    [
+        ({"support": {"stiffness": 0}}, r"support.stiffness: must be positive, got 0"),
+        ({"support": {"stiffness": "3 kg"}}, r"support.stiffness: must be a force per length such as \"2 kN/m\""),
+        ({"support": {"mass": 1}}, r"support.stiffness: is missing"),
+        ({"support": {"stiffness": 1, "mass": 1, "weight": 2}}, r"support: give either weight or mass"),
+        ({"support": {"spring": 1}}, r"support.spring: unknown key"),
+        ({"fluid": "air"}, r"fluid: must be one of still, turning"),
+        ({"links": [{**ROD, "standing": 1}]}, r"links\[0\].standing: "),
+        ({"links": [ROD, {**ROD, "flywheel": {"mass": 1, "spin": 1}}]}, r"links\[1\].flywheel.radius_of_gyration: is missing"),
+        ({"links": [{**ROD, "flywheel": {**WHEEL, "spin": "3 m"}}]}, r"links\[0\].flywheel.spin: must be an angular speed"),
+        ({"links": [{**ROD, "flywheel": {**WHEEL, "weight": 1}}]}, r"links\[0\].flywheel: give either weight or mass"),
+        ({"links": [{**ROD, "displaced": {}}]}, r"links\[0\].displaced: give either weight or mass"),
+        ({"links": [{**ROD, "displaced": {"mass": 1, "added_mass": "1 m"}}]}, r"displaced.added_mass: must be a mass"),
+        ({"support": {"radius": 1}, "ask": {"rtol": 1e-3}}, r"ask.rtol: is for a chain alone"),
+        ({"support": {"radius": 1}, "ask": {"angular_speed": [1, 2]}}, r"ask.angular_speed: is for a chain alone"),
+    ],
+)
+def test_wrong_rigs_say_where(entries, says):
+    with pytest.raises(rc.SceneError, match=says):
+        Scene.from_dict({"links": [ROD], **entries})
+
+
+def test_modes_of_a_rig_are_kept_to_the_last_digit(tmp_path):
+    rig = rc.Rig(
+        rc.Chain(weight=[1.0, 3.0, 2.0], length=[0.5, 0.4, 0.3]),
+        stiffness=30.0,
+        standing=[False, True, False],
+        momentum=[0.2, 0.0, 0.1],
+        displaced_weight=[0.1, 0.0, 0.0],
+    )
+    for shapes in (True, False):
+        found = rc.modes(rig, shapes=shapes)
+        path = tmp_path / "rig.npz"
+        found.save(path)
+        back = rc.load(path)
+        assert isinstance(back, rc.RigModes)
+        assert back.rig == rig
+        assert json.dumps(back.to_dict()) == json.dumps(found.to_dict())
+        assert back.forward.available == found.forward.available
+        assert (back.shape is None) == (not shapes)
+    with pytest.raises(ValueError, match=r"kept in \.npz"):
+        found.save(tmp_path / "rig.nc")
+
+
+def test_from_the_command_line(python, tmp_path):
+    text = """
+title = "Broomstick with a wheel"
+[[links]]
+kind = "rod"
+mass = 1.0
+length = 1.2
+standing = true
+flywheel = {mass = 0.5, radius_of_gyration = 0.2, spin = "300 rpm"}
+[[links]]
+mass = 0.1
+length = 0.6
+[support]
+stiffness = 40
+"""
+    path = tmp_path / "broom.toml"
+    path.write_text(text)
+    run = python("-m", "revchain", "solve", path, "--out", tmp_path / "out")
+    assert run.returncode == 0, run.stderr
+    assert "forward 1" in run.stdout and "1 link standing, 1 link with momentum" in run.stdout
+    data = json.loads((tmp_path / "out" / "broom.json").read_text())
+    found = rc.load(tmp_path / "out" / "broom.npz")
+    assert [mode["angular_speed"] for mode in data["modes"]] == found.angular_speed().tolist()
+    with (tmp_path / "out" / "broom.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row["angular_speed"]) for row in rows if row["mode"]] == found.angular_speed().tolist()
+    assert len(rows) == len(found) + len(found.other)
+    assert (tmp_path / "out" / "broom.png").stat().st_size > 5000
+    assert "valid: Rig of a chain of 2 links" in python("-m", "revchain", "validate", path).stdout
