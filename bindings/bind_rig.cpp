@@ -3,6 +3,7 @@
 
 #include "bindings.hpp"
 #include "revchain/chain/rig.hpp"
+#include "revchain/linear/gyrostatic_string.hpp"
 
 namespace {
 
@@ -45,6 +46,18 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
     return Rig(chain, std::move(with));
 }
 
+using String = revchain::GyrostaticString<double>;
+
+/// A function of a string and a number, for arrays of numbers: `count` arrays of their shape.
+template <std::size_t count, class Function>
+auto of_string(const Function& function) {
+    return [function](const Array& at, double weight, double length, double tension, double momentum, double centroid,
+                      double radius_of_gyration, double gravity) {
+        const String string{weight, length, tension, momentum, centroid, radius_of_gyration, gravity};
+        return columns<count>([&](double x) { return function(string, x); }, at);
+    };
+}
+
 }  // namespace
 
 void bind_rig(py::module_& module) {
@@ -52,4 +65,18 @@ void bind_rig(py::module_& module) {
         .def(py::init(&make_rig), "chain"_a, "stiffness"_a, "carriage_weight"_a, "support_radius"_a, "standing"_a,
              "momentum"_a, "axial_moment"_a, "displaced_weight"_a, "displaced_centroid"_a,
              "displaced_radius_of_gyration"_a, "added_weight"_a, "turning_fluid"_a);
+
+    const auto def = [&](const char* name, const auto& function) {
+        module.def(name, function, "at"_a, "weight"_a, "length"_a, "tension"_a, "momentum"_a, "centroid"_a,
+                   "radius_of_gyration"_a, "gravity"_a);
+    };
+    def("gyrostatic_string_phase", of_string<2>([](const String& string, double speed) {
+            const auto found = link_phase(string, speed);
+            return std::array<double, 2>{found.phase, found.attenuation};
+        }));
+    def("gyrostatic_string_speeds",
+        of_string<2>([](const String& string, double phase) { return wave_speeds(string, phase); }));
+    def("gyrostatic_string_rotation", of_string<1>([](const String& string, double speed) {
+            return std::array<double, 1>{plane_rotation(string, speed)};
+        }));
 }

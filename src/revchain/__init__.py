@@ -36,6 +36,7 @@ from ._continuous import (
     continuous_shapes,
 )
 from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
+from ._gyrostatic import GyrostaticString
 from ._held import (
     HeldCordShape,
     HeldShape,
@@ -85,6 +86,7 @@ __all__ = [
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
+    "GyrostaticString",
     "HeldCordShape",
     "HeldShape",
     "HeldShapes",

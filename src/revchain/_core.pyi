@@ -99,6 +99,37 @@ def rig_sensitivity(
 ) -> tuple[_Floats, _Floats, _Floats, float, float]: ...
 def momentum_for_speed(rig: Rig, link: int, angular_speed: float, gravity: float) -> float: ...
 
+def gyrostatic_string_phase(
+    at: _Floats,
+    weight: float,
+    length: float,
+    tension: float,
+    momentum: float,
+    centroid: float,
+    radius_of_gyration: float,
+    gravity: float,
+) -> tuple[_Floats, _Floats]: ...
+def gyrostatic_string_speeds(
+    at: _Floats,
+    weight: float,
+    length: float,
+    tension: float,
+    momentum: float,
+    centroid: float,
+    radius_of_gyration: float,
+    gravity: float,
+) -> tuple[_Floats, _Floats]: ...
+def gyrostatic_string_rotation(
+    at: _Floats,
+    weight: float,
+    length: float,
+    tension: float,
+    momentum: float,
+    centroid: float,
+    radius_of_gyration: float,
+    gravity: float,
+) -> tuple[_Floats]: ...
+
 _Numbers = numpy.typing.NDArray[typing.Any]  # float32, float64 or longdouble
 _Whole = numpy.typing.NDArray[numpy.int64]
 

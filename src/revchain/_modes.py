@@ -182,7 +182,7 @@ class Modes(_Derived):
         -------
         ndarray, shape (k,)
             In rad/s, ascending; longdouble with ``precision="extended"``, else float64. Relative error
-        at most half of `error_bound` and 2.1 ulp.
+            at most half of `error_bound` and 2.1 ulp.
 
         Raises
         ------
@@ -261,7 +261,7 @@ class Modes(_Derived):
         """
         height, g = self._with_gravity("revolutions_per_second", gravity)
         if self.precision == "extended":
-            extended: Numbers = np.sqrt(g) / np.sqrt(height) / (TURN)
+            extended: Numbers = np.sqrt(g) / np.sqrt(height) / TURN
             return extended
         return _core.conical_pendulum_revolutions_per_second(height, g)
 

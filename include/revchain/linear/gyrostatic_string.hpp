@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <array>
+
+#include "revchain/core/conical_pendulum.hpp"
+
+namespace revchain {
+
+/// Thomson's gyrostatic string: equal links jointed in a row under one pull, each with a flywheel about its own axis; the
+/// model of light in a magnetised body. Small offsets; the weight of the links tells in their inertia alone.
+///
+/// In a circular wave every pin runs round the line with speed n, positive in the sense of a positive momentum, each a
+/// phase theta behind its neighbour:
+///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),   X = W (h (a - h) - rho^2)/a^2.
+template <Real T>
+struct GyrostaticString {
+    T weight;                ///< W > 0, of a link with its wheel
+    T length;                ///< a > 0, from pin to pin
+    T tension;               ///< T > 0
+    T momentum;              ///< H, kept by the wheels, force times length times time; any sign
+    T centroid;              ///< h, from one of the pins
+    T radius_of_gyration{};  ///< rho >= 0, across the line, about the centre of gravity
+    T gravity = T(conical_pendulum::standard_gravity);  ///< what `weight` is under
+};
+
+/// How a circular wave goes along: exp(i m phase) exp(-m attenuation) from link to link. One of both is 0, but for speeds
+/// at which neighbours move against each other (phase pi) and less and less.
+template <Real T>
+struct LinkPhase {
+    T phase{};        ///< rad, 0 ... pi
+    T attenuation{};  ///< >= 0; 0 where the wave passes
+};
+
+namespace detail {
+
+template <Real T>
+void check(std::string_view place, const GyrostaticString<T>& s) {
+    using std::isfinite;
+    require_positive(place, "weight", s.weight), require_positive(place, "length", s.length);
+    require_positive(place, "tension", s.tension), require_positive(place, "gravity", s.gravity);
+    if (!isfinite(s.momentum)) refuse(place, "momentum must be finite", s.momentum);
+    if (!isfinite(s.centroid)) refuse(place, "centroid must be finite", s.centroid);
+    if (!isfinite(s.radius_of_gyration) || s.radius_of_gyration < T(0))
+        refuse(place, "radius of gyration must be finite and not negative", s.radius_of_gyration);
+}
+
+/// X/W.
+template <Real T>
+T share_across(const GyrostaticString<T>& s) {
+    const T p = s.centroid / s.length, r = s.radius_of_gyration / s.length;
+    return p * (T(1) - p) - r * r;
+}
+
+/// sin^2 and cos^2 of half the phase; of any sign where the wave does not pass.
+template <Real T>
+std::array<T, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
+    const T inertia = n * n / s.gravity * s.weight;
+    const T stiffness = (s.tension + n * s.momentum / s.length) / s.length + inertia * share_across(s);
+    return {inertia / (T(4) * stiffness), (stiffness - inertia / T(4)) / stiffness};
+}
+
+}  // namespace detail
+
+/// Of a circular wave at speed n, of either sign. Accuracy: 4 ulp, over cos(phase/2) where that is small, and where T/a,
+/// n H/a^2 and (n^2/g) X cancel as many times more (measured: tests/cpp/linear/gyrostatic_string.cpp).
+/// Throws InvalidArgument unless weight, length, tension and gravity are positive and all numbers finite, for a negative
+/// radius of gyration, and for a speed that is not finite.
+template <Real T>
+LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_speed) {
+    using std::asinh;
+    using std::atan2;
+    using std::isfinite;
+    using std::sqrt;
+    detail::check("link_phase", string);
+    if (!isfinite(angular_speed)) detail::refuse("link_phase", "angular speed must be finite", angular_speed);
+    const auto [sine, cosine] = detail::half_phase(string, angular_speed);
+    if (sine < T(0)) return {T(0), T(2) * asinh(sqrt(-sine))};
+    if (cosine < T(0)) return {T(4) * atan2(T(1), T(1)), T(2) * asinh(sqrt(-cosine))};
+    return {T(2) * atan2(sqrt(sine), sqrt(cosine)), T(0)};
+}
+
+/// The two speeds of a circular wave with a phase: forward (positive) and backward. Accuracy: 4 ulp, with one more for
+/// each bit that 1 - 4 X sin^2/W cancels. Throws InvalidArgument as link_phase does, and unless 0 < phase <= pi.
+template <Real T>
+std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) {
+    using std::abs;
+    using std::hypot;
+    using std::sin;
+    using std::sqrt;
+    detail::check("wave_speeds", string);
+    if (!(phase > T(0)) || !(phase <= std::numbers::pi_v<T>))
+        detail::refuse("wave_speeds", "phase must lie above 0 and not above pi", phase);
+    const T half = sin(phase / T(2)), sine = T(4) * half * half;
+    const T A = string.weight / string.gravity * (T(1) - sine * detail::share_across(string));
+    const T B = sine * string.momentum / string.length / string.length, C = sine * string.tension / string.length;
+    const T q = (abs(B) + hypot(B, T(2) * sqrt(A) * sqrt(C))) / T(2);
+    return B < T(0) ? std::array<T, 2>{C / q, -(q / A)} : std::array<T, 2>{q / A, -(C / q)};
+}
+
+/// By how much the plane of a to-and-fro vibration turns from link to link, rad, in the sense of a positive momentum: half
+/// of what the phases of its two circular parts differ. The same for waves running either way: one that comes back is
+/// turned twice. NaN where one of both does not pass. Accuracy: 8 ulp however small the momentum, over the cosine of half
+/// the larger phase where that is small. Throws InvalidArgument as link_phase does, and for a speed not positive.
+template <Real T>
+T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
+    using std::asin;
+    using std::sqrt;
+    detail::check("plane_rotation", string);
+    detail::require_positive("plane_rotation", "angular speed", angular_speed);
+    const auto [ahead, ahead_rest] = detail::half_phase(string, angular_speed);
+    const auto [back, back_rest] = detail::half_phase(string, T(-angular_speed));
+    if (ahead < T(0) || ahead_rest < T(0) || back < T(0) || back_rest < T(0))
+        return std::numeric_limits<T>::quiet_NaN();
+    // sin^2 - sin^2 of the halves, in which the tension cancels
+    const T turn = angular_speed * string.momentum / string.length / string.length;
+    const T inertia = angular_speed * angular_speed / string.gravity * string.weight;
+    const T difference = T(8) * turn * (ahead / inertia) * back;
+    return asin(difference / (sqrt(back) * sqrt(ahead_rest) + sqrt(ahead) * sqrt(back_rest)));
+}
+
+}  // namespace revchain

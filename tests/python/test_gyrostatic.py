@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thomson's gyrostatic string: against a row of links moved at one end, and its pictures."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+import revchain as rc
+
+WHEELS = {"weight": 15.0, "length": 0.1, "tension": 2000.0, "radius_of_gyration": 0.2}
+
+
+def string(momentum=0.5, **other):
+    return rc.GyrostaticString(**{**WHEELS, **other}, momentum=momentum)
+
+
+def offsets(given, speed, count):
+    """Offsets of pins 0 ... count of a long row, pin 0 moved, the far end held: assembled and solved densely, a little
+    damping letting the wave die out on the way back."""
+    W, a, h, rho = given.weight, given.length, given.length / 2, WHEELS["radius_of_gyration"]
+    p = h / a
+    A, B, X = W * (p * p + (rho / a) ** 2), W * ((1 - p) ** 2 + (rho / a) ** 2), W * (p * (1 - p) - (rho / a) ** 2)
+    k = (given.tension + speed * given.momentum / a) / a * (1 + 1e-3j * np.sign(speed))
+    w = speed**2 / 9.80665
+    matrix = np.zeros((count + 1, count + 1), complex)
+    for m in range(count):
+        matrix[m : m + 2, m : m + 2] += k * np.array([[1, -1], [-1, 1]]) - w * np.array([[A, X], [X, B]])
+    right = -matrix[1:-1, 0]
+    return np.concatenate([[1.0], np.linalg.solve(matrix[1:-1, 1:-1], right), [0.0]])
+
+
+@pytest.mark.parametrize("speed", [20.0, -20.0, 60.0, -60.0])
+def test_the_phase_is_that_of_a_long_row_driven_at_its_end(speed):
+    given = string()
+    y = offsets(given, speed, 6000)
+    seen = np.abs(np.angle(y[1:50] / y[:49]))
+    assert seen == pytest.approx(given.phase(speed), rel=1e-3)
+
+
+def test_the_plane_turns_by_half_the_difference_of_the_phases():
+    given = string()
+    speeds = np.array([5.0, 20.0, 60.0])
+    assert given.plane_rotation(speeds) == pytest.approx((given.phase(-speeds) - given.phase(speeds)) / 2, rel=1e-12)
+    assert given.plane_rotation(20.0) == -string(-0.5).plane_rotation(20.0)
+    assert string(1e-12).plane_rotation(20.0) == pytest.approx(2e-12 * string(0.5).plane_rotation(20.0), rel=1e-3)
+    assert np.isnan(given.plane_rotation(1e5))
+
+
+def test_speeds_and_phases_are_inverse():
+    given = string()
+    phase = np.linspace(0.01, 3.1, 50)
+    speeds = given.angular_speeds(phase)
+    assert given.phase(speeds.forward) == pytest.approx(phase, rel=1e-13)
+    assert given.phase(speeds.backward) == pytest.approx(phase, rel=1e-13)
+    assert np.all(speeds.forward > -speeds.backward)
+    assert np.all(given.attenuation(speeds.forward) == 0)
+
+
+def test_beyond_the_fastest_wave_it_dies_away():
+    given = string(0.0, radius_of_gyration=0.0)
+    fastest = given.angular_speeds(np.pi).forward
+    assert given.phase(1.5 * fastest) == np.pi
+    y = offsets_of_plummets(given, 1.5 * fastest)
+    assert -np.log(np.abs(y[1:20] / y[:19])) == pytest.approx(given.attenuation(1.5 * fastest), rel=1e-9)
+
+
+def offsets_of_plummets(given, speed):
+    """The decaying root of the recurrence of the balance at a pin."""
+    W, a, w = given.weight, given.length, speed**2 / 9.80665
+    k, X = given.tension / a, W / 4
+    middle, beside = 2 * k - w * (W - 2 * X), -k - w * X
+    root = np.roots([beside, middle, beside])
+    return root[np.argmin(np.abs(root))] ** np.arange(30)
+
+
+def test_a_string_is_a_value():
+    given = string()
+    assert pickle.loads(pickle.dumps(given)) == given and hash(given) == hash(string())
+    assert given != string(0.25)
+    assert (given.weight, given.length, given.tension, given.momentum) == (15.0, 0.1, 2000.0, 0.5)
+    with pytest.raises(AttributeError, match="cannot be changed"):
+        given.momentum = 1.0
+
+
+@pytest.mark.parametrize("name", ["weight", "length", "tension", "gravity"])
+def test_wrong_strings_are_refused(name):
+    with pytest.raises(ValueError, match=f"{name} must be positive and finite, got 0"):
+        string(**{name: 0.0})
+    with pytest.raises(ValueError, match="momentum must be finite"):
+        string(np.nan)
+    with pytest.raises(ValueError, match="radius of gyration must be finite and not negative"):
+        string(radius_of_gyration=-1.0)
+    for wrong in (0.0, -1.0, 4.0, np.nan):
+        with pytest.raises(ValueError, match="phase"):
+            string().angular_speeds(wrong)
+    for wrong in (0.0, -1.0, np.nan):
+        with pytest.raises(ValueError, match="angular"):
+            string().plane_rotation(wrong)
+
+
+def test_pictures():
+    given = string()
+    assert given.plot().get_ylabel() == "speed (rad/s)"
+    assert given.plot_vibration(60.0).get_xlabel() == "link"
+    with pytest.raises(ValueError, match="does not pass"):
+        given.plot_vibration(1e5)
