@@ -50,7 +50,7 @@ build analytic analytic
 package=$(echo "$root"/.venv/lib/python3*/site-packages/revchain)
 if [[ -d $package/share/cmake ]]; then
   say 'find_package in the installed Python package'
-  build in_python core -DCMAKE_PREFIX_PATH="$package"
+  build in_python light -DCMAKE_PREFIX_PATH="$package"
   grep -q "$package/include" in_python/build.ninja || fail 'the headers are not those of the Python package'
 fi
 
@@ -67,7 +67,7 @@ grep -q '^Total Tests: 1$' log || { cat log; fail 'the consumer has one test of 
 say 'pkg-config'
 export PKG_CONFIG_PATH=$work/moved/share/pkgconfig:${PKG_CONFIG_PATH-}
 # shellcheck disable=SC2046  # flags are words
-quietly "${CXX:-c++}" -std=c++20 "$here"/core/*.cpp $(pkg-config --cflags --libs revchain) -o with_pkg_config
+quietly "${CXX:-c++}" -std=c++20 "$here"/light/main.cpp $(pkg-config --cflags --libs revchain) -o with_pkg_config
 ./with_pkg_config
 # shellcheck disable=SC2046
 quietly "${CXX:-c++}" -std=c++20 "$here"/analytic/*.cpp $(pkg-config --cflags --libs revchain-analytic) -o with_pkg_config
@@ -75,7 +75,7 @@ quietly "${CXX:-c++}" -std=c++20 "$here"/analytic/*.cpp $(pkg-config --cflags --
 
 say '-ffast-math is refused'
 # shellcheck disable=SC2046
-if "${CXX:-c++}" -std=c++20 -ffast-math -fsyntax-only "$here/core/main.cpp" $(pkg-config --cflags revchain) 2>log; then
+if "${CXX:-c++}" -std=c++20 -ffast-math -fsyntax-only "$here/light/main.cpp" $(pkg-config --cflags revchain) 2>log; then
   fail 'compiled with -ffast-math'
 fi
 grep -qiE '#error.*fast.?math' log || { cat log; fail '-ffast-math is refused, but not by our #error'; }
