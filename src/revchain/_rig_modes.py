@@ -372,7 +372,8 @@ class RigModes:
         return "\n".join(lines)
 
     def _column(self, name: str) -> Floats:
-        return np.concatenate([getattr(self.forward, name), getattr(self.backward, name)])
+        forward: Floats = getattr(self.forward, name)
+        return np.concatenate([forward, getattr(self.backward, name)]) if self.has_momentum else forward.copy()
 
     def _both(self, values: Any) -> Any:
         """Values of the modes of both senses, put in order of speed, read-only."""

@@ -256,7 +256,7 @@ class Scene(Table, frozen=True):
         >>> support = {"stiffness": "50 N/m", "mass": 0.2}
         >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1.5, "kind": "rod"}], "support": support})
         >>> scene.modes().angular_speed().round(4)
-        array([ 2.9145, 12.8055])
+        array([ 2.9086, 11.3491])
         """
         if self.is_rigged:
             rig = self.rig()

@@ -266,6 +266,17 @@ def test_what_the_new_scene_says_in_comments_is_right(run):
     assert (ask.rtol, ask.first, ask.modes, ask.certify) == (1e-9, 3, 5, True)
 
 
+def test_what_the_new_scene_says_of_rigs_is_right(run):
+    """What is commented out in the half that holds, put in."""
+    run("new", "a.toml")
+    text, mark, _ = Path("a.toml").read_text().partition("# ---- ... or")
+    Path("b.toml").write_text(re.sub(r"^# (?=\w+ = |\[support\])", "", text, flags=re.MULTILINE))
+    rig = rc.load_scene("b.toml").rig()
+    assert mark and (rig.stiffness, rig.support_radius, rig.fluid) == (200.0, 0.1, "turning")
+    assert rig.standing.tolist() == [False] * 4 + [True] and rig.momentum[-1] > 0 and rig.displaced_weight[-1] > 3.9
+    assert run("solve", "b.toml")[0] == 0
+
+
 def test_schema(run):
     assert run("schema")[1] == Path(rc.__file__).with_name("scene.schema.json").read_text(encoding="utf-8")
 

@@ -7,6 +7,7 @@ import pickle
 
 import numpy as np
 import pytest
+from scipy.linalg import solve_banded
 
 import revchain as rc
 
@@ -18,31 +19,31 @@ def string(momentum=0.5, **other):
 
 
 def offsets(given, speed, count):
-    """Offsets of pins 0 ... count of a long row, pin 0 moved, the far end held: assembled and solved densely, a little
-    damping letting the wave die out on the way back."""
-    W, a, h, rho = given.weight, given.length, given.length / 2, WHEELS["radius_of_gyration"]
-    p = h / a
-    A, B, X = W * (p * p + (rho / a) ** 2), W * ((1 - p) ** 2 + (rho / a) ** 2), W * (p * (1 - p) - (rho / a) ** 2)
+    """Offsets of the first pins of a long row, pin 0 moved, the far end held: assembled from the links' mass matrices; a
+    little damping lets the wave die out before it comes back."""
+    W, a, rho = given.weight, given.length, WHEELS["radius_of_gyration"]
+    diagonal, beside = W * (0.25 + (rho / a) ** 2), W * (0.25 - (rho / a) ** 2)
     k = (given.tension + speed * given.momentum / a) / a * (1 + 1e-3j * np.sign(speed))
     w = speed**2 / 9.80665
-    matrix = np.zeros((count + 1, count + 1), complex)
-    for m in range(count):
-        matrix[m : m + 2, m : m + 2] += k * np.array([[1, -1], [-1, 1]]) - w * np.array([[A, X], [X, B]])
-    right = -matrix[1:-1, 0]
-    return np.concatenate([[1.0], np.linalg.solve(matrix[1:-1, 1:-1], right), [0.0]])
+    bands = np.empty((3, count - 1), complex)
+    bands[0] = bands[2] = -k - w * beside
+    bands[1] = 2 * k - 2 * w * diagonal
+    right = np.zeros(count - 1, complex)
+    right[0] = -bands[0, 0]
+    return np.concatenate([[1.0], solve_banded((1, 1), bands, right)[:50]])
 
 
-@pytest.mark.parametrize("speed", [20.0, -20.0, 60.0, -60.0])
+@pytest.mark.parametrize("speed", [20.0, -20.0, 50.0, -50.0])
 def test_the_phase_is_that_of_a_long_row_driven_at_its_end(speed):
     given = string()
-    y = offsets(given, speed, 6000)
+    y = offsets(given, speed, 200_000)
     seen = np.abs(np.angle(y[1:50] / y[:49]))
-    assert seen == pytest.approx(given.phase(speed), rel=1e-3)
+    assert seen == pytest.approx(given.phase(speed), rel=2e-5)
 
 
 def test_the_plane_turns_by_half_the_difference_of_the_phases():
     given = string()
-    speeds = np.array([5.0, 20.0, 60.0])
+    speeds = np.array([5.0, 20.0, 50.0])
     assert given.plane_rotation(speeds) == pytest.approx((given.phase(-speeds) - given.phase(speeds)) / 2, rel=1e-12)
     assert given.plane_rotation(20.0) == -string(-0.5).plane_rotation(20.0)
     assert string(1e-12).plane_rotation(20.0) == pytest.approx(2e-12 * string(0.5).plane_rotation(20.0), rel=1e-3)
@@ -60,7 +61,7 @@ def test_speeds_and_phases_are_inverse():
 
 
 def test_beyond_the_fastest_wave_it_dies_away():
-    given = string(0.0, radius_of_gyration=0.0)
+    given = string(0.0, radius_of_gyration=0.0, centroid=0.1)
     fastest = given.angular_speeds(np.pi).forward
     assert given.phase(1.5 * fastest) == np.pi
     y = offsets_of_plummets(given, 1.5 * fastest)
@@ -70,8 +71,8 @@ def test_beyond_the_fastest_wave_it_dies_away():
 def offsets_of_plummets(given, speed):
     """The decaying root of the recurrence of the balance at a pin."""
     W, a, w = given.weight, given.length, speed**2 / 9.80665
-    k, X = given.tension / a, W / 4
-    middle, beside = 2 * k - w * (W - 2 * X), -k - w * X
+    k = given.tension / a
+    middle, beside = 2 * k - w * W, -k
     root = np.roots([beside, middle, beside])
     return root[np.argmin(np.abs(root))] ** np.arange(30)
 
@@ -104,6 +105,6 @@ def test_wrong_strings_are_refused(name):
 def test_pictures():
     given = string()
     assert given.plot().get_ylabel() == "speed (rad/s)"
-    assert given.plot_vibration(60.0).get_xlabel() == "link"
+    assert given.plot_vibration(50.0).get_xlabel() == "link"
     with pytest.raises(ValueError, match="does not pass"):
         given.plot_vibration(1e5)

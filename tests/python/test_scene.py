@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import revchain as rc
-from revchain.scene import Ask, Link, Scene, UniformChain, json_schema
+from revchain.scene import Ask, Displaced, Flywheel, Link, Scene, Support, UniformChain, json_schema
 
 ONE = {"mass": 1.0, "length": 1.0}
 
@@ -267,8 +267,10 @@ def test_the_schema_shipped_is_the_one_of_the_program(repository):
 
 def test_the_schema_knows_every_key():
     tables = json_schema()["$defs"]
-    assert set(tables) == {"Scene", "Link", "UniformChain", "Ask"}
-    for name, struct in (("Scene", Scene), ("Link", Link), ("UniformChain", UniformChain), ("Ask", Ask)):
+    structs = (Scene, Link, UniformChain, Ask, Support, Flywheel, Displaced)
+    assert set(tables) == {struct.__name__ for struct in structs}
+    for struct in structs:
+        name = struct.__name__
         assert list(tables[name]["properties"]) == list(struct.__struct_fields__)
         assert tables[name]["additionalProperties"] is False
         assert all("description" in entry for entry in tables[name]["properties"].values())
