@@ -319,8 +319,8 @@ class GyrostaticString:
             scale = size / 30
             ax.plot([at - across * scale, at + across * scale], [1.5 - along, 1.5 + along], color="black", linewidth=1.4)
         ax.annotate("plane of vibration, end on", (0.0, 1.85), fontsize="small")
-        ax.set(xlabel="link", ylabel="offset over the amplitude", ylim=(-1.2, 2.1), yticks=[-1, 0, 1])
-        ax.legend(loc="lower right", fontsize="small")
+        ax.set(xlabel="link", ylabel="offset over the amplitude", ylim=(-1.7, 2.1), yticks=[-1, 0, 1])
+        ax.legend(loc="lower center", ncols=2, fontsize="small")
         return ax
 
     def _at(self, name: str, value: ArrayLike, function: Any, what: str = "angular_speed") -> tuple[Any, ...]:
