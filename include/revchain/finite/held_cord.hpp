@@ -178,7 +178,7 @@ inline HeldCordShapes held_cord_shapes(double length, double span, double height
 /// height: `held_shapes` of more and more links. Height 0 stands for no gravity: Greenhill (1908) §5, y = b sn(K x/a).
 ///
 /// Method: power series of degree 24, exact derivatives with the two forces at the lower end, Newton's method along a curve
-/// from the nearly straight cord. Accuracy: 1e-13 of the length (tests/cpp/finite/held_cord.cpp). Cost: 20 microseconds a
+/// from the nearly straight cord. Accuracy: 1e-13 of the length (tests/cpp/paper/section_5_held_cord.cpp). Cost: 20 microseconds a
 /// path, some 100 paths a shape.
 /// Throws InvalidArgument for numbers not positive and finite, but the height, which may be 0, and a span not below the
 /// length.
