@@ -54,8 +54,7 @@ Interval<T> support_offset(const std::vector<Link<Interval<T>>>& links, const In
 /// Its sign at one tangent: 0 where rounding leaves it open.
 template <Real T>
 int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t) {
-    const Interval<T> y = support_offset(links, height, Interval<T>(t));
-    return y.positive() ? 1 : y.negative() ? -1 : 0;
+    return support_offset(links, height, Interval<T>(t)).sign();
 }
 
 template <Real T>
