@@ -10,7 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, height_of, integer, numbers, one_positive, real, refuse_where, shown
+from ._arguments import (
+    STANDARD_GRAVITY,
+    Floats,
+    floats,
+    height_of,
+    integer,
+    numbers,
+    one_positive,
+    real,
+    refuse_where,
+    shown,
+)
 from ._arguments import count as checked_count
 from ._results import Result, Results
 

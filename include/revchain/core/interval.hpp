@@ -27,6 +27,13 @@ struct Interval {
     /// Also where nothing is known.
     bool may_vanish() const { return !(positive() || negative()); }
     bool contains(const T& x) const { return low <= x && x <= high; }
+    /// 1 or -1, or 0 where it may vanish.
+    int sign() const { return positive() ? 1 : negative() ? -1 : 0; }
+    /// The largest of its numbers in size.
+    T size() const {
+        using std::abs;
+        return std::max(abs(low), abs(high));
+    }
     T width() const { return high - low; }
     T middle() const { return low + (high - low) / T(2); }
 

@@ -72,7 +72,6 @@ class DiagramProver {
     }
 
    private:
-    static double size(const Interval<double>& x) { return std::max(std::abs(x.low), std::abs(x.high)); }
     static void leave_open(DiagramProof& proof, const Rectangle<double>& part) {
         proof.open_low = proof.complete ? part.height_low : std::min(proof.open_low, part.height_low);
         proof.open_high = proof.complete ? part.height_high : std::max(proof.open_high, part.height_high);
@@ -97,8 +96,7 @@ class DiagramProver {
     }
     int sign(double x, double height) const {
         const Interval<double> lambda(height);
-        const auto y = detail::support_offset(links_, lambda, Interval<double>(x) / lambda);
-        return y.positive() ? 1 : y.negative() ? -1 : 0;
+        return detail::support_offset(links_, lambda, Interval<double>(x) / lambda).sign();
     }
 
     /// The part with heights added above and below, if all zeros in it lie on one graph lambda(x) that stays in those.
@@ -107,7 +105,7 @@ class DiagramProver {
         const bool from_zero = part.low == 0;
         const auto rise = [&](const Surface<double>& f) {
             const Interval<double>& along = from_zero ? f.xh : f.h;
-            const Interval<double> most(from_zero ? size(f.xx) : size(f.x)), width(part.high - part.low);
+            const Interval<double> most(from_zero ? f.xx.size() : f.x.size()), width(part.high - part.low);
             if (along.may_vanish()) return std::numeric_limits<double>::infinity();
             const double least = std::min(std::abs(along.low), std::abs(along.high));
             return (width * most / Interval<double>(least)).high * (1 + 1e-12);
@@ -138,7 +136,7 @@ class DiagramProver {
     bool split(const Rectangle<double>& part, const Surface<double>& y) {
         const bool from_zero = part.low == 0;
         const double width = part.high - part.low, height = part.height_high - part.height_low;
-        double by_x = size(y.xx) * width, by_height = size(y.xh) * height;
+        double by_x = y.xx.size() * width, by_height = y.xh.size() * height;
         if (!(by_x < 1e300 && by_height < 1e300))
             by_x = from_zero ? 1 : std::log(part.high / part.low),
             by_height = std::log(part.height_high / part.height_low);

@@ -57,8 +57,7 @@ Interval<T> support_offset(const std::vector<Link<Interval<T>>>& links, const In
 template <Real T, class End = OnAxis>
 int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t,
             const End& support = {}) {
-    const Interval<T> y = support_offset<T>(links, height, Interval<T>(t), nullptr, support);
-    return y.positive() ? 1 : y.negative() ? -1 : 0;
+    return support_offset<T>(links, height, Interval<T>(t), nullptr, support).sign();
 }
 
 template <Real T>

@@ -29,9 +29,7 @@ struct Forces {
         const std::size_t n = links.size();
         Interval<Far> carried(Far(0)), mass_below(Far(0));
         double size_below = 0;
-        const auto largest = [](const Interval<Far>& x) {
-            return std::max(std::abs(static_cast<double>(x.low)), std::abs(static_cast<double>(x.high)));
-        };
+        const auto largest = [](const Interval<Far>& x) { return static_cast<double>(x.size()); };
         for (std::size_t m = 0; m < n; ++m) {
             const Link<Interval<Far>>& link = links[m];
             const Interval<Far> d = y[m] - y[m + 1];
@@ -155,7 +153,7 @@ Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const 
         for (std::size_t m = n; m-- > 0; sum += of_q[m]) result[m] += size(p[m]) * sum * share;
         return result;
     };
-    const auto largest = [&](const Interval<Far>& x) { return std::max(size(x.low), size(x.high)) * 1.0000001; };
+    const auto largest = [](const Interval<Far>& x) { return static_cast<double>(x.size()) * 1.0000001; };
 
     std::vector<double> left(n), by_p(n), by_q(n), own(n), radius;
     for (std::size_t m = 0; m < n; ++m) {
