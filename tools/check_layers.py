@@ -26,6 +26,10 @@ ALLOWED = {
 }
 # The only headers that lie in no folder: what a user includes.
 ENTRY_POINTS = {"revchain.hpp", "analytic.hpp"}
+# A scene pays for what it holds: these read nothing of what a chain can be rigged with.
+PLAIN = {"chain/chain.hpp", "linear/modes.hpp", "linear/batch.hpp", "finite/steady_shapes.hpp", "finite/branches.hpp"}
+PLAIN |= {"finite/stability.hpp", "finite/continuous_chain.hpp"}
+RIGGING = {"chain/rig.hpp", "chain/support.hpp", "chain/flywheel.hpp", "chain/immersion.hpp", "chain/attached.hpp"}
 MAX_LINES = 400
 
 # What a library leaves to its caller: printing, ending the process. (static_assert is another word.)
@@ -126,6 +130,16 @@ def check_cycles(graph: dict[str, list[str]], what: str) -> None:
         visit(node, [])
 
 
+def reached_from(start: str, graph: dict[str, list[str]]) -> set[str]:
+    """The header and every header of ours that it includes, directly or not."""
+    reached, todo = {start}, [start]
+    while todo:
+        following = set(graph.get(todo.pop(), [])) - reached
+        reached |= following
+        todo += following
+    return reached
+
+
 def check_licence(path: Path) -> None:
     name = path.relative_to(ROOT).as_posix()
     head = path.read_text(encoding="utf-8").splitlines()[:5]
@@ -148,14 +162,16 @@ def main() -> int:
     check_cycles({name: sorted(allowed) for name, allowed in ALLOWED.items()}, "ALLOWED runs")
 
     # Whoever includes revchain.hpp must not need GSL, by no detour.
-    reached, todo = {"revchain.hpp"}, ["revchain.hpp"]
-    while todo:
-        following = set(graph.get(todo.pop(), [])) - reached
-        reached |= following
-        todo += following
-    for name in sorted(reached):
+    for name in sorted(reached_from("revchain.hpp", graph)):
         if name == "analytic.hpp" or folder(name) == "analytic":
             problems.append(f"include/revchain/revchain.hpp: leads to {name}, which needs GSL")
+
+    for name in sorted(PLAIN | RIGGING):
+        if name not in graph:
+            problems.append(f"tools/check_layers.py: there is no header {name}")
+    for plain in sorted(PLAIN):
+        for name in sorted(reached_from(plain, graph) & RIGGING):
+            problems.append(f"include/revchain/{plain}: leads to {name}, which a plain chain must not pay for")
 
     files = [p for p in sorted(ROOT.rglob("*")) if p.is_file() and not SKIPPED & set(p.relative_to(ROOT).parts)]
     for path in files:

@@ -18,6 +18,8 @@ from ._rig import Rig
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ._sensitivity import RigSensitivity
+
 Complex = NDArray[np.complex128]
 
 
@@ -198,6 +200,31 @@ class RigModes:
         array([2.0064])
         """
         return 2 * np.pi / np.abs(self.angular_speed())
+
+    @property
+    def sensitivity(self) -> RigSensitivity:
+        """How every datum of the rig moves the whirl speeds: k rows, in the order of `angular_speed`.
+
+        Raises
+        ------
+        ValueError
+            If there are no shapes.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rig = rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), momentum=[0.0, 0.5])
+        >>> found = rc.modes(rig)
+        >>> found.angular_speed().round(3)
+        array([-2.39 ,  2.675, -3.819,  5.246])
+        >>> found.sensitivity.momentum[:, 1].round(3)
+        array([ 0.274,  0.301, -2.223, -2.223])
+        """
+        from ._sensitivity import rig_sensitivity
+
+        if self.shape is None:
+            raise ValueError("RigModes.sensitivity: there are no shapes; compute them with shapes=True")
+        return rig_sensitivity(self.rig, self.angular_speed(), self.shape, gravity=self.gravity)
 
     def to_dict(self, shapes: bool = True) -> dict[str, Any]:
         """Return everything as plain Python numbers, lists and strings, ready for JSON.

@@ -221,15 +221,22 @@ def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RigSensitivity(_Record):
-    """Derivatives of one whirl speed with respect to what a chain is rigged with; all else held.
+    """Derivatives of whirl speeds of a rig with respect to every datum of it; all else held.
+
+    Shapes are those of one speed; of k speeds every array has k rows, and the last two are of shape (k,).
 
     Attributes
     ----------
+    weight, length, centroid, radius_of_gyration : ndarray, shape (N,)
+        With respect to the links' own data. `length` moves the lower pin; flywheels keep their momentum, what is
+        displaced its place and size.
+    length_in_proportion : ndarray, shape (N,)
+        With respect to a length that takes centroid and radius of gyration with it.
     momentum : ndarray, shape (N,)
         With respect to the angular momentum of each link's flywheel.
     displaced_weight, added_weight : ndarray, shape (N,)
         With respect to the weight of fluid that each link displaces, and that has to move with it.
-    stiffness, carriage_weight : float
+    stiffness, carriage_weight : float or ndarray
         Of the support; 0 where it is firm.
 
     Examples
@@ -237,25 +244,30 @@ class RigSensitivity(_Record):
     See `rig_sensitivity`.
     """
 
+    weight: Floats
+    length: Floats
+    centroid: Floats
+    radius_of_gyration: Floats
+    length_in_proportion: Floats
     momentum: Floats
     displaced_weight: Floats
     added_weight: Floats
-    stiffness: float
-    carriage_weight: float
+    stiffness: float | Floats
+    carriage_weight: float | Floats
 
 
 def rig_sensitivity(
-    rig: Rig, angular_speed: float, offset: ArrayLike, *, gravity: float = STANDARD_GRAVITY
+    rig: Rig, angular_speed: ArrayLike, offset: ArrayLike, *, gravity: float = STANDARD_GRAVITY
 ) -> RigSensitivity:
-    """Differentiate a whirl speed of a rigged chain with respect to what it is rigged with.
+    """Differentiate whirl speeds of a rigged chain with respect to all data of its links and of what it is rigged with.
 
     Parameters
     ----------
     rig : Rig
         A chain of N links and what it is rigged with; a `Chain` is refused.
-    angular_speed : float
-        A whirl speed of it, rad/s, of either sign.
-    offset : array_like, shape (N + 1,)
+    angular_speed : float or array_like, shape (k,)
+        Whirl speeds of it, rad/s, of either sign.
+    offset : array_like, shape (N + 1,) or (k, N + 1)
         Offsets of its pins in that mode, free end first, the pin of the support last.
     gravity : float, optional
         In the unit of length per s^2; standard gravity, in metres, if left out.
@@ -264,18 +276,19 @@ def rig_sensitivity(
     -------
     RigSensitivity
         As accurate as the offsets: the speed is stationary in the shape of the mode itself, its derivatives
-        are not. Cost O(N).
+        are not; 1e-14 of the largest with the shapes of `modes`, which `RigModes.sensitivity` takes. Cost O(N) each.
 
     Raises
     ------
     ValueError
-        If the speed is 0 or not finite, gravity not positive, or there are not N + 1 offsets.
+        If a speed is 0 or not finite, gravity not positive, or there are not N + 1 offsets for each speed.
     TypeError
         If `rig` is not a `Rig`.
 
     Notes
     -----
-    From ``y' (K + n G - n^2 M / g) y = 0``, stationary in y.
+    From ``y' (K + n G - n^2 M / g) y = 0``, stationary in y. Of the conical height ``lambda = gravity / n**2``:
+    ``d lambda = -2 * lambda / n * dn``.
 
     Examples
     --------
@@ -289,13 +302,19 @@ def rig_sensitivity(
     place = "revchain.rig_sensitivity"
     if not isinstance(rig, Rig):
         raise TypeError(f"{place}: rig must be a revchain.Rig, got {shown(rig)}")
-    found = _core.rig_sensitivity(
-        rig._compiled,
-        real(place, "angular_speed", angular_speed),
-        floats(place, "offset", offset),
-        real(place, "gravity", gravity),
-    )
-    return RigSensitivity(*found)
+    g = real(place, "gravity", gravity)
+    speeds, offsets = floats(place, "angular_speed", angular_speed), floats(place, "offset", offset)
+    if speeds.ndim == 0:
+        return RigSensitivity(*_core.rig_sensitivity(rig._compiled, float(speeds), offsets, g))
+    if speeds.ndim != 1 or offsets.shape != (speeds.size, rig.chain.size + 1):
+        raise ValueError(
+            f"{place}: offset must have a row of {rig.chain.size + 1} offsets for each of the {speeds.size} speeds, got "
+            f"shape {offsets.shape}"
+        )
+    rows = [_core.rig_sensitivity(rig._compiled, float(n), y, g) for n, y in zip(speeds, offsets, strict=True)]
+    if not rows:
+        return RigSensitivity(*[np.empty((0, rig.chain.size))] * 8, np.empty(0), np.empty(0))
+    return RigSensitivity(*(np.array(column) for column in zip(*rows, strict=True)))
 
 
 def momentum_for_speed(rig: Rig, angular_speed: float, *, link: int, gravity: float = STANDARD_GRAVITY) -> float:

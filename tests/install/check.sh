@@ -43,6 +43,11 @@ say 'find_package(revchain): two translation units, every warning an error, no G
 build core core -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
 if grep -qi gsl core/build.ninja; then fail 'GSL is on the command lines of a consumer of the core'; fi
 if ninja -C core -t deps | grep -q '/gsl/'; then fail 'a header of GSL was read for the core'; fi
+nm -C core/consumer >symbols
+grep -q 'revchain::Chain' symbols || fail 'the consumer of the core has no chain in it'
+if grep -qE 'revchain::(Rig|Flywheel|Displaced|Support|linear::Driven)' symbols; then
+  fail 'a program of plain chains carries what chains can be rigged with'
+fi
 
 say 'find_package(revchain COMPONENTS analytic)'
 build analytic analytic

@@ -242,3 +242,64 @@ def test_what_a_flywheel_does_to_a_speed():
         rc.rig_sensitivity(rig.chain, 5.0, [1.0, 0.0])
     with pytest.raises(ValueError, match="2 offsets"):
         rc.rig_sensitivity(rig, 5.0, [1.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize("fluid", ["still", "turning"])
+def test_every_datum_of_a_rig_against_differences_of_its_speeds(fluid):
+    """Differences of speeds that are right to half an ulp, fourth order: to 1e-9 or so."""
+    data = {"weight": [3.0, 1.0, 2.0], "length": [1.0, 0.5, 2.0], "centroid": [0.75, 0.25, 1.25]}
+    data["radius_of_gyration"] = [0.5, 0.125, 0.75]
+    rigging = {"momentum": [0.5, -0.25, 1.5], "displaced_weight": [0.25, 0.06, 0.5]}
+    if fluid == "still":
+        rigging["added_weight"] = [0.5, 0.1, 0.25]
+    displaced = {"displaced_centroid": [0.5, 0.25, 1.0], "displaced_radius_of_gyration": [0.2, 0.1, 0.5]}
+    support = {"stiffness": 40.0, "carriage_weight": 1.5}
+
+    def rig(**changed):
+        new = {**data, **rigging, **support, **changed}
+        chain = Chain(**{name: new[name] for name in data})
+        return rc.Rig(chain, **displaced, fluid=fluid, **{name: new[name] for name in (*rigging, *support)})
+
+    found = rc.modes(rig())
+    derivative = found.sensitivity
+    assert derivative.weight.shape == (len(found), 3) and derivative.stiffness.shape == (len(found),)
+    for name, values in {**data, **rigging}.items():
+        exact = getattr(derivative, name)
+        for link in range(3):
+            if name == "length" and link == 0:
+                assert np.all(exact[:, 0] == 0)
+                continue
+            step = 1e-3 * max(abs(values[link]), 0.1)
+            speeds = [
+                rc.modes(rig(**{name: [x + k * step * (i == link) for i, x in enumerate(values)]})).angular_speed()
+                for k in (-2, -1, 1, 2)
+            ]
+            difference = (speeds[0] - 8 * speeds[1] + 8 * speeds[2] - speeds[3]) / (12 * step)
+            np.testing.assert_allclose(exact[:, link], difference, rtol=2e-8, atol=2e-8 * np.abs(exact).max())
+    for name, value in support.items():
+        speeds = [rc.modes(rig(**{name: value * (1 + 1e-3 * k)})).angular_speed() for k in (-2, -1, 1, 2)]
+        difference = (speeds[0] - 8 * speeds[1] + 8 * speeds[2] - speeds[3]) / (12e-3 * value)
+        np.testing.assert_allclose(getattr(derivative, name), difference, rtol=2e-8, atol=1e-9)
+    in_proportion = derivative.length + (
+        np.array(data["centroid"]) * derivative.centroid
+        + np.array(data["radius_of_gyration"]) * derivative.radius_of_gyration
+    ) / np.array(data["length"])
+    np.testing.assert_allclose(derivative.length_in_proportion, in_proportion, rtol=1e-13, atol=1e-14)
+
+
+def test_a_rig_with_nothing_moves_as_its_chain():
+    chain = bodies()
+    plain, rigged = rc.modes(chain), rc.modes(rc.Rig(chain))
+    speed = plain.angular_speed()[:, None]
+    for name in ("weight", "length", "centroid", "radius_of_gyration", "length_in_proportion"):
+        of_height = plain.sensitivity[name]
+        np.testing.assert_allclose(
+            getattr(rigged.sensitivity, name),
+            -speed / (2 * plain.conical_height[:, None]) * of_height,
+            rtol=1e-11,
+            atol=1e-14 * np.abs(speed * of_height / plain.conical_height[:, None]).max(),
+        )
+    with pytest.raises(ValueError, match="shapes=True"):
+        rc.modes(rc.Rig(chain), shapes=False).sensitivity  # noqa: B018
+    with pytest.raises(ValueError, match="a row of"):
+        rc.rig_sensitivity(rc.Rig(chain), [1.0, 2.0], np.ones(4))

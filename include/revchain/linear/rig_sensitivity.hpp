@@ -6,13 +6,19 @@
 
 namespace revchain {
 
-/// d(whirl speed)/d(what a chain is rigged with), of one mode; everything else held. Speeds may have either sign.
+/// d(whirl speed)/d(datum) of one mode of a rig; everything else held. Speeds may have either sign. The first five are of
+/// the links' own data as `Datum` has them: flywheels keep their momentum, what is displaced its place and size.
 struct RigSensitivity {
-    Vector<double> momentum;          ///< (N,) of each flywheel's H, per weight times length times time
-    Vector<double> displaced_weight;  ///< (N,) of the weight of the fluid displaced
-    Vector<double> added_weight;      ///< (N,) of what has to move with the link in still fluid
-    double stiffness;                 ///< of the support; 0 where it is firm
-    double carriage_weight;           ///< 0 where the support is firm
+    Vector<double> weight;                ///< (N,)
+    Vector<double> length;                ///< (N,) the lower pin moved; 0 of the lowest link
+    Vector<double> centroid;              ///< (N,)
+    Vector<double> radius_of_gyration;    ///< (N,)
+    Vector<double> length_in_proportion;  ///< (N,) (a d/da + h d/dh + rho d/drho)/a
+    Vector<double> momentum;              ///< (N,) of each flywheel's H, per weight times length times time
+    Vector<double> displaced_weight;      ///< (N,) of the weight of the fluid displaced
+    Vector<double> added_weight;          ///< (N,) of what has to move with the link in still fluid
+    double stiffness;                     ///< of the support; 0 where it is firm
+    double carriage_weight;               ///< 0 where the support is firm
 };
 
 /// How what a chain is rigged with moves whirl speed n of a mode whose pins have these offsets (free end first, N + 1; the
@@ -54,20 +60,54 @@ inline RigSensitivity rig_sensitivity(const Rig& rig, double angular_speed, cons
     const S denominator = momentum - S(2.0) * turning * inertia / n;
     const auto rate = [&](const S& x) { return static_cast<double>(-x / denominator); };
 
-    RigSensitivity result{Vector<double>(count), Vector<double>(count), Vector<double>(count), 0, 0};
+    RigSensitivity result{};
+    for (auto* column :
+         {&result.weight, &result.length, &result.centroid, &result.radius_of_gyration, &result.length_in_proportion,
+          &result.momentum, &result.displaced_weight, &result.added_weight})
+        column->resize(count);
+    const auto per_weight = [&](const S& x) { return std::ldexp(rate(x), -units.weight_exponent); };
+    const auto per_length = [&](const S& x) { return std::ldexp(rate(x), -units.length_exponent); };
     S above(0.0);  // sum of a s^2 over the links above, of those that stand less
     for (Index m = count; m-- > 0;) {
         const RigLink& link = links[static_cast<std::size_t>(m)];
-        const Displaced fluid = rig.displaced(m);
-        const S sign(rig.stands(m) ? -1.0 : 1.0), s = slope[static_cast<std::size_t>(m)], square = s * s;
-        const S h(std::ldexp(fluid.centroid, -units.length_exponent));
-        const S centre = S(offset[m + 1]) + h * s;
-        const S moves = turning * (centre * centre + fluid.gyration_ratio * (link.length * link.length) * square);
-        const S bears = sign * h * square + above;
-        const S displaced = rig.fluid() == Fluid::turning ? moves - bears : -bears;
+        const S sign(rig.stands(m) ? -1.0 : 1.0), s = slope[static_cast<std::size_t>(m)], square = s * s,
+                                                  a = link.length;
+        /// A body of the link: where its centre of gravity is, and what a unit of its weight bears and resists.
+        struct Body {
+            S weight, centroid, gyration, centre, bears, moves;
+        };
+        const auto body = [&](double weight, double centroid, const S& ratio) {
+            const S h(std::ldexp(centroid, -units.length_exponent)), gyration = ratio * (a * a);
+            const S centre = S(offset[m + 1]) + h * s;
+            return Body{S(std::ldexp(weight, -units.weight_exponent)),  h, gyration, centre, sign * h * square + above,
+                        turning * (centre * centre + gyration * square)};
+        };
+        const Link<double> own = rig.chain().link(m);
+        const Displaced displaced = rig.displaced(m);
+        const Flywheel wheel = rig.flywheel(m);
+        const bool turns = rig.fluid() == Fluid::turning;
+        const Body solid = body(own.weight, own.centroid, own.gyration_ratio);
+        const Body fluid =
+            body(turns ? -displaced.weight : displaced.added_weight, displaced.centroid, displaced.gyration_ratio);
+        result.weight[m] = per_weight(solid.bears - solid.moves);
         result.momentum[m] = std::ldexp(rate(sign * n * square), -units.weight_exponent - units.length_exponent);
-        result.displaced_weight[m] = std::ldexp(rate(displaced), -units.weight_exponent);
-        result.added_weight[m] = rig.fluid() == Fluid::turning ? 0 : std::ldexp(rate(-moves), -units.weight_exponent);
+        result.displaced_weight[m] = per_weight(turns ? fluid.moves - fluid.bears : -fluid.bears);
+        result.added_weight[m] = turns ? 0 : per_weight(-fluid.moves);
+
+        // Slopes go as 1/a where the pins stay; kappa = W h - B h_B + a S.
+        const S two(2.0), below = m == 0 ? S(0.0) : links[static_cast<std::size_t>(m - 1)].hung;
+        const auto resists = [&](const Body& it) {
+            return it.weight * s * (it.centroid * it.centre + it.gyration * s);
+        };
+        const S axial = S(std::ldexp(wheel.axial_moment, -units.weight_exponent - 2 * units.length_exponent)) * square;
+        const S by_length = sign * square * (below - two * (link.tension + n * link.spin)) +
+                            turning * two * (resists(solid) + resists(fluid) - axial) / a;
+        const S by_centroid = solid.weight * (sign * square - turning * two * solid.centre * s);
+        const S radius = sqrt(solid.gyration), by_radius = -(turning * two * solid.weight * radius * square);
+        result.length[m] = m == 0 ? 0 : per_length(by_length);  // where nothing hangs, no pin matters
+        result.centroid[m] = per_length(by_centroid), result.radius_of_gyration[m] = per_length(by_radius);
+        result.length_in_proportion[m] =
+            per_length((m == 0 ? S(0.0) : by_length) + (solid.centroid * by_centroid + radius * by_radius) / a);
         above = above + sign * link.length * square;
     }
     if (!support.is_firm()) {

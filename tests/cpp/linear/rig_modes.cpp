@@ -337,16 +337,10 @@ TEST_CASE("standing gyrostats: all speeds accounted for", "[linear]") {
                 CHECK(other.error_bound <= 4e-15);
                 CHECK(truth.newton_step(other.angular_speed, true) <= 3.4e-16);  // rounded twice
             }
-            Matrix<double> K = Matrix<double>::Zero(n, n), G = K, M = K, C = Matrix<double>::Zero(2 * n, 2 * n);
-            for (Index i = 0; i < n; ++i)
-                for (const auto& [matrix, band] :
-                     {std::pair(&K, &truth.K), std::pair(&G, &truth.G), std::pair(&M, &truth.M)}) {
-                    const std::size_t s = static_cast<std::size_t>(i);
-                    (*matrix)(i, i) = static_cast<double>(band->d[s]);
-                    if (i + 1 < n) (*matrix)(i, i + 1) = (*matrix)(i + 1, i) = static_cast<double>(band->e[s]);
-                }
-            const Matrix<double> inverse = (M / g).inverse();
-            C << Matrix<double>::Zero(n, n), Matrix<double>::Identity(n, n), inverse * K, inverse * G;
+            const Matrix<double> inverse = (truth.dense<double>(truth.M) / g).inverse();
+            Matrix<double> C(2 * n, 2 * n);
+            C << Matrix<double>::Zero(n, n), Matrix<double>::Identity(n, n), inverse * truth.dense<double>(truth.K),
+                inverse * truth.dense<double>(truth.G);
             const Eigen::EigenSolver<Matrix<double>> dense(C, false);
             std::vector<std::complex<double>> mine;
             for (const double s : m.forward.angular_speed) mine.emplace_back(s);

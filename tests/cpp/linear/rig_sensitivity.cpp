@@ -18,7 +18,7 @@ struct Rigged {
     static constexpr std::size_t n = 3;
     std::array<Quad, n> W{3, 1, 2}, a{1, 0.5, 2}, h{0.75, 0.25, 1.25}, k{0.5, 0.125, 0.75};
     std::array<Quad, n> H{0.5, -0.25, 1.5}, B{0.25, 0.0625, 0.5}, hB{0.5, 0.25, 1}, kB{0.25, 0.125, 0.5},
-        added{0.5, 0, 0.25};
+        added{0.5, 0, 0.25}, C{0.125, 0, 0.375};
     std::array<int, n> sign{1, -1, 1};
     Quad E = 40, carriage = 1.5, g = Quad(9.8125);
     bool turning = false;
@@ -40,6 +40,7 @@ struct Rigged {
                 square(m, c / a[m], 1 - c / a[m], -turn * w);
                 square(m, 1, -1, -turn * w * r * r / (a[m] * a[m]));
             };
+            square(m, 1, -1, turn * C[m] / (a[m] * a[m]));
             body(W[m], h[m], k[m]);
             body(turning ? -B[m] : added[m], hB[m], kB[m]);
             below += W[m] - B[m];
@@ -90,7 +91,7 @@ struct Rigged {
             links.push_back(revchain::compound_pendulum<double>(
                 {.weight = d(W[m]), .length = d(a[m]), .centroid = d(h[m]), .radius_of_gyration = d(k[m])}));
             with.posture.push_back(sign[m] > 0 ? revchain::Posture::hangs : revchain::Posture::stands);
-            with.flywheels.push_back({d(H[m]), 0});
+            with.flywheels.push_back({d(H[m]), d(C[m])});
             const double ratio = d(kB[m] * kB[m] / (a[m] * a[m]));
             with.displaced.push_back({d(B[m]), d(hB[m]), ratio, turning ? 0 : d(added[m])});
         }
@@ -100,7 +101,8 @@ struct Rigged {
 
 }  // namespace
 
-TEST_CASE("what rigging does to whirl speeds is what central differences in quadruple precision say", "[linear]") {
+TEST_CASE("what links and rigging do to whirl speeds is what central differences in quadruple precision say",
+          "[linear]") {
     double worst = 0;
     for (const bool turning : {false, true})
         for (const double start : {-9.0, -5.0, -2.0, 1.5, 4.0, 8.0, 14.0}) {
@@ -130,6 +132,15 @@ TEST_CASE("what rigging does to whirl speeds is what central differences in quad
                 compare(found.momentum[i], difference(rigged.H[m]));
                 compare(found.displaced_weight[i], difference(rigged.B[m]));
                 compare(found.added_weight[i], turning ? 0 : difference(rigged.added[m]));
+                const double by_length = difference(rigged.a[m]), by_centroid = difference(rigged.h[m]),
+                             by_radius = difference(rigged.k[m]);
+                compare(found.weight[i], difference(rigged.W[m]));
+                compare(found.length[i], by_length);
+                compare(found.centroid[i], by_centroid);
+                compare(found.radius_of_gyration[i], by_radius);
+                const auto d = [](Quad x) { return static_cast<double>(x); };
+                compare(found.length_in_proportion[i],
+                        by_length + (d(rigged.h[m]) * by_centroid + d(rigged.k[m]) * by_radius) / d(rigged.a[m]));
             }
             compare(found.stiffness, difference(rigged.E));
             compare(found.carriage_weight, difference(rigged.carriage));

@@ -55,6 +55,19 @@ class RigTruth {
 
     std::size_t size = 0;
 
+    /// One of the three as a dense matrix.
+    template <class T>
+    revchain::Matrix<T> dense(const Band& band) const {
+        const Index n = static_cast<Index>(size);
+        revchain::Matrix<T> result = revchain::Matrix<T>::Zero(n, n);
+        for (Index i = 0; i < n; ++i) {
+            const std::size_t s = static_cast<std::size_t>(i);
+            result(i, i) = static_cast<T>(band.d[s]);
+            if (i + 1 < n) result(i, i + 1) = result(i + 1, i) = static_cast<T>(band.e[s]);
+        }
+        return result;
+    }
+
     /// Negative eigenvalues of a K + b G - c M.
     Index negative(Quad a, Quad b, Quad c) const {
         Index count = 0;
