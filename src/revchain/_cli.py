@@ -3,23 +3,20 @@
 
 from __future__ import annotations
 
-import functools
 import io
 import json as json_module
 import os
 import re
 import sys
-from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Any, NoReturn, ParamSpec
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console
 
 from . import _core
-from ._exit_codes import MEANING, ExitCode
-from ._extras import require
+from ._cli_frame import EXIT_CODES, STDOUT, Stop, app, guarded, outputs_of
+from ._exit_codes import ExitCode
 from ._files import written_aside
 from ._modes import Modes
 from ._progress import watched
@@ -27,35 +24,13 @@ from ._report import NARROWEST, csv_text, json_text, table
 from ._rig_modes import RigModes
 from ._scene_error import SceneError
 from ._solve import solve as solve_chain
-from .scene import json_schema, load_scene
-
-Arguments = ParamSpec("Arguments")
-
-PICTURES = (".png", ".svg", ".pdf")
-STDOUT = "-"
-
-EXIT_CODES = "Exit codes: " + "; ".join(f"{code.value} {meaning}" for code, meaning in MEANING.items()) + "."
-
-app = typer.Typer(
-    add_completion=False,
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
-    help="At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are.",
-    epilog=EXIT_CODES,
-)
-
-
-class Stop(Exception):
-    """Ends a command with a sentence and an exit code."""
-
-    def __init__(self, message: str, code: ExitCode) -> None:
-        super().__init__(message)
-        self.code = code
+from .scene import Scene, json_schema, load_scene
 
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command line; the exit code is returned."""
+    from . import _cli_motion  # noqa: F401  its commands come after those here
+
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")
     for stream in (sys.stdout, sys.stderr):
@@ -68,59 +43,6 @@ def run(arguments: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         return ExitCode.INTERRUPTED
     return ExitCode.OK
-
-
-def guarded(command: Callable[Arguments, None]) -> Callable[Arguments, None]:
-    """Turn what a command may raise into one line on stderr and an exit code."""
-
-    @functools.wraps(command)
-    def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> None:
-        try:
-            command(*args, **kwargs)
-            sys.stdout.flush()
-        except Stop as stop:
-            fail(str(stop), stop.code)
-        except SceneError as error:
-            fail(str(error), ExitCode.SCENE_INVALID)
-        except ImportError as error:
-            fail(str(error), ExitCode.WRONG_USAGE)
-        except MemoryError:
-            fail("not enough memory; ask for fewer modes", ExitCode.WRONG_USAGE)
-        except KeyboardInterrupt:
-            fail("interrupted", ExitCode.INTERRUPTED)
-        except BrokenPipeError:  # the reader, such as head, has seen enough
-            with suppress(OSError):
-                sys.stdout = open("/dev/null", "w")  # so that nothing is flushed into it at the end
-            raise typer.Exit(ExitCode.OK) from None
-        except OSError as error:
-            name = f"{error.filename}: " if error.filename is not None else ""
-            fail(f"{name}cannot be written: {error.strerror or error}", ExitCode.OUTPUT_FAILED)
-
-    return wrapper
-
-
-def fail(message: str, code: ExitCode) -> NoReturn:
-    """Say why on stderr, in plain text, and end."""
-    print(f"revchain: {message}", file=sys.stderr)
-    raise typer.Exit(code)
-
-
-def show_version(wanted: bool) -> None:
-    """Print the version and end."""
-    if wanted:
-        from . import __version__
-
-        print(f"revchain {__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def common(
-    version: Annotated[
-        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and end.")
-    ] = False,
-) -> None:
-    """At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are."""
 
 
 @app.command(epilog=EXIT_CODES)
@@ -157,11 +79,20 @@ def solve(
 ) -> None:
     """Find the whirl speeds of a scene and print them as a table."""
     given = load_scene(scene)
-    outputs = _outputs(scene, plot, json, csv, out)
+    chosen = {"modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
+    overriding = {"rtol": rtol, "precision": precision, "method": method}
+    if given.is_held:
+        from ._cli_motion import answer
+
+        refused = [name for name, value in {**chosen, **overriding, "out": out}.items() if value is not None]
+        if refused or certify:
+            option = (refused or ["certify"])[0].replace("_", "-")
+            raise Stop(f"--{option} is not for a chain held at both ends", ExitCode.WRONG_USAGE)
+        return answer(scene, Scene.modes, plot, json, csv, quiet)
+    outputs = outputs_of(scene, plot, json, csv, out)
     hung = given.rig() if given.is_rigged else given.chain()
     gravity = given.gravity_value()
     asked = given.asked(given.chain())
-    chosen = {"modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
     if len(named := [name for name, value in chosen.items() if value is not None]) > 0:
         if len(named) > 1:
             options = " and ".join("--" + name.replace("_", "-") for name in named)
@@ -169,7 +100,6 @@ def solve(
         for name in ("count", *chosen):
             asked.pop(name, None)
         asked |= {"gravity": gravity, **(_numbers(modes) if modes is not None else {named[0]: chosen[named[0]]})}
-    overriding = {"rtol": rtol, "precision": precision, "method": method}
     asked |= {name: value for name, value in overriding.items() if value is not None}
     if certify:
         asked["certify"] = True
@@ -250,36 +180,6 @@ def _numbers(text: str) -> dict[str, Any]:
     if found[2] is None:
         return {"count": int(found[1])}
     return {"modes": range(int(found[1]), int(found[2]) + 1)}
-
-
-def _outputs(
-    scene: Path, plot: Path | None, json: str | None, csv: str | None, out: Path | None
-) -> list[tuple[Path, str]]:
-    """Files to write and what goes into them; the folder is made if it is not there."""
-    if json == STDOUT and csv == STDOUT:
-        raise Stop("--json - and --csv - cannot share stdout", ExitCode.WRONG_USAGE)
-    outputs = [(Path(name), kind) for name, kind in ((json, ".json"), (csv, ".csv")) if name not in (None, STDOUT)]
-    if plot is not None:
-        if plot.suffix.lower() not in PICTURES:
-            raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
-        require("matplotlib", "plot", "--plot")
-        outputs.append((plot, plot.suffix.lower()))
-    if out is not None:
-        kinds = [".json", ".csv", ".npz"]
-        try:
-            require("matplotlib", "plot", "the picture")
-            kinds.append(".png")
-        except ModuleNotFoundError as error:
-            print(f"revchain: no picture: {error}", file=sys.stderr)
-        outputs.extend((out / f"{scene.stem}{kind}", kind) for kind in kinds)
-    places = [path.resolve() for path, _ in outputs]
-    if len(set(places)) < len(places):
-        raise Stop("two outputs have the same name", ExitCode.WRONG_USAGE)
-    if scene.resolve() in places:
-        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
-    if out is not None:
-        out.mkdir(parents=True, exist_ok=True)
-    return outputs
 
 
 def _write(modes: Modes | RigModes, path: Path, kind: str, title: str, gravity: float) -> None:

@@ -507,13 +507,14 @@ def held_cord_shapes(
 class TautModes:
     """Whirl speeds of a straight chain held at both ends. Returned by `taut_modes`."""
 
-    __slots__ = ("_compiled",)
+    __slots__ = ("_compiled", "_length")
     _compiled: _core.TautModes
+    _length: Floats  # of the links
 
     @classmethod
-    def _wrap(cls, modes: _core.TautModes) -> TautModes:
+    def _wrap(cls, modes: _core.TautModes, length: Floats) -> TautModes:
         result = object.__new__(cls)
-        result._compiled = modes
+        result._compiled, result._length = modes, length
         return result
 
     @property
@@ -563,6 +564,48 @@ class TautModes:
         g = positive("revchain.TautModes.angular_speed", "gravity", gravity)
         return np.sqrt(g / self.conical_height)
 
+    def plot(self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m") -> Axes:
+        """Draw the shapes side by side along the straight chain.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        most : int
+            How many modes, slowest first.
+        length_unit : str
+            What to write on the axis of height.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If `most` is below 1.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.taut_modes(rc.Chain.uniform_rods(50, length=1.0), tension=10.0, count=3).plot().get_ylabel()
+        'above the lower end (m)'
+        """
+        from ._plots import MOST_PINS_AS_DOTS, SPACING, new_axes
+
+        shown = min(counted("revchain.TautModes.plot", "most", most), self.conical_height.size)
+        axes = new_axes(1.5 + 1.1 * shown, 4.8) if ax is None else ax
+        height = np.concatenate([[0.0], np.cumsum(self._length)])
+        for k, shape in enumerate(self.shape[:shown]):
+            axes.axvline(k * SPACING, color="0.8", linewidth=0.8, zorder=0)
+            marker = "o" if self._length.size <= MOST_PINS_AS_DOTS else ""
+            axes.plot(k * SPACING + shape, height, marker=marker, markersize=3.5, color="C0")
+        axes.set_xticks([k * SPACING for k in range(shown)], [str(k + 1) for k in range(shown)])
+        axes.set(xlabel="mode; offset, the largest 1", ylabel=f"above the lower end ({length_unit})")
+        return axes
+
     def __repr__(self) -> str:
         return f"TautModes: {self.conical_height.size}"
 
@@ -603,4 +646,4 @@ def taut_modes(chain: Chain, *, tension: float, count: int = 1) -> TautModes:
     place = "revchain.taut_modes"
     pull = float(positive(place, "tension", real(place, "tension", tension)))
     most = counted(place, "count", count)
-    return TautModes._wrap(_core.taut_modes(compiled(place, chain), pull, most))
+    return TautModes._wrap(_core.taut_modes(compiled(place, chain), pull, most), np.asarray(chain.length))

@@ -9,9 +9,10 @@ from typing import Any
 from msgspec import UNSET
 
 from ._chain import Chain
+from ._scene_ask_tables import Ask
 from ._scene_chain import Numbers
 from ._scene_error import SceneError
-from ._scene_tables import MOST_LINKS, Ask
+from ._scene_tables import MOST_LINKS
 
 DEFAULT_MODES = 10
 

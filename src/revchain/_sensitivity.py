@@ -313,7 +313,7 @@ def rig_sensitivity(
         )
     rows = [_core.rig_sensitivity(rig._compiled, float(n), y, g) for n, y in zip(speeds, offsets, strict=True)]
     if not rows:
-        return RigSensitivity(*[np.empty((0, rig.chain.size))] * 8, np.empty(0), np.empty(0))
+        return RigSensitivity(*(np.empty((0, rig.chain.size) if k < 8 else 0) for k in range(10)))
     return RigSensitivity(*(np.array(column) for column in zip(*rows, strict=True)))
 
 

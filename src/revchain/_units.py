@@ -24,6 +24,9 @@ SI = {
     "gravity": ("m/s^2", "an acceleration", "9.81 m/s^2"),
     "stiffness": ("N/m", "a force per length", "2 kN/m"),
     "spin": ("rad/s", "an angular speed", "3000 rpm"),
+    "angular_speed": ("rad/s", "an angular speed", "30 rpm"),
+    "speed": ("m/s", "a speed", "2 cm/s"),
+    "time": ("s", "a time", "2 min"),
     "added_mass": ("kg", "a mass", "2 kg"),
     "added_weight": ("N", "a force", "20 N"),
 }

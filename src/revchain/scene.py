@@ -11,20 +11,29 @@ from msgspec import UNSET, Meta, UnsetType, json, to_builtins
 from . import _scene_file
 from ._arguments import STANDARD_GRAVITY
 from ._chain import Chain
+from ._held import HeldShape, HeldShapes, TautModes
 from ._modes import Modes
+from ._response import Response, SmallOscillation
 from ._rig import Rig
 from ._rig_modes import RigModes
-from ._scene_ask import asked
+from ._scene_ask import DEFAULT_MODES, asked
+from ._scene_ask_tables import Ask, AskResponse, AskShapes, AskSwing, Held
 from ._scene_chain import Numbers, chain_of_links, uniform_chain
 from ._scene_error import SceneError
+from ._scene_motion import ends_of, response_of, shapes_of, start_of, swing_of, taut_modes_of, the_speed, the_speeds
 from ._scene_rig import is_rigged, rig_of
-from ._scene_tables import Ask, Displaced, Flywheel, Link, Positive, Support, Table, UniformChain
+from ._scene_tables import Displaced, Flywheel, Link, Positive, Support, Table, UniformChain
 from ._solve import modes
+from ._steady import SteadyShapes
 
 __all__ = [
     "Ask",
+    "AskResponse",
+    "AskShapes",
+    "AskSwing",
     "Displaced",
     "Flywheel",
+    "Held",
     "Link",
     "Scene",
     "Support",
@@ -51,6 +60,8 @@ class Scene(Table, frozen=True):
         What the chain hangs from, if not a firm point on the axis.
     fluid : {"still", "turning"}
         The fluid that links displace.
+    held : Held, optional
+        Where the lower end is held, too.
     ask : Ask
         What is asked.
     title, description : str
@@ -88,6 +99,9 @@ class Scene(Table, frozen=True):
         Literal["still", "turning"],
         Meta(description="The fluid that links displace: at rest, or turning with the chain."),
     ] = "still"
+    held: Annotated[
+        Held | UnsetType, Meta(description="Where the lower end is held on the axis, too.")
+    ] = UNSET
     ask: Annotated[Ask, Meta(description="What is asked.")] = Ask()
 
     @classmethod
@@ -204,6 +218,11 @@ class Scene(Table, frozen=True):
         """Whether anything in the scene goes beyond a chain that hangs from a firm point on the axis."""
         return is_rigged(self._links(), self.support)
 
+    @property
+    def is_held(self) -> bool:
+        """Whether the lower end is held on the axis, too."""
+        return self.held is not UNSET
+
     def asked(self, chain: Chain) -> dict[str, Any]:
         """Return what is asked as keyword arguments of `revchain.modes`.
 
@@ -230,19 +249,20 @@ class Scene(Table, frozen=True):
         """
         return asked(self.ask, chain, self.gravity_value(), "scene", self.is_rigged)
 
-    def modes(self) -> Modes | RigModes:
+    def modes(self) -> Modes | RigModes | TautModes:
         """Solve the scene.
 
         Returns
         -------
-        Modes or RigModes
-            As `revchain.modes` does for the chain, or the rig, and what is asked. Speeds of a chain need the
-            scene's gravity: ``scene.modes().angular_speed(scene.gravity_value())``; a rig's have it.
+        Modes, RigModes or TautModes
+            As `revchain.modes` does for the chain, or the rig, and what is asked, or `revchain.taut_modes` where both
+            ends are held. Speeds of a chain need the scene's gravity:
+            ``scene.modes().angular_speed(scene.gravity_value())``; a rig's have it.
 
         Raises
         ------
         SceneError
-            If the numbers describe no hanging chain.
+            If the numbers describe no hanging chain, or a chain held at both ends that is slack.
 
         Examples
         --------
@@ -262,12 +282,122 @@ class Scene(Table, frozen=True):
             rig = self.rig()
             return modes(rig, **self.asked(rig.chain))
         chain = self.chain()
+        if self.held is not UNSET:
+            return taut_modes_of(self.held, chain, self._mode_count(chain), "scene")
         return modes(chain, **self.asked(chain))
 
+    def steady_shapes(self, **changed: Any) -> SteadyShapes | HeldShapes[HeldShape]:
+        """Find the steady shapes that ``[ask.shapes]`` asks for, at any inclination.
+
+        Parameters
+        ----------
+        **changed
+            Instead of what the scene says: `angular_speed` (rad/s) or `conical_height` (m), `sense`, `hanging_only`,
+            `budget` as of `revchain.steady_shapes`, or `half_waves` where both ends are held.
+
+        Returns
+        -------
+        SteadyShapes or HeldShapes
+
+        Raises
+        ------
+        SceneError
+            If the scene says no speed, and none is given.
+        ValueError
+            As `revchain.steady_shapes` and `revchain.held_shapes`.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> chair = {"mass": 80, "length": 4.0}
+        >>> scene = rc.Scene.from_dict({"links": [chair], "support": {"radius": "1 m"}})
+        >>> scene.steady_shapes(angular_speed=3.0)
+        SteadyShapes: 3, proved complete
+        """
+        hung = self.rig() if self.is_rigged else self.chain()
+        return shapes_of(hung, self.held, self.ask.shapes, changed, self.gravity_value(), "scene")
+
+    def response(self, **changed: Any) -> Response:
+        """Find the small motions that ``[ask.response]`` asks for, of a support carried round.
+
+        Parameters
+        ----------
+        **changed
+            Instead of what the scene says: `angular_speed` or `conical_height`, a list of one or the two ends of a
+            range, `steps`, `support_radius`, `pins` as of `revchain.response`.
+
+        Returns
+        -------
+        Response
+
+        Raises
+        ------
+        SceneError
+            If the scene says no speed, and none is given, or holds both ends.
+        ValueError
+            As `revchain.response`.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1}], "support": {"radius": 0.02}})
+        >>> scene.response(conical_height=[4.0]).offset[0].round(4)
+        array([0.0267, 0.02  ])
+        """
+        if self.held is not UNSET:
+            raise SceneError("scene", "held", "is for shapes and modes: no response is known of it")
+        hung = self.rig() if self.is_rigged else self.chain()
+        return response_of(hung, self.ask.response, changed, self.gravity_value(), "scene")
+
+    def small_oscillation(self, **changed: Any) -> SmallOscillation:
+        """See the chain swing that ``[ask.swing]`` lets go.
+
+        Parameters
+        ----------
+        **changed
+            Instead of what the scene says: `until` (s), `steps`, `modes` as of `revchain.small_oscillation`.
+
+        Returns
+        -------
+        SmallOscillation
+
+        Raises
+        ------
+        SceneError
+            If the scene lets nothing go, or is more than a chain that hangs from a firm point.
+        ValueError
+            As `revchain.small_oscillation`.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = {"links": [{"mass": 1, "length": 1}], "ask": {"swing": {"offset": ["5 cm"]}}}
+        >>> rc.Scene.from_dict(scene).small_oscillation(until=1.0, steps=1).offset[:, 0].round(4)
+        array([ 0.05, -0.05])
+        """
+        if self.is_rigged or self.held is not UNSET:
+            raise SceneError("scene", "ask.swing", "is for a chain that hangs from a firm point, with nothing else")
+        return swing_of(self.chain(), self.ask.swing, changed, self.gravity_value(), "scene")
+
     def _check(self, source: str) -> None:
-        """Whatever `chain`, `rig`, `modes` and `gravity_value` would refuse, said with the name of the file."""
+        """Whatever the other methods would refuse of the scene, said with the name of the file."""
         chain = self._rig(source).chain if self.is_rigged else self._chain(source)
-        asked(self.ask, chain, self.gravity_value(), source, self.is_rigged)
+        if self.held is UNSET:
+            asked(self.ask, chain, self.gravity_value(), source, self.is_rigged)
+        elif self.is_rigged:
+            raise SceneError(source, "held", "does not go with a support, standing links, flywheels or a fluid")
+        else:
+            ends_of(self.held, chain, source)
+        the_speed(self.ask.shapes, source)
+        the_speeds(self.ask.response, source)
+        if self.ask.swing is not UNSET:
+            start_of(self.ask.swing, chain, source)
+
+    def _mode_count(self, chain: Chain) -> int:
+        """How many modes are asked of a chain held at both ends."""
+        most = max(chain.size - 1, 1)
+        asked = self.ask.modes
+        return most if asked == "all" else DEFAULT_MODES if isinstance(asked, UnsetType) else asked
 
     def _links(self) -> list[Link]:
         return [] if self.links is UNSET else self.links

@@ -258,7 +258,7 @@ def test_new(run):
 def test_what_the_new_scene_says_in_comments_is_right(run):
     """The other half, commented out, is a scene too."""
     run("new", "a.toml")
-    _, _, rest = Path("a.toml").read_text().partition("# ---- ...")
+    _, _, rest = Path("a.toml").read_text().partition("# ---- what else")[0].partition("# ---- ...")
     uncommented = [line.removeprefix("# ") for line in rest.splitlines()[2:] if not line.startswith("# ----")]
     Path("b.toml").write_text("\n".join(line for line in uncommented if line != "#"))
     assert rc.load_scene("b.toml").chain() == rc.Chain.uniform_rods(120, 0.36, 0.03 * 9.80665)

@@ -12,7 +12,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import revchain as rc
-from revchain.scene import Ask, Displaced, Flywheel, Link, Scene, Support, UniformChain, json_schema
+from revchain.scene import (
+    Ask,
+    AskResponse,
+    AskShapes,
+    AskSwing,
+    Displaced,
+    Flywheel,
+    Held,
+    Link,
+    Scene,
+    Support,
+    UniformChain,
+    json_schema,
+)
 
 ONE = {"mass": 1.0, "length": 1.0}
 
@@ -267,7 +280,7 @@ def test_the_schema_shipped_is_the_one_of_the_program(repository):
 
 def test_the_schema_knows_every_key():
     tables = json_schema()["$defs"]
-    structs = (Scene, Link, UniformChain, Ask, Support, Flywheel, Displaced)
+    structs = (Scene, Link, UniformChain, Support, Flywheel, Displaced, Held, Ask, AskShapes, AskResponse, AskSwing)
     assert set(tables) == {struct.__name__ for struct in structs}
     for struct in structs:
         name = struct.__name__

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What all commands share: the application, how one ends, the files it writes."""
+
+from __future__ import annotations
+
+import functools
+import os
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated, NoReturn, ParamSpec
+
+import typer
+
+from ._exit_codes import MEANING, ExitCode
+from ._extras import require
+from ._scene_error import SceneError
+
+Arguments = ParamSpec("Arguments")
+
+PICTURES = (".png", ".svg", ".pdf")
+STDOUT = "-"
+
+EXIT_CODES = "Exit codes: " + "; ".join(f"{code.value} {meaning}" for code, meaning in MEANING.items()) + "."
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+    help="At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are.",
+    epilog=EXIT_CODES,
+)
+
+
+class Stop(Exception):
+    """Ends a command with a sentence and an exit code."""
+
+    def __init__(self, message: str, code: ExitCode) -> None:
+        super().__init__(message)
+        self.code = code
+
+
+def guarded(command: Callable[Arguments, None]) -> Callable[Arguments, None]:
+    """Turn what a command may raise into one line on stderr and an exit code."""
+
+    @functools.wraps(command)
+    def wrapper(*args: Arguments.args, **kwargs: Arguments.kwargs) -> None:
+        try:
+            command(*args, **kwargs)
+            sys.stdout.flush()
+        except Stop as stop:
+            fail(str(stop), stop.code)
+        except SceneError as error:
+            fail(str(error), ExitCode.SCENE_INVALID)
+        except ImportError as error:
+            fail(str(error), ExitCode.WRONG_USAGE)
+        except MemoryError:
+            fail("not enough memory; ask for fewer modes", ExitCode.WRONG_USAGE)
+        except KeyboardInterrupt:
+            fail("interrupted", ExitCode.INTERRUPTED)
+        except BrokenPipeError:  # the reader, such as head, has seen enough
+            with suppress(OSError):
+                sys.stdout = open("/dev/null", "w")  # so that nothing is flushed into it at the end
+            raise typer.Exit(ExitCode.OK) from None
+        except OSError as error:
+            name = f"{error.filename}: " if error.filename is not None else ""
+            fail(f"{name}cannot be written: {error.strerror or error}", ExitCode.OUTPUT_FAILED)
+
+    return wrapper
+
+
+def fail(message: str, code: ExitCode) -> NoReturn:
+    """Say why on stderr, in plain text, and end."""
+    print(f"revchain: {message}", file=sys.stderr)
+    raise typer.Exit(code)
+
+
+def show_version(wanted: bool) -> None:
+    """Print the version and end."""
+    if wanted:
+        from . import __version__
+
+        print(f"revchain {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Print the version and end.")
+    ] = False,
+) -> None:
+    """At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are."""
+
+
+def outputs_of(
+    scene: Path, plot: Path | None, json: str | None, csv: str | None, out: Path | None
+) -> list[tuple[Path, str]]:
+    """Files to write and what goes into them; the folder is made if it is not there."""
+    if json == STDOUT and csv == STDOUT:
+        raise Stop("--json - and --csv - cannot share stdout", ExitCode.WRONG_USAGE)
+    outputs = [(Path(name), kind) for name, kind in ((json, ".json"), (csv, ".csv")) if name not in (None, STDOUT)]
+    if plot is not None:
+        if plot.suffix.lower() not in PICTURES:
+            raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
+        require("matplotlib", "plot", "--plot")
+        outputs.append((plot, plot.suffix.lower()))
+    if out is not None:
+        kinds = [".json", ".csv", ".npz"]
+        try:
+            require("matplotlib", "plot", "the picture")
+            kinds.append(".png")
+        except ModuleNotFoundError as error:
+            print(f"revchain: no picture: {error}", file=sys.stderr)
+        outputs.extend((out / f"{scene.stem}{kind}", kind) for kind in kinds)
+    places = [path.resolve() for path, _ in outputs]
+    if len(set(places)) < len(places):
+        raise Stop("two outputs have the same name", ExitCode.WRONG_USAGE)
+    if scene.resolve() in places:
+        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+    if out is not None:
+        out.mkdir(parents=True, exist_ok=True)
+    return outputs
