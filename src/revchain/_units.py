@@ -26,6 +26,8 @@ SI = {
     "spin": ("rad/s", "an angular speed", "3000 rpm"),
     "added_mass": ("kg", "a mass", "2 kg"),
     "added_weight": ("N", "a force", "20 N"),
+    "tip_mass": ("kg", "a mass", "2 kg"),
+    "tip_weight": ("N", "a force", "20 N"),
 }
 """Quantity: its SI unit, its name, an example."""
 
