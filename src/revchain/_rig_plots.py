@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._arguments import integer, shown
-from ._plots import MOST_PINS_AS_DOTS, SPACING, new_axes, thinned
+from ._plots import MOST_PINS_AS_DOTS, MOST_POINTS, SPACING, new_axes, thinned
 from ._tables import digits
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ._rig import Rig
     from ._rig_modes import RigModes
 
-FORWARD, BACKWARD, FLUID = "C0", "C3", "#e4f1f9"
+FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
 FOLD = 0.3  # sideways, between the links that hang and those that stand on them, at rest
 
 
@@ -78,31 +78,32 @@ def _draw_links(rig: Rig, ax: Axes, across: Floats, level: Floats, colour: str) 
     kept = thinned(across)
     marker = "o" if level.size <= MOST_PINS_AS_DOTS else ""
     ax.plot(across[kept], level[kept], color=colour, linewidth=1.6, marker=marker, markersize=4.0, zorder=2)
-    if rig.standing.any():
-        pairs = np.flatnonzero(rig.standing)
-        ax.plot(across[[pairs, pairs + 1]], level[[pairs, pairs + 1]], color=colour, linewidth=4.0, alpha=0.45, zorder=2)
+    standing = np.flatnonzero(rig.standing)
+    standing = standing[:: 1 + standing.size // MOST_POINTS]
+    if standing.size:
+        x, z = (np.stack([at[standing], at[standing + 1], np.full(standing.size, np.nan)], 1) for at in (across, level))
+        ax.plot(x.ravel(), z.ravel(), color=colour, linewidth=4.0, alpha=0.45, zorder=2)
 
 
 def _draw_at_rest(rig: Rig, ax: Axes, level: Floats) -> None:
     """The straight chain, wheels seen edge-on, bodies as heavy as they are, and what holds it."""
-    chain = rig.chain
-    folds = np.concatenate([[0], np.cumsum(rig.standing[::-1][1:] != rig.standing[::-1][:-1])])[::-1]
-    across = FOLD * folds  # of the links; a chain that turns back upwards is drawn beside itself
+    chain, stands = rig.chain, rig.standing
+    turns = np.flatnonzero(stands[1:] != stands[:-1]) + 1  # where a chain turns back, it is drawn beside itself
+    first, end = np.concatenate([[0], turns]), np.concatenate([turns, [chain.size]])
+    places = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
+    across = np.repeat(places, end - first)  # of the links
+    path = np.stack([level[first], level[end]], 1).ravel()
+    ax.plot(np.repeat(places, 2), path, color=LINK, linewidth=1.6)
+    ax.vlines(places[stands[first]], level[first][stands[first]], level[end][stands[first]], color=LINK, linewidth=4.0)
     few = chain.size <= MOST_PINS_AS_DOTS
-    for link in range(chain.size) if few or rig.standing.any() else ():
-        ax.plot(across[[link, link]], level[[link, link + 1]], color="0.35", linewidth=4.0 if rig.standing[link] else 1.6)
-    for link in np.flatnonzero(np.diff(across)):
-        ax.plot(across[[link, link + 1]], level[[link + 1, link + 1]], color="0.35", linewidth=1.6)
-    if not few and not rig.standing.any():
-        ax.plot([0.0, 0.0], level[[0, -1]], color="0.35", linewidth=1.6)
     along = (level[:-1] - level[1:]) / chain.length  # +1 or -1
     if few:
         middle = level[1:] + along * chain.centroid
         heavy = chain.weight > 0
         floats = rig.displaced_weight > chain.weight
-        face = np.where(floats, "white", "0.35")
+        face = np.where(floats, "white", LINK)
         size = 20 + 60 * np.sqrt(chain.weight / chain.weight.max())
-        ax.scatter(across[heavy], middle[heavy], s=size[heavy], c=face[heavy], edgecolors="0.35", zorder=3)
+        ax.scatter(across[heavy], middle[heavy], s=size[heavy], c=face[heavy], edgecolors=LINK, zorder=3)
         for sign, colour in ((1, FORWARD), (-1, BACKWARD)):
             spun = np.flatnonzero(np.sign(rig.momentum) == sign)
             ax.hlines(middle[spun], across[spun] - 0.6, across[spun] + 0.6, color=colour, linewidth=4.0, zorder=3)
@@ -111,11 +112,13 @@ def _draw_at_rest(rig: Rig, ax: Axes, level: Floats) -> None:
     if rig.support_radius:
         ax.plot([-1.0, -1.0], [level.max(), level.min()], color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
         ax.plot([-1.0, across[-1]], [0.0, 0.0], color="black", linewidth=2.5, zorder=3, clip_on=False)
+    held: dict[str, Any] = {"color": "black", "zorder": 4, "clip_on": False}
     if np.isfinite(rig.stiffness):
+        tall = np.ptp(level)
         x = np.concatenate([[-1.0, -0.85], np.linspace(-0.8, -0.3, 9), [-0.25, 0.0]])
         zigzag = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], 5)[:9], [0.0, 0.0]])
-        ax.plot(x, 0.012 * np.ptp(level) * zigzag, color="0.3", linewidth=1.0, clip_on=False)
-        ax.plot([-1.0, -1.0], 0.03 * np.ptp(level) * np.array([-1.0, 1.0]), color="black", linewidth=2.5, clip_on=False)
-        ax.plot(0.0, 0.0, marker="s", color="black", markersize=8.0 if rig.carriage_weight else 4.0, clip_on=False, zorder=4)
+        ax.plot(x, 0.012 * tall * zigzag, color=LINK, linewidth=1.0, clip_on=False)
+        ax.plot([-1.0, -1.0], [-0.03 * tall, 0.03 * tall], linewidth=2.5, **held)
+        ax.plot(0.0, 0.0, marker="s", markersize=8.0 if rig.carriage_weight else 4.0, **held)
     else:
-        ax.plot(across[-1], 0.0, marker="^" if rig.standing.all() else "v", color="black", markersize=7.0, zorder=4, clip_on=False)
+        ax.plot(across[-1], 0.0, marker="^" if stands.all() else "v", markersize=7.0, **held)

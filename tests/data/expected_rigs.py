@@ -50,7 +50,7 @@ class Link:
         self.bodies = [(mass, mass, h, rho2)]
         if "tip_mass" in table:
             self.bodies.append((number(table["tip_mass"]), number(table["tip_mass"]), self.length, mpf(0)))
-        if "displaced" in table:  # the fluid bears as a body would of that much less mass; turning, it also presses inwards
+        if "displaced" in table:  # it bears as a body would of that much less mass; turning, it also presses inwards
             water = table["displaced"]
             displaced = number(water["mass"])
             moves = -displaced if fluid == "turning" else number(water.get("added_mass", 0))
@@ -113,7 +113,7 @@ def equations(links, gravity, stiffness=None, carriage=mpf(0)):
 
 
 def speeds(bend, gyro, inertia):
-    """All roots n, complex, and the angles of each: eigenvalues 1/n of the companion matrix of the reversed polynomial."""
+    """All roots n, complex, and the angles of each: 1/n are eigenvalues of the reversed polynomial's companion."""
     size = bend.rows
     inverse = bend**-1
     if not any(gyro):

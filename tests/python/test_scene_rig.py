@@ -167,3 +167,21 @@ stiffness = 40
     assert len(rows) == len(found) + len(found.other)
     assert (tmp_path / "out" / "broom.png").stat().st_size > 5000
     assert "valid: Rig of a chain of 2 links" in python("-m", "revchain", "validate", path).stdout
+
+
+def test_pictures_of_rigs():
+    pytest.importorskip("matplotlib")
+    broom = scene({**ROD, "standing": True}, support={"radius": 0.05}).modes()
+    axes = broom.plot()  # nothing whirls: the rig at rest, and what becomes of it
+    assert axes.get_ylabel() == "height above the support (m)"
+    assert "exp(3.132 t)" in axes.get_xticklabels()[1].get_text()
+    axes.figure.savefig("/dev/null", format="png")
+    long = scene(
+        {**ROD, "repeat": 4_000},
+        {**ROD, "standing": True, "repeat": 200},
+        {**ROD, "displaced": {"mass": 2.0}},
+        support={"stiffness": 1e9, "mass": 0.1},
+    )
+    axes = rc.modes(long.rig(), count=1).plot(most=1)
+    assert max(line.get_xdata().size for line in axes.lines) <= 3 * 2000
+    axes.figure.savefig("/dev/null", format="png")
