@@ -32,9 +32,9 @@ def side_view(axes, title, *, bottom, top=0.05, half_width):
     axes.set_aspect("equal")
 
 
-def save(figure):
-    """Write the picture, named after the program, into the folder given as argument, or the current one."""
-    path = Path(sys.argv[1] if len(sys.argv) > 1 else ".") / (Path(sys.argv[0]).stem + ".png")
+def save(figure, name=None):
+    """Write the picture, named after the program or as told, into the folder given as argument, or the current one."""
+    path = Path(sys.argv[1] if len(sys.argv) > 1 else ".") / ((name or Path(sys.argv[0]).stem) + ".png")
     figure.savefig(path)
     Image.open(path).convert("RGB").quantize(64).save(path, optimize=True)  # a third of the size
     print("wrote", path.name)

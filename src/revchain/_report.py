@@ -39,7 +39,7 @@ def table(modes: Modes | RigModes, title: str, gravity: float) -> Group:
     for name, unit in (("mode", ""), ("speed", "rad/s"), ("speed", "rev/min"), ("period", "s"), ("height", "m")):
         grid.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
     grid.add_column("error\nbound", justify="right", no_wrap=True)
-    grid.add_column("nodes\nm from the free end", no_wrap=True)
+    grid.add_column("nodes, m from\nthe free end", no_wrap=True)
     speed = modes.angular_speed(gravity)
     turns = 60 * modes.revolutions_per_second(gravity)
     period = modes.period(gravity)
@@ -88,7 +88,9 @@ def _rig_table(modes: RigModes, title: str) -> Group:
             digits(modes.conical_height[k], 10),
             f"{modes.error_bound[k]:.1e}",
         )
-    parts: list[Text | Table] = [Text(title, style="bold"), facts, grid]
+    parts: list[Text | Table] = [Text(title, style="bold"), facts]
+    if len(modes):
+        parts.append(grid)
     hidden = len(modes) - MOST_ROWS
     if hidden > 0:
         parts.append(Text(f"and {hidden:,} more; --json and --csv write all of them", style="dim"))

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._arguments import Floats, Whole, integer, positive, real, shown
+from ._arguments import Floats, Whole, positive, real, shown
 from ._rig import Rig
 
 if TYPE_CHECKING:
@@ -317,7 +317,9 @@ class RigModes:
         save(self, path)
 
     def plot(self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m") -> Axes:
-        """Draw the shapes side by side along the straight chain, standing links upwards.
+        """Draw the rig at rest, and beside it its shapes along the straight chain, standing links upwards and stout.
+
+        Forward modes are blue, backward ones red, as are the wheels, seen edge-on; bodies that float are hollow.
 
         Parameters
         ----------
@@ -335,7 +337,7 @@ class RigModes:
         Raises
         ------
         ValueError
-            If there are no shapes, or no modes.
+            If there are no shapes.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -346,42 +348,9 @@ class RigModes:
         >>> rc.modes(rig).plot().get_ylabel()
         'depth below the support (m)'
         """
-        from ._plots import MOST_PINS_AS_DOTS, SPACING, new_axes, thinned
-        from ._tables import digits
+        from ._rig_plots import plot_rig_modes
 
-        shape = self.shape
-        if shape is None or len(self) == 0:
-            raise ValueError("RigModes.plot: there are no shapes; compute them with shapes=True")
-        drawn = min(len(self), integer("RigModes.plot", "most", most))
-        if drawn < 1:
-            raise ValueError(f"RigModes.plot: most must be at least 1, got {shown(most)}")
-        if ax is None:
-            ax = new_axes(max(4.0, 1.6 + 1.25 * drawn), 6.0)
-        steps = self.rig.chain.length * np.where(self.rig.standing, -1.0, 1.0)
-        depth = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])  # of the pins, free end first
-        speeds = self.angular_speed()
-        marker = "o" if depth.size <= MOST_PINS_AS_DOTS else ""
-        labels = []
-        for place in range(drawn):
-            axis = SPACING * place
-            kept = thinned(shape[place])
-            ax.plot([axis, axis], [depth.max(), depth.min()], color="0.6", linestyle="--", linewidth=0.9, zorder=1)
-            colour = "C0" if self.sense[place] > 0 else "C3"
-            ax.plot(axis + shape[place][kept], depth[kept], color=colour, linewidth=1.6, marker=marker, markersize=4.0)
-            ax.plot(axis, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
-            which = f"mode {self.number[place]}"
-            if self.has_momentum:
-                which += " forward" if self.sense[place] > 0 else " backward"
-            labels.append(f"{which}\n{digits(speeds[place], 4)} rad/s")
-        ax.set_xlim(-SPACING / 2, SPACING * (drawn - 0.5))
-        ax.set_xticks([SPACING * place for place in range(drawn)], labels, fontsize="x-small")
-        margin = 0.04 * (depth.max() - depth.min())
-        ax.set_ylim(depth.max() + margin, depth.min() - margin)
-        ax.set_ylabel(f"depth below the support ({length_unit})")
-        ax.set_xlabel("offset from the axis, own scale each", fontsize="small")
-        for side in ("top", "right"):
-            ax.spines[side].set_visible(False)
-        return ax
+        return plot_rig_modes(self, ax, most, length_unit)
 
     def __repr__(self) -> str:
         if self.has_momentum:

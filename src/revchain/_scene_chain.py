@@ -43,7 +43,7 @@ class Numbers:
         return number
 
     def weight(self, table: Weighed, gravity: float, sign: str, prefix: str = "") -> float:
-        """Of the keys `weight` and `mass`, or `added_weight` and `added_mass` with that prefix, the one that is given."""
+        """Of the keys `weight` and `mass`, or with a prefix (`added_`, `tip_`), the one that is given."""
         weight, mass = (getattr(table, prefix + name) for name in ("weight", "mass"))
         if (weight is UNSET) == (mass is UNSET):
             raise self.refuse("", f"give either {prefix}weight or {prefix}mass")
@@ -65,8 +65,10 @@ def uniform_chain(table: UniformChain, gravity: float, source: str) -> Chain:
     make = Chain.uniform_rods if table.kind == "rods" else Chain.uniform_plummets
     length = numbers.value("length", table.length, "length", "positive")
     weight = numbers.weight(table, gravity, "positive")
+    tip = numbers.weight_if_given(table, gravity, "tip_")
     try:
-        return make(table.count, length, weight)
+        chain = make(table.count, length, weight)
+        return chain.with_weight(tip) if tip else chain
     except ValueError as error:
         raise numbers.refuse("", _without_place(str(error))) from None
 
@@ -78,10 +80,15 @@ def chain_of_links(links: list[Link], gravity: float, source: str) -> Chain:
     repeats = [link.repeat for link in links]
     columns: list[Floats] = [np.repeat(np.array(column, dtype=float), repeats) for column in zip(*bodies, strict=True)]
     weight, length, centroid, radius = columns or [np.empty(0)] * 4
+    tips = [_tip(link, gravity, Numbers(source, f"links[{index}]")) for index, link in enumerate(links)]
     try:
         if np.array_equal(centroid, length) and not radius.any():
-            return Chain(weight=weight, length=length)
-        return Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
+            chain = Chain(weight=weight, length=length)
+        else:
+            chain = Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
+        return _joined(chain, links, tips, source)
+    except SceneError:
+        raise
     except ValueError as error:
         reason = _without_place(str(error))
         found = re.match(r"link (\d+): ", reason)
@@ -89,6 +96,37 @@ def chain_of_links(links: list[Link], gravity: float, source: str) -> Chain:
             raise SceneError(source, "links", reason) from None
         index = int(np.searchsorted(np.cumsum(repeats), int(found[1])))
         raise SceneError(source, f"links[{index}]", reason[found.end() :]) from None
+
+
+def _tip(link: Link, gravity: float, numbers: Numbers) -> float:
+    """Weight fixed to the lower pin."""
+    tip = numbers.weight_if_given(link, gravity, "tip_")
+    if tip and link.repeat > 1:
+        raise numbers.refuse("repeat", f"must be 1 where a weight is fixed to the lower pin, got {link.repeat}")
+    return tip
+
+
+def _joined(chain: Chain, links: list[Link], tips: list[float], source: str) -> Chain:
+    """The chain with weights fixed to pins, and with links locked to those above; from the top, so that numbers hold."""
+    first = np.cumsum([0, *(link.repeat for link in links)])
+    for index in reversed(range(len(links))):
+        link = links[index]
+        if tips[index]:
+            chain = chain.with_weight(tips[index], pin=int(first[index]))
+        if not link.clamped:
+            continue
+        numbers = Numbers(source, f"links[{index}]")
+        if index + 1 == len(links):
+            raise numbers.refuse("clamped", "there is no link above")
+        for name in ("standing", "flywheel", "displaced"):
+            if getattr(link, name) not in (False, UNSET):
+                raise numbers.refuse(name, "is said by the link above, with which this one is clamped")
+        for number in (index, index + 1):
+            if links[number].repeat > 1:
+                place = Numbers(source, f"links[{number}]")
+                raise place.refuse("repeat", f"must be 1 where links are clamped, got {links[number].repeat}")
+        chain = chain.clamped(int(first[index]) + 1)
+    return chain
 
 
 def _body(link: Link, gravity: float, numbers: Numbers) -> tuple[float, float, float, float]:

@@ -28,10 +28,12 @@ def rig_of(
     chain: Chain, links: list[Link], support: Support | UnsetType, fluid: str, gravity: float, source: str
 ) -> Rig:
     """The rig; `links` are the tables that `chain` was made of, or none."""
+    tables = [(i, link) for i, link in enumerate(links) if not link.clamped]  # those are part of the link above
+    links = [link for _, link in tables]
     given: dict[str, Any] = {} if support is UNSET else _support(support, gravity, Numbers(source, "support"))
     if links:
         repeats = [link.repeat for link in links]
-        wheels = [_flywheel(link.flywheel, gravity, Numbers(source, f"links[{i}].flywheel")) for i, link in enumerate(links)]
+        wheels = [_flywheel(link.flywheel, gravity, Numbers(source, f"links[{i}].flywheel")) for i, link in tables]
         given["standing"] = np.repeat([link.standing for link in links], repeats)
         given["momentum"], given["axial_moment"] = (np.repeat(column, repeats) for column in zip(*wheels, strict=True))
         if any(link.displaced is not UNSET for link in links):
@@ -43,7 +45,7 @@ def rig_of(
                     gravity,
                     Numbers(source, f"links[{i}].displaced"),
                 )
-                for i, (link, first) in enumerate(zip(links, firsts, strict=True))
+                for (i, link), first in zip(tables, firsts, strict=True)
             ]
             names = ("displaced_weight", "added_weight", "displaced_centroid", "displaced_radius_of_gyration")
             given |= {name: np.repeat(column, repeats) for name, column in zip(names, zip(*fluids, strict=True), strict=True)}

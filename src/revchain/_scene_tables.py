@@ -118,6 +118,11 @@ class Link(Table, frozen=True):
         How many such links follow one another.
     standing : bool
         Whether it stands on its upper pin, as a broomstick on the hand, in the straight chain.
+    tip_weight, tip_mass : float or str, optional
+        Of a point fixed to its lower pin; at most one of the two.
+    clamped : bool
+        Whether it is locked in line with the link above: one rigid piece, of which that link says whether it
+        stands, and what wheel it carries and fluid it displaces.
     flywheel : Flywheel, optional
     displaced : Displaced, optional
     """
@@ -140,6 +145,11 @@ class Link(Table, frozen=True):
     ] = UNSET
     repeat: Annotated[Count, Meta(description="How many equal links follow one another.")] = 1
     standing: Annotated[bool, Meta(description="Whether it stands on its upper pin in the straight chain.")] = False
+    tip_weight: Annotated[NotNegative | UnsetType, Meta(description="Of a point fixed to its lower pin (N).")] = UNSET
+    tip_mass: Annotated[NotNegative | UnsetType, Meta(description="Of a point fixed to its lower pin (kg).")] = UNSET
+    clamped: Annotated[
+        bool, Meta(description="Whether it is locked in line with the link above: one rigid piece.")
+    ] = False
     flywheel: Annotated[Flywheel | UnsetType, Meta(description="A wheel that spins about the link's axis.")] = UNSET
     displaced: Annotated[Displaced | UnsetType, Meta(description="What it displaces of a fluid.")] = UNSET
 
@@ -155,6 +165,8 @@ class UniformChain(Table, frozen=True):
         How many.
     length, weight, mass : float or str
         Of the WHOLE chain; one of weight and mass.
+    tip_weight, tip_mass : float or str, optional
+        Of a point fixed to its free end; at most one of the two.
     """
 
     kind: Annotated[Literal["plummets", "rods"], Meta(description="What the links are.")]
@@ -162,3 +174,5 @@ class UniformChain(Table, frozen=True):
     length: Annotated[Positive, Meta(description="Of the whole chain.")]
     weight: Annotated[Positive | UnsetType, Meta(description="Of the whole chain (N); or give mass.")] = UNSET
     mass: Annotated[Positive | UnsetType, Meta(description="Of the whole chain (kg); or give weight.")] = UNSET
+    tip_weight: Annotated[NotNegative | UnsetType, Meta(description="Of a point fixed to its free end (N).")] = UNSET
+    tip_mass: Annotated[NotNegative | UnsetType, Meta(description="Of a point fixed to its free end (kg).")] = UNSET

@@ -29,6 +29,8 @@ SI = {
     "time": ("s", "a time", "2 min"),
     "added_mass": ("kg", "a mass", "2 kg"),
     "added_weight": ("N", "a force", "20 N"),
+    "tip_mass": ("kg", "a mass", "2 kg"),
+    "tip_weight": ("N", "a force", "20 N"),
 }
 """Quantity: its SI unit, its name, an example."""
 

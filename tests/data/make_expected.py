@@ -7,7 +7,8 @@ Needs mpmath alone; nothing of revchain is imported. A scene's decimals are read
 not rounded to double. Chains of up to 200 links: the dense inertia matrix in the ANGLES of the links
 (not the offsets of the pins, which the program uses), reduced by its diagonal stiffness, all its
 eigenvalues by mpmath.eigsy with 80 digits. Longer chains: counting negative pivots of the assembled
-tridiagonal pencil with 60 digits, and bisection. Cross-checks: Laguerre zeros for equal plummets,
+tridiagonal pencil with 60 digits, and bisection. Scenes with supports, standing links, flywheels, fluids,
+clamped links or weights at pins: expected_rigs.py. Cross-checks: Laguerre zeros for equal plummets,
 the closed quadratic for two plummets, the count of the assembled pencil on both sides of each height.
 """
 
@@ -19,6 +20,7 @@ import tomllib
 from pathlib import Path
 
 import mpmath as mp
+from expected_rigs import expected_of
 from mpmath import mpf
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -154,9 +156,27 @@ def check(links, heights, name):
             assert abs((height - a1) * (height - a2) - w2 * a1 * a2 / (w1 + w2)) < mpf(10) ** -60, name
 
 
+def is_rigged(scene):
+    """Whether anything in it is beyond a plain chain."""
+    beyond = {"standing", "flywheel", "displaced", "clamped", "tip_mass"}
+    return "support" in scene or any(beyond & set(t) for t in [scene.get("uniform_chain", {}), *scene.get("links", [])])
+
+
+def write(path, expected):
+    target = path.with_name(f"{path.stem}.expected.json")
+    target.write_text(json.dumps(expected, indent=1) + "\n", encoding="utf-8")
+    print(target.name, *(mode["conical_height"][:20] for mode in expected["modes"][:1]))
+
+
 def make(path):
     mp.mp.dps = 80
     scene = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=mpf)
+    head = {"scene": path.name, "made_by": "tests/data/make_expected.py"}
+    if is_rigged(scene):
+        asked = scene.get("ask", {}).get("modes", DEFAULT_MODES)
+        by = "Lagrange's equations in the angles, dense companion matrix, 80 digits"
+        found = expected_of(scene, 40, 10**9 if asked == "all" else asked)
+        return write(path, {**head, "by": by, "digits": 40, **found})
     links = links_of(scene)
     n = len(links)
     asked = scene.get("ask", {}).get("modes", min(DEFAULT_MODES, n))
@@ -168,8 +188,7 @@ def make(path):
     gravity = mpf(scene.get("gravity", mpf("9.80665")))
     digits = 40 if dense else 28
     expected = {
-        "scene": path.name,
-        "made_by": "tests/data/make_expected.py",
+        **head,
         "by": "dense inertia matrix in the angles, 80 digits" if dense else "counting pivots, 60 digits, bisection",
         "digits": digits,
         "size": n,
@@ -182,9 +201,7 @@ def make(path):
             for height in heights
         ],
     }
-    target = path.with_name(f"{path.stem}.expected.json")
-    target.write_text(json.dumps(expected, indent=1) + "\n", encoding="utf-8")
-    print(target.name, mp.nstr(heights[0], 20))
+    write(path, expected)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 """Every example scene against the values beside it, every example program run."""
 
 import json
+import re
 from pathlib import Path
 
 import mpmath as mp
@@ -15,7 +16,9 @@ SCENES = sorted((ROOT / "examples" / "scenes").glob("*.toml"))
 PYTHON = ROOT / "examples" / "python"
 EXPERIMENTS = sorted(PYTHON.glob("experiment_*.py"))
 PROGRAMS = sorted(set(PYTHON.glob("[!_]*.py")) - set(EXPERIMENTS))
-SMALL = [path for path in SCENES if rc.load_scene(path).chain().size <= 20]  # for the dense reference
+RIGS = [path for path in SCENES if rc.load_scene(path).is_rigged]
+CHAINS = [path for path in SCENES if path not in RIGS]
+SMALL = [path for path in CHAINS if rc.load_scene(path).chain().size <= 20]  # for the dense reference
 ULP = 2.0**-52
 # The expected values belong to the decimals of the file and the answers to their roundings. Those cost up
 # to some ulp in principle and 0.9 ulp measured (bell_and_clapper), inside the bound of 2 ulp.
@@ -25,16 +28,30 @@ def test_there_are_all():
     assert {path.stem for path in SCENES} >= (
         {"watch_chain", "bell_and_clapper", "crane_hook_block", "bernoulli_chain", "anchor_chain", "weight_ratio"}
         | {"two_weights", "stick_on_string"}
+        | {"ball_on_chain", "clamped_bell", "jointed_rod", "rods_on_threads"}
+    )
+    assert {path.stem for path in RIGS} >= (
+        {"carriage_on_springs", "swing_carousel", "bicycle_wheels", "two_gyrostats"}
+        | {"moored_floats", "stokes_float", "broomstick", "acrobat"}
     )
     assert len(PROGRAMS) >= 3
     assert len(EXPERIMENTS) == 11
 
 
-@pytest.fixture(params=SCENES, ids=lambda path: path.stem)
-def example(request):
-    expected = json.loads(request.param.with_name(f"{request.param.stem}.expected.json").read_text())
-    scene = rc.load_scene(request.param)
+def solved(path):
+    expected = json.loads(path.with_name(f"{path.stem}.expected.json").read_text())
+    scene = rc.load_scene(path)
     return scene, scene.modes(), expected
+
+
+@pytest.fixture(params=CHAINS, ids=lambda path: path.stem)
+def example(request):
+    return solved(request.param)
+
+
+@pytest.fixture(params=RIGS, ids=lambda path: path.stem)
+def rig_example(request):
+    return solved(request.param)
 
 
 def test_heights_and_speeds(example):
@@ -64,6 +81,38 @@ def test_nodes(example):
     for nodes, mode in zip(result.nodes, expected["modes"], strict=True):
         # absolute, in parts of the length; measured 3.2 ulp (weight_ratio)
         np.testing.assert_allclose(nodes, [float(node) for node in mode["nodes"]], rtol=0, atol=8 * ULP * length)
+
+
+def test_rigs(rig_example):
+    """Speeds of both senses, and what is no steady motion; decimals of the file against answers to their roundings."""
+    scene, result, expected = rig_example
+    assert result.status == "success" and result.complete
+    assert result.rig.size == expected["size"] and len(result) == len(expected["modes"])
+    assert np.max(result.error_bound, initial=0.0) <= 4 * ULP
+    worst = 0.0
+    with mp.workdps(40):
+        rows = zip(expected["modes"], result.conical_height, result.angular_speed(), strict=True)
+        for k, (mode, height, speed) in enumerate(rows):
+            assert (result.sense[k], result.number[k]) == (mode["sense"], mode["number"])
+            worst = max(worst, abs(mp.mpf(float(height)) / mp.mpf(mode["conical_height"]) - 1))
+            worst = max(worst, abs(mp.mpf(float(speed)) / mp.mpf(mode["angular_speed"]) - 1))
+        order = np.lexsort((result.other.conical_height.imag, np.abs(result.other.conical_height)))
+        assert len(order) == len(expected["other"])
+        for other, k in zip(expected["other"], order, strict=True):
+            found = result.other.conical_height[k]
+            height = mp.mpc(*other["conical_height"])
+            worst = max(worst, abs(mp.mpc(complex(found)) - height) / abs(height))
+            rate = mp.mpf(float(result.other.growth_rate[k]))
+            worst = max(worst, abs(rate / mp.mpf(other["growth_rate"]) - 1))
+    assert worst <= 1.5 * ULP  # measured 0.92 (bicycle_wheels)
+
+
+def test_shapes_of_rigs(rig_example):
+    _, result, expected = rig_example
+    for k, mode in enumerate(expected["modes"]):
+        offset = np.array([float(y) for y in mode["offset"]])
+        # absolute, the largest offset 1; measured 1 ulp (bicycle_wheels)
+        np.testing.assert_allclose(result.shape[k], offset / np.abs(offset).max(), rtol=0, atol=2 * ULP)
 
 
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
@@ -104,3 +153,24 @@ def test_experiments(python, tmp_path, path):
     assert f"\n```text\n{numbers}\n```\n" in document
     assert f"](figures/{picture.name})" in document and f"](../examples/python/{path.name})" in document
     assert (ROOT / "docs" / "figures" / picture.name).is_file()
+
+
+def test_page_of_scenes(python):
+    """docs/scenes.md: lines of the scene files, and what the command prints, word for word."""
+    page = (ROOT / "docs" / "scenes.md").read_text(encoding="utf-8")
+    sections = page.split("\n## ")[1:]
+    shown = []
+    for section in sections:
+        name = re.search(r"\]\(\.\./examples/scenes/(\w+)\.toml\)\.\n", section)[1]
+        path = ROOT / "examples" / "scenes" / f"{name}.toml"
+        shown.append(name)
+        lines, printed = re.search(r"```toml\n(.*?)\n```\n\n```text\n(.*?)\n```\n", section, re.DOTALL).groups()
+        assert f"\n{lines}\n" in path.read_text(encoding="utf-8")
+        done = python("-m", "revchain", "solve", path)
+        assert done.returncode == 0, done.stderr
+        assert printed.splitlines() == [line.rstrip() for line in done.stdout.splitlines()]
+        assert f"](figures/scene_{name}.png)" in section
+        picture = ROOT / "docs" / "figures" / f"scene_{name}.png"
+        assert picture.stat().st_size < 60_000
+    chains = {"ball_on_chain", "clamped_bell", "jointed_rod", "rods_on_threads"}
+    assert {path.stem for path in RIGS} | chains == set(shown)

@@ -140,7 +140,9 @@ def test_picture() -> None:
     pytest.importorskip("matplotlib")
     rig = rc.Rig(rc.Chain.uniform_rods(6, length=2.0), momentum=0.1, standing=[True] * 2 + [False] * 4)
     ax = rc.modes(rig).plot(most=4)
-    assert len(ax.get_xticks()) == 4
+    labels = [label.get_text() for label in ax.get_xticklabels()]
+    assert len(labels) == 5 and labels[0] == "at rest"
+    assert labels[1].startswith("mode 1 backward\n-0.") and labels[2].startswith("mode 2 backward\n")
     ax.figure.savefig("/dev/null", format="png")
     with pytest.raises(ValueError, match="shapes=True"):
         rc.modes(rig, shapes=False).plot()

@@ -65,6 +65,27 @@ def test_modes_of_a_scene_are_those_of_its_rig():
     assert len(scene({**ROD, "repeat": 20}, support=support).modes()) == 10
 
 
+def test_weights_at_pins_and_clamped_links():
+    tipped = scene({**ROD, "tip_mass": 0.5}, {**ROD, "tip_weight": 2.0}, ROD, gravity=10.0)
+    rods = rc.Chain(weight=10.0, length=[1.5] * 3, centroid=0.75, radius_of_gyration=1.5 / 12**0.5)
+    assert not tipped.is_rigged
+    assert tipped.chain() == rods.with_weight(2.0, pin=1).with_weight(5.0)
+    whole = {"uniform_chain": {"kind": "rods", "count": 3, "length": 4.5, "weight": 30.0, "tip_weight": 5.0}}
+    assert Scene.from_dict(whole).chain() == rc.Chain.uniform_rods(3, 4.5, 30.0).with_weight(5.0)
+
+    locked = {**ROD, "clamped": True}
+    long = scene({**ROD, "repeat": 2}, locked, ROD, {**ROD, "repeat": 2})
+    assert long.chain() == scene({**ROD, "repeat": 6}).chain().clamped(3)
+    pair = scene(locked, {**ROD, "standing": True, "flywheel": WHEEL, "displaced": {"mass": 0.5}}, ROD)
+    rig = pair.rig()
+    assert rig.chain == scene(ROD, ROD, ROD).chain().clamped(1)
+    assert rig.chain.length.tolist() == [3.0, 1.5]
+    assert rig.standing.tolist() == [True, False] and np.count_nonzero(rig.momentum) == 1
+    assert rig.displaced_centroid[0] == 1.5  # of the whole piece
+    three = scene(locked, locked, {**ROD, "tip_mass": 0.1}).chain()
+    assert three.size == 1 and three.total_length == 4.5
+
+
 @pytest.mark.parametrize(
     ("entries", "says"),
     [
@@ -80,6 +101,12 @@ def test_modes_of_a_scene_are_those_of_its_rig():
         ({"links": [{**ROD, "flywheel": {**WHEEL, "weight": 1}}]}, r"links\[0\].flywheel: give either weight or mass"),
         ({"links": [{**ROD, "displaced": {}}]}, r"links\[0\].displaced: give either weight or mass"),
         ({"links": [{**ROD, "displaced": {"mass": 1, "added_mass": "1 m"}}]}, r"displaced.added_mass: must be a mass"),
+        ({"links": [{**ROD, "tip_mass": 1, "repeat": 2}]}, r"links\[0\].repeat: must be 1 where a weight is fixed"),
+        ({"links": [{**ROD, "tip_mass": 1, "tip_weight": 2}]}, r"links\[0\]: give either tip_weight or tip_mass"),
+        ({"links": [{**ROD, "tip_mass": "1 N"}]}, r"links\[0\].tip_mass: must be a mass such as"),
+        ({"links": [ROD, {**ROD, "clamped": True}]}, r"links\[1\].clamped: there is no link above"),
+        ({"links": [{**ROD, "clamped": True}, {**ROD, "repeat": 2}]}, r"links\[1\].repeat: must be 1 where links are clamped"),
+        ({"links": [{**ROD, "clamped": True, "flywheel": WHEEL}, ROD]}, r"links\[0\].flywheel: is said by the link above"),
         ({"support": {"radius": 1}, "ask": {"rtol": 1e-3}}, r"ask.rtol: is for a chain alone"),
         ({"support": {"radius": 1}, "ask": {"angular_speed": [1, 2]}}, r"ask.angular_speed: is for a chain alone"),
     ],
@@ -140,3 +167,21 @@ stiffness = 40
     assert len(rows) == len(found) + len(found.other)
     assert (tmp_path / "out" / "broom.png").stat().st_size > 5000
     assert "valid: Rig of a chain of 2 links" in python("-m", "revchain", "validate", path).stdout
+
+
+def test_pictures_of_rigs():
+    pytest.importorskip("matplotlib")
+    broom = scene({**ROD, "standing": True}, support={"radius": 0.05}).modes()
+    axes = broom.plot()  # nothing whirls: the rig at rest, and what becomes of it
+    assert axes.get_ylabel() == "height above the support (m)"
+    assert "exp(3.132 t)" in axes.get_xticklabels()[1].get_text()
+    axes.figure.savefig("/dev/null", format="png")
+    long = scene(
+        {**ROD, "repeat": 4_000},
+        {**ROD, "standing": True, "repeat": 200},
+        {**ROD, "displaced": {"mass": 2.0}},
+        support={"stiffness": 1e9, "mass": 0.1},
+    )
+    axes = rc.modes(long.rig(), count=1).plot(most=1)
+    assert max(line.get_xdata().size for line in axes.lines) <= 3 * 2000
+    axes.figure.savefig("/dev/null", format="png")
