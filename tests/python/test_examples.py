@@ -104,3 +104,9 @@ def test_experiments(python, tmp_path, path):
     assert f"\n```text\n{numbers}\n```\n" in document
     assert f"](figures/{picture.name})" in document and f"](../examples/python/{path.name})" in document
     assert (ROOT / "docs" / "figures" / picture.name).is_file()
+
+
+def test_experiments_are_whole():
+    document = (ROOT / "docs" / "experiments.md").read_text(encoding="utf-8")
+    assert "To come" not in document
+    assert document.count("\n**Asked**") == document.count("\n**Take**") == document.count("\n**Expect**") == 11
