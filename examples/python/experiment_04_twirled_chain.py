@@ -5,51 +5,93 @@ python experiment_04_twirled_chain.py [FOLDER]
 """
 
 import numpy as np
-from _picture import COLOURS, hang, panels, save, side_view
+from _picture import COLOURS, hang, save, side_view
+from matplotlib.figure import Figure
 
 import revchain as rc
 
 LENGTH = 0.36  # m, of the chain, and of the thread of a plummet
 HAND = 0.005  # m, radius of the circle
+LINKS = 100
+
+chain = rc.Chain.uniform_rods(LINKS, length=LENGTH)
+carried = rc.Rig(chain, support_radius=HAND)
 
 
-def driven(x, turns):
-    """Offset over that of the hand, `x` from the free end: the lowest part of a longer chain that whirls freely."""
-    height = rc.conical_pendulum.height(2 * np.pi * turns)
-    mode = 8  # any in which the longer chain is long enough
-    longer = height / rc.heavy_chain.conical_heights(mode)[-1]
-    return rc.heavy_chain.shape(x, mode, longer) / rc.heavy_chain.shape(LENGTH, mode, longer)
+def near_the_vertical(turns):
+    """Offset of the tip over that of the hand."""
+    return rc.response(chain, angular_speed=2 * np.pi * turns, pins=0).offset
 
 
+def continuous(turns):
+    """The same without links: the lowest part of a longer chain that whirls freely."""
+    longer = rc.conical_pendulum.height(2 * np.pi * turns) / rc.heavy_chain.conical_heights(8)[-1]
+    return 1 / rc.heavy_chain.shape(LENGTH, 8, longer)
+
+
+def at_any_inclination(turns):
+    shapes = rc.steady_shapes(carried, angular_speed=2 * np.pi * turns)
+    assert shapes.complete
+    return shapes
+
+
+def more_from(low, high):
+    """The speed at which shapes are added, between two: turns a second."""
+    before = len(at_any_inclination(low))
+    while high - low > 1e-5:
+        middle = (low + high) / 2
+        low, high = (middle, high) if len(at_any_inclination(middle)) == before else (low, middle)
+    return high
+
+
+reversals = rc.modes(chain, count=3, shapes=False).revolutions_per_second()
 print(f"reversals of the plummet at {rc.conical_pendulum.revolutions_per_second(LENGTH):.4f} turns a second,", end=" ")
-print("of the chain at", *rc.heavy_chain.revolutions_per_second(3, LENGTH).round(4))
-print("tip over hand, near the vertical:")
-print("turns a second  plummet    chain")
+print("of the chain at", *reversals.round(4))
+print(f"tip over hand, near the vertical, {LINKS} links and without end:")
+print("turns a second  plummet    chain  continuous")
 for turns in (0.4, 0.7, 0.9, 1.1, 1.5, 2.0, 2.5):
     plummet = rc.plummet.carried_response(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns))
-    print(f"{turns:14.2f}  {plummet:+7.3f}  {driven(0.0, turns):+7.3f}")
+    print(f"{turns:14.2f}  {plummet:+7.3f}  {near_the_vertical(turns):+7.3f}  {continuous(turns):+10.3f}")
 print("plummet on 0.36 m, hand on a circle of radius 5 mm, all steady inclinations, degrees:")
 for turns in (0.7, 0.83, 0.9, 1.0):
     found = rc.plummet.carried_inclinations(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns), HAND)
     print(f"{turns:14.2f}  ", *(f"{x:8.2f}" for x in np.degrees(found[~np.isnan(found)])))
+print(f"chain of {LINKS} links on the same circle, tip from the axis in every steady shape, mm:")
+for turns in (0.7, 0.9, 1.0, 1.1, 1.5, 2.0, 2.5, 3.0):
+    print(f"{turns:14.2f}  ", *(f"{1000 * x:8.2f}" for x in sorted(s.offset[0] for s in at_any_inclination(turns))))
+born = [more_from(low, high) for low, high in zip(reversals, [*reversals[1:], 5.0], strict=True)]
+print("two more shapes from", *np.round(born, 4), "turns a second")
 
-figure, axes = panels(4, [2.2, 1, 1, 1])
+figure = Figure(figsize=(8, 4.5), dpi=100, layout="constrained")
+axes = figure.subplot_mosaic([["near", "side", "all"], ["near", "side", "shapes"]], width_ratios=[2, 1, 2.2])
 turns = np.linspace(0.2, 2.8, 1301)
 plummet = rc.plummet.carried_response(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns))
-curves = [("plummet", plummet, "0.45", (2, 0.4)), ("chain", driven(0, turns), COLOURS[0], (1.4, -2))]
+curves = [("plummet", plummet, "0.45", (2, 0.4)), ("chain", near_the_vertical(turns), COLOURS[0], (1.4, -2))]
 for name, tip, colour, place in curves:
-    axes[0].plot(turns, np.where(np.abs(tip) < 12, tip, np.nan), color=colour)
-    axes[0].annotate(name, place, color=colour)
-axes[0].axhline(0, color="black", linewidth=0.6)
-axes[0].set(xlabel="turns a second", ylabel="offset of the tip over that of the hand", ylim=(-12, 12))
-axes[0].set_title("with the hand above 0, against it below")
+    axes["near"].plot(turns, np.where(np.abs(tip) < 12, tip, np.nan), color=colour)
+    axes["near"].annotate(name, place, color=colour)
+axes["near"].axhline(0, color="black", linewidth=0.6)
+axes["near"].set(xlabel="turns a second", ylabel="offset of the tip over that of the hand", ylim=(-12, 12))
+axes["near"].set_title("near the vertical")
 
-x = np.linspace(0, LENGTH, 200)
-for panel, speed in zip(axes[1:], (0.7, 1.5, 2.6), strict=True):
-    hang(panel, HAND * driven(x, speed), LENGTH - x, color=COLOURS[0])
-    panel.plot(HAND, 0, "o", color="black", markersize=5)
-    panel.annotate("hand", (HAND, 0), xytext=(4, 3), textcoords="offset points")
-    side_view(panel, f"chain\n{speed} turns/s", bottom=0.38, top=0.03, half_width=0.06)
-    panel.set_xticks([-0.05, 0, 0.05])
-axes[1].set_ylabel("below the hand, m")
+depth = np.linspace(LENGTH, 0, LINKS + 1)
+for speed, colour in zip((0.7, 1.5, 2.6), ("black", "0.4", "0.65"), strict=True):
+    one = rc.response(carried, angular_speed=2 * np.pi * speed)
+    hang(axes["side"], 1000 * one.offset, depth, color=colour, label=f"{speed}")
+axes["side"].axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
+axes["side"].plot(1000 * HAND, 0, "o", color="black", markersize=4)
+axes["side"].annotate("hand", (1000 * HAND, 0), xytext=(4, 0), textcoords="offset points")
+axes["side"].set(xlabel="from the axis, mm", ylabel="below the hand, m", ylim=(0.37, -0.01), xlim=(-40, 40))
+axes["side"].set_title("at three speeds")
+axes["side"].legend(title="turns/s", loc="upper left", fontsize=7, title_fontsize=7, frameon=False, handlelength=1)
+
+for speed in np.linspace(0.4, 3.2, 281):
+    for shape in at_any_inclination(speed):
+        axes["all"].plot(speed, 1000 * shape.offset[0], ".", markersize=2, color=COLOURS[shape.half_waves - 1])
+axes["all"].axhline(0, color="black", linewidth=0.6)
+axes["all"].set(xlabel="turns a second", ylabel="tip from the axis, mm", title="every steady shape")
+for shape in at_any_inclination(3.0):
+    hang(axes["shapes"], shape.offset, -shape.height, color=COLOURS[shape.half_waves - 1])
+side_view(axes["shapes"], "all at 3 turns a second", bottom=0.38, half_width=0.4)
+axes["shapes"].set_ylabel("below the hand, m")
 save(figure)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment VI: a cue balanced on a hand that moves in a circle; a pendulum that stands on a swinging one.
+"""Experiment VI: sticks balanced on a hand that moves in a circle; a pendulum that stands on a swinging one.
 
 python experiment_06_balanced_cue.py [FOLDER]
 """
@@ -11,52 +11,63 @@ import revchain as rc
 
 HAND = 0.05  # m, radius of its circle
 TURNS = 1.0  # a second
+SPEED = 2 * np.pi * TURNS
 
 
-def balanced(length, radius, turns):
-    """How a uniform stick stands on a hand that goes round: the thread that takes the hand's place is sought."""
-    height = rc.conical_pendulum.height(2 * np.pi * turns)
-    stick = dict(centroid=length / 2, radius_of_gyration=length / 12**0.5)
-    low = rc.two_links.thread_of_standing_link(height, **stick)  # upright, and the hand at rest
-    high = 10 * (low + radius)
-    for _ in range(60):
-        middle = (low + high) / 2
-        figure = rc.two_links.standing_link_shape(middle, **stick, height=height)
-        low, high = (middle, high) if figure is None or figure.offset[1] < radius else (low, middle)
-    return figure
+def on_the_hand(length, sticks=1):
+    """Equal sticks hinged end to end, upright."""
+    return rc.Rig(rc.Chain.uniform_rods(sticks, length=length), standing=True, support_radius=HAND)
+
+
+def leaning(rig):
+    """The one way in which they go round with the hand, and how far each leans inwards, degrees, the topmost first."""
+    (shape,) = rc.steady_shapes(rig, angular_speed=SPEED)
+    return shape, 180 + np.degrees(shape.inclination)
 
 
 print(f"sticks on a hand that goes round a circle of radius {100 * HAND:.0f} cm, {TURNS:.0f} turn a second:")
 print("stick       length, m  swings like, m  a lean grows e-fold in, s  leans inwards, degrees")
-sticks = [("pencil", 0.18), ("ruler", 0.5), ("broomstick", 1.2), ("cue", 1.45)]
-for name, length in sticks:
-    like = rc.two_links.pendulum_length(length / 2, length / 12**0.5)
-    grows = rc.conical_pendulum.period(like) / (2 * np.pi)
-    lean = np.degrees(balanced(length, HAND, TURNS).inclination[0])
+sticks = {"pencil": 0.18, "ruler": 0.5, "broomstick": 1.2, "cue": 1.45}
+for name, length in sticks.items():
+    rig = on_the_hand(length)
+    fall = rc.modes(rig).other  # no whirl speed, but a conical height below 0
+    like, grows, (lean,) = -fall.conical_height[0].real, 1 / fall.growth_rate[0], leaning(rig)[1]
     print(f"{name:10}  {length:9.2f}  {like:14.3f}  {grows:25.3f}  {lean:22.2f}")
 
-pair = dict(standing_weight=0.05, rod=0.3, hung_weight=0.5, thread=1.0)
-upright = rc.two_links.standing_plummet(**pair)
-upright, alone = rc.conical_pendulum.revolutions_per_second([upright, pair["thread"]])
-print(f"50 g standing on 0.3 m of wire above 500 g on 1 m: {upright:.4f} turns a second, 500 g alone {alone:.4f}")
-faster = 0.55
-figure_of_pair = rc.two_links.standing_plummet_shape(**pair, height=rc.conical_pendulum.height(2 * np.pi * faster))
-print(f"at {faster} turns a second: wire and thread lean", *np.degrees(figure_of_pair.inclination).round(2), "degrees")
+print("0.9 m of sticks hinged end to end, on the same hand:")
+print("sticks  top over hand  leans grow e-fold in, s  each leans inwards, degrees, topmost first")
+columns = [on_the_hand(0.9, count) for count in (1, 2, 3)]
+for rig in columns:
+    top = rc.response(rig, angular_speed=SPEED, pins=0).amplification
+    grows = " ".join(f"{x:.3f}" for x in 1 / rc.modes(rig).other.growth_rate)
+    print(f"{rig.size:6}  {top:+13.3f}  {grows:23} ", *(f"{x:.2f}" for x in leaning(rig)[1]))
 
-figure, axes = panels(5, [1, 1, 1, 1, 1.8])
-for (name, length), panel in zip(sticks, axes[:4], strict=True):
-    lean = balanced(length, HAND, TURNS).inclination[0]
-    hang(panel, [HAND, HAND - length * np.sin(lean)], [0, -length * np.cos(lean)], color=COLOURS[0], linewidth=2)
+pair = rc.Chain(weight=[0.05, 0.5], length=[0.3, 1.0])  # kg will do: only ratios count
+print("50 g on 0.3 m of wire, on a rod of 1 m with 500 g at its end, near the vertical:")
+print("wire    rod     turns a second  leans grow e-fold in, s")
+for standing in ([False, False], [True, False], [False, True], [True, True]):
+    found = rc.modes(rc.Rig(pair, standing=standing))
+    turns = " ".join(f"{n / (2 * np.pi):.4f}" for n in found.angular_speed())
+    grows = " ".join(f"{x:.3f}" for x in 1 / found.other.growth_rate)
+    wire, rod = ("stands" if stands else "hangs" for stands in standing)
+    print(f"{wire:6}  {rod:6}  {turns or 'none':14}  {grows or 'none'}")
+faster = 0.55
+(upright,) = rc.steady_shapes(rc.Rig(pair, standing=[True, False]), angular_speed=2 * np.pi * faster)
+wire, rod = np.degrees(np.abs(upright.inclination))
+print(f"the wire standing, at {faster} turns a second: wire and rod lean {180 - wire:.2f} {rod:.2f} degrees")
+
+figure, axes = panels(6, [1, 1, 1, 1, 1, 1.8])
+shown = {**{name: on_the_hand(length) for name, length in sticks.items()}, "three of 0.3 m": columns[2]}
+for (name, rig), panel in zip(shown.items(), axes, strict=False):
+    shape, lean = leaning(rig)
+    hang(panel, shape.offset, -shape.height, color=COLOURS[0], linewidth=2, marker="." if rig.size > 1 else "")
     panel.plot([-HAND, HAND], [0, 0], "|-", color="black", markersize=8)
-    side_view(panel, f"{name}\n{np.degrees(lean):.1f}°", bottom=0.05, top=1.5, half_width=0.16)
+    side_view(panel, f"{name}\n{lean[0]:.1f}°", bottom=0.05, top=1.5, half_width=0.16)
     panel.set_yticks([0, -0.5, -1, -1.5], ["0.0", "0.5", "1.0", "1.5"])
     panel.set(xlabel="m", xticks=[-0.1, 0.1])
 axes[0].set_ylabel("above the hand, m")
-top, joint = figure_of_pair.offset
-wire, thread = figure_of_pair.inclination
-deep = pair["thread"] * np.cos(thread)
-hang(axes[4], [top, joint, 0], [deep - pair["rod"] * np.cos(wire), deep, 0], weights=[20, 90], color=COLOURS[1])
-side_view(axes[4], f"50 g above 500 g\n{faster} turns/s", bottom=1.05, half_width=0.5)
-axes[4].set(ylabel="below the support, m", xlim=(-0.2, 0.65))
+hang(axes[5], upright.offset, -upright.height, weights=[20, 90], color=COLOURS[1])
+side_view(axes[5], f"50 g above 500 g\n{faster} turns/s", bottom=1.05, half_width=0.5)
+axes[5].set(ylabel="below the support, m", xlim=(-0.2, 0.65))
 figure.suptitle("Sticks on a hand on a circle of radius 5 cm, 1 turn/s; a pendulum standing on a pendulum", fontsize=10)
 save(figure)

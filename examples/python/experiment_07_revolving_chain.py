@@ -24,12 +24,13 @@ for turns in (0.5, 1, 2, 3):
     print(f"at {turns} turns a second the chain has {below} of them below")
 
 
-print("the chain, its free end from the axis in m:")
+print("the chain, its free end from the axis in m, every figure:")
 print("turns a second  figure  continuous  200 links")
 for turns in (0.7, 1.0, 2.0, 3.0):
-    for shape in rc.continuous_shapes(LENGTH, angular_speed=2 * np.pi * turns):
-        links = rc.steady_shape(chain, mode=shape.half_waves, angular_speed=2 * np.pi * turns)
-        print(f"{turns:14.1f}  {shape.half_waves:6}  {shape.offset[0]:10.5f}  {links.offset[0]:9.5f}")
+    links = rc.steady_shapes(chain, angular_speed=2 * np.pi * turns)
+    assert links.complete
+    for shape, linked in zip(rc.continuous_shapes(LENGTH, angular_speed=2 * np.pi * turns), links, strict=True):
+        print(f"{turns:14.1f}  {shape.half_waves:6}  {shape.offset[0]:10.5f}  {linked.offset[0]:9.5f}")
 
 
 def figures(turns):

@@ -11,6 +11,7 @@ import revchain as rc
 
 LENGTH, SPAN, TURNS = 2.0, 1.0, 3.0  # m of chain, m between the hands, turns a second at first
 MASS = 0.05  # kg/m, a light chain
+LINKS = 100
 
 start = rc.SkippingRope(span=SPAN, length=LENGTH, angular_speed=2 * np.pi * TURNS)
 ropes = [start, *(start.drawn_to(span) for span in (1.3, 1.5, 1.7, 1.8))]
@@ -23,20 +24,46 @@ for rope in ropes:
     print("{:7.2f}  {:6.3f}  {:14.3f}  {:24.5f}  {:22.1f}  {:12.2f}".format(*numbers))
 print(f"at first the middle is flung outwards with {start.sag * start.angular_speed**2 / 9.80665:.1f} times its weight")
 
-figure, (side, curve) = panels(2, [1.5, 1])
+WEIGHT = MASS * LENGTH * 9.80665
+places = np.linspace(0, LENGTH, 2001)
+print(f"ends {SPAN:.0f} m above one another, with gravity; and {LINKS} links in place of the rope:")
+print("turns a second  sag, m  of links  widest below the middle, m  pull along the axis, N: above  below")
+upright = {}
+for turns in (5.0, 3.0, 2.0, 1.0, 0.6):
+    asked = dict(span=SPAN, angular_speed=2 * np.pi * turns)
+    (cord,) = rc.held_cord_shapes(LENGTH, weight=WEIGHT, **asked)
+    (links,) = rc.held_shapes(rc.Chain.uniform_rods(LINKS, length=LENGTH), **asked)
+    widest = cord.at_arc(np.interp(0, cord.at_arc(places).inclination, places))  # where it is parallel to the axis
+    numbers = (turns, widest.offset, links.offset.max(), SPAN / 2 - widest.height)
+    pulls = (-cord.upper_pull[1], cord.lower_pull[1])  # what the hands feel, outwards
+    print("{:14.1f}  {:6.4f}  {:8.4f}  {:26.4f}  {:29.2f}  {:5.2f}".format(*numbers, *pulls))
+    upright[turns] = cord.at_arc(places)
+longer = (LENGTH + SPAN) / 2  # of the two parts of a rope that hangs down, the upper hand's
+(folded,) = rc.heavy_chain.revolutions_per_second(1, longer)
+assert not rc.held_cord_shapes(LENGTH, span=SPAN, angular_speed=2 * np.pi * folded)
+print(f"it hangs down, folded in the axis, up to {folded:.4f} turns a second, as a chain of {longer} m would")
+
+figure, (side, curve, vertical) = panels(3, [1.7, 1, 0.9])
 for rope, colour in zip(ropes, COLOURS, strict=False):
-    places = rope.at_arc(np.linspace(0, LENGTH, 200))
+    at = rope.at_arc(places)
     label = f"{rope.angular_speed / (2 * np.pi):.2f} turns/s"
-    side.plot(places.x - rope.span / 2, places.offset, color=colour, label=label)
+    side.plot(at.x - rope.span / 2, at.offset, color=colour, label=label)
 side.axhline(0, color="0.6", linewidth=0.8, linestyle="-.")
 side.set(xlabel="along the axis, m", ylabel="from the axis, m", title="2 m of chain, ends drawn apart")
-side.set_ylim(-0.05, 1.25)
+side.set_ylim(-0.05, 1.45)
 side.set_aspect("equal")
-side.legend(loc="upper center", ncols=2)
+side.legend(loc="upper center", ncols=2, fontsize=8)
 
 span = np.linspace(0.9, 1.9, 120)
 curve.plot(span, [start.drawn_to(s).angular_speed / (2 * np.pi) for s in span], color="black")
 for rope, colour in zip(ropes, COLOURS, strict=False):
     curve.plot(rope.span, rope.angular_speed / (2 * np.pi), "o", color=colour)
 curve.set(xlabel="distance of the ends, m", ylabel="turns a second", title="angular momentum kept", ylim=(0, None))
+for (turns, at), colour in zip(upright.items(), ["black", "0.35", "0.5", "0.65", "0.8"], strict=True):
+    vertical.plot(at.offset, at.height, color=colour, label=f"{turns:.1f}")
+vertical.plot([0, 0], [0, SPAN], "o", color="black", markersize=4)
+vertical.axvline(0, color="0.6", linewidth=0.8, linestyle="-.")
+vertical.set(xlabel="from the axis, m", ylabel="above the lower hand, m", title="with gravity, turns/s", ylim=(None, 1.65))
+vertical.set_aspect("equal")
+vertical.legend(loc="upper center", fontsize=7, ncols=2)
 save(figure)

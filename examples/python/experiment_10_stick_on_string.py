@@ -11,6 +11,7 @@ import revchain as rc
 
 STRING, STICK = 0.4, 0.6  # m
 GYRATION = STICK / 12**0.5  # about the middle of the stick
+HAND = 0.02  # m, radius of the circle in which the upper end of the string is carried
 
 print("string tied  turns a second at which it leaves the vertical")
 for tied in (0, 0.1, 0.2):
@@ -31,7 +32,28 @@ for turns in (0.6, 0.8, 1.5, 3.0):
         stick, string = np.degrees(shape.inclination)
         print(f"{turns:14.1f}  {shape.half_waves:6}  {stick:7.2f}  {string:7.2f}  {shape.tension[1]:11.3f}")
 
-figure, (side, curve) = panels(2, [1.3, 1])
+chain = rc.Chain(weight=[1, 0], length=[STICK, STRING], centroid=[STICK / 2, 0], radius_of_gyration=[GYRATION, 0])
+carried = rc.Rig(chain, support_radius=HAND)
+print("hand carried round, near the vertical, over its offset:")
+print("turns a second  end of the stick    joint")
+alone = rc.conical_pendulum.revolutions_per_second(rc.two_links.pendulum_length(STICK / 2, GYRATION))
+for turns in (0.4, 0.6, alone, 1.5, 2.0, 2.5):
+    end, joint, _ = rc.response(carried, angular_speed=2 * np.pi * turns).amplification
+    print(f"{turns:14.3f}  {end:+16.3f}  {round(joint, 3) + 0.0:+7.3f}")
+print(f"on a circle of {100 * HAND:.0f} cm, every steady shape, inclinations of stick and string in degrees:")
+
+
+def driven(turns):
+    shapes = rc.steady_shapes(carried, angular_speed=2 * np.pi * turns)
+    assert shapes.complete
+    return shapes
+
+
+for turns in (0.4, 0.6, 0.8, 1.5, 2.5):
+    pairs = [np.degrees(shape.inclination) for shape in driven(turns)]
+    print(f"{turns:14.1f}   ", "   ".join(f"{stick:6.2f} {string:6.2f}" for stick, string in pairs))
+
+figure, (side, curve, hand) = panels(3, [1.4, 1, 1])
 for turns in (0.6, 0.8, 1.5, 3.0):
     for shape in figures(turns):
         stick, string = shape.inclination
@@ -51,7 +73,12 @@ for half_waves in (1, 2):
         degrees = [np.degrees(x[0]) if x else np.nan for x in lean]
         name = ["stick", "string"][number] if half_waves == 1 else None
         curve.plot(speeds, degrees, style, color=COLOURS[half_waves - 1], label=name)
-curve.axhline(0, color="black", linewidth=0.6)
-curve.set(xlabel="turns a second", ylabel="inclination, degrees", yticks=range(-90, 91, 30), title="inclinations")
+for n in speeds:
+    for shape in driven(n):
+        hand.plot(n, np.degrees(shape.inclination[0]), ".", markersize=2, color=COLOURS[shape.half_waves - 1])
+for axes, title in [(curve, "hand at rest"), (hand, f"hand on {100 * HAND:.0f} cm: the stick")]:
+    axes.axhline(0, color="black", linewidth=0.6)
+    axes.set(xlabel="turns a second", yticks=range(-90, 91, 30), ylim=(-95, 95), title=title)
+curve.set_ylabel("inclination, degrees")
 curve.legend(loc="lower left")
 save(figure)

@@ -174,3 +174,9 @@ def test_page_of_scenes(python):
         assert picture.stat().st_size < 60_000
     chains = {"ball_on_chain", "clamped_bell", "jointed_rod", "rods_on_threads"}
     assert {path.stem for path in RIGS} | chains == set(shown)
+
+
+def test_experiments_are_whole():
+    document = (ROOT / "docs" / "experiments.md").read_text(encoding="utf-8")
+    assert "To come" not in document
+    assert document.count("\n**Asked**") == document.count("\n**Take**") == document.count("\n**Expect**") == 11

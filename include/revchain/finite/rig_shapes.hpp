@@ -30,12 +30,14 @@ inline SteadyShape mirrored(SteadyShape shape) {
     return shape;
 }
 
-/// Whether two shapes whose lowest link is in the axis, each alone within its error bound, are one.
+/// Whether two shapes, each alone within its error bound, are one.
 inline bool same(const SteadyShape& x, const SteadyShape& y) {
     const double off = x.error_bound + y.error_bound;
-    if (!(std::abs(x.inclination[0]) <= off && off < 1e-12)) return false;
-    for (Index m = 0; m < x.inclination.size(); ++m)
-        if (!(std::abs(x.inclination[m] - y.inclination[m]) <= off)) return false;
+    if (!(off < 1e-12)) return false;
+    for (Index m = 0; m < x.inclination.size(); ++m) {
+        const double apart = x.inclination[m] - y.inclination[m];
+        if (!(std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= off)) return false;  // at pi from both sides
+    }
     return true;
 }
 
@@ -65,7 +67,8 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
         shape = mirrored(std::move(shape));
-        // with the lowest link in the axis a shape is met from both sides
+        // A shape is met from both sides with the lowest link in the axis, and where it is near there (or a link that
+        // stands near its own): boxes that hold one shape each reach beyond tangent 0.
         const auto end = result.shapes.begin() + static_cast<std::ptrdiff_t>(count);
         if (std::none_of(result.shapes.begin(), end, [&](const SteadyShape& known) { return same(known, shape); }))
             result.shapes.push_back(std::move(shape));

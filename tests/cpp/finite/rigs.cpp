@@ -620,6 +620,30 @@ TEST_CASE("bells carried round, the lowest link in the axis: met from both sides
     CHECK(in_axis == 1);
 }
 
+TEST_CASE("rods on end, carried round: every list proved, and no shape in it twice", "[finite][rig]") {
+    // The lowest leans so little that its box, with tangents to one side, reaches across 0.
+    int lists = 0;
+    for (Index size = 1; size <= 6; ++size)
+        for (const double each : {0.15, 0.25, 0.3, 0.5})
+            for (const double turns : {0.5, 1.0, 1.2, 1.5, 2.0})
+                for (const double b : {0.01, 0.05}) {
+                    const auto chain = Chain<double>::uniform_rods(size, each * static_cast<double>(size), 1.0);
+                    const std::vector<Posture> stand(static_cast<std::size_t>(size), Posture::stands);
+                    const Rig rig(chain, {.support = carried_round(b), .posture = stand});
+                    const auto found = revchain::steady_shapes_at_speed(rig, 2 * std::numbers::pi * turns);
+                    CAPTURE(size, each, turns, b);
+                    CHECK(found.complete);
+                    REQUIRE(!found.shapes.empty());
+                    for (std::size_t i = 0; i < found.shapes.size(); ++i)
+                        for (std::size_t j = 0; j < i; ++j) {
+                            const auto off = found.shapes[i].inclination - found.shapes[j].inclination;
+                            CHECK(off.cwiseAbs().maxCoeff() > 1e-9);
+                        }
+                    ++lists;
+                }
+    CHECK(lists == 240);
+}
+
 TEST_CASE("long carousels: outwards at rest and at speed", "[finite][rig]") {
     for (const Index size : {100, 1000}) {
         const auto chain = Chain<double>::uniform_rods(size, 1.0, 1.0);
