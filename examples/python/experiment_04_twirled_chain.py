@@ -85,7 +85,7 @@ axes["side"].set(xlabel="from the axis, mm", ylabel="below the hand, m", ylim=(0
 axes["side"].set_title("at three speeds")
 axes["side"].legend(title="turns/s", loc="upper left", fontsize=7, title_fontsize=7, frameon=False, handlelength=1)
 
-for speed in np.linspace(0.4, 3.2, 281):
+for speed in np.linspace(0.4, 3.2, 197):
     for shape in at_any_inclination(speed):
         axes["all"].plot(speed, 1000 * shape.offset[0], ".", markersize=2, color=COLOURS[shape.half_waves - 1])
 axes["all"].axhline(0, color="black", linewidth=0.6)

@@ -105,7 +105,7 @@ def test_how_a_column_leans(sticks):
 
 
 def test_the_joint_above_a_stick_that_swings_alone_is_still():
-    """Experiment X: whatever the string, at the speed of the stick by itself; its end where the string's pull has it."""
+    """Experiment X: whatever the string, at the speed of the stick by itself; its end where the string pulls it."""
     length, centroid, gyration = 0.6, 0.25, 0.2
     own = (centroid**2 + gyration**2) / centroid
     for string in (0.1, 0.4, 3.0):
@@ -134,7 +134,7 @@ def test_the_rope_with_gravity(turns):
 
 
 def test_where_the_rope_folds():
-    """Its sag vanishes as exp(-c/(n - n0)), n0 the first speed of a chain as long as the upper part of the folded one."""
+    """Its sag vanishes as exp(-c/(n - n0)), n0 the first speed of a chain as long as the upper part when folded."""
     (first,) = rc.heavy_chain.revolutions_per_second(1, 1.5)
 
     def sag(turns):
