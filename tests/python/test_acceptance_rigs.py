@@ -1381,7 +1381,7 @@ def test_weight_at_a_pin_and_a_thread_anywhere(pin):
     with mp.workdps(50):
         stiff, _, mass = pencil(rc.Rig(chain))
         w = mp.mpf(1.7)
-            for m in range(pin, 4):
+        for m in range(pin, 4):
             a = mp.mpf(float(chain.length[m]))
             for i, j, sign in ((m, m, 1), (m, m + 1, -1), (m + 1, m, -1), (m + 1, m + 1, 1)):
                 if i < 4 and j < 4:
