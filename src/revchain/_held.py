@@ -333,11 +333,14 @@ class _Speed(NamedTuple):
 def _speed(place: str, conical_height: float | None, angular_speed: float | None, gravity: float) -> _Speed:
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give exactly one of conical_height and angular_speed")
+    g = real(place, "gravity", gravity)
     if conical_height is not None:
         height = float(positive(place, "conical_height", real(place, "conical_height", conical_height)))
+        if g == 0:
+            raise ValueError(f"{place}: without gravity there is no conical height, give angular_speed; got {height:g}")
+        positive(place, "gravity", g)
         return _Speed(height, 1 / height, None)
     speed = float(positive(place, "angular_speed", real(place, "angular_speed", angular_speed)))
-    g = real(place, "gravity", gravity)
     if g == 0:
         return _Speed(0.0, speed**2, (speed, 0.0))
     g = float(positive(place, "gravity", g))

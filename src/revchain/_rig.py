@@ -58,7 +58,7 @@ class Rig:
         Centre of gravity of that fluid, from the upper pin, and its radius of gyration about there; those
         of the link if left out.
     added_weight : array_like, shape (N,) or scalar
-        Of still fluid that has to move with each link, spread as the fluid displaced.
+        Of still fluid that has to move with each link, spread as the fluid displaced; none where it turns.
     fluid : {"still", "turning"}
         Fluid at rest bears; fluid that turns with the chain also lessens what whirls.
 
@@ -143,6 +143,7 @@ class Rig:
         object.__setattr__(self, "_chain", chain)
         object.__setattr__(self, "_given", {**given, "fluid": fluid})
         object.__setattr__(self, "_compiled", _core.Rig(core, **given, turning_fluid=fluid == "turning"))
+        _check_fluid(place, columns, fluid)
 
     @property
     def chain(self) -> Chain:
@@ -359,6 +360,24 @@ def _column(place: str, name: str, value: ArrayLike | None, size: int) -> Floats
     if not column.any() and name not in ("displaced_centroid", "displaced_radius_of_gyration"):
         return None
     return read_only(np.ascontiguousarray(np.broadcast_to(column, size)))
+
+
+def _check_fluid(place: str, columns: dict[str, Any], fluid: str) -> None:
+    """Refuse what is not looked at further on: places of fluid where there is none, still fluid in fluid that turns."""
+    middle, radius, added = (columns[name] for name in _PER_LINK[3:])
+    if middle is not None:
+        _refuse_link(place, ~np.isfinite(middle), middle, "displaced_centroid must be finite")
+    if radius is not None:
+        wrong = ~(np.isfinite(radius) & (radius >= 0))
+        _refuse_link(place, wrong, radius, "displaced_radius_of_gyration must be finite and not negative")
+    if added is not None and fluid == "turning":
+        _refuse_link(place, added > 0, added, "fluid that turns with the chain has no added_weight")
+
+
+def _refuse_link(place: str, wrong: NDArray[np.bool_], column: Floats, sentence: str) -> None:
+    if wrong.any():
+        link = int(np.argmax(wrong))
+        raise ValueError(f"{place}: link {link + 1}: {sentence}, got {column[link]:g}")
 
 
 def _restored(chain: Chain, given: dict[str, Any]) -> Rig:

@@ -284,7 +284,8 @@ def random_chain(rng, size, spread=2.0, plummets=False):
     if plummets:
         return rc.Chain(weight=weight, length=length)
     centroid = length * rng.uniform(0.1, 1.2, size)
-    return rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=length * rng.uniform(0.1, 0.6, size))
+    radius = length * rng.uniform(0.1, 0.6, size)
+    return rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
 
 
 # ---- 1. supports ------------------------------------------------------------------------------------------------
@@ -457,7 +458,7 @@ def test_carousel_chair_all_its_figures(radius, height):
     if radius == 1e-6 and height == 4.0:  # h sin d (1 / cos d - 1) = b: cube root
         want = [(2 * radius / 4.0) ** (1 / 3)]
         assert shapes[0].inclination[0] == pytest.approx(want[0], rel=1e-4)
-        want = [shapes[0].inclination[0]]
+        want = [shapes[0].inclination[0]]  # what a scan in doubles finds is no better
     got = sorted(s.inclination[0] for s in shapes)
     assert shapes.complete
     assert got == pytest.approx(want, abs=2e-13)
@@ -616,7 +617,8 @@ def test_response_is_what_the_full_motion_does_for_a_small_radius(to_and_fro):
                     big[3 * m : 3 * m + 3, 3 * size + m] = big[3 * size + m, 3 * m : 3 * m + 3] = e[m]
                     side[3 * size + m] = -f[m] @ f[m]
                 change = np.empty((2, size + 1, 3))
-                change[0], change[1, :size], change[1, size] = rate, np.linalg.solve(big, side)[: 3 * size].reshape(size, 3), support
+                change[0], change[1, size] = rate, support
+                change[1, :size] = np.linalg.solve(big, side)[: 3 * size].reshape(size, 3)
                 return change.ravel()
 
         line = Line(rig, speed)
@@ -712,8 +714,6 @@ def test_rods_held_at_both_ends_against_newtons_method_by_hand(half_waves):
     assert math.hypot(*shape.lower_pull) == pytest.approx(math.hypot(z[6], z[7]), rel=1e-9)
     assert shape.residual <= 1e-14
     assert shape.height[-1] == pytest.approx(0.7, abs=1e-15)
-    # pulls on both bearings carry the weight together, and the force of the centrifuge
-    assert shape.upper_pull[1] + shape.lower_pull[1] == pytest.approx(0, abs=1e9)
 
 
 def test_held_bearings_carry_weight_and_centrifugal_force():
@@ -1381,7 +1381,6 @@ def test_weight_at_a_pin_and_a_thread_anywhere(pin):
     with mp.workdps(50):
         stiff, _, mass = pencil(rc.Rig(chain))
         w = mp.mpf(1.7)
-        # the body's weight hangs on every link above its pin, it turns with the link above: pin m is the lower pin of link m
         for m in range(pin, 4):
             a = mp.mpf(float(chain.length[m]))
             for i, j, sign in ((m, m, 1), (m, m + 1, -1), (m + 1, m, -1), (m + 1, m + 1, 1)):
@@ -1441,8 +1440,13 @@ def test_bell_and_clapper_one_piece_and_not():
     l1, l2 = 0.52 + 0.08**2 / 0.52, 0.2 + 0.3**2 / 0.2
     assert bell.mismatch == pytest.approx(0.52 - (m + 1) * l1 - m * (0.15 - l2), rel=1e-12)
     names = {
-        "clapper_weight": ("weight", 0), "clapper_centroid": ("centroid", 0), "clapper_radius_of_gyration": ("radius_of_gyration", 0),
-        "bell_weight": ("weight", 1), "bell_centroid": ("centroid", 1), "bell_radius_of_gyration": ("radius_of_gyration", 1), "joint": ("length", 1),
+        "clapper_weight": ("weight", 0),
+        "clapper_centroid": ("centroid", 0),
+        "clapper_radius_of_gyration": ("radius_of_gyration", 0),
+        "bell_weight": ("weight", 1),
+        "bell_centroid": ("centroid", 1),
+        "bell_radius_of_gyration": ("radius_of_gyration", 1),
+        "joint": ("length", 1),
     }
     assert set(bell.derivative) == set(names) == set(bell.present)
 
@@ -1481,9 +1485,9 @@ def test_uniform_rod_jointed_where_it_does_not_bend():
             radius_of_gyration=[low / 12**0.5, up / 12**0.5],
         )
         bell = rc.bell_and_clapper(chain)
-        assert bell.inclination_ratio[0] == pytest.approx(1, abs=1e-12) or bell.inclination_ratio[1] == pytest.approx(1, abs=1e-12)
-        l = pin + 1 / 12 / pin
-        assert min(abs(x / l - 1) for x in bell.conical_height) < 1e-12
+        assert min(abs(ratio - 1) for ratio in bell.inclination_ratio) < 1e-12
+        pendulum = pin + 1 / 12 / pin
+        assert min(abs(x / pendulum - 1) for x in bell.conical_height) < 1e-12
 
 
 # ---- 6. inverse questions ---------------------------------------------------------------------------------------
@@ -1496,7 +1500,8 @@ def test_sensitivities_against_central_differences(seed):
     chain = random_chain(rng, size)
     modes = rc.modes(chain)
     found = modes.sensitivity
-    data = {k: [mp.mpf(float(x)) for x in getattr(chain, k)] for k in ("weight", "length", "centroid", "radius_of_gyration")}
+    names = ("weight", "length", "centroid", "radius_of_gyration")
+    data = {k: [mp.mpf(float(x)) for x in getattr(chain, k)] for k in names}
 
     def heights(values):
         with mp.workdps(60):
@@ -1551,7 +1556,7 @@ def test_uncertainty_is_the_propagation_of_errors():
     assert found.conical_height == pytest.approx(want, rel=1e-13)
     assert found.relative == pytest.approx(want / modes.conical_height, rel=1e-13)
     assert found.angular_speed() == pytest.approx(modes.angular_speed() * want / modes.conical_height / 2, rel=1e-13)
-    total = sum(getattr(found.share, q).sum(axis=1) for q in ("weight", "length", "centroid", "radius_of_gyration", "length_in_proportion") if np.size(getattr(found.share, q)))
+    total = found.share.weight.sum(axis=1) + found.share.length.sum(axis=1)
     assert total == pytest.approx(np.ones(5), rel=1e-12)
     # one weight shared by all links by a factor moves nothing
     same = modes.uncertainty(weight=np.outer(chain.weight, chain.weight))
@@ -1779,19 +1784,18 @@ def test_what_cannot_be_rigged_is_refused_with_place_and_value(name, value, said
     assert said in text, text
 
 
-@pytest.mark.xfail(strict=True, reason="not looked at where no fluid is displaced, and kept as NaN or as 0")
 @pytest.mark.parametrize("bad", [{"displaced_centroid": math.nan}, {"displaced_radius_of_gyration": -0.25}])
 def test_places_of_fluid_are_checked_though_none_is_displaced(bad):
     with pytest.raises(ValueError, match=r"buoyancy|centroid|gyration"):
         rc.Rig(CHAIN, **bad)
 
 
-@pytest.mark.xfail(strict=True, reason="gravity 0 is ignored beside conical_height, added_weight beside turning fluid")
 @pytest.mark.parametrize(
     "call",
     [
         lambda: rc.held_shapes(CHAIN, span=0.5, conical_height=0.1, gravity=0.0),
         lambda: rc.held_cord_shapes(1.0, span=0.5, conical_height=0.1, gravity=0.0),
+        lambda: rc.held_shapes(CHAIN, span=0.5, conical_height=0.1, gravity=-9.81),
         lambda: rc.Rig(CHAIN, displaced_weight=0.5, added_weight=0.5, fluid="turning"),
     ],
 )
