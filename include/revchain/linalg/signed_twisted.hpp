@@ -10,8 +10,7 @@ namespace revchain::linalg {
 /// y with Q(x) y = 0 at an eigenvalue, offsets of pins 0 ... N, the held pin last (0); the largest is 1 in size, the
 /// free end positive (by the signs of ratios, which outlast offsets that underflow).
 ///
-/// Twisted factorisation as in `eigenvector`, in S by equation (2) alone: S is a double word, whose digits pay for what
-/// that loses where links are stiff (some N^2 roundings for the slowest modes). Cost: two passes.
+/// Twisted factorisation as in `eigenvector`, in S by the equation of `SignedCounter`. Cost: two passes.
 template <Real S>
 std::vector<S> twisted_vector(const SignedPencil<S>& pencil, const S& x) {
     using std::abs;
@@ -34,8 +33,9 @@ std::vector<S> twisted_vector(const SignedPencil<S>& pencil, const S& x) {
         const SignedElement<S>& e = pencil.elements[m];
         const S L = stiffness(m), C = L + e.cross;
         pins[m].below = below;
-        pins[m].down = C / pivot(below + (L - e.lower), L);
-        below = (L - e.upper) - C * pins[m].down;
+        const S p = pivot(below + (L - e.lower), L);
+        pins[m].down = C / p;
+        below = e.above(L, below, e.weight(), e.determinant(), p);
     }
     std::size_t twist = n - 1;
     T least = std::numeric_limits<T>::infinity();
@@ -43,8 +43,14 @@ std::vector<S> twisted_vector(const SignedPencil<S>& pencil, const S& x) {
     for (std::size_t m = n; m-- > 0;) {
         const SignedElement<S>& e = pencil.elements[m];
         const S L = stiffness(m), C = L + e.cross;
-        pins[m].up = m + 1 == n ? S(T(0)) : C / pivot(above + (L - e.upper), L);
-        above = m + 1 == n ? L - e.lower : (L - e.lower) - C * pins[m].up;
+        if (m + 1 == n) {
+            pins[m].up = S(T(0)), above = L - e.lower;
+        } else {  // the same element upside down
+            const SignedElement<S> turned{e.stiffness, e.spin, e.upper, e.lower, e.cross};
+            const S p = pivot(above + (L - e.upper), L);
+            pins[m].up = C / p;
+            above = turned.above(L, above, e.weight(), e.determinant(), p);
+        }
         T forces = size_of(L) + size_of(e.lower);
         if (m > 0) forces = forces + size_of(stiffness(m - 1)) + size_of(pencil.elements[m - 1].upper);
         const T balance = size_of(pins[m].below + above) / forces;
