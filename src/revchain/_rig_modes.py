@@ -18,6 +18,8 @@ from ._rig import Rig
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ._response import Response
+
 Complex = NDArray[np.complex128]
 
 
@@ -289,7 +291,9 @@ class RigModes:
 
         save(self, path)
 
-    def plot(self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m") -> Axes:
+    def plot(
+        self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m", carried: Response | None = None
+    ) -> Axes:
         """Draw the rig at rest, and beside it its shapes along the straight chain, standing links upwards and stout.
 
         Forward modes are blue, backward ones red, as are the wheels, seen edge-on; bodies that float are hollow.
@@ -302,6 +306,8 @@ class RigModes:
             How many modes, slowest first.
         length_unit : str
             What to write on the axis of depth.
+        carried : Response, optional
+            Of the same rig at one speed, every pin: drawn first, its support on its circle.
 
         Returns
         -------
@@ -310,7 +316,7 @@ class RigModes:
         Raises
         ------
         ValueError
-            If there are no shapes.
+            If there are no shapes, or `carried` is no such response.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -323,7 +329,7 @@ class RigModes:
         """
         from ._rig_plots import plot_rig_modes
 
-        return plot_rig_modes(self, ax, most, length_unit)
+        return plot_rig_modes(self, ax, most, length_unit, carried)
 
     def __repr__(self) -> str:
         if self.has_momentum:

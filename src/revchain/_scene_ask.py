@@ -9,6 +9,7 @@ from typing import Any
 from msgspec import UNSET
 
 from ._chain import Chain
+from ._rig import Rig
 from ._scene_chain import Numbers
 from ._scene_error import SceneError
 from ._scene_tables import MOST_LINKS, Ask
@@ -48,6 +49,19 @@ def _asked_of_rig(ask: Ask, gravity: float, source: str) -> dict[str, Any]:
         return {"gravity": gravity} if first == 1 else {"gravity": gravity, "modes": range(first, 2 * MOST_LINKS)}
     count = DEFAULT_MODES if ask.modes is UNSET else ask.modes
     return {"gravity": gravity, "modes": range(first, first + count)}
+
+
+def carried_at(ask: Ask, rig: Rig | None, source: str) -> float | None:
+    """The speed at which the support is carried round, if that is asked."""
+    if ask.carried_at is UNSET:
+        return None
+    numbers = Numbers(source, "ask")
+    if rig is None or not rig.support_radius:
+        raise numbers.refuse("carried_at", "needs a positive support.radius: that of the circle")
+    speed = numbers.value("carried_at", ask.carried_at, "carried_at", "any" if rig.momentum.any() else "positive")
+    if speed == 0:
+        raise numbers.refuse("carried_at", "must not be 0")
+    return speed
 
 
 def _selection(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str, Any]:

@@ -197,6 +197,9 @@ class Ask(Table, frozen=True):
         Whether to give for each height the interval that holds it and the counts that prove it.
     precision, method : str
         As for `revchain.modes`.
+    carried_at : float or str, optional
+        Also: where every pin is while the support goes round its circle (``support.radius``) at this speed, in
+        rad/s or text such as ``"8 rpm"``.
     """
 
     modes: Annotated[
@@ -221,3 +224,7 @@ class Ask(Table, frozen=True):
         Literal["single", "double", "extended", "double-double"], Meta(description="The arithmetic of the result.")
     ] = "double"
     method: Annotated[Literal["auto", "bisection", "blocks", "together", "spectrum", "dense", "recurrence"], Meta(description="How to compute.")] = "auto"
+    carried_at: Annotated[
+        AnySign | UnsetType,
+        Meta(description="Also: where the pins are while the support goes round its circle at this speed (rad/s)."),
+    ] = UNSET

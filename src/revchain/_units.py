@@ -24,6 +24,7 @@ SI = {
     "gravity": ("m/s^2", "an acceleration", "9.81 m/s^2"),
     "stiffness": ("N/m", "a force per length", "2 kN/m"),
     "spin": ("rad/s", "an angular speed", "3000 rpm"),
+    "carried_at": ("rad/s", "an angular speed", "8 rpm"),
     "added_mass": ("kg", "a mass", "2 kg"),
     "added_weight": ("N", "a force", "20 N"),
     "tip_mass": ("kg", "a mass", "2 kg"),

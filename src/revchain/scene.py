@@ -12,9 +12,10 @@ from . import _scene_file
 from ._arguments import STANDARD_GRAVITY
 from ._chain import Chain
 from ._modes import Modes
+from ._response import Response, response
 from ._rig import Rig
 from ._rig_modes import RigModes
-from ._scene_ask import asked
+from ._scene_ask import asked, carried_at
 from ._scene_chain import Numbers, chain_of_links, uniform_chain
 from ._scene_error import SceneError
 from ._scene_rig import is_rigged, rig_of
@@ -264,9 +265,38 @@ class Scene(Table, frozen=True):
         chain = self.chain()
         return modes(chain, **self.asked(chain))
 
+    def response(self) -> Response | None:
+        """Find where the pins are while the support is carried round, if the scene asks for that.
+
+        Returns
+        -------
+        Response or None
+            As `revchain.response` does for the rig at the speed ``ask.carried_at``.
+
+        Raises
+        ------
+        SceneError
+            If the numbers describe no rig, or no support that goes round.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> chair = {"mass": 90, "length": 5}
+        >>> scene = rc.Scene.from_dict({"links": [chair], "support": {"radius": 4}, "ask": {"carried_at": 0.8}})
+        >>> scene.response().offset.round(4)
+        array([5.9374, 4.    ])
+        """
+        rig = self.rig() if self.is_rigged else None
+        speed = carried_at(self.ask, rig, "scene")
+        if speed is None or rig is None:
+            return None
+        return response(rig, angular_speed=speed, gravity=self.gravity_value())
+
     def _check(self, source: str) -> None:
         """Whatever `chain`, `rig`, `modes` and `gravity_value` would refuse, said with the name of the file."""
-        chain = self._rig(source).chain if self.is_rigged else self._chain(source)
+        rig = self._rig(source) if self.is_rigged else None
+        chain = self._chain(source) if rig is None else rig.chain
+        carried_at(self.ask, rig, source)
         asked(self.ask, chain, self.gravity_value(), source, self.is_rigged)
 
     def _links(self) -> list[Link]:
