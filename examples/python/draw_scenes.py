@@ -19,8 +19,8 @@ NAMES = [
 for name in NAMES:
     scene = rc.load_scene(SCENES / f"{name}.toml")
     found = scene.modes()
-    gravity = {} if scene.is_rigged else {"gravity": scene.gravity_value()}
-    axes = found.plot(**gravity)
+    carried = scene.response() if scene.is_carried else None
+    axes = found.plot(carried=carried) if scene.is_rigged else found.plot(gravity=scene.gravity_value())
     axes.set_title(scene.title)
     axes.figure.set_size_inches(axes.figure.get_figwidth(), 4.5)
     print(f"{scene.title}: {len(found)} mode{'s' * (len(found) != 1)},", end=" ")

@@ -21,6 +21,7 @@ from ._files import written_aside
 from ._modes import Modes
 from ._progress import watched
 from ._report import NARROWEST, csv_text, json_text, table
+from ._response import Response
 from ._rig_modes import RigModes
 from ._scene_error import SceneError
 from ._solve import solve as solve_chain
@@ -104,6 +105,7 @@ def solve(
     if certify:
         asked["certify"] = True
     title = given.title or scene.stem
+    carried = given.response() if given.is_carried else None
     with written_aside(*(path for path, _ in outputs)) as asides:
         try:
             found = watched(
@@ -112,15 +114,15 @@ def solve(
         except ValueError as error:  # the scene itself has been checked: it is what the options say
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
         for aside, (_, kind) in zip(asides, outputs, strict=True):
-            _write(found, aside, kind, title, gravity)
+            _write(found, aside, kind, title, gravity, carried)
     if json == STDOUT:
-        sys.stdout.write(json_text(found, title, gravity))
+        sys.stdout.write(json_text(found, title, gravity, carried))
     elif csv == STDOUT:
         sys.stdout.write(csv_text(found, gravity))
     elif not quiet:
         console = Console()
         console.width = max(console.width, NARROWEST)
-        console.print(table(found, title, gravity))
+        console.print(table(found, title, gravity, carried))
         for path, _ in outputs:
             print(f"wrote {path}")
     if found.status != "success":
@@ -182,15 +184,17 @@ def _numbers(text: str) -> dict[str, Any]:
     return {"modes": range(int(found[1]), int(found[2]) + 1)}
 
 
-def _write(modes: Modes | RigModes, path: Path, kind: str, title: str, gravity: float) -> None:
+def _write(
+    modes: Modes | RigModes, path: Path, kind: str, title: str, gravity: float, carried: Response | None
+) -> None:
     if kind == ".json":
-        path.write_text(json_text(modes, title, gravity), encoding="utf-8")
+        path.write_text(json_text(modes, title, gravity, carried), encoding="utf-8")
     elif kind == ".csv":
         path.write_text(csv_text(modes, gravity), encoding="utf-8")
     elif kind == ".npz":
         modes.save(path)
     else:
-        axes = modes.plot() if isinstance(modes, RigModes) else modes.plot(gravity=gravity)
+        axes = modes.plot(carried=carried) if isinstance(modes, RigModes) else modes.plot(gravity=gravity)
         axes.set_title(title, wrap=True)
         figure: Any = axes.figure
         figure.savefig(path, dpi=150)

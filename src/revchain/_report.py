@@ -14,6 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ._modes import Modes
+from ._response import Response
 from ._rig_modes import RigModes
 from ._tables import digits, which
 
@@ -21,10 +22,10 @@ MOST_ROWS = 20
 NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
 
 
-def table(modes: Modes | RigModes, title: str, gravity: float) -> Group:
+def table(modes: Modes | RigModes, title: str, gravity: float, carried: Response | None = None) -> Group:
     """The table with its heading."""
     if isinstance(modes, RigModes):
-        return _rig_table(modes, title)
+        return _rig_table(modes, title, carried)
     chain = modes.chain
     links = f"{chain.size:,} link" + ("s" if chain.size > 1 else "")
     heading = Text(title, style="bold")
@@ -63,7 +64,7 @@ def table(modes: Modes | RigModes, title: str, gravity: float) -> Group:
     return Group(*parts)
 
 
-def _rig_table(modes: RigModes, title: str) -> Group:
+def _rig_table(modes: RigModes, title: str, carried: Response | None) -> Group:
     """Modes of both senses, what is no steady motion, and which links go slack."""
     chain = modes.rig.chain
     what = repr(modes.rig).partition(": ")[2]
@@ -98,8 +99,27 @@ def _rig_table(modes: RigModes, title: str) -> Group:
         parts.append(_others(modes))
     for link, at in list(zip(modes.slack_link, modes.slack_speed, strict=True))[:MOST_ROWS]:
         parts.append(Text(f"link {link + 1} goes slack at {digits(at, 6)} rad/s: its wheel bears all that it carries"))
+    if carried is not None:
+        parts += _carried(carried)
     parts.append(Text("height: of the equivalent conical pendulum; error bound: relative, of the height", style="dim"))
     return Group(*parts)
+
+
+def _carried(found: Response) -> list[Text | Table]:
+    """Where the pins are while the support goes round."""
+    speed = float(found.angular_speed)
+    turns = f"{digits(speed, 6)} rad/s, {digits(speed * 30 / math.pi, 6)} rev/min"
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for name in ("pin\n0: free end", "from the axis\nm"):
+        grid.add_column(name, justify="right", no_wrap=True)
+    if found.resonant:
+        return [Text(f"carried round at {turns}: a resonance, it goes out without bound")]
+    shown = list(zip(found.pins, found.offset, strict=True))
+    for pin, offset in shown if len(shown) <= MOST_ROWS else [*shown[: MOST_ROWS - 1], shown[-1]]:
+        grid.add_row(f"{pin}", digits(offset, 10))
+    parts: list[Text | Table] = [Text(f"carried round at {turns}; error bound {float(found.error_bound):.1e}"), grid]
+    hidden = len(shown) - MOST_ROWS
+    return [*parts, Text(f"and {hidden:,} more; --json writes all of them", style="dim")] if hidden > 0 else parts
 
 
 def _others(modes: RigModes) -> Table:
@@ -143,9 +163,15 @@ def _position(node: float) -> str:
     return f"{node:.3g}" if node < 1000 else f"{node:.0f}"
 
 
-def json_text(modes: Modes | RigModes, title: str, gravity: float) -> str:
+def json_text(modes: Modes | RigModes, title: str, gravity: float, carried: Response | None = None) -> str:
     """Everything but the shapes; numbers with all their digits."""
     data = modes.to_dict(shapes=False) if isinstance(modes, RigModes) else modes.to_dict(gravity, shapes=False)
+    if carried is not None:
+        numbers = {name: float(getattr(carried, name)) for name in ("angular_speed", "support_radius", "error_bound")}
+        offset = None if carried.resonant else carried.offset.tolist()
+        data["carried"] = {**numbers, "resonant": bool(carried.resonant), "offset": offset}
+        if carried.resonant:  # there is no infinity in JSON
+            data["carried"]["error_bound"] = None
     return json.dumps({"title": title, **data}, indent=2, ensure_ascii=False) + "\n"
 
 

@@ -193,21 +193,23 @@ def _speed_columns(speed: Floats, shown: int = 6) -> list[Column]:
 
 
 def _response(found: Response) -> Sheet:
+    speed, bound = np.atleast_1d(found.angular_speed), np.atleast_1d(found.error_bound)
+    offset = np.atleast_2d(found.offset)
     columns = [
-        *_speed_columns(found.angular_speed, 5),
-        Column("modes_below", "modes", "below", found.modes_below),
-        Column("free_end_offset", "free end", "off axis, m", found.offset[:, 0], 5),
-        Column("amplification", "over", "support", found.amplification[:, 0], 4),
-        Column("largest_offset", "farthest", "pin, m", np.abs(found.offset).max(axis=1), 5),
-        Column("support_force", "pull on", "support, N", found.support_force, 5),
-        Column("error_bound", "error", "bound", found.error_bound),
+        *_speed_columns(speed, 5),
+        Column("modes_below", "modes", "below", np.atleast_1d(found.modes_below)),
+        Column("free_end_offset", "free end", "off axis, m", offset[:, 0], 5),
+        Column("amplification", "over", "support", offset[:, 0] / found.support_radius, 4),
+        Column("largest_offset", "farthest", "pin, m", np.abs(offset).max(axis=1), 5),
+        Column("support_force", "pull on", "support, N", np.atleast_1d(found.support_force), 5),
+        Column("error_bound", "error", "bound", bound),
     ]
     notes = [
         "negative: against the support; nan: a resonance",
         "error bound: of every offset, over the largest; pull: of the chain, outwards",
     ]
     heading = f"support carried round a circle of {found.support_radius:g} m, or to and fro as far"
-    return Sheet(heading, columns, {"offset": found.offset}, {"support_radius": found.support_radius, "pins": found.pins}, notes)
+    return Sheet(heading, columns, {"offset": offset}, {"support_radius": found.support_radius, "pins": found.pins}, notes)
 
 
 def _swing(found: SmallOscillation) -> Sheet:

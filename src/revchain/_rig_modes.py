@@ -18,6 +18,7 @@ from ._rig import Rig
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ._response import Response
     from ._sensitivity import RigSensitivity
 
 Complex = NDArray[np.complex128]
@@ -316,7 +317,9 @@ class RigModes:
 
         save(self, path)
 
-    def plot(self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m") -> Axes:
+    def plot(
+        self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m", carried: Response | None = None
+    ) -> Axes:
         """Draw the rig at rest, and beside it its shapes along the straight chain, standing links upwards and stout.
 
         Forward modes are blue, backward ones red, as are the wheels, seen edge-on; bodies that float are hollow.
@@ -329,6 +332,8 @@ class RigModes:
             How many modes, slowest first.
         length_unit : str
             What to write on the axis of depth.
+        carried : Response, optional
+            Of the same rig at one speed, every pin: drawn first, its support on its circle.
 
         Returns
         -------
@@ -337,7 +342,7 @@ class RigModes:
         Raises
         ------
         ValueError
-            If there are no shapes.
+            If there are no shapes, or `carried` is no such response.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -350,7 +355,7 @@ class RigModes:
         """
         from ._rig_plots import plot_rig_modes
 
-        return plot_rig_modes(self, ax, most, length_unit)
+        return plot_rig_modes(self, ax, most, length_unit, carried)
 
     def __repr__(self) -> str:
         if self.has_momentum:

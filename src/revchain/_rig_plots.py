@@ -15,14 +15,19 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ._arguments import Floats
+    from ._response import Response
     from ._rig import Rig
     from ._rig_modes import RigModes
 
 FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
+CARRIED = "C2"
+ARM: dict[str, Any] = {"color": "black", "linewidth": 2.5, "zorder": 3, "clip_on": False}
 FOLD = 0.3  # sideways, between the links that hang and those that stand on them, at rest
 
 
-def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str) -> Axes:
+def plot_rig_modes(
+    modes: RigModes, ax: Axes | None, most: int, length_unit: str, carried: Response | None
+) -> Axes:
     """See `RigModes.plot`."""
     place = "RigModes.plot"
     shape = modes.shape
@@ -31,19 +36,29 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
     drawn = min(len(modes), integer(place, "most", most))
     if drawn < min(1, len(modes)):
         raise ValueError(f"{place}: most must be at least 1, got {shown(most)}")
-    if ax is None:
-        ax = new_axes(1.6 + 1.25 * (1 + max(drawn, 2)), 6.0)
     rig = modes.rig
+    if carried is not None and (carried.chain != rig or carried.offset.shape != (rig.size + 1,)):
+        raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
+    before = 1 if carried is None else 2
+    if ax is None:
+        ax = new_axes(1.6 + 1.25 * (before + max(drawn, 2)), 6.0)
     upwards = bool(rig.standing.all())
     steps = rig.chain.length * np.where(rig.standing, -1.0, 1.0) * (-1.0 if upwards else 1.0)
     level = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])  # of the pins, free end first
     _draw_at_rest(rig, ax, level)
     labels = ["at rest" + (f"\nin {rig.fluid} fluid" if rig.displaced_weight.any() else "")]
+    if carried is not None:
+        turns = digits(float(carried.angular_speed) * 30 / np.pi, 4)
+        labels.append(f"carried round\n{digits(float(carried.angular_speed), 4)} rad/s\n{turns} rev/min")
+        scaled = carried.offset / np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
+        _draw_axis(ax, SPACING, level)
+        _draw_links(rig, ax, SPACING + scaled, level, CARRIED)
+        ax.plot([SPACING, SPACING + carried.support_radius / np.abs(carried.offset).max()], [0.0, 0.0], **ARM)
     speeds = modes.angular_speed()
     for nth in range(drawn):
-        axis = SPACING * (nth + 1)
+        axis = SPACING * (nth + before)
         colour = FORWARD if modes.sense[nth] > 0 else BACKWARD
-        ax.plot([axis, axis], [level.max(), level.min()], color="0.6", linestyle="--", linewidth=0.9, zorder=1)
+        _draw_axis(ax, axis, level)
         _draw_links(rig, ax, axis + shape[nth], level, colour)
         if np.isfinite(rig.stiffness):
             ax.plot([axis, axis + shape[nth, -1]], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=3)
@@ -53,24 +68,28 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
         sense = ("", " forward", " backward")[int(modes.sense[nth]) if modes.has_momentum else 0]
         turns = digits(speeds[nth] * 30 / np.pi, 4)
         labels.append(f"mode {modes.number[nth]}{sense}\n{digits(speeds[nth], 4)} rad/s\n{turns} rev/min")
-    ticks = [SPACING * nth for nth in range(drawn + 1)]
+    ticks = [SPACING * nth for nth in range(drawn + before)]
     if not drawn:
         rate = digits(modes.other.growth_rate.max(initial=0.0), 4)
         labels.append(f"no steady motion:\nfalls away as\nexp({rate} t), t in s")
-        ticks.append(SPACING * 1.5)
+        ticks.append(SPACING * (before + 0.5))
     ax.set_xticks(ticks, labels, fontsize="x-small")
-    ax.set_xlim(-SPACING / 2, SPACING * (max(drawn, 2) + 0.5))
+    ax.set_xlim(-SPACING / 2, SPACING * (max(drawn, 2) + before - 0.5))
     margin = 0.04 * (level.max() - level.min())
     ends = (level.min() - margin, level.max() + margin)
     ax.set_ylim(*(ends if upwards else ends[::-1]))
     ax.set_ylabel(f"{'height above' if upwards else 'depth below'} the support ({length_unit})")
-    if drawn:
+    if drawn or carried is not None:
         ax.set_xlabel("offset from the axis, own scale each", fontsize="small")
     if rig.displaced_weight.any():
         ax.set_facecolor(FLUID)
     for side in ("top", "right"):
         ax.spines[side].set_visible(False)
     return ax
+
+
+def _draw_axis(ax: Axes, at: float, level: Floats) -> None:
+    ax.plot([at, at], [level.max(), level.min()], color="0.6", linestyle="--", linewidth=0.9, zorder=1)
 
 
 def _draw_links(rig: Rig, ax: Axes, across: Floats, level: Floats, colour: str) -> None:
@@ -111,7 +130,7 @@ def _draw_at_rest(rig: Rig, ax: Axes, level: Floats) -> None:
         ax.axvspan(-0.5, 0.5, color=FORWARD, alpha=0.12)
     if rig.support_radius:
         ax.plot([-1.0, -1.0], [level.max(), level.min()], color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
-        ax.plot([-1.0, across[-1]], [0.0, 0.0], color="black", linewidth=2.5, zorder=3, clip_on=False)
+        ax.plot([-1.0, across[-1]], [0.0, 0.0], **ARM)
     held: dict[str, Any] = {"color": "black", "zorder": 4, "clip_on": False}
     if np.isfinite(rig.stiffness):
         tall = np.ptp(level)

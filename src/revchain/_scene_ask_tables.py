@@ -9,7 +9,7 @@ from msgspec import UNSET, Meta, UnsetType
 
 from ._scene_tables import AnySign, Count, NotNegative, NotNegativeNumber, Positive, Table
 
-OneOrTwo = Annotated[list[Positive], Meta(min_length=1, max_length=2)]
+OneOrTwo = Annotated[list[AnySign], Meta(min_length=1, max_length=2)]
 AtEveryPin = Annotated[list[AnySign], Meta(min_length=1)]
 
 
@@ -41,7 +41,7 @@ class AskResponse(Table, frozen=True):
     Attributes
     ----------
     angular_speed, conical_height : list of float or str
-        One of the two: ``[at]``, or ``[from, to]`` in equal steps.
+        One of the two: ``[at]``, or ``[from, to]`` in equal steps. Speeds of a rig with flywheels may be negative.
     steps : int
         How many speeds from one end to the other.
     """

@@ -96,14 +96,14 @@ def response_of(
     """The response at the speeds asked."""
     asked = AskResponse() if table is UNSET else table
     steps = changed.pop("steps", asked.steps)
-    drive = {name: changed.pop(name) for name in QUANTITY if name in changed} or the_speeds(table, source)
+    drive = {name: changed.pop(name) for name in QUANTITY if name in changed} or the_speeds(table, hung, source)
     if not drive:
         raise SceneError(source, "ask.response", "is missing: say at which angular_speed or conical_height")
     speeds: dict[str, Any] = {name: _spread(ends, steps) for name, ends in drive.items()}
     return response(hung, **speeds, gravity=gravity, **changed)
 
 
-def the_speeds(table: AskResponse | UnsetType, source: str) -> dict[str, list[float]]:
+def the_speeds(table: AskResponse | UnsetType, hung: Chain | Rig, source: str) -> dict[str, list[float]]:
     """One speed or the two ends of a range, as a keyword argument."""
     if table is UNSET:
         return {}
@@ -111,7 +111,12 @@ def the_speeds(table: AskResponse | UnsetType, source: str) -> dict[str, list[fl
     given = {name: getattr(table, name) for name in QUANTITY if getattr(table, name) is not UNSET}
     if len(given) != 1:
         raise numbers.refuse("", "give either angular_speed or conical_height")
-    return {name: [numbers.value(name, x, QUANTITY[name], "positive") for x in ends] for name, ends in given.items()}
+    ((name, ends),) = given.items()
+    either_sense = name == "angular_speed" and isinstance(hung, Rig) and bool(hung.momentum.any())
+    found = [numbers.value(name, x, QUANTITY[name], "any" if either_sense else "positive") for x in ends]
+    if 0 in found:
+        raise numbers.refuse(name, "must not be 0")
+    return {name: found}
 
 
 def swing_of(
@@ -141,4 +146,4 @@ def start_of(table: AskSwing, chain: Chain, source: str) -> tuple[Floats, Floats
 
 
 def _spread(ends: list[float], steps: int) -> Floats:
-    return np.array(ends) if len(ends) == 1 else np.linspace(ends[0], ends[1], steps)
+    return np.asarray(ends[0]) if len(ends) == 1 else np.linspace(ends[0], ends[1], steps)

@@ -219,6 +219,15 @@ class Scene(Table, frozen=True):
         return is_rigged(self._links(), self.support)
 
     @property
+    def is_carried(self) -> bool:
+        """Whether the support is carried round a circle, and one speed of that is asked about."""
+        if isinstance(self.support, UnsetType) or isinstance(self.ask.response, UnsetType):
+            return False
+        asked = self.ask.response
+        speeds = asked.conical_height if isinstance(asked.angular_speed, UnsetType) else asked.angular_speed
+        return not isinstance(speeds, UnsetType) and len(speeds) == 1 and bool(self.rig().support_radius)
+
+    @property
     def is_held(self) -> bool:
         """Whether the lower end is held on the axis, too."""
         return self.held is not UNSET
@@ -323,8 +332,8 @@ class Scene(Table, frozen=True):
         Parameters
         ----------
         **changed
-            Instead of what the scene says: `angular_speed` or `conical_height`, a list of one or the two ends of a
-            range, `steps`, `support_radius`, `pins` as of `revchain.response`.
+            Instead of what the scene says: `angular_speed` or `conical_height`, a list of one (results are then not
+            arrays of speeds) or the two ends of a range, `steps`, `support_radius`, `pins` as of `revchain.response`.
 
         Returns
         -------
@@ -341,7 +350,7 @@ class Scene(Table, frozen=True):
         --------
         >>> import revchain as rc
         >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1}], "support": {"radius": 0.02}})
-        >>> scene.response(conical_height=[4.0]).offset[0].round(4)
+        >>> scene.response(conical_height=[4.0]).offset.round(4)
         array([0.0267, 0.02  ])
         """
         if self.held is not UNSET:
@@ -389,7 +398,7 @@ class Scene(Table, frozen=True):
         else:
             ends_of(self.held, chain, source)
         the_speed(self.ask.shapes, source)
-        the_speeds(self.ask.response, source)
+        the_speeds(self.ask.response, self._rig(source) if self.is_rigged else chain, source)
         if self.ask.swing is not UNSET:
             start_of(self.ask.swing, chain, source)
 

@@ -167,6 +167,25 @@ def solve(scene):
     return gravity, links, modes, others
 
 
+def carried(scene, speed):
+    """Offsets of the pins while the support, or its spring's place of rest, goes round: its displacement is given."""
+    gravity, links, support = number(scene.get("gravity", mpf("9.80665"))), links_of(scene), scene["support"]
+    radius = number(support["radius"])
+    stiffness = number(support["stiffness"]) if "stiffness" in support else None
+    bend, gyro, inertia, same = equations(links, gravity, stiffness or mpf(0), number(support.get("mass", 0)))
+    dynamic, last = bend + speed * gyro - speed**2 * inertia, bend.rows - 1
+    if stiffness is None:
+        force = -radius * dynamic[:last, last]
+        angles = mp.lu_solve(dynamic[:last, :last], force)
+        angles = same * mp.matrix([*angles, radius])
+    else:
+        angles = same * mp.lu_solve(dynamic, mp.matrix([0] * last + [stiffness * radius]))
+    offset = [angles[len(links)]]
+    for m in reversed(range(len(links))):
+        offset.insert(0, offset[0] + links[m].length * angles[m])
+    return offset
+
+
 def nodes_of(links, offset):
     """Distances from the free end where the offset changes its sign; of hanging links on a firm support."""
     nodes, at = [], mpf(0)
@@ -194,6 +213,13 @@ def check_closed_forms():
     c, h, l = weight / 20, mpf("0.65"), mpf("2.6") / 3
     for found in height({"links": [rod], "support": {"stiffness": "20 N/m"}})[0]:
         assert abs((found - l) * (found - c) - c * h) < tiny
+    # section 1 (9): a plummet carried round, b lambda/(lambda - l); on a spring its place of rest is
+    whirl = mpf("2.1")
+    turning = mpf("9.80665") / whirl**2
+    tip, top = carried({"links": [bob], "support": {"radius": 2}}, whirl)
+    assert abs(tip - 2 * turning / (turning - mpf("1.3"))) < tiny and top == 2
+    tip, _ = carried({"links": [bob], "support": {"radius": 2, "stiffness": "20 N/m"}}, whirl)
+    assert abs(tip - 2 * turning / (turning - mpf("1.3") - weight / 20)) < tiny
     # section 6 (12): a rod standing on a thread, (l + lambda)(a - lambda) = a h
     found, others = height({"links": [rod | {"standing": True}, {"mass": 0, "length": 2}]})
     for root in (*found, *(other for other, _ in others)):
@@ -246,6 +272,9 @@ def expected_of(scene, digits, asked):
         rows.append(row)
     others.sort(key=lambda other: (abs(other[0]), mp.im(other[0])))
     found = {"size": sum(not link.clamped for link in links), "modes": rows}
+    if "response" in scene.get("ask", {}):
+        (speed,) = scene["ask"]["response"]["angular_speed"]
+        found["carried"] = [mp.nstr(y, digits) for y in carried(scene, number(speed))]
     if rigged:
         found["other"] = [
             {"conical_height": [mp.nstr(mp.re(h), digits), mp.nstr(mp.im(h), digits)], "growth_rate": mp.nstr(r, digits)}

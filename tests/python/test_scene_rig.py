@@ -17,6 +17,11 @@ ROD = {"mass": 1.0, "length": 1.5, "kind": "rod"}
 WHEEL = {"mass": 1.5, "radius_of_gyration": 0.29, "spin": "300 rpm"}
 
 
+def at(speed):
+    """What is asked: where the pins are while the support is carried round."""
+    return {"response": {"angular_speed": [speed]}}
+
+
 def scene(*links, **entries):
     return Scene.from_dict({"links": list(links) or [dict(ROD)], **entries})
 
@@ -107,6 +112,9 @@ def test_weights_at_pins_and_clamped_links():
         ({"links": [ROD, {**ROD, "clamped": True}]}, r"links\[1\].clamped: there is no link above"),
         ({"links": [{**ROD, "clamped": True}, {**ROD, "repeat": 2}]}, r"links\[1\].repeat: must be 1 where links are clamped"),
         ({"links": [{**ROD, "clamped": True, "flywheel": WHEEL}, ROD]}, r"links\[0\].flywheel: is said by the link above"),
+        ({"support": {"radius": 1}, "ask": at(-1.0)}, r"ask.response.angular_speed: must be positive, got -1"),
+        ({"support": {"radius": 1}, "ask": at("8 m")}, r"ask.response.angular_speed: must be an angular speed"),
+        ({"links": [{**ROD, "flywheel": WHEEL}], "support": {"radius": 1}, "ask": at(0)}, "must not be 0"),
         ({"support": {"radius": 1}, "ask": {"rtol": 1e-3}}, r"ask.rtol: is for a chain alone"),
         ({"support": {"radius": 1}, "ask": {"angular_speed": [1, 2]}}, r"ask.angular_speed: is for a chain alone"),
     ],
@@ -167,6 +175,32 @@ stiffness = 40
     assert len(rows) == len(found) + len(found.other)
     assert (tmp_path / "out" / "broom.png").stat().st_size > 5000
     assert "valid: Rig of a chain of 2 links" in python("-m", "revchain", "validate", path).stdout
+
+
+def test_carried_round_from_the_command_line(python, tmp_path):
+    data = {"links": [{"mass": 1.0, "length": 0.1, "repeat": 30}], "support": {"radius": 0.02}, "gravity": 9.0}
+    path = tmp_path / "carried.json"
+    for speed in (2.0, "60 rpm"):
+        path.write_text(json.dumps({**data, "ask": {"modes": 2, **at(speed)}}))
+        run = python("-m", "revchain", "solve", path, "--json", tmp_path / "out.json", "--plot", tmp_path / "out.png")
+        assert run.returncode == 0, run.stderr
+        assert f"carried round at {'2.00000' if speed == 2.0 else '6.28319'} rad/s" in run.stdout
+        assert "and 11 more; --json" in run.stdout
+        found = json.loads((tmp_path / "out.json").read_text())["carried"]
+        same = rc.load_scene(path).response()
+        assert found["offset"] == same.offset.tolist() and found["support_radius"] == 0.02
+        assert found["error_bound"] == same.error_bound and not found["resonant"]
+    # exactly at the whirl speed of a plummet: height and length 1
+    resonance = {"links": [{"mass": 1.0, "length": 1.0}], "support": {"radius": 0.02}, "gravity": 9.0, "ask": at(3.0)}
+    path.write_text(json.dumps(resonance))
+    run = python("-m", "revchain", "solve", path, "--json", tmp_path / "out.json", "--plot", tmp_path / "out.png")
+    assert run.returncode == 0, run.stderr
+    assert "a resonance" in run.stdout
+    found = json.loads((tmp_path / "out.json").read_text())["carried"]
+    assert found["resonant"] and found["offset"] is None
+    rig = scene(ROD, support={"radius": 0.1}).modes()
+    with pytest.raises(ValueError, match="same rig at one speed"):
+        rig.plot(carried=scene(ROD, ROD, support={"radius": 0.1}, ask=at(1.0)).response())
 
 
 def test_pictures_of_rigs():
