@@ -327,16 +327,12 @@ def test_bounds_hold_on_the_softest_springs(stiffness):
         assert abs(n - exact) <= bound * exact
 
 
-@pytest.mark.xfail(
-    strict=True, reason="a chain 1e21 times and more stiffer than its spring: slowest speed wrong from the 11th digit on"
-)
 def test_spring_softer_than_the_chain_by_24_orders():
     chain = rc.Chain(weight=[1, 1e12, 2], length=[0.5, 1, 0.3], centroid=[0.2, 0.4, 0.15], radius_of_gyration=0.1)
     rig = rc.Rig(chain, stiffness=1e-12)
     agree(rig, rc.modes(rig), digits=120)
 
 
-@pytest.mark.xfail(strict=True, reason="bounds of slow modes on soft springs are 1e6 times as wide as the errors")
 def test_bounds_of_slow_modes_on_soft_springs_are_not_wasteful():
     found = rc.modes(rc.Rig(rc.Chain(weight=[1.0, 1.0], length=[1.0, 1e-6]), stiffness=1e-12))
     assert found.conical_height[0] == pytest.approx(2e12 + 0.5, rel=1e-15)
@@ -400,7 +396,6 @@ def test_every_figure_on_a_spring_by_brute_force(stiffness, radius):
         assert figure_moments(rig, shape) <= 1e-14 + EPS * stiffness * abs(shape.offset[-1]) / 6  # offset rounded
 
 
-@pytest.mark.xfail(strict=True, reason="nothing looked at where stiffness * height is the weight, though a figure is there")
 def test_figure_on_a_spring_as_stiff_as_the_whole_is_heavy():
     rig = rc.Rig(rc.Chain(weight=[1.0, 2.0, 3.0], length=[0.5, 0.4, 0.3]), stiffness=20.0)
     shapes = rc.steady_shapes(rig, conical_height=0.3)
@@ -1224,11 +1219,10 @@ def test_links_as_heavy_as_the_fluid():
     still = rc.modes(rc.Rig(chain, displaced_weight=[1.0, 0.0]))
     assert len(still) == 1
     assert still.conical_height == pytest.approx([0.8], rel=4 * EPS)
-    assert len(still.other) == 1
-    assert abs(still.other.conical_height[0]) > 1e300
+    assert still.other.conical_height == [np.inf] and still.other.growth_rate == [0.0] and still.other.error_bound == [0.0]
+    assert still.status == "success"
 
 
-@pytest.mark.xfail(strict=True, reason="a link that weighs nothing in turning water comes with a mode that is none")
 @pytest.mark.parametrize("size", [1, 2, 3])
 def test_lowest_link_that_weighs_nothing_is_no_mode(size):
     rig = rc.Rig(
@@ -1239,7 +1233,6 @@ def test_lowest_link_that_weighs_nothing_is_no_mode(size):
     assert rc.modes(rig).conical_height == pytest.approx(want, rel=4 * EPS)
 
 
-@pytest.mark.xfail(strict=True, reason="speeds NaN where a link in still water weighs nothing and has a flywheel")
 def test_gyrostat_that_weighs_nothing_has_one_speed():
     # A n^2 - H n = 0: it stays where it is put, or precesses at H / A
     found = rc.modes(rc.Rig(rc.Chain(weight=1.0, length=[1.0]), displaced_weight=1.0, momentum=3.0))
@@ -1247,7 +1240,6 @@ def test_gyrostat_that_weighs_nothing_has_one_speed():
     assert found.angular_speed()[-1] == pytest.approx(3 * G, rel=4 * EPS)
 
 
-@pytest.mark.xfail(strict=True, reason="exact heights 3 and -1 found, but with infinite bounds")
 def test_float_lighter_than_all_above_is_proved():
     # net weights -2 and 1.5: (z - 1)^2 = 4
     rig = rc.Rig(rc.Chain(weight=[1.0, 2.0], length=1.0), displaced_weight=[3.0, 0.5], fluid="turning")
@@ -2138,7 +2130,6 @@ def test_new_scene_names_every_feature(tmp_path):
     assert rig.fluid == "turning"
 
 
-@pytest.mark.xfail(strict=True, reason="no example scene has a spring, a flywheel, a fluid or a standing link")
 def test_scenes_of_the_examples_folder_hold_rigs(repository):
     rigged = [p for p in Path(repository, "examples", "scenes").glob("*.toml") if rc.load_scene(p).is_rigged]
     assert rigged

@@ -50,6 +50,13 @@ class Rig {
     Displaced displaced(Index m) const {
         return with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
     }
+    /// Whether what link m displaces, if anything, is spread as the link itself.
+    bool fills_its_link(Index m) const {
+        const Displaced fluid = displaced(m);
+        const Link<double> link = chain_.link(m);
+        return (fluid.weight == 0 && fluid.added_weight == 0) ||
+               (fluid.centroid == link.centroid && fluid.gyration_ratio == link.gyration_ratio);
+    }
     /// Whether any link's angular momentum is its own, so that the two senses of rotation differ.
     bool has_momentum() const {
         return std::any_of(with_.flywheels.begin(), with_.flywheels.end(),
@@ -149,26 +156,27 @@ inline std::vector<RigLink> rig_links(const Rig& rig) {
         const S a(in_lengths(link.length)), none(0.0), below = hung.value();
         RigLink result{a, below, none, none, none, none, none, none, below, {hung_size, 0, 0, 0, hung_size}};
         /// A body of the link: bearing (or borne, if less than 0) by one weight, moving by another.
-        const auto add = [&](double bears, double moves, double centroid, const S& gyration) {
+        const auto add = [&](const S& bears, const S& moves, double centroid, const S& gyration) {
             const S h(in_lengths(centroid)), p = h / a, q = (a - h) / a;
-            hung.add(S(bears));
-            result.tension = result.tension + S(bears) * p;
-            result.moment = result.moment + S(moves) * p, result.rest = result.rest + S(moves) * q;
-            result.cross = result.cross + (p * q - gyration) * S(moves);
-            result.lower = result.lower + (p * p + gyration) * S(moves);
-            result.upper = result.upper + (q * q + gyration) * S(moves);
+            hung.add(bears);
+            result.tension = result.tension + bears * p;
+            result.moment = result.moment + moves * p, result.rest = result.rest + moves * q;
+            result.cross = result.cross + (p * q - gyration) * moves;
+            result.lower = result.lower + (p * p + gyration) * moves;
+            result.upper = result.upper + (q * q + gyration) * moves;
             const double near = std::abs(p.high), far = std::abs(q.high), turn = gyration.high;
-            const double weight = std::abs(bears), moved = std::abs(moves);
+            const double weight = std::abs(bears.high), moved = std::abs(moves.high);
             result.size.tension += weight * near, result.size.hung += weight;
             result.size.lower += moved * (near * near + turn), result.size.upper += moved * (far * far + turn);
             result.size.cross += moved * (near * far + turn);
         };
-        const double weight = in_weights(link.weight);
-        add(weight, weight, link.centroid, link.gyration_ratio);
-        if (fluid.weight != 0 || fluid.added_weight != 0) {
-            const double borne = in_weights(fluid.weight);
-            add(-borne, rig.fluid() == Fluid::turning ? -borne : in_weights(fluid.added_weight), fluid.centroid,
-                fluid.gyration_ratio);
+        const S weight(in_weights(link.weight)), borne(in_weights(fluid.weight));
+        const S carried = rig.fluid() == Fluid::turning ? -borne : S(in_weights(fluid.added_weight));
+        if (rig.fills_its_link(m)) {  // one body of the net weight, which may be none at all
+            add(weight - borne, weight + carried, link.centroid, link.gyration_ratio);
+        } else {
+            add(weight, weight, link.centroid, link.gyration_ratio);
+            add(-borne, carried, fluid.centroid, fluid.gyration_ratio);
         }
         if (wheel.axial_moment != 0) {  // turning with the link it lessens what a body resists turning with
             const S turning = S(std::ldexp(in_weights(wheel.axial_moment), -2 * units.length_exponent)) / (a * a);

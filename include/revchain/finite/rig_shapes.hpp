@@ -60,10 +60,20 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
                                          enclosed<double>(links.support));
     if (!(last <= std::numeric_limits<double>::max())) return leave_all();
     result = listed(links, lambda, options);
+    const auto leave_beyond = [&](SteadyShapes& found) {
+        if (links.support.firm ||
+            !left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support)).may_vanish())
+            return;
+        const double beyond = std::atan(last);
+        found.undecided.push_back({beyond, asked.hanging_only ? std::numbers::pi / 2 : std::numbers::pi - beyond});
+        found.complete = false;
+    };
+    leave_beyond(result);
     if (links.support.is_symmetric()) return result;
     links.support.radius = -links.support.radius;
     SteadyShapes other =
         listed(links, lambda, {asked.budget - result.cells * static_cast<long>(rig.size()), asked.hanging_only});
+    leave_beyond(other);
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
         shape = mirrored(std::move(shape));
@@ -91,8 +101,8 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
 /// Where that is negative (a wheel against the rotation, a float) a link leans against its load: it is followed along each
 /// inclination, as those links are that may have several.
 /// Accuracy, cost, and `complete`: as of chains (measured: tests/cpp/finite/rigs.cpp); about twice the cost with b > 0.
-/// Also not complete: where one of more than some 160 links is such, and where lambda E is all the weight that moves, to
-/// rounding.
+/// Also not complete: where one of more than some 160 links is such; and where lambda E is all the weight that moves, to
+/// rounding, and a pin may be any distance away: only shapes within a million times the chain's reach or so are looked for.
 /// Throws InvalidArgument for a height or gravity not positive and finite, a sense not 1 or -1, an effective tension that
 /// vanishes, and weights that move so that the lowest link balances about its pin.
 inline SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options = {}) {

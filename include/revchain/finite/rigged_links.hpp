@@ -59,9 +59,18 @@ std::vector<Link<Interval<T>>> swept_links(const RiggedLinks& rig) {
     return result;
 }
 
+/// 1 - W/(lambda E), W all the weight that moves: what a spring at the support has left to hold its pin with.
+template <class T>
+Interval<T> left_to_the_spring(const std::vector<Link<Interval<T>>>& links, const Held<Interval<T>>& support) {
+    Interval<T> moving = support.carriage;
+    for (const Link<Interval<T>>& link : links) moving = moving + link.moment + link.rest;
+    return Interval<T>(T(1)) - support.compliance * moving;
+}
+
 /// An upper end for the tangent of the lowest link of a rig, whether it hangs or stands. The topmost pin is no farther from the axis than
 /// (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda E)|, the others no farther from it than the links reach; and the lowest
-/// link's balance is  lambda pull t + a X s = moment y. Not finite where lambda E is W, all the weight that moves.
+/// link's balance is  lambda pull t + a X s = moment y. Where lambda E is W, to rounding, there is no such end: then as if the
+/// two were a millionth apart.
 template <class T>
 T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool,
                    const Held<Interval<T>>& support) {
@@ -76,8 +85,8 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
         moving = moving + link.moment + link.rest;
     }
     if (!support.firm) {
-        const Interval<T> yields = Interval<T>(T(1)) - support.compliance * (moving + support.carriage);
-        drawn = drawn / (yields.negative() ? -yields : yields);
+        const Interval<T> left = left_to_the_spring(links, support);
+        drawn = drawn / (left.may_vanish() ? Interval<T>(T(1e-6)) : left.negative() ? -left : left);
     }
     const Interval<T> turning = links[0].length * links[0].cross;
     const Interval<T> far =

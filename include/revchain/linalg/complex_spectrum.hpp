@@ -47,13 +47,23 @@ V log_derivative(const SignedPencil<Wide<double>>& pencil, const V& x, Index zer
     return zeros == 0 ? sum : sum - V(S(static_cast<double>(zeros))) / x;
 }
 
+/// Elements without stiffness: det K is the product of all stiffnesses, and each that is 0 takes 1 from the degree of det Q.
+inline Index without_stiffness(const SignedPencil<Wide<double>>& pencil) {
+    Index count = 0;
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m)
+        count += pencil.elements[m].stiffness == Wide<double>(0.0) && pencil.errors[m].stiffness == 0;
+    return count;
+}
+
 /// First values in double: the eigenvalues of K^-1 M, or of the companion of x^2 + x K^-1 G - K^-1 M, less the `zeros`
-/// smallest. K^-1 from the flexibilities, which add without cancellation where all are positive.
+/// smallest and, of elements without stiffness, the largest. K^-1 from the flexibilities, which add without cancellation
+/// where all are positive.
 inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<double>>& pencil, Index zeros) {
     const Index n = pencil.size();
     Matrix<double> M = Matrix<double>::Zero(n + 1, n + 1), G = M, F = Matrix<double>::Zero(n, n);
     double largest = 0;
     for (const auto& e : pencil.elements) largest = std::max(largest, std::abs(static_cast<double>(e.stiffness)));
+    if (largest == 0) largest = 1;
     for (Index m = 0; m < n; ++m) {
         const auto& e = pencil.elements[static_cast<std::size_t>(m)];
         M(m, m) += static_cast<double>(e.lower), M(m + 1, m + 1) += static_cast<double>(e.upper);
@@ -80,7 +90,8 @@ inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<dou
         roots.push_back(std::isfinite(std::abs(root)) ? root : pace);  // a start is all that is wanted
     }
     std::sort(roots.begin(), roots.end(), [](const auto& x, const auto& y) { return std::abs(x) > std::abs(y); });
-    roots.resize(roots.size() - static_cast<std::size_t>(std::min<Index>(zeros, system.rows())));
+    roots.erase(roots.begin(), roots.begin() + without_stiffness(pencil));
+    roots.resize(roots.size() - std::min(static_cast<std::size_t>(zeros), roots.size()));
     for (std::size_t i = 0; i < roots.size(); ++i) {  // Aberth's method cannot part what is equal
         if (std::abs(roots[i]) == 0) roots[i] = std::numeric_limits<double>::min();
         if (i > 0 && roots[i] == roots[i - 1])
@@ -127,13 +138,22 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::v
 inline bool enclose(const SignedPencil<Wide<double>>& pencil, Index zeros, Index degree,
                     std::vector<EnclosedRoot>& roots) {
     using S = Wide<double>;
-    std::vector<double> least(roots.size());
+    std::vector<double> least(roots.size()),
+        beside(roots.size(), 0.0);  // |P'/P| is at least that, so far from the value
     for (std::size_t i = 0; i < roots.size(); ++i) {
-        const Disc rate = log_derivative(pencil, Disc(ComplexWord(roots[i].value)), zeros,
-                                         [](const S& x, double off) { return Disc(ComplexWord(x), off); });
-        least[i] = size_of(rate.centre) * (1 - 8 * epsilon<double>()) - rate.radius;
-        const double radius = static_cast<double>(degree) / least[i] * (1 + 8 * epsilon<double>());
-        roots[i].radius = radius > 0 ? radius : std::numeric_limits<double>::infinity();
+        roots[i].radius = std::numeric_limits<double>::infinity();
+        for (const double share :
+             {0.0, 0x1p-64, 0x1p-56}) {  // at the very root, or where a pivot vanishes, P'/P is none
+            const ComplexWord at(roots[i].value), aside = at + at * ComplexWord(S(share));
+            const Disc rate = log_derivative(pencil, Disc(aside), zeros,
+                                             [](const S& x, double off) { return Disc(ComplexWord(x), off); });
+            least[i] = size_of(rate.centre) * (1 - 8 * epsilon<double>()) - rate.radius;
+            beside[i] = 1.01 * share * std::abs(roots[i].value);
+            const double radius = static_cast<double>(degree) / least[i] * (1 + 8 * epsilon<double>()) + beside[i];
+            if (!(least[i] > 0 && std::isfinite(radius))) continue;
+            roots[i].radius = radius;
+            break;
+        }
     }
     const auto apart = [&](std::size_t i, std::size_t j) {
         return std::abs(roots[i].value - roots[j].value) * (1 - 8 * epsilon<double>());
@@ -149,9 +169,10 @@ inline bool enclose(const SignedPencil<Wide<double>>& pencil, Index zeros, Index
     for (std::size_t i = 0; i < roots.size(); ++i) {
         double others = 0;
         for (std::size_t j = 0; j < roots.size(); ++j)
-            if (j != i) others += 1 / (apart(i, j) - roots[j].radius);
+            if (j != i) others += 1 / (apart(i, j) - roots[j].radius - beside[i]);
         const double rest = least[i] - others * (1 + 2 * static_cast<double>(roots.size()) * epsilon<double>());
-        sharper[i] = rest > 0 ? std::min(roots[i].radius, 1 / rest * (1 + 8 * epsilon<double>())) : roots[i].radius;
+        const double sharp = 1 / rest * (1 + 8 * epsilon<double>()) + beside[i];
+        sharper[i] = rest > 0 ? std::min(roots[i].radius, sharp) : roots[i].radius;
     }
     for (std::size_t i = 0; i < roots.size(); ++i) roots[i].radius = sharper[i];
     return true;
@@ -180,7 +201,7 @@ inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil
     std::sort(result.roots.begin(), result.roots.end(), [](const EnclosedRoot& x, const EnclosedRoot& y) {
         return std::pair(std::abs(x.value), x.value.imag()) > std::pair(std::abs(y.value), y.value.imag());
     });
-    const Index degree = (pencil.quadratic ? 2 : 1) * pencil.size() - zeros;
+    const Index degree = (pencil.quadratic ? 2 : 1) * pencil.size() - zeros - detail::without_stiffness(pencil);
     result.proved = detail::enclose(pencil, zeros, degree, result.roots);
     return result;
 }

@@ -164,7 +164,8 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const lin
     const auto offset = linalg::twisted_vector(pencil, root.x);
     Vector<double> rounded(pencil.size() + 1);
     for (Index i = 0; i <= pencil.size(); ++i) rounded[i] = static_cast<double>(offset[static_cast<std::size_t>(i)]);
-    modes.shape.row(j) = rounded.head(modes.shape.cols()).transpose();
+    modes.shape.row(j).head(rig.idle).setConstant(rounded[0]);
+    modes.shape.row(j).tail(modes.shape.cols() - rig.idle) = rounded.head(modes.shape.cols() - rig.idle).transpose();
     modes.residual[j] = linalg::relative_residual(pencil, root.x, rounded);
     return proved;
 }

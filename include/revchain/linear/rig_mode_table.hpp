@@ -36,7 +36,8 @@ struct WhirlModes {
     Index size() const { return conical_height.size(); }
 };
 
-/// What is no steady motion: a conical height that is negative or complex, or, with momentum, a complex speed.
+/// What is no steady motion: a conical height that is negative or complex, or, with momentum, a complex speed; and an
+/// infinite one, of what has weight neither way and stays at rest wherever it is put.
 struct OtherMode {
     std::complex<double> conical_height;  ///< lambda
     std::complex<double>

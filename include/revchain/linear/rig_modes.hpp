@@ -103,7 +103,7 @@ inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const R
     if (options.other && pencil.stiffness_positive && !pencil.mass_not_negative)
         others_proved = negative_heights(result, rig, pencil, size, -1, negative);
     else if (options.other && !pencil.stiffness_positive)
-        others_proved = negative_heights(result, rig, pencil, before - size, 1, negative);
+        others_proved = negative_heights(result, rig, pencil, before - pencil.neutral - size, 1, negative);
     result.complete = available.proved && others_proved && (pencil.stiffness_positive || pencil.stiffness_certain);
     if (!modes_proved || !result.complete) result.status = Status::tolerance_not_met;
     return result;
@@ -119,9 +119,8 @@ inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const Ri
         const auto available = pencil.spins_held
                                    ? CountedRoots::Available{pencil.pencil.size() - pencil.inertialess, true}
                                    : roots.available();
-        const bool proved =
-            count_modes_of(forward ? result.forward : result.backward, rig, pencil, roots, available.count, options,
-                           forward ? 0 : 0.5, forward ? 0.5 : 1);
+        const bool proved = count_modes_of(forward ? result.forward : result.backward, rig, pencil, roots,
+                                           available.count, options, forward ? 0 : 0.5, forward ? 0.5 : 1);
         result.complete = result.complete && available.proved;
         if (!proved || !available.proved) result.status = Status::tolerance_not_met;
     }
@@ -204,12 +203,19 @@ inline RigModes rig_modes(const Rig& rig, const RigModesOptions& options) {
     if (detail::has_nothing(rig)) return detail::plain_modes(rig, options);
     const RigPencil pencil = rig_pencil(rig, options.gravity);
     RigModes result;
-    if (pencil.pencil.quadratic)
+    if (pencil.pencil.size() == 0) {  // nothing to whirl
+        result.complete = true, result.method = "counts";
+        for (WhirlModes* sense : {&result.forward, &result.backward})
+            detail::make_room(*sense, detail::chosen(options, 0), 0, rig.size(), options.shapes);
+    } else if (pencil.pencil.quadratic)
         result = pencil.stiffness_positive && pencil.mass_not_negative ? detail::counted_speeds(rig, pencil, options)
                                                                        : detail::enclosed_modes(rig, pencil, options);
     else
         result = pencil.stiffness_positive || pencil.mass_not_negative ? detail::counted_heights(rig, pencil, options)
                                                                        : detail::enclosed_modes(rig, pencil, options);
+    if (options.other)
+        for (Index i = 0; i < pencil.neutral; ++i)
+            result.other.insert(result.other.begin(), {{std::numeric_limits<double>::infinity(), 0.0}, 0.0, 0, 0});
     if (result.has_momentum) result.slack = detail::slack_links(rig, result);
     detail::advance(options.progress, 1);
     return result;

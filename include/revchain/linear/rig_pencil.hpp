@@ -12,6 +12,8 @@ namespace revchain {
 /// stands, and mass [lower cross; cross upper]; on top a support that yields, a massless element of its stiffness with
 /// the carriage at its lower pin. Weights in units of 2^weight_exponent, lengths of 2^length_exponent.
 ///
+/// Lowest links without weight, inertia or momentum, and with none below, follow the rest anyhow and are left out.
+///
 /// Steady motion is Q y = 0 with Q = lambda K - M where no link has momentum, x = lambda; and else with
 /// Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
 struct RigPencil {
@@ -22,9 +24,11 @@ struct RigPencil {
     bool stiffness_positive;  ///< every element's stiffness at rest is, within its error: K > 0
     bool stiffness_certain;   ///< the sign of each is certain
     Index not_positive;       ///< elements whose stiffness at rest is not
+    Index neutral = 0;        ///< of these, elements that have none, for certain: each lets the rest lean at no speed
     bool mass_not_negative;   ///< every element's mass is positive or 0 for certain, so that M >= 0
     bool spins_held;          ///< each link with momentum has inertia at both its pins
     Index inertialess;        ///< coordinates that carry no inertia: M has so many zeros, at least
+    Index idle = 0;           ///< lowest links left out: nothing on them bears, spins or moves
 };
 
 namespace detail {
@@ -35,9 +39,11 @@ enum class Held { nothing, lower, upper, one, both };
 inline Held held_by(const Rig& rig, Index m) {
     const Link<double> link = rig.chain().link(m);
     const Displaced fluid = rig.displaced(m);
-    const double moved = rig.fluid() == Fluid::turning ? fluid.weight : fluid.added_weight;
+    const bool turning = rig.fluid() == Fluid::turning;
+    const double moved = turning ? fluid.weight : fluid.added_weight;
     const Wide<double> none(0.0);
     if (rig.flywheel(m).axial_moment > 0) return Held::both;
+    if (turning && rig.fills_its_link(m) && link.weight == moved) return Held::nothing;
     if (link.weight > 0 && moved > 0 && fluid.centroid != link.centroid) return Held::both;
     if ((link.weight > 0 && link.gyration_ratio > none) || (moved > 0 && fluid.gyration_ratio > none))
         return Held::both;
@@ -66,6 +72,12 @@ inline Index inertialess_coordinates(const Rig& rig) {
         }
     }
     return nullity + (free ? 1 : 0);
+}
+
+inline bool is_nothing(const linalg::SignedElement<Wide<double>>& e, const linalg::SignedElementError<double>& off) {
+    const Wide<double> none(0.0);
+    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none && e.cross == none &&
+           off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
 }
 
 /// Whether a mass whose numbers have these errors is positive or 0 for certain.
@@ -101,8 +113,9 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
         result.pencil.errors.push_back(off);
         const double k = static_cast<double>(e.stiffness);
         result.stiffness_positive = result.stiffness_positive && k > off.stiffness;
-        result.stiffness_certain = result.stiffness_certain && std::abs(k) > off.stiffness;
-        result.not_positive += k > 0 ? 0 : 1;
+        const bool neutral = k == 0 && off.stiffness == 0;
+        result.stiffness_certain = result.stiffness_certain && (neutral || std::abs(k) > off.stiffness);
+        result.not_positive += k > 0 ? 0 : 1, result.neutral += neutral ? 1 : 0;
         result.mass_not_negative = result.mass_not_negative && mass_not_negative;
     };
     for (Index m = 0; m < rig.size(); ++m) {
@@ -114,6 +127,10 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
         const linalg::SignedElementError<double> off{1.01 * part * link.size.tension / link.length.high,
                                                      part * std::abs(e.spin.high), part * link.size.lower,
                                                      part * link.size.upper, part * link.size.cross};
+        if (result.pencil.elements.empty() && detail::is_nothing(e, off)) {
+            ++result.idle;
+            continue;
+        }
         const bool plain =
             rig.flywheel(m).axial_moment == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
         add(e, off, plain || detail::is_not_negative(e, off));
@@ -127,7 +144,7 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
                            support.stiffness);
         add({S(stiffness), S(0.0), S(in_weights(support.carriage_weight)), S(0.0), S(0.0)}, {}, true);
     }
-    result.inertialess = detail::inertialess_coordinates(rig);
+    result.inertialess = detail::inertialess_coordinates(rig) - result.idle;
     return result;
 }
 

@@ -508,3 +508,84 @@ TEST_CASE("massless links and what was asked", "[linear]") {
     progress.cancel();
     CHECK_THROWS_AS(rig_modes(rig, {.progress = &progress}), Cancelled);
 }
+
+TEST_CASE("links that weigh nothing in the fluid around them", "[linear]") {
+    const Link<double> one = plummet(1.0, 1.0), two = plummet(2.0, 1.0);
+    const auto like = [](const Link<double>& link, double weight) {
+        return Displaced{weight, link.centroid, link.gyration_ratio, 0};
+    };
+    const auto infinite = [](const RigModes& m) {
+        return std::count_if(m.other.begin(), m.other.end(), [](const OtherMode& other) {
+            return std::isinf(other.conical_height.real()) && other.growth_rate == 0 && other.error_bound == 0;
+        });
+    };
+    {  // A n^2 - H n = 0: it stays where it is put, or precesses at H/A
+        const RigModes m =
+            rig_modes(Rig(Chain<double>({one}), {.flywheels = {{3.0, 0}}, .displaced = {like(one, 1.0)}}));
+        REQUIRE(m.complete);
+        REQUIRE(m.forward.size() == 1);
+        CHECK(error_in_ulp(m.forward.angular_speed[0], Quad(3) * Quad(g)) <= 0.51);
+        CHECK(m.backward.size() == 0);
+        CHECK(infinite(m) == 1);
+    }
+    for (const std::size_t size : {1, 2, 3})  // turning with the fluid such a link is not there
+        for (const bool lowest : {true, false}) {
+            if (!lowest && size < 3) continue;
+            std::vector<Link<double>> links(size, one);
+            Rigging with{.fluid = Fluid::turning, .displaced = std::vector<Displaced>(size, like(one, 0.0))};
+            with.displaced[lowest ? 0 : 1] = like(one, 1.0);
+            const RigModes m = rig_modes(Rig(Chain<double>(links), with));
+            CAPTURE(size, lowest, m.method);
+            REQUIRE(m.complete);
+            CHECK(m.status == Status::success);
+            CHECK(m.other.empty());
+            std::vector<Link<double>> rest(size - 1, one);
+            if (!lowest) rest = {plummet(1.0, 2.0), one};  // a thread in its place
+            REQUIRE(m.forward.size() == static_cast<Index>(rest.size()));
+            if (rest.empty()) continue;
+            const Modes<double> plain = modes(Chain<double>(rest), {});
+            for (Index j = 0; j < plain.size(); ++j)
+                CHECK(error_in_ulp(m.forward.conical_height[j], Quad(plain.conical_height[j])) <= 1.01);
+            if (lowest) CHECK(m.forward.shape.col(0) == m.forward.shape.col(1));
+        }
+    {  // still: it moves without weight
+        const RigModes m = rig_modes(Rig(Chain<double>({one, two}), {.displaced = {like(one, 1.0), like(two, 0.0)}}));
+        REQUIRE(m.complete);
+        CHECK(m.status == Status::success);
+        REQUIRE(m.forward.size() == 1);
+        CHECK(m.forward.conical_height[0] == 1.0);
+        CHECK(infinite(m) == 1);
+    }
+    {  // net weights -2 and 1.5, (z - 1)^2 = 4: roots that are numbers, where P'/P is none
+        const RigModes m = rig_modes(
+            Rig(Chain<double>({one, two}), {.fluid = Fluid::turning, .displaced = {like(one, 3.0), like(two, 0.5)}}));
+        REQUIRE(m.complete);
+        REQUIRE(m.forward.size() == 1);
+        CHECK(m.forward.conical_height[0] == 3.0);
+        CHECK(m.forward.error_bound[0] <= 2.5e-16);
+        REQUIRE(m.other.size() == 1);
+        CHECK(m.other[0].conical_height == std::complex<double>(-1.0));
+    }
+}
+
+TEST_CASE("chains stiffer than their spring by many decades", "[linear]") {
+    const auto body = [](double W, double a, double h) {
+        return compound_pendulum<double>({.weight = W, .length = a, .centroid = h, .radius_of_gyration = 0.1});
+    };
+    for (const double stiffness : {1e3, 1.0, 1e-6, 1e-12, 1e-30, 1e-100})
+        for (const double carriage : {0.0, 2.0}) {
+            const Rig rig(Chain<double>({body(1, 0.5, 0.2), body(1e12, 1, 0.4), body(2, 0.3, 0.15)}),
+                          {.support = horizontal_spring(stiffness, carriage)});
+            const RigModes m = rig_modes(rig);
+            CAPTURE(stiffness, carriage);
+            REQUIRE(m.complete);
+            REQUIRE(m.forward.size() == 4);
+            CHECK(m.forward.error_bound.maxCoeff() <= 2.3e-16);
+            CHECK(m.forward.residual.maxCoeff() <= 1e-16);
+            if (stiffness > 1e-9)
+                CHECK(worst_error(RigTruth(rig), m) <= 0.501);  // beyond, quadruple precision is short
+        }
+    // all of the chain moves as one on the softest of springs: height = weight/stiffness + c, c seen at 1e12
+    const Rig soft(Chain<double>({plummet(1.0, 1.0), plummet(1.0, 1e-6)}), {.support = horizontal_spring(1e-12, 0)});
+    CHECK(rig_modes(soft).forward.conical_height[0] == 2e12 + 0.5);
+}
