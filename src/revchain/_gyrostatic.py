@@ -265,7 +265,9 @@ class GyrostaticString:
         ax.plot(degrees, speeds.forward, color="C0", label="with the spin" if self.momentum >= 0 else "against the spin")
         ax.plot(degrees, -speeds.backward, color="C3", label="against the spin" if self.momentum >= 0 else "with the spin")
         ax.set(xlabel="phase from link to link (degrees)", ylabel="speed (rad/s)", xlim=(0, 180))
-        ax.set_ylim(bottom=0)
+        both = np.concatenate([speeds.forward, -speeds.backward])
+        usual = 2 * np.nanmedian(both)  # a wave of bodies without inertia across themselves has no bound at 180 degrees
+        ax.set_ylim(0, usual if np.nanmax(both) > 3 * usual else None)
         ax.legend()
         return ax
 

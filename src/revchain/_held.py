@@ -406,8 +406,8 @@ def held_shapes(
         straight chain without gravity, by drawing its ends together and then letting gravity grow; for
         `top_tension` every one on that branch. All links are in tension, as threads must be; of two mirror
         images the one whose lowest free pin is at a positive offset. ``missing`` tells the half waves for which
-        there is none: too slow a speed folds the chain along the axis, or a thread goes slack. That there are no
-        others is not shown.
+        none was found: too slow a speed folds the chain along the axis, or a thread goes slack; just before it folds
+        a shape may be missed. That there are no others is not shown.
 
     Raises
     ------

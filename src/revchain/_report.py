@@ -7,7 +7,9 @@ import csv
 import io
 import json
 import math
+from typing import Any
 
+import numpy as np
 from rich import box
 from rich.console import Group
 from rich.table import Table
@@ -168,11 +170,25 @@ def json_text(modes: Modes | RigModes, title: str, gravity: float, carried: Resp
     data = modes.to_dict(shapes=False) if isinstance(modes, RigModes) else modes.to_dict(gravity, shapes=False)
     if carried is not None:
         numbers = {name: float(getattr(carried, name)) for name in ("angular_speed", "support_radius", "error_bound")}
-        offset = None if carried.resonant else carried.offset.tolist()
+        offset = None if carried.resonant else carried.offset
         data["carried"] = {**numbers, "resonant": bool(carried.resonant), "offset": offset}
-        if carried.resonant:  # there is no infinity in JSON
-            data["carried"]["error_bound"] = None
-    return json.dumps({"title": title, **data}, indent=2, ensure_ascii=False) + "\n"
+    return json_of({"title": title, **data})
+
+
+def json_of(data: dict[str, Any]) -> str:
+    """As JSON, which has no infinity and no NaN: null in their place."""
+    return json.dumps(_plain(data), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _plain(values: Any) -> Any:
+    """As Python's numbers, lists and dictionaries."""
+    if isinstance(values, dict):
+        return {name: _plain(value) for name, value in values.items()}
+    if isinstance(values, list | tuple):
+        return [_plain(value) for value in values]
+    if isinstance(values, np.ndarray | np.generic):
+        return _plain(values.tolist())
+    return None if isinstance(values, float) and not math.isfinite(values) else values
 
 
 def csv_text(modes: Modes | RigModes, gravity: float) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +16,7 @@ from rich.text import Text
 
 from ._arguments import Floats
 from ._held import HeldShape, HeldShapes, TautModes
-from ._report import MOST_ROWS
+from ._report import MOST_ROWS, json_of
 from ._response import Response, SmallOscillation
 from ._steady import SteadyShapes
 from ._tables import digits
@@ -92,11 +91,9 @@ def table(found: Found, title: str, gravity: float) -> Group:
 def json_text(found: Found, title: str, gravity: float) -> str:
     """Everything, with all digits; what is not finite is null."""
     sheet = sheet_of(found, gravity)
-    columns = {column.name: _plain(column.values) for column in sheet.columns}
-    columns |= {name: _plain(values) for name, values in sheet.arrays.items()}
+    columns = {column.name: column.values for column in sheet.columns} | sheet.arrays
     rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
-    data = {"title": title, "gravity": gravity, **{k: _plain(v) for k, v in sheet.facts.items()}, "rows": rows}
-    return json.dumps(data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return json_of({"title": title, "gravity": gravity, **sheet.facts, "rows": rows})
 
 
 def csv_text(found: Found, gravity: float) -> str:
@@ -109,15 +106,6 @@ def csv_text(found: Found, gravity: float) -> str:
     arrays = [[" ".join(map(repr, np.asarray(row).tolist())) for row in rows] for rows in sheet.arrays.values()]
     writer.writerows(zip(*columns, *arrays, strict=True))
     return text.getvalue()
-
-
-def _plain(values: Any) -> Any:
-    """As Python's numbers and lists."""
-    if isinstance(values, list | tuple):
-        return [_plain(value) for value in values]
-    if isinstance(values, np.ndarray | np.generic):
-        return _plain(values.tolist())
-    return None if isinstance(values, float) and not np.isfinite(values) else values
 
 
 def _of(shapes: Any, name: str) -> list[Any]:

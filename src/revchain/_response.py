@@ -80,7 +80,8 @@ class Response(_Record):
     support_radius : float
         Of the circle.
     pins : ndarray of int64, shape (P,)
-        Which pins, from 0 for the free end.
+        Which pins, from 0 for the free end; of shape () where one was asked for by its number, and `offset` then
+        has no axis for it.
     offset : ndarray, shape (..., P)
         Of the pins from the axis, positive on the side on which the support is. NaN at a resonance.
     error_bound : ndarray, shape (...)

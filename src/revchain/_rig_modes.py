@@ -66,6 +66,8 @@ class WhirlModes:
 class OtherModes:
     """What is no steady motion of a rig: conical heights that are negative or complex, or complex speeds.
 
+    And infinite heights, speed 0: of links that weigh nothing in the fluid, which stay wherever they are put.
+
     Attributes
     ----------
     conical_height : ndarray of complex, shape (m,)
@@ -359,9 +361,9 @@ class RigModes:
 
     def __repr__(self) -> str:
         if self.has_momentum:
-            what = f"{len(self.forward)} modes forward, {len(self.backward)} backward"
+            what = f"{len(self.forward)} mode{'s' * (len(self.forward) != 1)} forward, {len(self.backward)} backward"
         else:
-            what = f"{len(self.forward)} mode{'' if len(self.forward) == 1 else 's'}"
+            what = f"{len(self.forward)} mode{'s' * (len(self.forward) != 1)}"
         if len(self.other):
             what += f", {len(self.other)} other"
         lines = [f"RigModes: {what} ({self.method}, {self.status})"]

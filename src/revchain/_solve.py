@@ -103,7 +103,7 @@ def modes(
     -------
     Modes or RigModes
         The latter for a `Rig`, of which nothing else but `count`, `modes`, `gravity` and `shapes` can be
-        asked. ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached;
+        asked; what is no steady motion is listed whole, however few modes are asked for. ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached;
         ``error_bound`` says what was. An empty window gives no modes.
 
     Raises
@@ -111,7 +111,8 @@ def modes(
     ValueError
         If more than one of `count`, `modes`, `conical_height` and `angular_speed` is given; if a mode
         number is not from 1 to ``chain.mode_count``, `modes` has gaps, or a window is none; if `rtol`
-        is NaN or negative, or `method` or `precision` unknown.
+        is NaN or negative, or `method` or `precision` unknown. For a rig of more than 200 links whose speeds may be
+        complex: links that stand or driven wheels together with momentum, floats in fluid that turns.
 
     Notes
     -----

@@ -207,6 +207,8 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain | TurnedRig]):
         ------
         ValueError
             If `frame` is neither.
+        TypeError
+            If the shape is that of a `Rig`.
 
         Examples
         --------
@@ -226,6 +228,11 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain | TurnedRig]):
         ForceDiagram
             Rays are sums of weights and centrifugal forces from below: that they are parallel to the
             links proves the shape anew.
+
+        Raises
+        ------
+        TypeError
+            If the shape is that of a `Rig`.
 
         Notes
         -----
@@ -251,6 +258,11 @@ class SteadyShape(Result[_core.SteadyShape, _core.Chain | TurnedRig]):
         Chain
             Each link as long only as it reaches down. One of its conical heights is the shape's, and that
             mode the shape's offsets, for links of any kind; of plummets it is mode ``half_waves``.
+
+        Raises
+        ------
+        TypeError
+            If the shape is that of a `Rig`.
 
         Notes
         -----

@@ -132,8 +132,8 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Ri
     if (pencil.pencil.size() > dense_rig_limit)
         refuse(
             "rig_modes",
-            "a rig whose speeds may be complex (standing links with momentum, or in a fluid that turns with them) is "
-            "solved for at most " +
+            "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a fluid that "
+            "turns with them) is solved for at most " +
                 std::to_string(dense_rig_limit) + " links and supports that yield",
             pencil.pencil.size());
     RigModes result;
