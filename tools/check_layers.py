@@ -120,7 +120,7 @@ def check_cycles(graph: dict[str, list[str]], what: str) -> None:
 
     def visit(node: str, trail: list[str]) -> None:
         if node in trail:
-            problems.append(f"{what} in a circle: {' -> '.join([*trail[trail.index(node):], node])}")
+            problems.append(f"{what} in a circle: {' -> '.join([*trail[trail.index(node) :], node])}")
         elif node not in done:
             for following in graph.get(node, []):
                 visit(following, [*trail, node])

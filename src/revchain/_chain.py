@@ -282,9 +282,7 @@ class Chain:
         array([1.5])
         """
         place = "revchain.Chain.with_thread"
-        return self._wrap(
-            _core.with_thread(self._compiled, real(place, "length", length), integer(place, "pin", pin))
-        )
+        return self._wrap(_core.with_thread(self._compiled, real(place, "length", length), integer(place, "pin", pin)))
 
     def clamped(self, link: int) -> Chain:
         """Return the chain with two neighbouring links locked in line, as one rigid link.

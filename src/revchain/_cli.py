@@ -72,9 +72,7 @@ def solve(
     ] = None,
     rtol: Annotated[float | None, typer.Option(metavar="X", help="Relative tolerance of the heights.")] = None,
     certify: Annotated[bool, typer.Option("--certify", help="Also the intervals and counts that prove them.")] = False,
-    precision: Annotated[
-        str | None, typer.Option(metavar="P", help=f"One of {', '.join(_core.PRECISIONS)}.")
-    ] = None,
+    precision: Annotated[str | None, typer.Option(metavar="P", help=f"One of {', '.join(_core.PRECISIONS)}.")] = None,
     method: Annotated[str | None, typer.Option(metavar="M", help=f"One of {', '.join(_core.METHODS)}.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progress bar.")] = False,
 ) -> None:
@@ -108,9 +106,7 @@ def solve(
     carried = given.response() if given.is_carried else None
     with written_aside(*(path for path, _ in outputs)) as asides:
         try:
-            found = watched(
-                lambda progress: solve_chain(hung, **asked, progress=progress), Console(stderr=True), quiet
-            )
+            found = watched(lambda progress: solve_chain(hung, **asked, progress=progress), Console(stderr=True), quiet)
         except ValueError as error:  # the scene itself has been checked: it is what the options say
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
         for aside, (_, kind) in zip(asides, outputs, strict=True):

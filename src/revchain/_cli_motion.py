@@ -32,7 +32,9 @@ Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table.")]
 @guarded
 def shapes(
     scene: SceneFile,
-    angular_speed: Annotated[float | None, typer.Option(metavar="N", help="The speed in rad/s, instead of the scene's.")] = None,
+    angular_speed: Annotated[
+        float | None, typer.Option(metavar="N", help="The speed in rad/s, instead of the scene's.")
+    ] = None,
     conical_height: Annotated[float | None, typer.Option(metavar="H", help="Instead: g / n^2, in m.")] = None,
     sense: Annotated[int | None, typer.Option(metavar="1|-1", help="Of the rotation; it matters to flywheels.")] = None,
     any_posture: Annotated[bool, typer.Option("--any-posture", help="Also shapes in which links turn over.")] = False,

@@ -197,7 +197,7 @@ class GyrostaticString:
         --------
         >>> import numpy as np, revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0, centroid=1.0)
-            """
+        """
         return WaveSpeeds(*self._at("angular_speeds", phase, _core.gyrostatic_string_speeds, "phase"))
 
     def plane_rotation(self, angular_speed: ArrayLike) -> Any:
@@ -262,8 +262,12 @@ class GyrostaticString:
         phase = np.linspace(0.0, np.pi, 200)[1:]
         speeds = self.angular_speeds(phase)
         degrees = np.degrees(phase)
-        ax.plot(degrees, speeds.forward, color="C0", label="with the spin" if self.momentum >= 0 else "against the spin")
-        ax.plot(degrees, -speeds.backward, color="C3", label="against the spin" if self.momentum >= 0 else "with the spin")
+        ax.plot(
+            degrees, speeds.forward, color="C0", label="with the spin" if self.momentum >= 0 else "against the spin"
+        )
+        ax.plot(
+            degrees, -speeds.backward, color="C3", label="against the spin" if self.momentum >= 0 else "with the spin"
+        )
         ax.set(xlabel="phase from link to link (degrees)", ylabel="speed (rad/s)", xlim=(0, 180))
         both = np.concatenate([speeds.forward, -speeds.backward])
         usual = 2 * np.nanmedian(both)  # a wave of bodies without inertia across themselves has no bound at 180 degrees
@@ -319,7 +323,9 @@ class GyrostaticString:
         for at in np.unique(np.linspace(0, size, min(MOST_LINKS_SEEN, size) + 1).astype(int)):
             across, along = 0.45 * np.sin(turn * at), 0.22 * np.cos(turn * at)
             scale = size / 30
-            ax.plot([at - across * scale, at + across * scale], [1.5 - along, 1.5 + along], color="black", linewidth=1.4)
+            ax.plot(
+                [at - across * scale, at + across * scale], [1.5 - along, 1.5 + along], color="black", linewidth=1.4
+            )
         ax.annotate("plane of vibration, end on", (0.0, 1.85), fontsize="small")
         ax.set(xlabel="link", ylabel="offset over the amplitude", ylim=(-1.7, 2.1), yticks=[-1, 0, 1])
         ax.legend(loc="lower center", ncols=2, fontsize="small")

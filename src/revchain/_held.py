@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar, overload
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, count as counted, floats, numbers, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, floats, numbers, positive, real
+from ._arguments import count as counted
 from ._chain import Chain, compiled
+from ._results import Results
 from ._steady import Stability
 
 if TYPE_CHECKING:
@@ -251,17 +253,16 @@ class HeldCordShape(_Held):
 Shape = TypeVar("Shape", bound=_Held)
 
 
-class HeldShapes(Sequence[Shape], Generic[Shape]):
+class HeldShapes(Results[Shape]):
     """Steady shapes between two points of the axis, by half waves: those reached from the straight chain."""
 
-    __slots__ = ("_missing", "_shapes")
+    __slots__ = ("_missing",)
     _missing: tuple[int, ...]
-    _shapes: tuple[Shape, ...]
 
     @classmethod
     def _wrap(cls, shapes: Sequence[Shape], missing: Sequence[int]) -> HeldShapes[Shape]:
         result = object.__new__(cls)
-        result._shapes, result._missing = tuple(shapes), tuple(missing)
+        result._items, result._missing = tuple(shapes), tuple(missing)
         return result
 
     @property
@@ -273,19 +274,6 @@ class HeldShapes(Sequence[Shape], Generic[Shape]):
     def complete(self) -> bool:
         """Always false: that there are no others is not shown."""
         return False
-
-    @overload
-    def __getitem__(self, index: int) -> Shape: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Shape, ...]: ...
-    def __getitem__(self, index: int | slice) -> Any:
-        return self._shapes[index]
-
-    def __len__(self) -> int:
-        return len(self._shapes)
-
-    def __iter__(self) -> Iterator[Shape]:
-        return iter(self._shapes)
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
         """Draw all shapes over one another, true to scale, coloured by half waves.
@@ -315,7 +303,7 @@ class HeldShapes(Sequence[Shape], Generic[Shape]):
         """
         from ._plots import plot_held_shapes
 
-        return plot_held_shapes(self._shapes, ax, length_unit=length_unit)
+        return plot_held_shapes(self, ax, length_unit=length_unit)
 
     def __repr__(self) -> str:
         rest = f"; nothing with {', '.join(map(str, self._missing))} half waves" if self._missing else ""
@@ -359,7 +347,9 @@ def _between(place: str, span: float | None, top_tension: float | None) -> tuple
     if (span is None) == (top_tension is None):
         raise ValueError(f"{place}: give exactly one of span and top_tension")
     apart = None if span is None else float(positive(place, "span", real(place, "span", span)))
-    pull = None if top_tension is None else float(positive(place, "top_tension", real(place, "top_tension", top_tension)))
+    pull = (
+        None if top_tension is None else float(positive(place, "top_tension", real(place, "top_tension", top_tension)))
+    )
     return apart, pull
 
 

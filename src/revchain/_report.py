@@ -71,13 +71,18 @@ def _rig_table(modes: RigModes, title: str, carried: Response | None) -> Group:
     chain = modes.rig.chain
     what = repr(modes.rig).partition(": ")[2]
     counts = f"{len(modes)} of {modes.forward.available + modes.backward.available} modes by {modes.method}: "
-    facts = Text(
-        f"{chain!r} in m and N, gravity {modes.gravity:.6g} m/s²\n{what}\n{counts}"
-    )
+    facts = Text(f"{chain!r} in m and N, gravity {modes.gravity:.6g} m/s²\n{what}\n{counts}")
     met = modes.status == "success"
     facts.append("success" if met else modes.status.replace("_", " "), style="green" if met else "bold yellow")
     grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    headings = [("mode", ""), ("speed", "rad/s"), ("speed", "rev/min"), ("period", "s"), ("height", "m"), ("error", "bound")]
+    headings = [
+        ("mode", ""),
+        ("speed", "rad/s"),
+        ("speed", "rev/min"),
+        ("period", "s"),
+        ("height", "m"),
+        ("error", "bound"),
+    ]
     for name, unit in headings:
         grid.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
     speed, period = modes.angular_speed(), modes.period()
@@ -126,7 +131,9 @@ def _carried(found: Response) -> list[Text | Table]:
 
 def _others(modes: RigModes) -> Table:
     """Heights that no steady motion has."""
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True, title="no steady motion", title_justify="left")
+    grid = Table(
+        box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True, title="no steady motion", title_justify="left"
+    )
     for name in ("height\nm", "falls away as exp(r t)\nr in 1/s", "error\nbound"):
         grid.add_column(name, justify="right", no_wrap=True)
     other = modes.other

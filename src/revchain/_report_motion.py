@@ -197,7 +197,9 @@ def _response(found: Response) -> Sheet:
         "error bound: of every offset, over the largest; pull: of the chain, outwards",
     ]
     heading = f"support carried round a circle of {found.support_radius:g} m, or to and fro as far"
-    return Sheet(heading, columns, {"offset": offset}, {"support_radius": found.support_radius, "pins": found.pins}, notes)
+    return Sheet(
+        heading, columns, {"offset": offset}, {"support_radius": found.support_radius, "pins": found.pins}, notes
+    )
 
 
 def _swing(found: SmallOscillation) -> Sheet:

@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,12 +19,12 @@ from ._arguments import (
     integer,
     limit,
     positive,
-    read_only,
     real,
     refuse_where,
     shown,
 )
 from ._chain import Chain, compiled
+from ._results import Record
 from ._rig import Rig
 
 if TYPE_CHECKING:
@@ -33,37 +33,8 @@ if TYPE_CHECKING:
 Flags = NDArray[np.bool_]
 
 
-class _Record:
-    """Frozen arrays that compare number for number."""
-
-    __slots__ = ()
-
-    def __post_init__(self) -> None:
-        for field in fields(self):  # type: ignore[arg-type]
-            value = getattr(self, field.name)
-            if isinstance(value, np.ndarray) and value.flags.writeable:
-                object.__setattr__(self, field.name, read_only(value))
-
-    def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
-            return NotImplemented
-        for field in fields(self):  # type: ignore[arg-type]
-            one, two = getattr(self, field.name), getattr(other, field.name)
-            if isinstance(one, np.ndarray):
-                if not np.array_equal(one, two, equal_nan=one.dtype.kind == "f"):
-                    return False
-            elif one != two:
-                return False
-        return True
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]
-
-
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Response(_Record):
+class Response(Record):
     """What a chain does whose support is carried round a circle, at one speed or many; returned by `response`.
 
     Arrays have the shape of the speeds asked, ``(...)``, those of pins one axis more. Carried to and fro
@@ -129,9 +100,7 @@ class Response(_Record):
         """Offsets over the radius of the support's circle, shape (..., P)."""
         return self.offset / self.support_radius
 
-    def plot(
-        self, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True
-    ) -> Axes:
+    def plot(self, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True) -> Axes:
         """Draw how far chosen pins are from the axis against the speed, the largest scale logarithmic.
 
         Dashed where a pin is on the side opposite to the support; vertical lines mark the resonances.
@@ -307,7 +276,7 @@ def _pins(place: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[i
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class SmallOscillation(_Record):
+class SmallOscillation(Record):
     """A hanging chain swinging in a plane, as the sum of its modes; returned by `small_oscillation`.
 
     Attributes

@@ -10,7 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, numbers, positive, read_only, real, refuse_where, shown, together
+from ._arguments import (
+    STANDARD_GRAVITY,
+    Floats,
+    floats,
+    numbers,
+    positive,
+    read_only,
+    real,
+    refuse_where,
+    shown,
+    together,
+)
 from ._chain import Chain, compiled
 
 _PER_LINK = (

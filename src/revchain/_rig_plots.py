@@ -25,9 +25,7 @@ ARM: dict[str, Any] = {"color": "black", "linewidth": 2.5, "zorder": 3, "clip_on
 FOLD = 0.3  # sideways, between the links that hang and those that stand on them, at rest
 
 
-def plot_rig_modes(
-    modes: RigModes, ax: Axes | None, most: int, length_unit: str, carried: Response | None
-) -> Axes:
+def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str, carried: Response | None) -> Axes:
     """See `RigModes.plot`."""
     place = "RigModes.plot"
     shape = modes.shape

@@ -42,7 +42,9 @@ def _asked_of_rig(ask: Ask, gravity: float, source: str) -> dict[str, Any]:
     for name in ("conical_height", "angular_speed", "rtol", "certify", "precision", "method"):
         if getattr(ask, name) != getattr(defaults, name):
             raise SceneError(
-                source, f"ask.{name}", "is for a chain alone: with a support, standing links, flywheels or a fluid give modes"
+                source,
+                f"ask.{name}",
+                "is for a chain alone: with a support, standing links, flywheels or a fluid give modes",
             )
     first = 1 if ask.first is UNSET else ask.first
     if ask.modes == "all":

@@ -86,7 +86,9 @@ class Held(Table, frozen=True):
     """
 
     span: Annotated[Positive | UnsetType, Meta(description="From end to end, less than the length.")] = UNSET
-    tension: Annotated[Positive | UnsetType, Meta(description="Instead: pull at the lower end of a straight chain (N).")] = UNSET
+    tension: Annotated[
+        Positive | UnsetType, Meta(description="Instead: pull at the lower end of a straight chain (N).")
+    ] = UNSET
     weightless: Annotated[bool, Meta(description="Whether gravity plays no part.")] = False
 
 

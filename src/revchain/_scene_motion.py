@@ -33,7 +33,12 @@ def the_speed(table: AskShapes | UnsetType, source: str) -> dict[str, float]:
 
 
 def shapes_of(
-    hung: Chain | Rig, held: Held | UnsetType, table: AskShapes | UnsetType, changed: dict[str, Any], gravity: float, source: str
+    hung: Chain | Rig,
+    held: Held | UnsetType,
+    table: AskShapes | UnsetType,
+    changed: dict[str, Any],
+    gravity: float,
+    source: str,
 ) -> SteadyShapes | HeldShapes[HeldShape]:
     """All steady shapes at the speed asked; between two held ends those found."""
     asked = AskShapes() if table is UNSET else table
@@ -72,7 +77,9 @@ def ends_of(held: Held, chain: Chain, source: str) -> dict[str, float]:
     if held.span is UNSET:
         assert held.tension is not UNSET
         if held.weightless:
-            raise numbers.refuse("weightless", "goes with span: whirl speeds of a straight chain are in terms of gravity")
+            raise numbers.refuse(
+                "weightless", "goes with span: whirl speeds of a straight chain are in terms of gravity"
+            )
         return {"tension": numbers.value("tension", held.tension, "weight", "positive")}
     span = numbers.value("span", held.span, "length", "positive")
     if not span < chain.total_length:
@@ -85,7 +92,9 @@ def taut_modes_of(held: Held, chain: Chain, count: int, source: str) -> TautMode
     ends = ends_of(held, chain, source)
     if "tension" not in ends:
         raise SceneError(
-            source, "held.span", "leaves the chain slack, without modes of small amplitude: ask for its shapes, or give tension"
+            source,
+            "held.span",
+            "leaves the chain slack, without modes of small amplitude: ask for its shapes, or give tension",
         )
     return taut_modes(chain, tension=ends["tension"], count=count)
 
@@ -138,7 +147,9 @@ def start_of(table: AskSwing, chain: Chain, source: str) -> tuple[Floats, Floats
     def at_pins(name: str, quantity: str) -> Floats:
         given = getattr(table, name)
         if len(given) != chain.size:
-            raise numbers.refuse(name, f"must have a number for each of the {chain.size} pins that move, got {len(given)}")
+            raise numbers.refuse(
+                name, f"must have a number for each of the {chain.size} pins that move, got {len(given)}"
+            )
         return np.array([numbers.value(f"{name}[{i}]", x, quantity, "any") for i, x in enumerate(given)])
 
     velocity = None if table.velocity is UNSET else at_pins("velocity", "speed")

@@ -48,7 +48,9 @@ def rig_of(
                 for (i, link), first in zip(tables, firsts, strict=True)
             ]
             names = ("displaced_weight", "added_weight", "displaced_centroid", "displaced_radius_of_gyration")
-            given |= {name: np.repeat(column, repeats) for name, column in zip(names, zip(*fluids, strict=True), strict=True)}
+            given |= {
+                name: np.repeat(column, repeats) for name, column in zip(names, zip(*fluids, strict=True), strict=True)
+            }
             if all(link.displaced is UNSET or link.displaced.radius_of_gyration is UNSET for link in links):
                 del given["displaced_radius_of_gyration"]  # the links' own, to all the digits kept of it
     try:

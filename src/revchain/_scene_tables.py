@@ -91,7 +91,9 @@ class Support(Table, frozen=True):
         Of the circle in which it is carried round; on the axis if left out.
     """
 
-    stiffness: Annotated[Positive | UnsetType, Meta(description="Of a spring sideways (N/m); firm if left out.")] = UNSET
+    stiffness: Annotated[Positive | UnsetType, Meta(description="Of a spring sideways (N/m); firm if left out.")] = (
+        UNSET
+    )
     weight: Annotated[NotNegative | UnsetType, Meta(description="Of what moves sideways with it (N).")] = UNSET
     mass: Annotated[NotNegative | UnsetType, Meta(description="Of what moves sideways with it (kg).")] = UNSET
     radius: Annotated[
@@ -147,9 +149,9 @@ class Link(Table, frozen=True):
     standing: Annotated[bool, Meta(description="Whether it stands on its upper pin in the straight chain.")] = False
     tip_weight: Annotated[NotNegative | UnsetType, Meta(description="Of a point fixed to its lower pin (N).")] = UNSET
     tip_mass: Annotated[NotNegative | UnsetType, Meta(description="Of a point fixed to its lower pin (kg).")] = UNSET
-    clamped: Annotated[
-        bool, Meta(description="Whether it is locked in line with the link above: one rigid piece.")
-    ] = False
+    clamped: Annotated[bool, Meta(description="Whether it is locked in line with the link above: one rigid piece.")] = (
+        False
+    )
     flywheel: Annotated[Flywheel | UnsetType, Meta(description="A wheel that spins about the link's axis.")] = UNSET
     displaced: Annotated[Displaced | UnsetType, Meta(description="What it displaces of a fluid.")] = UNSET
 

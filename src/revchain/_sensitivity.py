@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,28 +11,15 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, count, floats, positive, read_only, real, shown
+from ._results import Record
 from ._rig import Rig
 
 if TYPE_CHECKING:
     from ._modes import Modes
 
 
-class _Record:
-    """Arrays that are read-only, and equality of everything."""
-
-    __slots__ = ()
-
-    def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
-            return NotImplemented
-        names = [field.name for field in fields(self)]  # type: ignore[arg-type]
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in names)
-
-    __hash__ = None  # type: ignore[assignment]
-
-
 @dataclass(frozen=True, slots=True, eq=False)
-class Derivatives(_Record):
+class Derivatives(Record):
     """One number for each mode and link, by the datum of the link that it belongs to.
 
     Attributes
@@ -62,7 +49,7 @@ class Derivatives(_Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sensitivity(_Record):
+class Sensitivity(Record):
     """Derivatives of the conical heights of k modes with respect to the data of N links.
 
     While one datum changes, all the others are held: of this link and of all.
@@ -120,7 +107,7 @@ class Sensitivity(_Record):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Uncertainty(_Record):
+class Uncertainty(Record):
     """Standard deviations of the conical heights of k modes, to first order.
 
     Attributes
@@ -220,7 +207,7 @@ def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RigSensitivity(_Record):
+class RigSensitivity(Record):
     """Derivatives of whirl speeds of a rig with respect to every datum of it; all else held.
 
     Shapes are those of one speed; of k speeds every array has k rows, and the last two are of shape (k,).
@@ -356,6 +343,8 @@ def momentum_for_speed(rig: Rig, angular_speed: float, *, link: int, gravity: fl
     if not isinstance(rig, Rig):
         raise TypeError(f"{place}: rig must be a revchain.Rig, got {shown(rig)}")
     return _core.momentum_for_speed(
-        rig._compiled, count(place, "link", link), real(place, "angular_speed", angular_speed), real(place, "gravity", gravity)
+        rig._compiled,
+        count(place, "link", link),
+        real(place, "angular_speed", angular_speed),
+        real(place, "gravity", gravity),
     )
-

@@ -103,8 +103,9 @@ def modes(
     -------
     Modes or RigModes
         The latter for a `Rig`, of which nothing else but `count`, `modes`, `gravity` and `shapes` can be
-        asked; what is no steady motion is listed whole, however few modes are asked for. ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached;
-        ``error_bound`` says what was. An empty window gives no modes.
+        asked; what is no steady motion is listed whole, however few modes are asked for. ``status`` is
+        ``"tolerance_not_met"`` where `rtol` is smaller than what was reached; ``error_bound`` says what was. An empty
+        window gives no modes.
 
     Raises
     ------

@@ -39,7 +39,9 @@ def save(modes: Modes | RigModes, path: str | os.PathLike[str]) -> None:
                 dataset.to_netcdf(aside, engine="h5netcdf")
             else:
                 with open(aside, "wb") as file:  # given a name, numpy may add to it
-                    np.savez(file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes)))
+                    np.savez(
+                        file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes))
+                    )
     except OSError as error:
         raise OutputError(error.errno, error.strerror or str(error), os.fspath(path)) from error
 

@@ -99,9 +99,7 @@ class Scene(Table, frozen=True):
         Literal["still", "turning"],
         Meta(description="The fluid that links displace: at rest, or turning with the chain."),
     ] = "still"
-    held: Annotated[
-        Held | UnsetType, Meta(description="Where the lower end is held on the axis, too.")
-    ] = UNSET
+    held: Annotated[Held | UnsetType, Meta(description="Where the lower end is held on the axis, too.")] = UNSET
     ask: Annotated[Ask, Meta(description="What is asked.")] = Ask()
 
     @classmethod

@@ -277,7 +277,10 @@ def expected_of(scene, digits, asked):
         found["carried"] = [mp.nstr(y, digits) for y in carried(scene, number(speed))]
     if rigged:
         found["other"] = [
-            {"conical_height": [mp.nstr(mp.re(h), digits), mp.nstr(mp.im(h), digits)], "growth_rate": mp.nstr(r, digits)}
+            {
+                "conical_height": [mp.nstr(mp.re(h), digits), mp.nstr(mp.im(h), digits)],
+                "growth_rate": mp.nstr(r, digits),
+            }
             for h, r in others
         ]
     return found

@@ -229,9 +229,7 @@ class Motion:
         )
         assert done.success
         angle = self.speed * time
-        turn = np.array(
-            [[math.cos(angle), -math.sin(angle), 0], [math.sin(angle), math.cos(angle), 0], [0, 0, 1]]
-        )
+        turn = np.array([[math.cos(angle), -math.sin(angle), 0], [math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
         end = done.y[:, -1].reshape(2, self.size + 1, 3)[0]
         return float(np.abs(end - place @ turn.T).max())
 
@@ -694,7 +692,9 @@ def held_by_hand(chain, span, height, half_waves=1):
 @pytest.mark.parametrize("half_waves", [1, 2])
 def test_rods_held_at_both_ends_against_newtons_method_by_hand(half_waves):
     chain = rc.Chain(
-        weight=[1.0, 2, 1, 1, 3, 1], length=[0.2, 0.1, 0.2, 0.15, 0.2, 0.15], centroid=[0.1, 0.05, 0.1, 0.07, 0.09, 0.07],
+        weight=[1.0, 2, 1, 1, 3, 1],
+        length=[0.2, 0.1, 0.2, 0.15, 0.2, 0.15],
+        centroid=[0.1, 0.05, 0.1, 0.07, 0.09, 0.07],
         radius_of_gyration=0.05,
     )
     held = rc.held_shapes(chain, span=0.7, conical_height=0.01, most_half_waves=2)
@@ -834,7 +834,9 @@ def test_taut_speeds_against_a_dense_pencil():
                     stiff[i][j] += sign * k
         inside = [row[1:] for row in stiff[1:]]
         heavy = [row[1:] for row in mass[1:]]
-        heights = sorted((1 / x for x in mp.eig(mp.matrix(heavy) ** -1 * mp.matrix(inside))[0]), key=mp.re, reverse=True)
+        heights = sorted(
+            (1 / x for x in mp.eig(mp.matrix(heavy) ** -1 * mp.matrix(inside))[0]), key=mp.re, reverse=True
+        )
         got = rc.taut_modes(chain, tension=2.5, count=9)
         assert len(got.conical_height) == 6
         for a, b in zip(got.conical_height, heights, strict=True):
@@ -957,7 +959,9 @@ def test_shapes_of_whirl_modes_with_flywheels():
             assert y[0] > 0
             parts = [stiff * y, n * spin * y, n**2 / mp.mpf(G) * mass * y]
             left = mp.norm(parts[0] + parts[1] - parts[2], mp.inf)
-            assert left <= 1e-14 * (mp.mnorm(stiff, 1) + abs(n) * mp.mnorm(spin, 1) + n**2 / mp.mpf(G) * mp.mnorm(mass, 1))
+            assert left <= 1e-14 * (
+                mp.mnorm(stiff, 1) + abs(n) * mp.mnorm(spin, 1) + n**2 / mp.mpf(G) * mp.mnorm(mass, 1)
+            )
 
 
 def test_momentum_of_the_other_sign_is_the_mirror_image():
@@ -1107,7 +1111,10 @@ def test_pendulum_in_still_water():
     weight, h, rho, b, hb, rb, add = 10.0, 0.5, 0.2, 4.0, 0.45, 0.25, 3.0
     rig = rc.Rig(
         rc.Chain(weight=weight, length=[1.0], centroid=h, radius_of_gyration=rho),
-        displaced_weight=b, displaced_centroid=hb, displaced_radius_of_gyration=rb, added_weight=add,
+        displaced_weight=b,
+        displaced_centroid=hb,
+        displaced_radius_of_gyration=rb,
+        added_weight=add,
     )
     want = (weight * (h * h + rho * rho) + add * (hb * hb + rb * rb)) / (weight * h - b * hb)
     assert rc.modes(rig).conical_height == pytest.approx([want], rel=4 * EPS)
@@ -1219,17 +1226,23 @@ def test_links_as_heavy_as_the_fluid():
     still = rc.modes(rc.Rig(chain, displaced_weight=[1.0, 0.0]))
     assert len(still) == 1
     assert still.conical_height == pytest.approx([0.8], rel=4 * EPS)
-    assert still.other.conical_height == [np.inf] and still.other.growth_rate == [0.0] and still.other.error_bound == [0.0]
+    assert (
+        still.other.conical_height == [np.inf] and still.other.growth_rate == [0.0] and still.other.error_bound == [0.0]
+    )
     assert still.status == "success"
 
 
 @pytest.mark.parametrize("size", [1, 2, 3])
 def test_lowest_link_that_weighs_nothing_is_no_mode(size):
     rig = rc.Rig(
-        rc.Chain(weight=np.ones(size), length=np.ones(size)), displaced_weight=[1.0] + [0.0] * (size - 1), fluid="turning"
+        rc.Chain(weight=np.ones(size), length=np.ones(size)),
+        displaced_weight=[1.0] + [0.0] * (size - 1),
+        fluid="turning",
     )
     # of the others the heights are those of the chain without it
-    want = list(rc.modes(rc.Chain(weight=np.ones(size - 1), length=np.ones(size - 1))).conical_height) if size > 1 else []
+    want = (
+        list(rc.modes(rc.Chain(weight=np.ones(size - 1), length=np.ones(size - 1))).conical_height) if size > 1 else []
+    )
     assert rc.modes(rig).conical_height == pytest.approx(want, rel=4 * EPS)
 
 
@@ -1473,7 +1486,9 @@ def test_uniform_rod_jointed_where_it_does_not_bend():
         low = 0.5 + pin - joint  # length of the part below the joint
         up = 1 - low
         chain = rc.Chain(
-            weight=[low, up], length=[low, joint], centroid=[low / 2, joint - up / 2],
+            weight=[low, up],
+            length=[low, joint],
+            centroid=[low / 2, joint - up / 2],
             radius_of_gyration=[low / 12**0.5, up / 12**0.5],
         )
         bell = rc.bell_and_clapper(chain)
@@ -1557,8 +1572,10 @@ def test_uncertainty_is_the_propagation_of_errors():
     sample = []
     for _ in range(300):
         new = rc.Chain(
-            weight=chain.weight * (1 + 0.01 * rng.normal(size=5)), length=chain.length,
-            centroid=chain.centroid, radius_of_gyration=chain.radius_of_gyration,
+            weight=chain.weight * (1 + 0.01 * rng.normal(size=5)),
+            length=chain.length,
+            centroid=chain.centroid,
+            radius_of_gyration=chain.radius_of_gyration,
         )
         sample.append(rc.modes(new, shapes=False).conical_height)
     assert np.std(sample, axis=0) == pytest.approx(modes.uncertainty(weight=dw).conical_height, rel=0.25)
@@ -1597,11 +1614,15 @@ def test_tuning_what_cannot_be():
     assert tuned.chain is None
     assert tuned.reachable[1] < 2.0
     for bad in (
-        dict(link=0, quantity="weight", conical_height=1.0), dict(link=3, quantity="weight", conical_height=1.0),
-        dict(link=1, quantity="colour", conical_height=1.0), dict(link=1, quantity="weight"),
+        dict(link=0, quantity="weight", conical_height=1.0),
+        dict(link=3, quantity="weight", conical_height=1.0),
+        dict(link=1, quantity="colour", conical_height=1.0),
+        dict(link=1, quantity="weight"),
         dict(link=1, quantity="weight", conical_height=1.0, angular_speed=2.0),
-        dict(link=1, quantity="weight", conical_height=-1.0), dict(link=1, quantity="weight", conical_height=math.nan),
-        dict(link=1, quantity="weight", conical_height=1.0, mode=3), dict(link=1, quantity="weight", conical_height=1.0, mode=0),
+        dict(link=1, quantity="weight", conical_height=-1.0),
+        dict(link=1, quantity="weight", conical_height=math.nan),
+        dict(link=1, quantity="weight", conical_height=1.0, mode=3),
+        dict(link=1, quantity="weight", conical_height=1.0, mode=0),
         dict(link=1, quantity="weight", conical_height=1.0, between=(2.0, 1.0)),
     ):
         with pytest.raises(ValueError):
@@ -1623,7 +1644,10 @@ def test_speeds_differentiated_by_what_a_chain_is_rigged_with():
     rng = np.random.default_rng(700)
     chain = random_chain(rng, 4)
     data = dict(
-        stiffness=20.0, carriage_weight=0.6, momentum=rng.normal(size=4), displaced_weight=0.3 * chain.weight,
+        stiffness=20.0,
+        carriage_weight=0.6,
+        momentum=rng.normal(size=4),
+        displaced_weight=0.3 * chain.weight,
         added_weight=0.2 * chain.weight,
     )
     rig = rc.Rig(chain, **data)
@@ -1689,7 +1713,12 @@ def test_plucked_chain_let_go_in_full():
         e = np.column_stack([np.sin(lean), 0 * lean, -np.cos(lean)])
         place = np.vstack([e, np.zeros(3)])
         done = scipy.integrate.solve_ivp(
-            Motion(rc.Rig(chain), 1.0), (0, 3.0), np.stack([place, 0 * place]).ravel(), "DOP853", rtol=1e-12, atol=1e-14,
+            Motion(rc.Rig(chain), 1.0),
+            (0, 3.0),
+            np.stack([place, 0 * place]).ravel(),
+            "DOP853",
+            rtol=1e-12,
+            atol=1e-14,
             t_eval=times,
         )
         x = done.y[: 3 * 6].reshape(6, 3, -1)[:5, 0]  # sines of inclinations
@@ -1946,7 +1975,12 @@ def test_shapes_at_exactly_a_critical_speed_are_not_called_complete_wrongly():
 
 def full_rig():
     return rc.Rig(
-        CHAIN, stiffness=30.0, carriage_weight=0.2, momentum=[0.3, 0.0, -0.1], displaced_weight=[0.5, 0, 0], added_weight=0.1,
+        CHAIN,
+        stiffness=30.0,
+        carriage_weight=0.2,
+        momentum=[0.3, 0.0, -0.1],
+        displaced_weight=[0.5, 0, 0],
+        added_weight=0.1,
     )
 
 
@@ -1974,7 +2008,9 @@ def test_rigs_are_equal_hashable_and_can_be_pickled():
 @pytest.mark.parametrize("ending", [".npz", ".nc"])
 def test_results_of_rigs_are_kept_bit_for_bit(tmp_path, ending):
     found = rc.modes(
-        rc.Rig(rc.Chain(weight=[0.5, 1.0, 1], length=1.0), displaced_weight=[1.0, 0.0, 0.0], fluid="turning", stiffness=3.0)
+        rc.Rig(
+            rc.Chain(weight=[0.5, 1.0, 1], length=1.0), displaced_weight=[1.0, 0.0, 0.0], fluid="turning", stiffness=3.0
+        )
     )
     path = tmp_path / f"result{ending}"
     if ending == ".nc":
@@ -2040,7 +2076,11 @@ modes = 3
 
 def run(*arguments, check=True):
     done = subprocess.run(
-        [sys.executable, "-m", "revchain", *map(str, arguments)], capture_output=True, text=True, check=False, timeout=120
+        [sys.executable, "-m", "revchain", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
     )
     if check:
         assert done.returncode == 0, done.stderr
@@ -2054,11 +2094,17 @@ def test_scene_file_end_to_end(tmp_path):
     assert scene.is_rigged
     g = 9.81
     chain = rc.Chain(
-        weight=np.array([1.5, 0.2, 0.2]) * g, length=[0.4, 0.3, 0.3], centroid=[0.2, 0.15, 0.15],
+        weight=np.array([1.5, 0.2, 0.2]) * g,
+        length=[0.4, 0.3, 0.3],
+        centroid=[0.2, 0.15, 0.15],
         radius_of_gyration=[0.1, 0.3 / 12**0.5, 0.3 / 12**0.5],
     )
     rig = rc.Rig(
-        chain, stiffness=200.0, carriage_weight=0.3 * g, displaced_weight=[0.4 * g, 0, 0], added_weight=[0.1 * g, 0, 0],
+        chain,
+        stiffness=200.0,
+        carriage_weight=0.3 * g,
+        displaced_weight=[0.4 * g, 0, 0],
+        added_weight=[0.1 * g, 0, 0],
         momentum=[0.5 * 0.04 * 300 * 2 * math.pi / 60, 0, 0],
     )
     want = rc.modes(rig, count=3, gravity=g).angular_speed()
@@ -2118,7 +2164,9 @@ def test_new_scene_names_every_feature(tmp_path):
     run("validate", path)
     # what is said in comments of a rig can be said
     said = {line[2:].split(" = ")[0]: line[2:] for line in text.splitlines() if line.startswith("# ") and " = " in line}
-    full = text.replace("centroid = 0.1 ", "\n".join(said[k] for k in ("standing", "displaced", "flywheel")) + "\ncentroid = 0.1 ")
+    full = text.replace(
+        "centroid = 0.1 ", "\n".join(said[k] for k in ("standing", "displaced", "flywheel")) + "\ncentroid = 0.1 "
+    )
     support = "\n".join(["[support]", said["stiffness"], said["radius"]])
     path.write_text(full.replace("\n[ask]", "\n" + support + "\n[ask]").replace("# fluid", "fluid"))
     run("validate", path)

@@ -261,7 +261,9 @@ def test_what_the_new_scene_says_in_comments_is_right(run):
     _, _, rest = Path("a.toml").read_text().partition("# ---- what else")[0].partition("# ---- ...")
     uncommented = [line.removeprefix("# ") for line in rest.splitlines()[2:] if not line.startswith("# ----")]
     Path("b.toml").write_text("\n".join(line for line in uncommented if line != "#"))
-    assert rc.load_scene("b.toml").chain() == rc.Chain.uniform_rods(120, 0.36, 0.03 * 9.80665).with_weight(0.01 * 9.80665)
+    assert rc.load_scene("b.toml").chain() == rc.Chain.uniform_rods(120, 0.36, 0.03 * 9.80665).with_weight(
+        0.01 * 9.80665
+    )
     ask = rc.load_scene("b.toml").ask
     assert (ask.rtol, ask.first, ask.modes, ask.certify) == (1e-9, 3, 5, True)
 
@@ -302,7 +304,9 @@ def test_as_a_program(python):
     done = python("-m", "revchain", "solve", "missing.toml")
     assert done.returncode == 3 and len(done.stderr.splitlines()) == 1
     script = Path(sys.executable).with_name("revchain")
-    assert subprocess.run([script, "--version"], capture_output=True, text=True).stdout == f"revchain {rc.__version__}\n"
+    assert (
+        subprocess.run([script, "--version"], capture_output=True, text=True).stdout == f"revchain {rc.__version__}\n"
+    )
 
 
 def test_a_reader_that_stops_early():
@@ -387,7 +391,8 @@ def test_the_scene_is_not_overwritten(python):
     before = Path("watch.toml").read_text()
     done = python("-m", "revchain", "solve", "watch.toml", "--json", "watch.toml")
     assert (done.returncode, done.stderr) == (
-        ExitCode.WRONG_USAGE, "revchain: watch.toml: the scene itself would be overwritten\n"
+        ExitCode.WRONG_USAGE,
+        "revchain: watch.toml: the scene itself would be overwritten\n",
     )
     assert Path("watch.toml").read_text() == before
 

@@ -11,13 +11,14 @@ import pytest
 import revchain as rc
 
 
-
 def matrices(chain):
     """K and M of all pins, support last, from the two energies: sums of weights times squares."""
     n = chain.size
     K, M, below = mp.zeros(n + 1), mp.zeros(n + 1), mp.mpf(0)
     for m in range(n):
-        W, a, h, r = (mp.mpf(float(x[m])) for x in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration))
+        W, a, h, r = (
+            mp.mpf(float(x[m])) for x in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration)
+        )
         stiffness = (W * h + a * below) / a**2
         below += W
         for i, p in ((m, h / a), (m + 1, 1 - h / a)):
@@ -39,7 +40,9 @@ def exact_response(chain, height, radius=1.0):
 @pytest.fixture
 def chain():
     return rc.Chain(
-        weight=[1.0, 2.5, 0.7, 3.0, 1.0], length=[0.5, 1.0, 0.8, 0.6, 1.1], centroid=[0.4, 0.2, 0.5, 0.6, 0.5],
+        weight=[1.0, 2.5, 0.7, 3.0, 1.0],
+        length=[0.5, 1.0, 0.8, 0.6, 1.1],
+        centroid=[0.4, 0.2, 0.5, 0.6, 0.5],
         radius_of_gyration=[0.25, 0.5, 0.125, 0.0, 0.5],
     )
 
@@ -108,7 +111,8 @@ def test_resonance():
 
 def test_rig(chain):
     assert np.array_equal(
-        rc.response(rc.Rig(chain), conical_height=[3.0, 0.2]).offset, rc.response(chain, conical_height=[3.0, 0.2]).offset
+        rc.response(rc.Rig(chain), conical_height=[3.0, 0.2]).offset,
+        rc.response(chain, conical_height=[3.0, 0.2]).offset,
     )
     carousel = rc.Rig(chain, support_radius=0.4)
     assert rc.response(carousel, conical_height=9.0).offset[-1] == 0.4
@@ -190,7 +194,10 @@ def test_swing(size):
         for i, t in enumerate(time):
             exact = exact_swing(chain, offsets.tolist(), velocities.tolist(), mp.mpf(float(t)))
             for m in range(size):
-                assert abs(mp.mpf(float(found.offset[i, m])) - exact[m]) <= found.error_bound[i] + found.truncation_error[m]
+                assert (
+                    abs(mp.mpf(float(found.offset[i, m])) - exact[m])
+                    <= found.error_bound[i] + found.truncation_error[m]
+                )
     assert found.error_bound.max() < 1e-14
     np.testing.assert_allclose(found.offset[0], [*offsets, 0.0], atol=3e-16)
     np.testing.assert_allclose(found.velocity[0], [*velocities, 0.0], atol=3e-15)
@@ -203,7 +210,9 @@ def test_energy(chain):
     stretch = np.diff(swing.offset, axis=1)
     below = np.concatenate([[0.0], np.cumsum(chain.weight)[:-1]])
     stiffness = (chain.weight * chain.centroid / chain.length + below) / chain.length
-    centre = swing.velocity[:, :-1] * chain.centroid / chain.length + swing.velocity[:, 1:] * (1 - chain.centroid / chain.length)
+    centre = swing.velocity[:, :-1] * chain.centroid / chain.length + swing.velocity[:, 1:] * (
+        1 - chain.centroid / chain.length
+    )
     turning = np.diff(swing.velocity, axis=1) / chain.length * chain.radius_of_gyration
     energy = ((stiffness * stretch**2).sum(1) + (chain.weight * (centre**2 + turning**2)).sum(1) / 9.80665) / 2
     np.testing.assert_allclose(energy, swing.energy.sum(), rtol=1e-13)

@@ -51,7 +51,9 @@ def test_links_one_by_one():
     assert chain.weight.tolist() == [20.0, 3.0, 3.0, 10.0, 0.0, 10.0]
     assert chain.length.tolist() == [0.5, 0.4, 0.4, 0.3, 1.0, 0.3]
     assert chain.centroid.tolist() == [0.5, 0.2, 0.2, -0.01, 1.0, 0.1]
-    np.testing.assert_allclose(chain.radius_of_gyration, [0, 0.4 / 12**0.5, 0.4 / 12**0.5, 0.2, 0, 0.2], rtol=4 * 2.0**-52)
+    np.testing.assert_allclose(
+        chain.radius_of_gyration, [0, 0.4 / 12**0.5, 0.4 / 12**0.5, 0.2, 0, 0.2], rtol=4 * 2.0**-52
+    )
 
 
 def test_uniform_chain_is_the_one_of_the_api():
@@ -219,7 +221,9 @@ def test_errors_without_pint_say_how_to_get_it(python, without):
         "except rc.SceneError as error: print(error)\n"
     )
     done = python("-c", program)
-    assert done.stdout == 'scene: links[0].length: a number with a unit needs pint: pip install "revchain[units]"\n', done.stderr
+    assert done.stdout == 'scene: links[0].length: a number with a unit needs pint: pip install "revchain[units]"\n', (
+        done.stderr
+    )
 
 
 numbers = st.floats(allow_nan=True) | st.integers() | st.sampled_from(["1 m", "2 kg", "3 N", "1 m/s^2", "x"])

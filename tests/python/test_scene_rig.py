@@ -101,8 +101,14 @@ def test_weights_at_pins_and_clamped_links():
         ({"support": {"spring": 1}}, r"support.spring: unknown key"),
         ({"fluid": "air"}, r"fluid: must be one of still, turning"),
         ({"links": [{**ROD, "standing": 1}]}, r"links\[0\].standing: "),
-        ({"links": [ROD, {**ROD, "flywheel": {"mass": 1, "spin": 1}}]}, r"links\[1\].flywheel.radius_of_gyration: is missing"),
-        ({"links": [{**ROD, "flywheel": {**WHEEL, "spin": "3 m"}}]}, r"links\[0\].flywheel.spin: must be an angular speed"),
+        (
+            {"links": [ROD, {**ROD, "flywheel": {"mass": 1, "spin": 1}}]},
+            r"links\[1\].flywheel.radius_of_gyration: is missing",
+        ),
+        (
+            {"links": [{**ROD, "flywheel": {**WHEEL, "spin": "3 m"}}]},
+            r"links\[0\].flywheel.spin: must be an angular speed",
+        ),
         ({"links": [{**ROD, "flywheel": {**WHEEL, "weight": 1}}]}, r"links\[0\].flywheel: give either weight or mass"),
         ({"links": [{**ROD, "displaced": {}}]}, r"links\[0\].displaced: give either weight or mass"),
         ({"links": [{**ROD, "displaced": {"mass": 1, "added_mass": "1 m"}}]}, r"displaced.added_mass: must be a mass"),
@@ -110,8 +116,14 @@ def test_weights_at_pins_and_clamped_links():
         ({"links": [{**ROD, "tip_mass": 1, "tip_weight": 2}]}, r"links\[0\]: give either tip_weight or tip_mass"),
         ({"links": [{**ROD, "tip_mass": "1 N"}]}, r"links\[0\].tip_mass: must be a mass such as"),
         ({"links": [ROD, {**ROD, "clamped": True}]}, r"links\[1\].clamped: there is no link above"),
-        ({"links": [{**ROD, "clamped": True}, {**ROD, "repeat": 2}]}, r"links\[1\].repeat: must be 1 where links are clamped"),
-        ({"links": [{**ROD, "clamped": True, "flywheel": WHEEL}, ROD]}, r"links\[0\].flywheel: is said by the link above"),
+        (
+            {"links": [{**ROD, "clamped": True}, {**ROD, "repeat": 2}]},
+            r"links\[1\].repeat: must be 1 where links are clamped",
+        ),
+        (
+            {"links": [{**ROD, "clamped": True, "flywheel": WHEEL}, ROD]},
+            r"links\[0\].flywheel: is said by the link above",
+        ),
         ({"support": {"radius": 1}, "ask": at(-1.0)}, r"ask.response.angular_speed: must be positive, got -1"),
         ({"support": {"radius": 1}, "ask": at("8 m")}, r"ask.response.angular_speed: must be an angular speed"),
         ({"links": [{**ROD, "flywheel": WHEEL}], "support": {"radius": 1}, "ask": at(0)}, "must not be 0"),

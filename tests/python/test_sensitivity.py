@@ -224,8 +224,12 @@ def test_a_bell_made_silent():
     assert abs(again.mismatch) < 1e-16
     assert rc.modes(silent).conical_height[0] == pytest.approx(rc.modes(silent.clamped(1)).conical_height[0], rel=4e-16)
     pin = rc.two_links.pin_of_silent_clapper(
-        bell_weight=500, bell_centroid=0.2, bell_radius_of_gyration=0.3,
-        clapper_weight=18, clapper_centroid=0.52, clapper_radius_of_gyration=0.08,
+        bell_weight=500,
+        bell_centroid=0.2,
+        bell_radius_of_gyration=0.3,
+        clapper_weight=18,
+        clapper_centroid=0.52,
+        clapper_radius_of_gyration=0.08,
     )
     assert joint == pytest.approx(float(pin), rel=1e-14)
     with pytest.raises(ValueError, match="two links"):
