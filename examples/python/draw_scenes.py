@@ -5,6 +5,7 @@ python draw_scenes.py [FOLDER]
 """
 
 from pathlib import Path
+from typing import Any
 
 from _picture import save
 
@@ -14,14 +15,23 @@ SCENES = Path(__file__).resolve().parents[1] / "scenes"
 NAMES = [
     *("rods_on_threads", "ball_on_chain", "clamped_bell", "jointed_rod", "carriage_on_springs", "swing_carousel"),
     *("bicycle_wheels", "two_gyrostats", "moored_floats", "stokes_float", "broomstick", "acrobat"),
+    *("troposkien", "plucked_chain"),
 ]
 
 for name in NAMES:
     scene = rc.load_scene(SCENES / f"{name}.toml")
-    found = scene.modes()
-    carried = scene.response() if scene.is_carried else None
-    axes = found.plot(carried=carried) if scene.is_rigged else found.plot(gravity=scene.gravity_value())
+    if scene.is_held:
+        found: Any = scene.steady_shapes()
+        axes, what = found.plot(), "shape"
+    elif scene.ask.swing:
+        found = scene.small_oscillation()
+        axes, what = found.plot(), "time"
+    else:
+        found, what = scene.modes(), "mode"
+        carried = scene.response() if scene.is_carried else None
+        axes = found.plot(carried=carried) if scene.is_rigged else found.plot(gravity=scene.gravity_value())
+    count = found.time.size if what == "time" else len(found)
     axes.set_title(scene.title)
     axes.figure.set_size_inches(axes.figure.get_figwidth(), 4.5)
-    print(f"{scene.title}: {len(found)} mode{'s' * (len(found) != 1)},", end=" ")
+    print(f"{scene.title}: {count} {what}{'s' * (count != 1)},", end=" ")
     save(axes.figure, f"scene_{name}")

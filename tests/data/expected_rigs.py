@@ -18,7 +18,7 @@ from __future__ import annotations
 import mpmath as mp
 from mpmath import mpf
 
-UNITS = {"N/m": mpf(1), "cm": mpf("0.01"), "rpm": None}
+UNITS = {"N/m": mpf(1), "cm": mpf("0.01"), "g": mpf("0.001"), "rpm": None}
 
 
 def number(given):

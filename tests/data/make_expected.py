@@ -8,7 +8,7 @@ not rounded to double. Chains of up to 200 links: the dense inertia matrix in th
 (not the offsets of the pins, which the program uses), reduced by its diagonal stiffness, all its
 eigenvalues by mpmath.eigsy with 80 digits. Longer chains: counting negative pivots of the assembled
 tridiagonal pencil with 60 digits, and bisection. Scenes with supports, standing links, flywheels, fluids,
-clamped links or weights at pins: expected_rigs.py. Cross-checks: Laguerre zeros for equal plummets,
+clamped links or weights at pins: expected_rigs.py; let go, or held at both ends: expected_motions.py. Cross-checks: Laguerre zeros for equal plummets,
 the closed quadratic for two plummets, the count of the assembled pencil on both sides of each height.
 """
 
@@ -20,7 +20,8 @@ import tomllib
 from pathlib import Path
 
 import mpmath as mp
-from expected_rigs import expected_of
+from expected_motions import held, let_go
+from expected_rigs import expected_of, number
 from mpmath import mpf
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -33,12 +34,12 @@ def links_of(scene):
     if "uniform_chain" in scene:
         chain = scene["uniform_chain"]
         count = chain["count"]
-        length = mpf(chain["length"]) / count
-        weight = mpf(chain.get("mass", chain.get("weight"))) / count
+        length = number(chain["length"]) / count
+        weight = number(chain.get("mass", chain.get("weight"))) / count
         return [body({"kind": chain["kind"].removesuffix("s")}, weight, length)] * count
     links = []
     for link in scene["links"]:
-        links += [body(link, mpf(link["mass"]), mpf(link["length"]))] * link.get("repeat", 1)
+        links += [body(link, number(link["mass"]), number(link["length"]))] * link.get("repeat", 1)
     return links
 
 
@@ -172,6 +173,9 @@ def make(path):
     mp.mp.dps = 80
     scene = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=mpf)
     head = {"scene": path.name, "made_by": "tests/data/make_expected.py"}
+    if "held" in scene:
+        by = "the potential made stationary in the angles, Newton's method, 80 digits"
+        return write(path, {**head, "by": by, "digits": 30, "modes": [], "shapes": held(scene)})
     if is_rigged(scene):
         asked = scene.get("ask", {}).get("modes", DEFAULT_MODES)
         by = "Lagrange's equations in the angles, dense companion matrix, 80 digits"
@@ -201,6 +205,8 @@ def make(path):
             for height in heights
         ],
     }
+    if "swing" in scene.get("ask", {}):
+        expected["swing"] = let_go(scene)
     write(path, expected)
 
 

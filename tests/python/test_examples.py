@@ -18,7 +18,8 @@ PYTHON = ROOT / "examples" / "python"
 EXPERIMENTS = sorted(PYTHON.glob("experiment_*.py"))
 PROGRAMS = sorted(set(PYTHON.glob("[!_]*.py")) - set(EXPERIMENTS))
 RIGS = [path for path in SCENES if rc.load_scene(path).is_rigged]
-CHAINS = [path for path in SCENES if path not in RIGS]
+HELD = [path for path in SCENES if rc.load_scene(path).is_held]
+CHAINS = [path for path in SCENES if path not in RIGS + HELD]
 SMALL = [path for path in CHAINS if rc.load_scene(path).chain().size <= 20]  # for the dense reference
 ULP = 2.0**-52
 # The expected values belong to the decimals of the file and the answers to their roundings. Those cost up
@@ -35,6 +36,7 @@ def test_there_are_all():
         {"carriage_on_springs", "swing_carousel", "bicycle_wheels", "two_gyrostats"}
         | {"moored_floats", "stokes_float", "broomstick", "acrobat"}
     )
+    assert {path.stem for path in HELD} >= {"troposkien"}
     assert len(PROGRAMS) >= 3
     assert len(EXPERIMENTS) == 11
 
@@ -131,6 +133,29 @@ def test_carried_round(rig_example):
         assert max(errors) <= 0.5 * ULP * np.abs(found.offset).max()
 
 
+@pytest.mark.parametrize("path", HELD, ids=lambda path: path.stem)
+def test_held_at_both_ends(path):
+    expected = json.loads(path.with_name(f"{path.stem}.expected.json").read_text())
+    found = rc.load_scene(path).steady_shapes()
+    assert [shape.half_waves for shape in found] == [row["half_waves"] for row in expected["shapes"]]
+    for shape, row in zip(found, expected["shapes"], strict=True):
+        offset, pull = (np.array([float(x) for x in row[name]]) for name in ("offset", "lower_pull"))
+        # in parts of the length, and of the tension: measured 0.17 and 0.02 ulp
+        np.testing.assert_allclose(shape.offset, offset, rtol=0, atol=0.3 * ULP * 24.0)
+        np.testing.assert_allclose(shape.lower_pull, pull, rtol=0, atol=0.05 * ULP * shape.tension.max())
+
+
+def test_let_go():
+    scene = rc.load_scene(ROOT / "examples" / "scenes" / "plucked_chain.toml")
+    expected = json.loads((ROOT / "examples" / "scenes" / "plucked_chain.expected.json").read_text())["swing"]
+    found = scene.small_oscillation()
+    assert len(expected) == 2
+    for time, offset in expected.items():
+        [row] = np.flatnonzero(np.isclose(found.time, float(time), rtol=1e-12))
+        exact = np.array([float(y) for y in offset])
+        assert np.abs(found.offset[row] - exact).max() <= found.error_bound[row] + 1e-17  # decimals of the file
+
+
 @pytest.mark.parametrize("path", PROGRAMS, ids=lambda path: path.stem)
 def test_programs(python, path):
     done = python(path)
@@ -182,7 +207,8 @@ def test_page_of_scenes(python):
         shown.append(name)
         lines, printed = re.search(r"```toml\n(.*?)\n```\n\n```text\n(.*?)\n```\n", section, re.DOTALL).groups()
         assert f"\n{lines}\n" in path.read_text(encoding="utf-8")
-        done = python("-m", "revchain", "solve", path)
+        command = re.search(r"`revchain (shapes|swing)` prints", section)
+        done = python("-m", "revchain", command[1] if command else "solve", path)
         assert done.returncode == 0, done.stderr
         assert printed.splitlines() == [line.rstrip() for line in done.stdout.splitlines()]
         assert f"](figures/scene_{name}.png)" in section
@@ -193,7 +219,7 @@ def test_page_of_scenes(python):
     assert "5.95 m, inclined at 23 degrees" in page
     assert f"{out.offset[0]:.2f} m at {np.degrees(out.inclination[0]):.0f}" == "5.95 m at 23"
     chains = {"ball_on_chain", "clamped_bell", "jointed_rod", "rods_on_threads"}
-    assert {path.stem for path in RIGS} | chains == set(shown)
+    assert {path.stem for path in RIGS + HELD} | chains | {"plucked_chain"} == set(shown)
 
 
 def test_experiments_are_whole():

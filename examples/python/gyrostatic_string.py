@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Thomson's gyrostatic string: bicycle wheels on a stretched cord turn the plane of a vibration as magnetised glass does.
+
+Greenhill (1908) section 2: a vibration to and fro is two circular waves, one with the spin and one against it. They have
+different lengths, so that the plane of their sum turns from link to link.
+
+python gyrostatic_string.py [FOLDER]
+"""
+
+import numpy as np
+from _picture import COLOURS, panels, save
+
+import revchain as rc
+
+MASS, LENGTH, TENSION, RADIUS = 1.5, 0.3, 120.0, 0.29  # kg, m, N, m: a wheel on each link, the cord drawn tight
+AXIAL = MASS * RADIUS**2  # kg m^2
+
+
+def string(turns_a_second):
+    """Wheels spinning so fast, a body for each link of the wheel's inertia across."""
+    return rc.GyrostaticString(
+        weight=MASS * 9.80665,
+        length=LENGTH,
+        tension=TENSION,
+        momentum=AXIAL * 2 * np.pi * turns_a_second,
+        centroid=LENGTH / 2,
+        radius_of_gyration=RADIUS / np.sqrt(2),
+    )
+
+
+speed = 3.0  # rad/s of the vibration
+print("wheels at    links in a wave  links in a wave  the plane turns   in a")
+print("turns/s       with the spin   against it       degrees a link    half turn, links")
+for turns in (0.0, 2.0, 5.0, 8.0):
+    one = string(turns)
+    forward, backward = float(one.phase(speed)), float(one.phase(-speed))
+    turn = float(np.degrees(one.plane_rotation(speed)))
+    half = "" if turn == 0 else f"{abs(180 / turn):18.1f}"
+    print(f"{turns:9.1f}  {2 * np.pi / forward:16.2f}  {2 * np.pi / backward:15.2f}  {turn:15.3f}  {half}".rstrip())
+
+figure, (waves, plane) = panels(2, [1, 1.6])
+phase = np.linspace(0.02, np.pi, 200)
+for turns, colour in zip((0.0, 5.0, 8.0), COLOURS, strict=False):
+    found = string(turns).angular_speeds(phase)
+    waves.plot(np.degrees(phase), found.forward, color=colour, label=f"{turns:g} turns/s")
+    waves.plot(np.degrees(phase), -found.backward, color=colour, linestyle="--")
+waves.axhline(speed, color="0.6", linewidth=0.8)
+waves.set(xlabel="phase from link to link, degrees", ylabel="speed, rad/s", title="full: with the spin, dashed: against it")
+waves.set(xlim=(0, 180), ylim=(0, None))
+waves.legend(loc="upper left")
+string(5.0).plot_vibration(speed, links=120, ax=plane)
+plane.set_title("a vibration of 3 rad/s along 120 wheels at 5 turns/s")
+save(figure)
