@@ -54,9 +54,7 @@ class HeldBox {
     double turned = 0;           ///< sine of the largest turn of a link away from the directions given
     bool known = false;
 
-    static double largest(const Span& x) {
-        return std::max(std::abs(static_cast<double>(x.low)), std::abs(static_cast<double>(x.high))) * 1.0000001;
-    }
+    static double largest(const Span& x) { return static_cast<double>(x.size()) * 1.0000001; }
 
    private:
     static bool settled(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,

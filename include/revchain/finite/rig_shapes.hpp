@@ -60,10 +60,10 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
                                          enclosed<double>(links.support));
     if (!(last <= std::numeric_limits<double>::max())) return leave_all();
     result = listed(links, lambda, options);
+    const bool unbounded = !links.support.firm &&
+                           left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support)).may_vanish();
     const auto leave_beyond = [&](SteadyShapes& found) {
-        if (links.support.firm ||
-            !left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support)).may_vanish())
-            return;
+        if (!unbounded) return;
         const double beyond = std::atan(last);
         found.undecided.push_back({beyond, asked.hanging_only ? std::numbers::pi / 2 : std::numbers::pi - beyond});
         found.complete = false;

@@ -74,14 +74,11 @@ Interval<T> left_to_the_spring(const std::vector<Link<Interval<T>>>& links, cons
 template <class T>
 T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool,
                    const Held<Interval<T>>& support) {
-    const auto size = [](const Interval<T>& x) {
-        using std::abs;
-        return std::max(abs(x.low), abs(x.high));
-    };
-    Interval<T> reach(T(0)), moving(T(0)), drawn(size(support.radius));
+    Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
     for (const Link<Interval<T>>& link : links) {
-        reach = reach + Interval<T>(size(link.length));
-        if (!support.firm) drawn = drawn + support.compliance * Interval<T>(size((moving + link.moment) * link.length));
+        reach = reach + Interval<T>(link.length.size());
+        if (!support.firm)
+            drawn = drawn + support.compliance * Interval<T>(((moving + link.moment) * link.length).size());
         moving = moving + link.moment + link.rest;
     }
     if (!support.firm) {
@@ -89,8 +86,8 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
         drawn = drawn / (left.may_vanish() ? Interval<T>(T(1e-6)) : left.negative() ? -left : left);
     }
     const Interval<T> turning = links[0].length * links[0].cross;
-    const Interval<T> far =
-        (Interval<T>(size(links[0].moment)) * (reach + drawn) + Interval<T>(size(turning))) / (height * links[0].pull);
+    const Interval<T> far = (Interval<T>(links[0].moment.size()) * (reach + drawn) + Interval<T>(turning.size())) /
+                            (height * links[0].pull);
     return far.high;
 }
 

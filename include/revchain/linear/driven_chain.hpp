@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/chain/rig.hpp"
 #include "revchain/core/progress.hpp"
 #include "revchain/linalg/driven_lanes.hpp"
 #include "revchain/linear/assembly.hpp"
+#include "revchain/linear/rig_elements.hpp"
 
 namespace revchain::detail {
 
@@ -44,25 +44,18 @@ inline DrivenChain driven_chain(const Chain<double>& chain) {
 
 inline DrivenChain driven_chain(const Rig& rig) {
     DrivenChain result{{}, rig.chain().units(), true, rig.has_momentum(), 0};
-    const auto weights = [&](double x) { return std::ldexp(x, -result.units.weight_exponent); };
+    const auto add = [&](const RigElement& of) {
+        const auto& [e, off] = of;
+        result.elements.push_back(
+            {e.stiffness, e.spin, e.lower, e.upper, e.cross, off.stiffness, off.lower, off.upper, off.cross});
+    };
     Index m = 0;
     for (const RigLink& link : rig_links(rig)) {
-        linalg::DrivenElement e{link.tension / link.length, link.spin / link.length, link.lower, link.upper,
-                                link.cross};
-        if (rig.stands(m++)) e.stiffness = -e.stiffness, e.spin = -e.spin, ++result.standing;
-        constexpr double part = RigLink::error_part;
-        e.stiffness_error = 1.01 * part * link.size.tension / link.length.high;
-        e.lower_error = part * link.size.lower, e.upper_error = part * link.size.upper;
-        e.cross_error = part * link.size.cross;
-        result.elements.push_back(e);
+        const bool stands = rig.stands(m++);
+        add(rig_element(link, stands));
+        if (stands) ++result.standing;
     }
-    const Support& support = rig.support();
-    if (!support.is_firm()) {
-        linalg::DrivenElement e;
-        e.stiffness = std::ldexp(support.stiffness, result.units.length_exponent - result.units.weight_exponent);
-        e.lower = weights(support.carriage_weight);
-        result.elements.push_back(e);
-    }
+    if (const auto support = support_element(rig)) add(*support);
     return result;
 }
 

@@ -130,12 +130,11 @@ inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const Ri
 /// Neither: all roots at once.
 inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const RigModesOptions& options) {
     if (pencil.pencil.size() > dense_rig_limit)
-        refuse(
-            "rig_modes",
-            "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a fluid that "
-            "turns with them) is solved for at most " +
-                std::to_string(dense_rig_limit) + " links and supports that yield",
-            pencil.pencil.size());
+        refuse("rig_modes",
+               "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a fluid that "
+               "turns with them) is solved for at most " +
+                   std::to_string(dense_rig_limit) + " links and supports that yield",
+               pencil.pencil.size());
     RigModes result;
     result.has_momentum = pencil.pencil.quadratic, result.method = "discs";
     const bool twice = pencil.pencil.quadratic && pencil.spins_held;  // x^2 is what a massless coordinate has at least
@@ -214,8 +213,8 @@ inline RigModes rig_modes(const Rig& rig, const RigModesOptions& options) {
         result = pencil.stiffness_positive || pencil.mass_not_negative ? detail::counted_heights(rig, pencil, options)
                                                                        : detail::enclosed_modes(rig, pencil, options);
     if (options.other)
-        for (Index i = 0; i < pencil.neutral; ++i)
-            result.other.insert(result.other.begin(), {{std::numeric_limits<double>::infinity(), 0.0}, 0.0, 0, 0});
+        result.other.insert(result.other.begin(), static_cast<std::size_t>(pencil.neutral),
+                            {{std::numeric_limits<double>::infinity(), 0.0}, 0.0, 0, 0});
     if (result.has_momentum) result.slack = detail::slack_links(rig, result);
     detail::advance(options.progress, 1);
     return result;

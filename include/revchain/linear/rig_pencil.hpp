@@ -3,8 +3,7 @@
 
 #include <array>
 
-#include "revchain/chain/rig.hpp"
-#include "revchain/linalg/signed_pencil.hpp"
+#include "revchain/linear/rig_elements.hpp"
 
 namespace revchain {
 
@@ -74,10 +73,11 @@ inline Index inertialess_coordinates(const Rig& rig) {
     return nullity + (free ? 1 : 0);
 }
 
-inline bool is_nothing(const linalg::SignedElement<Wide<double>>& e, const linalg::SignedElementError<double>& off) {
+inline bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
-    return e.stiffness == none && e.spin == none && e.lower == none && e.upper == none && e.cross == none &&
-           off.stiffness + off.spin + off.lower + off.upper + off.cross == 0;
+    const auto& [k, s, lower, upper, cross] = e.numbers;
+    return k == none && s == none && lower == none && upper == none && cross == none &&
+           e.off.stiffness + e.off.spin + e.off.lower + e.off.upper + e.off.cross == 0;
 }
 
 /// Whether a mass whose numbers have these errors is positive or 0 for certain.
@@ -106,44 +106,30 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
     result.pace = sqrt(S(std::ldexp(gravity, -result.units.length_exponent)));
     result.stiffness_positive = result.stiffness_certain = result.mass_not_negative = result.spins_held = true;
     result.not_positive = 0;
-    const auto in_weights = [&](double x) { return std::ldexp(x, -result.units.weight_exponent); };
-    const auto add = [&](const linalg::SignedElement<S>& e, const linalg::SignedElementError<double>& off,
-                         bool mass_not_negative) {
-        result.pencil.elements.push_back(e);
-        result.pencil.errors.push_back(off);
-        const double k = static_cast<double>(e.stiffness);
-        result.stiffness_positive = result.stiffness_positive && k > off.stiffness;
-        const bool neutral = k == 0 && off.stiffness == 0;
-        result.stiffness_certain = result.stiffness_certain && (neutral || std::abs(k) > off.stiffness);
+    const auto add = [&](const RigElement& e, bool mass_not_negative) {
+        result.pencil.elements.push_back(e.numbers);
+        result.pencil.errors.push_back(e.off);
+        const double k = static_cast<double>(e.numbers.stiffness), off = e.off.stiffness;
+        const bool neutral = k == 0 && off == 0;
+        result.stiffness_positive = result.stiffness_positive && k > off;
+        result.stiffness_certain = result.stiffness_certain && (neutral || std::abs(k) > off);
         result.not_positive += k > 0 ? 0 : 1, result.neutral += neutral ? 1 : 0;
         result.mass_not_negative = result.mass_not_negative && mass_not_negative;
     };
     for (Index m = 0; m < rig.size(); ++m) {
-        const RigLink& link = links[static_cast<std::size_t>(m)];
-        const double sign = rig.stands(m) ? -1 : 1, part = RigLink::error_part;
-        const linalg::SignedElement<S> e{link.tension / link.length * sign,
-                                         link.spin / link.length * sign * result.pace, link.lower, link.upper,
-                                         link.cross};
-        const linalg::SignedElementError<double> off{1.01 * part * link.size.tension / link.length.high,
-                                                     part * std::abs(e.spin.high), part * link.size.lower,
-                                                     part * link.size.upper, part * link.size.cross};
-        if (result.pencil.elements.empty() && detail::is_nothing(e, off)) {
+        RigElement e = rig_element(links[static_cast<std::size_t>(m)], rig.stands(m));
+        if (result.pencil.elements.empty() && detail::is_nothing(e)) {
             ++result.idle;
             continue;
         }
+        const bool spins = !(e.numbers.spin == S(0.0));
+        e.numbers.spin = e.numbers.spin * result.pace, e.off.spin *= result.pace.high;
         const bool plain =
             rig.flywheel(m).axial_moment == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
-        add(e, off, plain || detail::is_not_negative(e, off));
-        result.spins_held = result.spins_held && (link.spin == S(0.0) || detail::held_by(rig, m) == detail::Held::both);
+        add(e, plain || detail::is_not_negative(e.numbers, e.off));
+        result.spins_held = result.spins_held && (!spins || detail::held_by(rig, m) == detail::Held::both);
     }
-    if (const Support& support = rig.support(); !support.is_firm()) {
-        const double stiffness =
-            std::ldexp(support.stiffness, result.units.length_exponent - result.units.weight_exponent);
-        if (!(std::isfinite(stiffness) && stiffness > 0))
-            detail::refuse("rig_pencil", "the support's stiffness is too far from weight over length",
-                           support.stiffness);
-        add({S(stiffness), S(0.0), S(in_weights(support.carriage_weight)), S(0.0), S(0.0)}, {}, true);
-    }
+    if (const auto support = support_element(rig)) add(*support, true);
     result.inertialess = detail::inertialess_coordinates(rig) - result.idle;
     return result;
 }

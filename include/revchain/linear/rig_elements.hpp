@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+
+#include "revchain/chain/rig.hpp"
+#include "revchain/linalg/signed_pencil.hpp"
+
+namespace revchain {
+
+/// A link of a rig, or what yields at its support, as an element between two pins, and how far its numbers may be off.
+/// Stiffness at rest, and momentum over the square of the length as `spin`: times a speed it is stiffness.
+struct RigElement {
+    using S = Wide<double>;
+    linalg::SignedElement<S> numbers;
+    linalg::SignedElementError<double> off;
+};
+
+/// One link: stiffness and spin negative where it stands.
+inline RigElement rig_element(const RigLink& link, bool stands) {
+    constexpr double part = RigLink::error_part;
+    RigElement e{{link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross}, {}};
+    if (stands) e.numbers.stiffness = -e.numbers.stiffness, e.numbers.spin = -e.numbers.spin;
+    e.off = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.numbers.spin.high),
+             part * link.size.lower, part * link.size.upper, part * link.size.cross};
+    return e;
+}
+
+/// A support that yields: its spring, massless, with the carriage at its lower pin. None where it is firm.
+/// Throws InvalidArgument where its stiffness is beyond the range of weights over lengths.
+inline std::optional<RigElement> support_element(const Rig& rig) {
+    using S = RigElement::S;
+    const Support& support = rig.support();
+    if (support.is_firm()) return std::nullopt;
+    const ChainUnits units = rig.chain().units();
+    const double stiffness = std::ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
+    if (!(std::isfinite(stiffness) && stiffness > 0))
+        detail::refuse("Rig", "the support's stiffness is too far from weight over length", support.stiffness);
+    return RigElement{
+        {S(stiffness), S(0.0), S(std::ldexp(support.carriage_weight, -units.weight_exponent)), S(0.0), S(0.0)}, {}};
+}
+
+}  // namespace revchain
