@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <concepts>
+#include <limits>
+#include <string_view>
+
+#include "revchain/chain/chain.hpp"
+
+namespace revchain {
+
+/// What is asked of a chain: the conical heights of modes number `first`, ..., at small amplitude, each to a relative
+/// tolerance; 0: as accurate as there is.
+struct Question {
+    Index first = 1;  ///< number of the slowest mode wanted, from 1
+    Index count = 1;
+    double rtol = 0;
+
+    Index last() const { return first - 1 + count; }
+};
+
+/// Heights and what bounds their relative errors.
+struct Answer {
+    Vector<double> conical_height;
+    Vector<double> error_bound;
+    /// Whether the model had an answer after all.
+    bool found = true;
+
+    double worst_bound() const {
+        return error_bound.size() > 0 && found ? error_bound.maxCoeff() : std::numeric_limits<double>::infinity();
+    }
+};
+
+/// What the models have to know of a chain at once, without looking at each link. Cost O(1).
+struct ChainKind {
+    Index size = 0;
+    Index mode_count = 0;
+    bool equal = false;     ///< one number of each kind serves all links
+    bool plummets = false;  ///< equal plummets
+    bool rods = false;      ///< equal uniform rods
+    double length = 0;      ///< of the whole chain
+
+    explicit ChainKind(const Chain<double>& chain)
+        : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()) {
+        equal = chain.weight().is_scalar() && chain.length().is_scalar() && chain.centroid().is_scalar() &&
+                chain.gyration_ratio().is_scalar();
+        if (!equal) return;
+        const Link<double> link = chain.link(0);
+        plummets = link == plummet(link.weight, link.length);
+        rods = link == uniform_rod(link.weight, link.length);
+    }
+};
+
+/// Whether a model can answer, and if not why: a sentence that lives for ever.
+struct Fit {
+    bool applies = true;
+    std::string_view reason{};
+
+    static Fit no(std::string_view why) { return {false, why}; }
+};
+
+/// One theory or method: whether it applies to a question, how large its error can be (relative, of every height asked for;
+/// a bound, before anything is computed), what it costs (seconds, predicted), and its answer, with the bounds reached.
+template <class M>
+concept Model = requires(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
+    { M::name } -> std::convertible_to<std::string_view>;
+    { model.applies(kind, question) } -> std::same_as<Fit>;
+    { model.error_bound(kind, question) } -> std::same_as<double>;
+    { model.cost(kind, question) } -> std::same_as<double>;
+    { model.solve(chain, kind, question) } -> std::same_as<Answer>;
+};
+
+}  // namespace revchain

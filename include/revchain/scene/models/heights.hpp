@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/scene/models/closed_forms.hpp"
+#include "revchain/scene/models/coarse_chain.hpp"
+#include "revchain/scene/models/continuous_chain.hpp"
+#include "revchain/scene/models/equal_plummets.hpp"
+#include "revchain/scene/models/numerical.hpp"
+#include "revchain/scene/select.hpp"
+
+namespace revchain {
+
+/// All models for conical heights, in the order in which they are listed. The last always answers.
+inline constexpr std::tuple<models::ClosedForms, models::EqualPlummets, models::ContinuousChain, models::CoarseChain,
+                            models::AllTogether, models::Spectrum, models::Blocks, models::ElementBisection>
+    height_models{};
+
+/// `select` and `solve` among all of them.
+inline auto select(const Chain<double>& chain, const Question& question,
+                   std::optional<double> time_budget = std::nullopt) {
+    return select(height_models, chain, question, time_budget);
+}
+inline Solution solve(const Chain<double>& chain, const Question& question,
+                      std::optional<double> time_budget = std::nullopt) {
+    return solve(height_models, chain, question, time_budget);
+}
+
+}  // namespace revchain
