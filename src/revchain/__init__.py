@@ -46,6 +46,7 @@ from ._held import (
     held_shapes,
     taut_modes,
 )
+from ._models import Explanation, ModelEstimate, Solution, explain, solve
 from ._modes import Certificate, Modes
 from ._response import Response, SmallOscillation, response, small_oscillation
 from ._rig import Rig, driven_flywheel, free_flywheel
@@ -83,6 +84,7 @@ __all__ = [
     "ContinuousShape",
     "ContinuousShapes",
     "Derivatives",
+    "Explanation",
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
@@ -90,6 +92,7 @@ __all__ = [
     "HeldCordShape",
     "HeldShape",
     "HeldShapes",
+    "ModelEstimate",
     "Modes",
     "OtherModes",
     "Response",
@@ -100,6 +103,7 @@ __all__ = [
     "Sensitivity",
     "SkippingRope",
     "SmallOscillation",
+    "Solution",
     "Stability",
     "StabilityWindow",
     "SteadyShape",
@@ -107,9 +111,9 @@ __all__ = [
     "TautModes",
     "TortuousRope",
     "TransverseModes",
-    "WhirlModes",
     "Tuned",
     "Uncertainty",
+    "WhirlModes",
     "__version__",
     "bell_and_clapper",
     "branch",
@@ -121,6 +125,7 @@ __all__ = [
     "count_modes",
     "driven_flywheel",
     "elliptic",
+    "explain",
     "free_flywheel",
     "funicular_polygon",
     "heavy_chain",
@@ -133,8 +138,9 @@ __all__ = [
     "plummet",
     "recurrence_matrices",
     "response",
-    "small_oscillation",
     "rig_sensitivity",
+    "small_oscillation",
+    "solve",
     "steady_shape",
     "steady_shapes",
     "tapered_chain",

@@ -20,7 +20,7 @@ from ._exit_codes import ExitCode
 from ._files import written_aside
 from ._modes import Modes
 from ._progress import watched
-from ._report import NARROWEST, csv_text, json_text, table
+from ._report import NARROWEST, csv_text, json_of, json_text, table
 from ._response import Response
 from ._rig_modes import RigModes
 from ._scene_error import SceneError
@@ -125,6 +125,36 @@ def solve(
         wanted = asked.get("rtol")
         asked_for = "" if wanted is None else f": asked {wanted:g}, reached {found.error_bound.max():.1e}"
         raise Stop(f"the tolerance is not met{asked_for}", ExitCode.TOLERANCE_NOT_MET)
+
+
+@app.command(epilog=EXIT_CODES)
+@guarded
+def explain(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json).")],
+    rtol: Annotated[
+        float | None, typer.Option(metavar="X", help="Relative tolerance of the heights, instead of the scene's.")
+    ] = None,
+    time_budget: Annotated[float | None, typer.Option(metavar="S", help="The most time it may take, in seconds.")] = None,
+    json: Annotated[bool, typer.Option("--json", help="As JSON, on stdout.")] = False,
+) -> None:
+    """Say which model finds the scene's heights cheapest for a tolerance, and what others would cost."""
+    from ._models import explain as explain_models
+
+    given = load_scene(scene)
+    try:
+        why = explain_models(given, rtol=rtol, time_budget=time_budget)
+    except SceneError:
+        raise
+    except ValueError as error:
+        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+    title = given.title or scene.stem
+    if json:
+        sys.stdout.write(json_of({"title": title, **why.to_dict()}))
+    else:
+        print(title)
+        print(why)
+    if not why.meets_tolerance:
+        raise Stop(f"no model keeps the tolerance; the best bound is {why.chosen.error_bound:.1e}", ExitCode.TOLERANCE_NOT_MET)
 
 
 @app.command()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <limits>
 #include <string_view>
@@ -31,7 +32,7 @@ struct Answer {
     }
 };
 
-/// What the models have to know of a chain at once, without looking at each link. Cost O(1).
+/// What the models have to know of a chain at once. Cost O(1), but of equal links stored one by one, which are compared.
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
@@ -40,10 +41,18 @@ struct ChainKind {
     bool rods = false;      ///< equal uniform rods
     double length = 0;      ///< of the whole chain
 
+   private:
+    template <class V>
+    static bool is_one(const Column<V>& column) {
+        const V* const numbers = column.data();
+        return std::all_of(numbers, numbers + column.stored(), [&](const V& x) { return x == numbers[0]; });
+    }
+
+   public:
     explicit ChainKind(const Chain<double>& chain)
         : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()) {
-        equal = chain.weight().is_scalar() && chain.length().is_scalar() && chain.centroid().is_scalar() &&
-                chain.gyration_ratio().is_scalar();
+        equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
+                is_one(chain.gyration_ratio());
         if (!equal) return;
         const Link<double> link = chain.link(0);
         plummets = link == plummet(link.weight, link.length);

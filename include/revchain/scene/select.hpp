@@ -49,9 +49,7 @@ inline void check(const ChainKind& kind, const Question& question) {
 }
 
 /// The tolerance to be kept; where none is said, what any chain's heights can be had to in double: 2 ulp.
-inline double goal(const Question& question) {
-    return question.rtol > 0 ? question.rtol : 2.001 * epsilon<double>();
-}
+inline double goal(const Question& question) { return question.rtol > 0 ? question.rtol : 2.001 * epsilon<double>(); }
 
 template <Model... Models>
 std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& models, const ChainKind& kind,

@@ -21,7 +21,7 @@ struct ContinuousChain {
         return bound(kind, zero_of_j0(question.last()));
     }
     double cost(const ChainKind&, const Question& question) const {
-        return 1e-8 + 5e-9 * static_cast<double>(question.count);
+        return 8e-8 + 1.2e-8 * static_cast<double>(question.count);
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};

@@ -37,7 +37,10 @@ struct ElementBisection {
     Fit applies(const ChainKind&, const Question&) const { return {}; }
     double error_bound(const ChainKind&, const Question&) const { return bound; }
     double cost(const ChainKind& kind, const Question& question) const {
-        return 2e-6 + detail::real(kind.size) * (3e-8 + 2.6e-7 * detail::real(question.count));
+        // with a loose tolerance no double words, and a few halvings for each digit
+        const bool loose = question.rtol > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
+        const double each = loose ? 2e-8 + 4.5e-9 * std::max(0.0, -std::log10(question.rtol)) : 2.9e-7;
+        return 8e-7 + detail::real(kind.size) * (1.6e-7 + each * detail::real(question.count));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         return detail::by(chain, question, ModesMethod::bisection, "bisection");
@@ -56,7 +59,8 @@ struct Blocks {
     }
     double error_bound(const ChainKind&, const Question&) const { return bound; }
     double cost(const ChainKind& kind, const Question& question) const {
-        return 3e-5 + 2e-9 * detail::real(kind.size) + 2.2e-5 * detail::real(question.last());
+        const double count = detail::real(question.count);
+        return 3e-5 + 1.7e-9 * detail::real(kind.size) + 5e-5 * count * (1 + count / 20);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         return detail::by(chain, question, ModesMethod::blocks, "blocks");
@@ -76,7 +80,7 @@ struct AllTogether {
     double error_bound(const ChainKind&, const Question&) const { return bound; }
     double cost(const ChainKind& kind, const Question&) const {
         const double n = detail::real(kind.size);
-        return 3e-7 + 2e-8 * n + 3e-9 * n * n;
+        return 4e-7 + 2.6e-8 * n + 4e-9 * n * n;
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         Question loose = question;
@@ -100,7 +104,7 @@ struct Spectrum {
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double each = question.rtol >= loose ? 2.5e-9 : 5e-9;
-        return 1e-5 + detail::real(kind.size) * (5e-8 + each * detail::real(question.count));
+        return 2.5e-5 + detail::real(kind.size) * (5e-7 + each * detail::real(question.count));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         return detail::by(chain, question, ModesMethod::spectrum, "spectrum");
