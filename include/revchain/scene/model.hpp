@@ -10,12 +10,13 @@
 
 namespace revchain {
 
-/// What is asked of a chain: the conical heights of modes number `first`, ..., at small amplitude, each to a relative
-/// tolerance; 0: as accurate as there is.
+/// What is asked of a chain: the conical heights of modes number `first`, ..., each to a relative tolerance; 0: as accurate as
+/// there is.
 struct Question {
     Index first = 1;  ///< number of the slowest mode wanted, from 1
     Index count = 1;
     double rtol = 0;
+    double inclination = 0;  ///< of the lowest link, rad, below a right angle: of the shape that grows out of the mode
 
     Index last() const { return first - 1 + count; }
 };
@@ -26,6 +27,7 @@ struct Answer {
     Vector<double> error_bound;
     /// Whether the model had an answer after all.
     bool found = true;
+    Vector<double> conical_height_low{};  ///< what a double cannot hold of the heights; empty where it is not known
 
     double worst_bound() const {
         return error_bound.size() > 0 && found ? error_bound.maxCoeff() : std::numeric_limits<double>::infinity();
@@ -78,5 +80,26 @@ concept Model = requires(const M& model, const Chain<double>& chain, const Chain
     { model.cost(kind, question) } -> std::same_as<double>;
     { model.solve(chain, kind, question) } -> std::same_as<Answer>;
 };
+
+/// Whether a model is of the theory of small inclinations, as all are that do not say otherwise.
+template <class M>
+constexpr bool is_linear() {
+    if constexpr (requires { M::is_linear; })
+        return M::is_linear;
+    else
+        return true;
+}
+
+/// How far the theory of small inclinations is off where the lowest link has one that is not: at most 1/cos - 1, if no
+/// link leans more than the lowest. Offsets of a shape are those of a mode of the straight chain with links as long as they
+/// reach down (`transferred_to_axis`), and no link made longer as a whole lowers a height. Of equal links the slowest third of
+/// the modes, and one, are steepest at the free end (measured: tests/cpp/scene/models.cpp); infinite of others.
+inline double error_of_small_inclinations(const ChainKind& kind, const Question& question) {
+    if (!(question.inclination > 0)) return 0;
+    if (!(kind.plummets || kind.rods) || question.last() > std::max<Index>(1, kind.size / 3))
+        return std::numeric_limits<double>::infinity();
+    const double sine = std::sin(question.inclination / 2);
+    return 2 * sine * sine / std::cos(question.inclination) * (1 + 1e-15);
+}
 
 }  // namespace revchain

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -46,6 +47,8 @@ inline void check(const ChainKind& kind, const Question& question) {
         refuse("select", "there are " + std::to_string(kind.mode_count) + " modes, asked was for number",
                question.last());
     if (!(question.rtol >= 0)) refuse("select", "rtol must not be negative or NaN", question.rtol);
+    if (!(question.inclination >= 0 && question.inclination < std::numbers::pi / 2))
+        refuse("select", "inclination must be at least 0 and less than a right angle", question.inclination);
 }
 
 /// The tolerance to be kept; where none is said, what any chain's heights can be had to in double: 2 ulp.
@@ -54,10 +57,14 @@ inline double goal(const Question& question) { return question.rtol > 0 ? questi
 template <Model... Models>
 std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& models, const ChainKind& kind,
                                                   const Question& question) {
-    const auto of = [&](const auto& model) {
+    const double off = error_of_small_inclinations(kind, question);
+    const auto of = [&]<class M>(const M& model) {
         Estimate estimate{model.name, model.applies(kind, question)};
-        if (estimate.fit.applies)
-            estimate.error_bound = model.error_bound(kind, question), estimate.cost = model.cost(kind, question);
+        if (estimate.fit.applies && is_linear<M>() && !(off < 1))
+            estimate.fit = Fit::no("of small inclinations; how far that is off is not known here");
+        if (!estimate.fit.applies) return estimate;
+        estimate.error_bound = model.error_bound(kind, question), estimate.cost = model.cost(kind, question);
+        if (is_linear<M>()) estimate.error_bound += off;
         return estimate;
     };
     return std::apply([&](const Models&... each) { return std::array<Estimate, sizeof...(Models)>{of(each)...}; },
@@ -87,11 +94,13 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
              const Question& question) {
     Answer answer;
     std::size_t i = 0;
-    std::apply(
-        [&](const Models&... each) {
-            ((i++ == number ? void(answer = each.solve(chain, kind, question)) : void()), ...);
-        },
-        models);
+    const auto ask = [&]<class M>(const M& model) {
+        if (i++ != number) return;
+        answer = model.solve(chain, kind, question);
+        if (is_linear<M>() && question.inclination > 0)
+            answer.error_bound.array() += error_of_small_inclinations(kind, question);
+    };
+    std::apply([&](const Models&... each) { (ask(each), ...); }, models);
     return answer;
 }
 

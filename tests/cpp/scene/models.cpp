@@ -162,9 +162,9 @@ TEST_CASE("a budget of time, what cannot be had, and wrong questions") {
     CHECK(best.status == Status::tolerance_not_met);
     CHECK(best.answer.worst_bound() < 2e-9);
     CHECK(solve(rods, {.count = 3, .rtol = 1e-12}).status == Status::success);
-    const Solution beyond = solve(rods, {.count = 3, .rtol = 1e-17});
+    const Solution beyond = solve(Chain<double>::uniform_rods(100), {.count = 3, .rtol = 1e-40});
     CHECK(beyond.status == Status::tolerance_not_met);
-    CHECK(beyond.answer.worst_bound() <= 4.5e-16);
+    CHECK(beyond.answer.worst_bound() <= 1e-24);
     CHECK(solve(rods, {.count = 3}).status == Status::success);  // as accurate as there is
     CHECK(select(rods, {.count = 3, .rtol = 0.5}, 1e-12).estimates.size() ==
           std::tuple_size_v<decltype(height_models)>);
@@ -174,4 +174,56 @@ TEST_CASE("a budget of time, what cannot be had, and wrong questions") {
     CHECK_THROWS_AS(select(rods, {.rtol = -1.0}), InvalidArgument);
     CHECK_THROWS_AS(select(rods, {.rtol = std::nan("")}), InvalidArgument);
     CHECK_THROWS_AS(select(rods, {.rtol = 0.1}, 0.0), InvalidArgument);
+}
+
+TEST_CASE("tolerances below an ulp: double-double, heights in two parts") {
+    Random random(34);
+    for (int i = 0; i < 30; ++i) {
+        const Chain<double> chain = random_chain(random, static_cast<Index>(random.log_between(1, 200)));
+        const Question question{.first = 1, .count = std::min<Index>(chain.mode_count(), 3), .rtol = 1e-20};
+        const Solution found = solve(chain, question);
+        CAPTURE(i, chain.size());
+        REQUIRE(found.model == models::TwoWords::name);
+        REQUIRE(found.status == Status::success);
+        REQUIRE(found.answer.conical_height_low.size() == question.count);
+        const Modes<double> rounded = modes(chain, {.count = question.count, .shapes = false});
+        for (Index j = 0; j < question.count; ++j) {
+            REQUIRE(std::abs(found.answer.conical_height[j] / rounded.conical_height[j] - 1) <= 0x1p-52);
+            REQUIRE(std::abs(found.answer.conical_height_low[j]) <= 0x1p-53 * found.answer.conical_height[j]);
+        }
+    }
+}
+
+TEST_CASE("at an inclination: the theory of small ones is off by no more than it says, or gives way") {
+    double worst = 0, steepest = 0;
+    for (const bool rods : {false, true})
+        for (const Index n : {1, 2, 3, 4, 6, 10, 30}) {
+            const auto chain = rods ? Chain<double>::uniform_rods(n, 2.0) : Chain<double>::uniform_plummets(n, 2.0);
+            for (Index mode = 1; mode <= std::min<Index>(n, 4); ++mode)
+                for (const double inclination : {1e-4, 0.01, 0.1, 0.3, 0.7, 1.1, 1.4}) {
+                    const ShapesOnBranch exact = shapes_on_branch(chain, mode, {.tip_inclination = inclination});
+                    if (exact.shapes.empty()) continue;
+                    const SteadyShape& shape = exact.shapes.front();
+                    if (mode == 1 || 3 * mode <= n)
+                        steepest = std::max(steepest, shape.inclination.cwiseAbs().maxCoeff() / inclination);
+                    CAPTURE(rods, n, mode, inclination);
+                    for (const double rtol : {0.5, 1e-2, 1e-5, 1e-10}) {
+                        const Solution found = solve(chain, {.first = mode, .rtol = rtol, .inclination = inclination});
+                        const double error = std::abs(found.answer.conical_height[0] / shape.conical_height - 1);
+                        CAPTURE(rtol, found.model, error);
+                        REQUIRE(error <= found.answer.error_bound[0] + 4e-16);
+                        if (found.status == Status::success) REQUIRE(found.answer.error_bound[0] <= rtol);
+                        if (rtol > 1e-6) REQUIRE(found.status == Status::success);
+                        worst = std::max(worst, error / found.answer.error_bound[0]);
+                    }
+                }
+        }
+    CAPTURE(worst, steepest);
+    CHECK(steepest <= 1 + 1e-12);
+    CHECK(worst > 0.2);
+    Random random(35);
+    const Chain<double> unlike = random_chain(random, 5);
+    CHECK(solve(unlike, {.rtol = 1e-3, .inclination = 0.01}).model == models::FiniteAmplitude::name);
+    CHECK_THROWS_AS(select(unlike, {.inclination = 1.6}), InvalidArgument);
+    CHECK_THROWS_AS(select(unlike, {.inclination = -0.1}), InvalidArgument);
 }
