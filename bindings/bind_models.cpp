@@ -10,8 +10,9 @@ using Chain = revchain::Chain<double>;
 using revchain::Index;
 
 /// (name, reason or None, error bound, cost) of each model, the number chosen, whether it keeps the tolerance.
-py::tuple selected(const Chain& chain, Index first, Index count, double rtol, std::optional<double> time_budget) {
-    const auto choice = revchain::select(chain, {first, count, rtol}, time_budget);
+py::tuple selected(const Chain& chain, Index first, Index count, double rtol, double inclination,
+                   std::optional<double> time_budget) {
+    const auto choice = revchain::select(chain, {first, count, rtol, inclination}, time_budget);
     py::list rows;
     for (const revchain::Estimate& estimate : choice.estimates)
         rows.append(py::make_tuple(estimate.name,
@@ -21,25 +22,30 @@ py::tuple selected(const Chain& chain, Index first, Index count, double rtol, st
 }
 
 py::tuple answered(const revchain::Solution& found) {
-    return py::make_tuple(to_numpy(found.answer.conical_height), to_numpy(found.answer.error_bound), found.model,
+    const py::object low = found.answer.conical_height_low.size() > 0
+                               ? py::object(to_numpy(found.answer.conical_height_low))
+                               : py::object(py::none());
+    return py::make_tuple(to_numpy(found.answer.conical_height), to_numpy(found.answer.error_bound), low, found.model,
                           std::string(to_string(found.status)));
 }
 
-py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol, std::optional<double> time_budget) {
+py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol, double inclination,
+                      std::optional<double> time_budget) {
     revchain::Solution found;
     {
         const py::gil_scoped_release release;
-        found = revchain::solve(chain, {first, count, rtol}, time_budget);
+        found = revchain::solve(chain, {first, count, rtol, inclination}, time_budget);
     }
     return answered(found);
 }
 
 /// By the model of that name, which need not be the cheapest; the name is known.
-py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, const std::string& model) {
+py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, double inclination,
+                    const std::string& model) {
     revchain::Solution found;
     {
         const py::gil_scoped_release release;
-        found = revchain::solve_by(model, chain, {first, count, rtol});
+        found = revchain::solve_by(model, chain, {first, count, rtol, inclination});
     }
     return answered(found);
 }
@@ -51,7 +57,7 @@ void bind_models(py::module_& module) {
     std::apply([&](const auto&... models) { (names.append(py::str(models.name.data(), models.name.size())), ...); },
                revchain::height_models);
     module.attr("MODELS") = py::tuple(names);
-    module.def("select", &selected, "chain"_a, "first"_a, "count"_a, "rtol"_a, "time_budget"_a);
-    module.def("solve", &solved_best, "chain"_a, "first"_a, "count"_a, "rtol"_a, "time_budget"_a);
-    module.def("solve_by", &solved_by, "chain"_a, "first"_a, "count"_a, "rtol"_a, "model"_a);
+    module.def("select", &selected, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);
+    module.def("solve", &solved_best, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);
+    module.def("solve_by", &solved_by, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "model"_a);
 }

@@ -134,7 +134,12 @@ def explain(
     rtol: Annotated[
         float | None, typer.Option(metavar="X", help="Relative tolerance of the heights, instead of the scene's.")
     ] = None,
-    time_budget: Annotated[float | None, typer.Option(metavar="S", help="The most time it may take, in seconds.")] = None,
+    inclination: Annotated[
+        float, typer.Option(metavar="A", help="Of the lowest link, in rad: of the shapes that grow out of the modes.")
+    ] = 0.0,
+    time_budget: Annotated[
+        float | None, typer.Option(metavar="S", help="The most time it may take, in seconds.")
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="As JSON, on stdout.")] = False,
 ) -> None:
     """Say which model finds the scene's heights cheapest for a tolerance, and what others would cost."""
@@ -142,7 +147,7 @@ def explain(
 
     given = load_scene(scene)
     try:
-        why = explain_models(given, rtol=rtol, time_budget=time_budget)
+        why = explain_models(given, rtol=rtol, inclination=inclination, time_budget=time_budget)
     except SceneError:
         raise
     except ValueError as error:
@@ -154,7 +159,9 @@ def explain(
         print(title)
         print(why)
     if not why.meets_tolerance:
-        raise Stop(f"no model keeps the tolerance; the best bound is {why.chosen.error_bound:.1e}", ExitCode.TOLERANCE_NOT_MET)
+        raise Stop(
+            f"no model keeps the tolerance; the best bound is {why.chosen.error_bound:.1e}", ExitCode.TOLERANCE_NOT_MET
+        )
 
 
 @app.command()

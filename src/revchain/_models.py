@@ -33,6 +33,8 @@ class Solution(Record):
         Of the modes asked for, descending, in the unit of the chain's lengths.
     error_bound : ndarray, shape (k,)
         Of each, relative: no height is farther from the exact one of the stored numbers.
+    conical_height_low : ndarray, shape (k,), or None
+        What a double cannot hold of the heights, where the model knows: `error_bound` is then of the sum.
     model : str
         Who answered; one of those that `explain` lists.
     status : str
@@ -48,6 +50,7 @@ class Solution(Record):
 
     conical_height: Floats
     error_bound: Floats
+    conical_height_low: Floats | None
     model: str
     status: str
     rtol: float
@@ -159,6 +162,7 @@ def solve(
     *,
     first: int | None = None,
     rtol: float | None = None,
+    inclination: float = 0.0,
     time_budget: float | None = None,
     model: str | None = None,
     gravity: float | None = None,
@@ -175,6 +179,8 @@ def solve(
         Number of the slowest mode wanted, 1 if left out.
     rtol : float, optional
         Relative tolerance of the heights; as accurate as there is in double (2 ulp) if left out.
+    inclination : float, optional
+        Of the lowest link, rad, below a right angle: of the shape that grows out of the mode. 0: small.
     time_budget : float, optional
         In seconds: the most accurate model that is expected to need no more, where none keeps the tolerance.
     model : str, optional
@@ -193,8 +199,8 @@ def solve(
     TypeError
         If `what` is none of these.
     ValueError
-        For modes that are not there, a tolerance that is negative or NaN, a budget that is not positive, a name that no
-        model has.
+        For modes that are not there, a tolerance that is negative or NaN, a budget that is not positive, an inclination that
+        is negative or a right angle, a name that no model has.
 
     Notes
     -----
@@ -209,22 +215,27 @@ def solve(
     Solution: 3 heights by continuous chain, error below 1.1e-09, success
     >>> rc.solve(rods, 3).model
     'compressed blocks'
+    >>> [rc.solve(rc.Chain.uniform_rods(9), rtol=r, inclination=0.2).model for r in (0.1, 1e-3)]
+    ['continuous chain', 'finite amplitude']
     """
     place = "revchain.solve"
     hung, k, n, tolerance, g = _asked(place, what, count, first, rtol, gravity)
     budget = None if time_budget is None else one_positive(place, "time_budget", time_budget)
+    lean = real(place, "inclination", inclination)
+    if isinstance(hung, Rig) and lean != 0:
+        raise ValueError(f"{place}: inclination is for a chain alone, got a Rig")
     if isinstance(hung, Rig):
         found = modes(hung, modes=range(k, k + n), gravity=g, shapes=False)
         met = tolerance == 0 or bool(np.all(found.error_bound <= tolerance))
         status = found.status if found.status != "success" or met else "tolerance_not_met"
-        return Solution(found.conical_height, found.error_bound, RIG_MODEL, status, tolerance, k, g)
+        return Solution(found.conical_height, found.error_bound, None, RIG_MODEL, status, tolerance, k, g)
     core = compiled(place, hung)
     if model is None:
-        answer = _core.solve(core, k, n, tolerance, budget)
+        answer = _core.solve(core, k, n, tolerance, lean, budget)
     elif not isinstance(model, str) or model not in _core.MODELS:
         raise ValueError(f"{place}: model must be one of {', '.join(_core.MODELS)}, got {shown(model)}")
     else:
-        answer = _core.solve_by(core, k, n, tolerance, model)
+        answer = _core.solve_by(core, k, n, tolerance, lean, model)
     return Solution(*answer, tolerance, k, g)
 
 
@@ -234,6 +245,7 @@ def explain(
     *,
     first: int | None = None,
     rtol: float | None = None,
+    inclination: float = 0.0,
     time_budget: float | None = None,
 ) -> Explanation:
     """Say which model `solve` would take for the same question, and what the others would cost.
@@ -243,7 +255,7 @@ def explain(
     what : Scene, Chain or Rig
         As for `solve`, like the rest.
     count, first : int, optional
-    rtol, time_budget : float, optional
+    rtol, inclination, time_budget : float, optional
 
     Returns
     -------
@@ -264,11 +276,14 @@ def explain(
     place = "revchain.explain"
     hung, k, n, tolerance, _ = _asked(place, what, count, first, rtol, None)
     budget = None if time_budget is None else one_positive(place, "time_budget", time_budget)
+    lean = real(place, "inclination", inclination)
+    if isinstance(hung, Rig) and lean != 0:
+        raise ValueError(f"{place}: inclination is for a chain alone, got a Rig")
     if isinstance(hung, Rig):
         each = 1e-6 * hung.size * n * (1 + bool(np.any(hung.momentum)))
         row = ModelEstimate(RIG_MODEL, True, "", 2.0**-52, each, True)
         return Explanation((row,), tolerance == 0 or tolerance >= 2.0**-52, tolerance)
-    rows, chosen, met = _core.select(compiled(place, hung), k, n, tolerance, budget)
+    rows, chosen, met = _core.select(compiled(place, hung), k, n, tolerance, lean, budget)
     return Explanation(
         tuple(
             ModelEstimate(name, reason is None, reason or "", bound, cost, i == chosen)
