@@ -46,9 +46,7 @@ def sweep(
     workers: Annotated[
         int | None, typer.Option(metavar="K", min=1, help="Threads, or processes of the local cluster.")
     ] = None,
-    chunk: Annotated[
-        int | None, typer.Option(metavar="K", min=1, help="Points computed, and kept, together.")
-    ] = None,
+    chunk: Annotated[int | None, typer.Option(metavar="K", min=1, help="Points computed, and kept, together.")] = None,
     check: Annotated[bool, typer.Option("--check", help="Only say what would be computed.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No summary, no progress bar.")] = False,
 ) -> None:
@@ -102,7 +100,10 @@ def _plan(study: Study, source: str) -> list[str]:
             ends = [value if isinstance(value, str) else f"{value:g}" for value in axis.values[[0, -1]].tolist()]
             what = f"{axis.values.size:,} values, {ends[0]} to {ends[1]}"
         lines.append(f"  {axis.name}: {what}")
-    columns = [f"{block.columns[0]} … {block.columns[-1]}" if len(block.columns) > 1 else block.columns[0] for block in plan.blocks]
+    columns = [
+        f"{block.columns[0]} … {block.columns[-1]}" if len(block.columns) > 1 else block.columns[0]
+        for block in plan.blocks
+    ]
     return [*lines, *(f"  finds {column}" for column in columns)]
 
 

@@ -15,13 +15,14 @@ from msgspec import UNSET
 from numpy.typing import NDArray
 
 from . import _scene_file
-from ._arguments import Whole
+from ._arguments import Whole, read_only
 from ._scene_error import SceneError
 from ._study_paths import Path, path_of, quantity_of
 from ._study_tables import Vary
 from ._units import si_value
 
-BLOCK = 4096  # random numbers are drawn in blocks of so many points, each from a stream of its own
+BLOCK = 16384  # random numbers are drawn in blocks of so many points, each from a stream of its own
+MOST_STEPS = 10**7
 
 Values = NDArray[Any]
 
@@ -106,8 +107,8 @@ class _Numbers:
                 raise self.error(key, "is missing")
         assert isinstance(table.steps, int)
         low, high = self.number("from", table.first), self.number("to", table.last)
-        if table.steps > 10**8:
-            raise self.error("steps", f"must be at most 100,000,000, got {table.steps}")
+        if table.steps > MOST_STEPS:
+            raise self.error("steps", f"must be at most {MOST_STEPS:,}, got {table.steps:,}")
         if table.log and not (low > 0 and high > 0):
             raise self.error("log", "needs from and to that are positive")
         values = np.geomspace(low, high, table.steps) if table.log else np.linspace(low, high, table.steps)
@@ -151,11 +152,11 @@ def shape_of(axes: Sequence[Axis], samples: int) -> tuple[int, ...]:
 def values_at(axes: Sequence[Axis], samples: int, seed: int, start: int, stop: int) -> list[Values]:
     """Of each axis, its number at the points start <= k < stop."""
     shape = shape_of(axes, samples)
-    places: list[Whole] = list(np.unravel_index(np.arange(start, stop), shape))  # type: ignore[arg-type]
+    places: list[Whole] = []
+    if any(axis.values is not None for axis in axes):
+        places = list(np.unravel_index(np.arange(start, stop), shape))  # type: ignore[arg-type]
     grids = iter(places)
-    return [
-        axis.values[next(grids)] if axis.values is not None else _drawn(axis, seed, start, stop) for axis in axes
-    ]
+    return [axis.values[next(grids)] if axis.values is not None else _drawn(axis, seed, start, stop) for axis in axes]
 
 
 def _drawn(axis: Axis, seed: int, start: int, stop: int) -> Values:
@@ -172,10 +173,9 @@ def _drawn(axis: Axis, seed: int, start: int, stop: int) -> Values:
 
 @lru_cache(maxsize=64)
 def _block(law: str, one: float, two: float, seed: int, stream: int, block: int) -> Values:
-    random = np.random.Generator(np.random.Philox(np.random.SeedSequence(seed, spawn_key=(stream, block))))
+    random = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(stream, block))))
     if law == "normal":
-        return random.normal(one, two, BLOCK)
-    share = random.random(BLOCK)
+        return read_only(random.normal(one, two, BLOCK))
     if law == "uniform":
-        return one + (two - one) * share
-    return np.asarray(np.exp(math.log(one) + (math.log(two) - math.log(one)) * share))
+        return read_only(random.uniform(one, two, BLOCK))
+    return read_only(np.exp(random.uniform(math.log(one), math.log(two), BLOCK)))

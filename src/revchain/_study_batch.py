@@ -46,85 +46,94 @@ def goes_in_batches(scene: Scene, paths: list[Path]) -> bool:
         table = scene.uniform_chain
         return table.tip_mass is UNSET and table.tip_weight is UNSET
     assert isinstance(scene.links, list)
-    return not any(
-        link.clamped or link.tip_mass is not UNSET or link.tip_weight is not UNSET for link in scene.links
-    )
+    return not any(link.clamped or link.tip_mass is not UNSET or link.tip_weight is not UNSET for link in scene.links)
 
 
-def gravity_at(scene: Scene, points: Points) -> float | Floats:
-    """One for all points, or that of each."""
-    return points.get(("gravity",), scene.gravity_value())
+class LinkColumns:
+    """The numbers of the links of many points, for `revchain.conical_heights`; one thread's own.
 
-
-def links_at(scene: Scene, points: Points) -> dict[str, Floats]:
-    """Weight, length and, of links that are not all plummets, centroid and radius of gyration.
-
-    Of shape (N,) where all points have the same, else (points, N). The same operations as for one scene,
-    in the same order: the numbers are the same to the last bit.
+    The same operations as for one scene, in the same order: the numbers are the same to the last bit.
     """
-    gravity = gravity_at(scene, points)
-    if isinstance(scene.uniform_chain, UniformChain):
-        tables: list[Any] = [scene.uniform_chain]
-        bodies = [_uniform(scene.uniform_chain, gravity, points)]
-        repeats = [scene.uniform_chain.count]
-    else:
-        assert isinstance(scene.links, list)
-        tables = scene.links
-        bodies = [_body(link, index, gravity, points) for index, link in enumerate(tables)]
-        repeats = [link.repeat for link in tables]
-    names = ("weight", "length", "centroid", "radius_of_gyration")
-    if all(plummet for *_, plummet in bodies):
-        names = names[:2]
-    firsts = np.cumsum([0, *repeats])
-    columns = {}
-    for k, name in enumerate(names):
-        varied = [np.ndim(body[k]) > 0 for body in bodies]
-        size = next((len(body[k]) for body, each in zip(bodies, varied, strict=True) if each), None)
-        column = np.empty((firsts[-1],) if size is None else (size, firsts[-1]))
-        for body, first, last, each in zip(bodies, firsts[:-1], firsts[1:], varied, strict=True):
-            column[..., first:last] = body[k][:, np.newaxis] if each else body[k]
-        columns[name] = column
-    return columns
 
+    def __init__(self, scene: Scene, most: int) -> None:
+        self._scene = scene
+        self._most = most  # points asked for at once
+        self._numbers: dict[Path, float] = {}
+        self._memory: dict[str, Floats] = {}
+        if isinstance(scene.uniform_chain, UniformChain):
+            repeats = [scene.uniform_chain.count]
+        else:
+            repeats = [link.repeat for link in scene.links]  # type: ignore[union-attr]
+        self._firsts = np.cumsum([0, *repeats]).tolist()
 
-def _of(table: Any, key: str, path: Path, quantity: str, points: Points) -> Any:
-    """The number of a key of a table: of each point, or the table's own."""
-    if path in points:
-        return points[path]
-    return Numbers("scene", "").value(key, getattr(table, key), quantity, "any")
+    def at(self, points: Points) -> dict[str, Floats]:
+        """Weight, length and, of links that are not all plummets, centroid and radius of gyration.
 
+        Of shape (N,) where all points have the same, else (points, N); valid until the next call.
+        """
+        bodies = self._bodies(points)
+        names = ("weight", "length", "centroid", "radius_of_gyration")
+        if all(plummet for *_, plummet in bodies):
+            names = names[:2]
+        return {name: self._column(name, [body[k] for body in bodies]) for k, name in enumerate(names)}
 
-def _weight(table: Any, place: Path, gravity: Any, points: Points) -> Any:
-    if table.weight is not UNSET:
-        return _of(table, "weight", (*place, "weight"), "weight", points)
-    return _of(table, "mass", (*place, "mass"), "mass", points) * gravity
+    def _column(self, name: str, parts: list[Any]) -> Floats:
+        """Parts that do not vary are written once."""
+        size = next((len(part) for part in parts if np.ndim(part)), None)
+        column = self._memory.get(name)
+        if column is None:
+            column = np.empty((1 if size is None else self._most, self._firsts[-1]))
+            for part, first, last in zip(parts, self._firsts[:-1], self._firsts[1:], strict=True):
+                if not np.ndim(part):
+                    column[:, first:last] = part
+            self._memory[name] = column
+        if size is None:
+            return column[0]
+        for part, first, last in zip(parts, self._firsts[:-1], self._firsts[1:], strict=True):
+            if np.ndim(part):
+                column[:size, first:last] = part[:, np.newaxis]
+        return column[:size]
 
+    def _bodies(self, points: Points) -> list[tuple[Any, Any, Any, Any, bool]]:
+        """Weight, length, centroid, radius of gyration of each table, and whether it is of plummets."""
+        gravity = self._of(self._scene, (), "gravity", "gravity", points)
+        if isinstance(self._scene.uniform_chain, UniformChain):
+            return [self._uniform(self._scene.uniform_chain, gravity, points)]
+        assert isinstance(self._scene.links, list)
+        return [self._body(link, ("links", index), gravity, points) for index, link in enumerate(self._scene.links)]
 
-def _uniform(table: UniformChain, gravity: Any, points: Points) -> tuple[Any, Any, Any, Any, bool]:
-    place = ("uniform_chain",)
-    length = _of(table, "length", (*place, "length"), "length", points) / table.count
-    weight = _weight(table, place, gravity, points) / table.count
-    if table.kind == "rods":
-        return weight, length, length / 2, length / math.sqrt(12), False
-    return weight, length, length, 0.0, True
+    def _of(self, table: Any, place: Path, key: str, quantity: str, points: Points) -> Any:
+        """The number of a key of a table: of each point, or the table's own."""
+        path = (*place, key)
+        if path in points:
+            return points[path]
+        if path not in self._numbers:
+            self._numbers[path] = Numbers("scene", "").value(key, getattr(table, key), quantity, "any")
+        return self._numbers[path]
 
+    def _weight(self, table: Any, place: Path, gravity: Any, points: Points) -> Any:
+        if table.weight is not UNSET:
+            return self._of(table, place, "weight", "weight", points)
+        return self._of(table, place, "mass", "mass", points) * gravity
 
-def _body(link: Link, index: int, gravity: Any, points: Points) -> tuple[Any, Any, Any, Any, bool]:
-    """Weight, length, centroid, radius of gyration, and whether it is a plummet."""
-    place = ("links", index)
-
-    def of(key: str) -> Any:
-        return _of(link, key, (*place, key), "length", points)
-
-    length = of("length")
-    weight = _weight(link, place, gravity, points)
-    if link.kind == "rod":
-        return weight, length, length / 2, length / math.sqrt(12), False
-    if link.centroid is UNSET:
+    def _uniform(self, table: UniformChain, gravity: Any, points: Points) -> tuple[Any, Any, Any, Any, bool]:
+        place = ("uniform_chain",)
+        length = self._of(table, place, "length", "length", points) / table.count
+        weight = self._weight(table, place, gravity, points) / table.count
+        if table.kind == "rods":
+            return weight, length, length / 2, length / math.sqrt(12), False
         return weight, length, length, 0.0, True
-    centroid = of("centroid")
-    if link.radius_of_gyration is not UNSET:
-        return weight, length, centroid, of("radius_of_gyration"), False
-    squared = centroid * (of("pendulum_length") - centroid)
-    with np.errstate(invalid="ignore"):
-        return weight, length, centroid, np.sqrt(squared), False
+
+    def _body(self, link: Link, place: Path, gravity: Any, points: Points) -> tuple[Any, Any, Any, Any, bool]:
+        length = self._of(link, place, "length", "length", points)
+        weight = self._weight(link, place, gravity, points)
+        if link.kind == "rod":
+            return weight, length, length / 2, length / math.sqrt(12), False
+        if link.centroid is UNSET:
+            return weight, length, length, 0.0, True
+        centroid = self._of(link, place, "centroid", "length", points)
+        if link.radius_of_gyration is not UNSET:
+            return weight, length, centroid, self._of(link, place, "radius_of_gyration", "length", points), False
+        squared = centroid * (self._of(link, place, "pendulum_length", "length", points) - centroid)
+        with np.errstate(invalid="ignore"):
+            return weight, length, centroid, np.sqrt(squared), False

@@ -43,10 +43,9 @@ class Block:
     along: str = ""
     labels: tuple[int, ...] = ()
 
-    def empty(self, points: int) -> NDArray[Any]:
-        """Nothing found, yet."""
-        shape = (points, len(self.labels)) if self.along else (points,)
-        return np.full(shape, np.nan if self.kind == "f8" else 0, dtype=self.kind)
+    def memory(self, points: int) -> NDArray[Any]:
+        """An array for so many points, with whatever lies there."""
+        return np.empty((points, len(self.labels)) if self.along else points, dtype=self.kind)
 
     @property
     def columns(self) -> list[str]:

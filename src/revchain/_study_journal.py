@@ -87,8 +87,8 @@ class Journal:
         arrays = {**stretch.arrays, "status": stretch.status}
         header = {
             "fingerprint": self.fingerprint,
+            "points": [stretch.start, stretch.stop],
             "arrays": [[name, array.dtype.str, array.shape] for name, array in arrays.items()],
-            "refused": {str(point): sentence for point, sentence in stretch.refused.items()},
         }
         parts = [json.dumps(header).encode() + b"\n", *(np.ascontiguousarray(array) for array in arrays.values())]
         name = f"{stretch.start:012d}-{stretch.stop:012d}.points"
@@ -127,7 +127,7 @@ class Journal:
             return None
         line = data.index(b"\n")
         header = json.loads(data[:line])
-        if header["fingerprint"] != self.fingerprint:
+        if header["fingerprint"] != self.fingerprint or header["points"] != [start, stop]:
             return None
         arrays: Arrays = {}
         place = line + 1
@@ -136,8 +136,7 @@ class Journal:
             arrays[name] = np.frombuffer(body, kind, count, place).reshape(shape)
             place += count * np.dtype(kind).itemsize
         status = arrays.pop("status")
-        refused = {int(point): sentence for point, sentence in header["refused"].items()}
-        return Stretch(start, stop, arrays, status, refused)
+        return Stretch(start, stop, arrays, status)
 
     def finish(self) -> None:
         """Give the output its name, and remove what was kept of it."""

@@ -19,25 +19,24 @@ from ._arguments import Floats
 from ._batch import conical_heights
 from ._scene_error import SceneError
 from ._study_axes import Axis, Values, shape_of, values_at
-from ._study_batch import gravity_at, links_at
-from ._study_find import NOT_MET, REFUSED, Arrays, Block, found_at, put
+from ._study_batch import LinkColumns
+from ._study_find import NOT_MET, REFUSED, SUCCESS, Arrays, Block, found_at, put
 from ._study_paths import with_value
 from .scene import Scene
 
-MOST_SENTENCES = 20  # kept of the points that are refused, of each stretch
 FORMAT = 1
+BATCH = 4096  # chains of a batch: their numbers stay in the cache
 _NOWHERE = SceneError("study", "vary", "")
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """The points start <= k < stop: what was found, a status for each, sentences for those refused, seconds taken."""
+    """The points start <= k < stop: what was found, a status for each, seconds taken."""
 
     start: int
     stop: int
     arrays: Arrays
     status: NDArray[np.uint8]
-    refused: dict[int, str]
     seconds: float = 0.0
 
 
@@ -108,10 +107,6 @@ class Plan:
         everything = [FORMAT, __version__, base, axes, random, self.find, blocks, self.batched]
         return hashlib.sha256(json.dumps(everything, sort_keys=True).encode()).hexdigest()
 
-    def empty(self, points: int) -> Arrays:
-        """Arrays for so many points, nothing found in them."""
-        return {block.name: block.empty(points) for block in self.stored}
-
     @property
     def stored(self) -> tuple[Block, ...]:
         """The blocks that are computed; speeds of batches follow from the heights."""
@@ -119,61 +114,81 @@ class Plan:
 
     def speeds(self, heights: Floats) -> Floats:
         """Whirl speeds of batches, of all points."""
-        gravity = np.asarray(gravity_at(self._scene, self._at(0, self.points)))
+        varied = {axis.path: k for k, axis in enumerate(self.axes)}
+        where = varied.get(("gravity",))
+        gravity = np.asarray(self._scene.gravity_value() if where is None else self.values(0, self.points)[where])
         speeds = np.full_like(heights, np.nan)
         rows = np.isfinite(heights)
         each = np.broadcast_to(gravity[..., np.newaxis], heights.shape)
         speeds[rows] = _core.conical_pendulum_angular_speed(heights[rows], each[rows])
         return speeds
 
-    def found(self, start: int, stop: int, stopped: Callable[[], bool] | None = None) -> Stretch:
-        """The points of a stretch; whatever the stretch, the same numbers at each."""
+    def found(
+        self,
+        start: int,
+        stop: int,
+        stopped: Callable[[], bool] | None = None,
+        arrays: Arrays | None = None,
+    ) -> Stretch:
+        """The points of a stretch, put into `arrays` if given; whatever the stretch, the same numbers at each."""
         began = time.perf_counter()
-        arrays, status, refused = self.empty(stop - start), np.zeros(stop - start, np.uint8), {}
+        arrays = {block.name: block.memory(stop - start) for block in self.stored} if arrays is None else arrays
+        status = np.full(stop - start, SUCCESS, np.uint8)
         if self.batched:
-            self._heights(start, stop, start, arrays["conical_height"], status, refused)
+            columns = LinkColumns(self._scene, BATCH)
+            for first in range(start, stop, BATCH):
+                last = min(first + BATCH, stop)
+                self._heights(first, last, start, columns, arrays["conical_height"], status)
         else:
-            columns = [column.tolist() for column in self.values(start, stop)]
-            for row, values in enumerate(zip(*columns, strict=True)):
+            for array in arrays.values():
+                array[...] = np.nan if array.dtype.kind == "f" else 0
+            each = [column.tolist() for column in self.values(start, stop)]
+            for row, values in enumerate(zip(*each, strict=True)):
                 if stopped is not None and stopped():
                     raise KeyboardInterrupt
-                self._one(start + row, row, list(values), arrays, status, refused)
-        return Stretch(start, stop, arrays, status, refused, time.perf_counter() - began)
+                self._one(row, list(values), arrays, status)
+        return Stretch(start, stop, arrays, status, time.perf_counter() - began)
 
-    def _one(
-        self, point: int, row: int, values: list[Any], arrays: Arrays, status: NDArray[np.uint8], refused: dict[int, str]
-    ) -> None:
+    def refusal(self, point: int) -> str:
+        """The sentence with which the scene of a point is refused; empty if it is not."""
+        values = [column.tolist()[0] for column in self.values(point, point + 1)]
         try:
-            found, good = found_at(Scene.from_dict(self.scene_data(values), "scene"), self.find)
+            found_at(Scene.from_dict(self.scene_data(values)), self.find)
         except (ValueError, OverflowError) as error:
+            return str(error).removeprefix("scene: ")
+        return ""
+
+    def _one(self, row: int, values: list[Any], arrays: Arrays, status: NDArray[np.uint8]) -> None:
+        try:
+            found, good = found_at(Scene.from_dict(self.scene_data(values)), self.find)
+        except (ValueError, OverflowError):
             status[row] = REFUSED
-            if len(refused) < MOST_SENTENCES:
-                refused[point] = str(error).removeprefix("scene: ")
             return
         put(arrays, self.stored, row, found)
-        status[row] = 0 if good else NOT_MET
+        status[row] = SUCCESS if good else NOT_MET
 
     def _heights(
         self,
         start: int,
         stop: int,
         origin: int,
+        columns: LinkColumns,
         heights: Floats,
         status: NDArray[np.uint8],
-        refused: dict[int, str],
     ) -> None:
         """Heights of plain chains; where a batch is refused its halves, down to the chain that is to blame."""
         (block,) = self.stored
         try:
-            found = conical_heights(**links_at(self._scene, self._at(start, stop)), count=block.labels[-1])
+            found = conical_heights(**columns.at(self._at(start, stop)), count=block.labels[-1])
         except ValueError:
             if stop - start > 1:
                 middle = (start + stop) // 2
-                self._heights(start, middle, origin, heights, status, refused)
-                self._heights(middle, stop, origin, heights, status, refused)
+                self._heights(start, middle, origin, columns, heights, status)
+                self._heights(middle, stop, origin, columns, heights, status)
             else:
                 values = [column.tolist()[0] for column in self.values(start, stop)]
-                self._one(start, start - origin, values, {block.name: heights}, status, refused)
+                heights[start - origin] = np.nan
+                self._one(start - origin, values, {block.name: heights}, status)
             return
         heights[start - origin : stop - origin] = found[..., block.labels[0] - 1 :]
 

@@ -13,7 +13,7 @@ MOST_POINTS = 10**12
 
 NumberOrText = float | str
 Samples = Annotated[int, Meta(ge=1, le=MOST_POINTS)]
-TwoNumbers = tuple[NumberOrText, NumberOrText]
+TwoNumbers = Annotated[list[NumberOrText], Meta(min_length=2, max_length=2)]
 
 
 class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):

@@ -12,14 +12,13 @@ from typing import Any
 from ._arguments import count as checked_count
 from ._extras import require
 from ._study_journal import Journal
-from ._study_plan import Plan, Stretch
+from ._study_plan import BATCH, Plan, Stretch
 from ._sweep_output import writer_of
 from ._sweep_result import SweepResult
 from .study import Study, load_study
 
 _PLACE = "revchain.sweep"
-_BATCH = 16384  # points of a stretch of batches
-_FEWEST, _MOST = 16, 8192  # of others
+_FEWEST, _MOST = 16, 8192  # points of a stretch
 _SECONDS = 0.5  # that such a stretch is to take
 _IN_FLIGHT = 3  # stretches for each worker
 
@@ -138,22 +137,23 @@ class _Run:
         self.journal = journal
         self.told = told
         self.missing = result._missing()
-        self.fixed = chunk if chunk is not None else _BATCH if plan.batched else None
-        self.chunk = self.fixed or _FEWEST
+        self.fixed = chunk is not None
+        self.unit = BATCH if plan.batched and chunk is None else 1
+        self.chunk = chunk or (4 * BATCH if plan.batched else _FEWEST)
         self.stopped = Event()
 
     def in_threads(self, workers: int) -> None:
         """With threads of our own; they end with the stretch at hand when interrupted."""
         pool = ThreadPoolExecutor(workers, thread_name_prefix="revchain-sweep")
         try:
-            self.all(pool, workers, self.stopped.is_set)
+            self.all(pool, workers, own=True)
         except BaseException:
             self.stopped.set()
             raise
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
 
-    def all(self, executor: Executor, workers: int, *stopped: Callable[[], bool]) -> None:
+    def all(self, executor: Executor, workers: int, own: bool = False) -> None:
         """Every stretch that is missing; a few at a time, so that little waits to be kept."""
         left = self._stretches()
         pending: set[Future[Stretch]] = set()
@@ -161,7 +161,8 @@ class _Run:
             self._tell()
             while True:
                 while len(pending) < _IN_FLIGHT * workers and (ends := next(left, None)) is not None:
-                    pending.add(executor.submit(_found, self.plan, *ends, *stopped))
+                    more = (self.stopped.is_set, self.result._place(*ends)) if own else ()
+                    pending.add(executor.submit(_found, self.plan, *ends, *more))
                 if not pending:
                     return
                 done, pending = wait(pending, return_when=FIRST_COMPLETED)
@@ -182,9 +183,10 @@ class _Run:
         if self.journal is not None:
             self.journal.add(stretch)
         self.result._take(stretch)
-        if self.fixed is None:
+        if not self.fixed:
             rate = (stretch.stop - stretch.start) / max(stretch.seconds, 1e-9)
-            self.chunk = int(min(max(rate * _SECONDS, 1), 4 * self.chunk, _MOST))
+            most = min(rate * _SECONDS, 4 * self.chunk, _MOST if self.unit == 1 else 16 * BATCH)
+            self.chunk = max(int(most) // self.unit, 1) * self.unit
         self._tell()
 
     def _tell(self) -> None:
@@ -192,9 +194,9 @@ class _Run:
             self.told(self.result._finished, self.plan.points)
 
 
-def _found(plan: Plan, start: int, stop: int, *stopped: Callable[[], bool]) -> Stretch:
+def _found(plan: Plan, start: int, stop: int, *more: Any) -> Stretch:
     """What a worker does."""
-    return plan.found(start, stop, *stopped)
+    return plan.found(start, stop, *more)
 
 
 def _processors() -> int:
@@ -214,7 +216,5 @@ def dask_client(address: str, workers: int | None = None) -> Any:
     distributed = require("distributed", "sweep", "--dask")
     if address != "local":
         return distributed.Client(address)
-    cluster = distributed.LocalCluster(
-        n_workers=workers or _processors(), threads_per_worker=1, dashboard_address=None
-    )
+    cluster = distributed.LocalCluster(n_workers=workers or _processors(), threads_per_worker=1, dashboard_address=None)
     return distributed.Client(cluster)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ._extras import require
 from ._study_axes import Axis
+from ._study_find import STATUS
 
 if TYPE_CHECKING:
     from ._sweep_result import SweepResult
@@ -38,7 +39,10 @@ def writer_of(path: str | os.PathLike[str]) -> Callable[[SweepResult, Path], Non
 
 def dataframe_of(result: SweepResult) -> Any:
     """A pandas table."""
-    return require("pandas", "sweep", "SweepResult.to_dataframe").DataFrame(result.columns())
+    pandas = require("pandas", "sweep", "SweepResult.to_dataframe")
+    columns = result.columns(words=False)
+    columns["status"] = pandas.Categorical.from_codes(columns["status"], STATUS)
+    return pandas.DataFrame(columns)
 
 
 def dataset_of(result: SweepResult) -> Any:
@@ -61,7 +65,8 @@ def dataset_of(result: SweepResult) -> Any:
             coordinates[block.along] = (block.along, np.array(block.labels))
         along = [block.along] if block.along else []
         data[block.name] = ([*dimensions, *along], result[block.name].reshape(*shape, *([-1] if along else [])))
-    data["status"] = (dimensions, result.status.reshape(shape))
+    flags = {"flag_values": np.arange(len(STATUS), dtype=np.int8), "flag_meanings": " ".join(STATUS)}
+    data["status"] = (dimensions, result._status.astype(np.int8).reshape(shape), flags)
     return xarray.Dataset(data, coordinates, {"title": result.study.title, "study": json.dumps(result.study.to_dict())})
 
 
@@ -82,7 +87,9 @@ def _csv(result: SweepResult, path: Path) -> None:
 def _parquet(result: SweepResult, path: Path) -> None:
     arrow = require("pyarrow", "sweep", "a .parquet file")
     parquet = require("pyarrow.parquet", "sweep", "a .parquet file")
-    table = arrow.table({name: np.ascontiguousarray(column) for name, column in result.columns().items()})
+    columns = {name: np.ascontiguousarray(column) for name, column in result.columns(words=False).items()}
+    columns["status"] = arrow.DictionaryArray.from_arrays(columns["status"].view(np.int8), list(STATUS))
+    table = arrow.table(columns)
     about = {"title": result.study.title, "study": json.dumps(result.study.to_dict())}
     parquet.write_table(table.replace_schema_metadata(about), path)
 

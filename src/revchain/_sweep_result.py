@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._arguments import read_only
-from ._study_find import STATUS, Arrays, Block
+from ._study_find import REFUSED, STATUS, Arrays
 from ._study_plan import Plan, Stretch
 from .study import Study
 
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     import pandas
     import xarray
     from matplotlib.axes import Axes
+
+MOST_SENTENCES = 20
 
 
 class SweepResult:
@@ -29,8 +31,6 @@ class SweepResult:
     Attributes
     ----------
     study : Study
-    refused : dict of int to str
-        Sentences for points that their scenes refuse, by number: the first twenty of each stretch computed together.
 
     Examples
     --------
@@ -47,7 +47,6 @@ class SweepResult:
     """
 
     study: Study
-    refused: dict[int, str]
     _plan: Plan
     _arrays: Arrays
     _status: NDArray[np.uint8]
@@ -58,17 +57,21 @@ class SweepResult:
     @classmethod
     def _empty(cls, study: Study, plan: Plan) -> SweepResult:
         result = cls.__new__(cls)
-        result.study, result._plan, result.refused = study, plan, {}
-        result._arrays = {block.name: np.empty_like(block.empty(0), shape=_shape(block, plan)) for block in plan.stored}
+        result.study, result._plan = study, plan
+        result._arrays = {block.name: block.memory(plan.points) for block in plan.stored}
         result._status = np.empty(plan.points, np.uint8)
         result._done, result._finished, result._resumed = [], 0, 0
         return result
 
+    def _place(self, start: int, stop: int) -> Arrays:
+        """Where a stretch of points belongs."""
+        return {name: array[start:stop] for name, array in self._arrays.items()}
+
     def _take(self, stretch: Stretch) -> None:
-        for name, array in stretch.arrays.items():
-            self._arrays[name][stretch.start : stretch.stop] = array
+        for name, place in self._place(stretch.start, stretch.stop).items():
+            if (array := stretch.arrays[name]).base is not place.base:
+                place[...] = array
         self._status[stretch.start : stretch.stop] = stretch.status
-        self.refused.update(stretch.refused)
         self._done.append((stretch.start, stretch.stop))
         self._finished += stretch.stop - stretch.start
 
@@ -108,6 +111,12 @@ class SweepResult:
     def status(self) -> NDArray[Any]:
         """Of each point: ``success``, ``tolerance_not_met`` (something is not proved) or ``refused``."""
         return np.array(STATUS)[self._status]
+
+    @property
+    def refused(self) -> dict[int, str]:
+        """Sentences for points that their scenes refuse, by their numbers: the first twenty."""
+        points = np.flatnonzero(self._status == REFUSED)[:MOST_SENTENCES].tolist()
+        return {point: self._plan.refusal(point) for point in points}
 
     def count(self, status: str) -> int:
         """Count the points with a status.
@@ -155,8 +164,13 @@ class SweepResult:
         values = self._plan.values(0, self._plan.points)
         self._arrays.update(zip(self.varied, values, strict=True))
 
-    def columns(self) -> dict[str, NDArray[Any]]:
+    def columns(self, words: bool = True) -> dict[str, NDArray[Any]]:
         """Return everything as columns of equal length, as the tables have them.
+
+        Parameters
+        ----------
+        words : bool
+            Whether the status is said in words, or else as 0, 1, 2 in their order.
 
         Returns
         -------
@@ -175,7 +189,7 @@ class SweepResult:
         for block in self._plan.blocks:
             values = self[block.name].reshape(len(self), -1)
             columns |= {name: values[:, k] for k, name in enumerate(block.columns)}
-        return {**columns, "status": self.status}
+        return {**columns, "status": self.status if words else self._status}
 
     def to_dataframe(self) -> pandas.DataFrame:
         """Return a pandas table with one row for each point.
@@ -291,9 +305,3 @@ class SweepResult:
     def __repr__(self) -> str:
         refused = f"; {count:,} refused" if (count := self.count("refused")) else ""
         return f"SweepResult: {len(self):,} points of {', '.join(self.varied)}; {', '.join(self.found)}{refused}"
-
-
-def _shape(block: Block, plan: Plan) -> tuple[int, ...]:
-    return (plan.points, len(block.labels)) if block.along else (plan.points,)
-
-

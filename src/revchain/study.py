@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 import numpy as np
 from msgspec import UNSET, Meta, UnsetType, json, to_builtins
@@ -311,6 +311,11 @@ def _tables(data: dict[str, Any], source: str, folder: Path) -> dict[str, Any]:
             found["scene"] = Scene.from_dict(scene, source).to_dict()
         except SceneError as error:
             raise SceneError(source, ".".join(part for part in ("scene", error.key) if part), error.reason) from None
+    if isinstance(find := data.get("find"), list):
+        words = list(get_args(Find))
+        for k, name in enumerate(find):
+            if name not in words:
+                raise SceneError(source, f"find[{k}]", _scene_file._choice(words, False, name))
     if isinstance(vary := data.get("vary"), dict):
         for key, table in vary.items():
             try:
@@ -319,7 +324,9 @@ def _tables(data: dict[str, Any], source: str, folder: Path) -> dict[str, Any]:
                 place = f'vary."{key}"' + (f".{error.key}" if error.key else "")
                 raise SceneError(source, place, error.reason) from None
         if not vary:
-            raise SceneError(source, "vary", 'is empty: say what varies, such as vary."links[0].mass" = {values = [1, 2]}')
+            raise SceneError(
+                source, "vary", 'is empty: say what varies, such as vary."links[0].mass" = {values = [1, 2]}'
+            )
     return found
 
 
