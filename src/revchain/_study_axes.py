@@ -154,7 +154,7 @@ def values_at(axes: Sequence[Axis], samples: int, seed: int, start: int, stop: i
     shape = shape_of(axes, samples)
     places: list[Whole] = []
     if any(axis.values is not None for axis in axes):
-        places = list(np.unravel_index(np.arange(start, stop), shape))  # type: ignore[arg-type]
+        places = list(np.unravel_index(np.arange(start, stop), shape))
     grids = iter(places)
     return [axis.values[next(grids)] if axis.values is not None else _drawn(axis, seed, start, stop) for axis in axes]
 
@@ -176,6 +176,8 @@ def _block(law: str, one: float, two: float, seed: int, stream: int, block: int)
     random = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(stream, block))))
     if law == "normal":
         return read_only(random.normal(one, two, BLOCK))
-    if law == "uniform":
-        return read_only(random.uniform(one, two, BLOCK))
-    return read_only(np.exp(random.uniform(math.log(one), math.log(two), BLOCK)))
+    low, high = (math.log(one), math.log(two)) if law == "log_uniform" else (one, two)
+    numbers = random.random(BLOCK)
+    numbers *= high - low
+    numbers += low
+    return read_only(np.exp(numbers) if law == "log_uniform" else numbers)

@@ -72,7 +72,7 @@ class LinkColumns:
         Of shape (N,) where all points have the same, else (points, N); valid until the next call.
         """
         bodies = self._bodies(points)
-        names = ("weight", "length", "centroid", "radius_of_gyration")
+        names = ["weight", "length", "centroid", "radius_of_gyration"]
         if all(plummet for *_, plummet in bodies):
             names = names[:2]
         return {name: self._column(name, [body[k] for body in bodies]) for k, name in enumerate(names)}
@@ -80,7 +80,7 @@ class LinkColumns:
     def _column(self, name: str, parts: list[Any]) -> Floats:
         """Parts that do not vary are written once."""
         size = next((len(part) for part in parts if np.ndim(part)), None)
-        column = self._memory.get(name)
+        column: Floats | None = self._memory.get(name)
         if column is None:
             column = np.empty((1 if size is None else self._most, self._firsts[-1]))
             for part, first, last in zip(parts, self._firsts[:-1], self._firsts[1:], strict=True):
@@ -88,7 +88,8 @@ class LinkColumns:
                     column[:, first:last] = part
             self._memory[name] = column
         if size is None:
-            return column[0]
+            only: Floats = column[0]
+            return only
         for part, first, last in zip(parts, self._firsts[:-1], self._firsts[1:], strict=True):
             if np.ndim(part):
                 column[:size, first:last] = part[:, np.newaxis]

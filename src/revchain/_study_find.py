@@ -55,7 +55,7 @@ class Block:
 
 def mode_blocks(scene: Scene, count: int, bounds: bool) -> list[Block]:
     """The blocks of the modes; `count` of them."""
-    first = 1 if scene.ask.first is UNSET else int(scene.ask.first)  # type: ignore[arg-type]
+    first = 1 if scene.ask.first is UNSET else int(scene.ask.first)
     labels = tuple(range(first, first + count))
     if not scene.is_rigged:
         names = ["angular_speed", "conical_height", *(["error_bound"] if bounds else [])]

@@ -179,7 +179,8 @@ class Plan:
         """Heights of plain chains; where a batch is refused its halves, down to the chain that is to blame."""
         (block,) = self.stored
         try:
-            found = conical_heights(**columns.at(self._at(start, stop)), count=block.labels[-1])
+            links: dict[str, Any] = dict(columns.at(self._at(start, stop)))
+            found = conical_heights(**links, count=block.labels[-1])
         except ValueError:
             if stop - start > 1:
                 middle = (start + stop) // 2

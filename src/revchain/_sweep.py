@@ -207,7 +207,7 @@ def _workers_of(executor: Executor) -> int:
     """How many it has, as far as it tells."""
     client = getattr(executor, "_client", None)
     if client is not None and hasattr(client, "ncores"):
-        return max(sum(client.ncores().values()), 1)
+        return max(int(sum(client.ncores().values())), 1)
     return int(getattr(executor, "_max_workers", 0)) or _processors()
 
 

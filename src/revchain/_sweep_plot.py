@@ -60,7 +60,7 @@ def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
     return ax
 
 
-def _log(values: np.ndarray | None) -> bool:  # type: ignore[type-arg]
+def _log(values: np.ndarray | None) -> bool:
     """Whether a grid goes in equal ratios."""
     if values is None or values.size < 3 or not (values > 0).all():
         return False

@@ -14,7 +14,6 @@ from ._study_plan import Plan, Stretch
 from .study import Study
 
 if TYPE_CHECKING:
-    import pandas
     import xarray
     from matplotlib.axes import Axes
 
@@ -191,7 +190,7 @@ class SweepResult:
             columns |= {name: values[:, k] for k, name in enumerate(block.columns)}
         return {**columns, "status": self.status if words else self._status}
 
-    def to_dataframe(self) -> pandas.DataFrame:
+    def to_dataframe(self) -> Any:
         """Return a pandas table with one row for each point.
 
         Returns
@@ -237,7 +236,8 @@ class SweepResult:
         """
         from ._sweep_output import dataset_of
 
-        return dataset_of(self)
+        dataset: xarray.Dataset = dataset_of(self)
+        return dataset
 
     def save(self, path: str) -> None:
         """Write everything to a file.

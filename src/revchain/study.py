@@ -220,24 +220,24 @@ class Study(Table, frozen=True):
     def _find(self, scene: Scene, source: str) -> tuple[str, ...]:
         """What is computed, in the order of the columns."""
         ask = scene.ask
-        asked = [name for name in ("shapes", "response") if getattr(ask, name) is not UNSET]
+        asked: list[str] = [name for name in ("shapes", "response") if getattr(ask, name) is not UNSET]
         if isinstance(self.find, UnsetType):
             if not asked or ask.modes is not UNSET or ask.first is not UNSET:
                 asked.insert(0, "modes")
         else:
-            for k, name in enumerate(self.find):
-                if name != "modes" and name not in asked:
-                    raise SceneError(source, f"find[{k}]", f"the scene does not say at which speed: [ask.{name}]")
+            for k, wanted in enumerate(self.find):
+                if wanted not in ("modes", *asked):
+                    raise SceneError(source, f"find[{k}]", f"the scene does not say at which speed: [ask.{wanted}]")
             asked = [name for name in ("modes", "shapes", "response") if name in self.find]
         for name in ("conical_height", "angular_speed"):
             if "modes" in asked and getattr(ask, name) is not UNSET:
                 reason = "finds not as many modes everywhere; give modes and first"
                 raise SceneError(source, f"scene.ask.{name}", reason)
-        if ask.swing is not UNSET:
-            raise SceneError(source, "scene.ask.swing", "is not for studies")
+        if ask.swing is not UNSET and isinstance(self.find, UnsetType):
+            raise SceneError(source, "scene.ask.swing", 'is not for studies; say what is: find = ["modes"]')
         if "response" in asked and scene.is_held:
             raise SceneError(source, "scene.ask.response", "does not go with held")
-        if "modes" in asked and scene.held is not UNSET and scene.held.span is not UNSET:  # type: ignore[union-attr]
+        if "modes" in asked and scene.held is not UNSET and scene.held.span is not UNSET:
             raise SceneError(source, "scene.held.span", 'leaves the chain slack, without modes: find = ["shapes"]')
         return tuple(asked)
 
