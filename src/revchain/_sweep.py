@@ -215,6 +215,6 @@ def dask_client(address: str, workers: int | None = None) -> Any:
     """A client of the Dask cluster at an address; ``local`` starts one of processes on this machine."""
     distributed = require("distributed", "sweep", "--dask")
     if address != "local":
-        return distributed.Client(address)
+        return distributed.Client(address, timeout=10)
     cluster = distributed.LocalCluster(n_workers=workers or _processors(), threads_per_worker=1, dashboard_address=None)
     return distributed.Client(cluster)

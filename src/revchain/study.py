@@ -13,13 +13,13 @@ from msgspec import UNSET, Meta, UnsetType, json, to_builtins
 from . import _scene_file
 from ._scene_ask import DEFAULT_MODES
 from ._scene_error import SceneError
+from ._scene_tables import Table
 from ._study_axes import Axis, axis_of
 from ._study_batch import goes_in_batches
 from ._study_find import Block, mode_blocks, response_blocks, shape_blocks
 from ._study_paths import Path as Steps
 from ._study_paths import with_value
 from ._study_plan import Plan
-from ._scene_tables import Table
 from ._study_tables import MOST_POINTS, Samples, Vary
 from .scene import Scene
 
@@ -186,7 +186,7 @@ class Study(Table, frozen=True):
         scene, base = self.scene, self.scene.to_dict()
         scene._check(source)
         axes = tuple(axis_of(key, table, Scene, source) for key, table in self.vary.items())
-        random = [axis for axis in axes if not axis.law == ""]
+        random = [axis for axis in axes if axis.law]
         if bool(random) != (self.samples is not UNSET):
             needs = "is missing: say how many points" if random else "is for random numbers, and none are varied"
             raise SceneError(source, "samples", needs)

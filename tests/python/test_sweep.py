@@ -688,6 +688,24 @@ def test_missing_packages_are_named(python, without):
     assert lines[4] == "2" and 'revchain: --dask needs distributed: pip install "revchain[sweep]"' in done.stderr
 
 
+def test_the_page_and_its_examples(python, repository, run):
+    pytest.importorskip("xarray")
+    page = (repository / "docs/studies.md").read_text(encoding="utf-8")
+    done = python(repository / "examples/python/draw_studies.py")
+    numbers, _, last = done.stdout.removesuffix("\n").rpartition("\n")
+    assert last == "wrote studies.png" and f"\n```text\n{numbers}\n```\n" in page, done.stderr
+    assert Path("studies.png").stat().st_size < 60_000 and (repository / "docs/figures/studies.png").is_file()
+    for path in (repository / "examples/studies").glob("*.toml"):
+        assert run("sweep", path, "--check")[0] == 0
+    for name in (
+        *(name for name in Vary.__struct_fields__ if name not in ("first", "last")),
+        "samples",
+        "seed",
+        "find",
+    ):
+        assert name in page
+
+
 def test_threads_end_with_the_call():
     before = threading.active_count()
     rc.sweep(study(PLUMMETS, GOOD))
