@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
+from . import _core, _scene_file
 from ._arguments import Floats
 from ._batch import conical_heights
 from ._scene_error import SceneError
@@ -149,18 +149,22 @@ class Plan:
                 self._one(row, list(values), arrays, status)
         return Stretch(start, stop, arrays, status, time.perf_counter() - began)
 
+    def _scene_of(self, values: list[Any]) -> Scene:
+        """The scene of a point; what its methods refuse they say themselves, so that it is not checked twice."""
+        return _scene_file.convert(self.scene_data(values), Scene, "scene")
+
     def refusal(self, point: int) -> str:
         """The sentence with which the scene of a point is refused; empty if it is not."""
         values = [column.tolist()[0] for column in self.values(point, point + 1)]
         try:
-            found_at(Scene.from_dict(self.scene_data(values)), self.find)
+            found_at(self._scene_of(values), self.find)
         except (ValueError, OverflowError) as error:
             return str(error).removeprefix("scene: ")
         return ""
 
     def _one(self, row: int, values: list[Any], arrays: Arrays, status: NDArray[np.uint8]) -> None:
         try:
-            found, good = found_at(Scene.from_dict(self.scene_data(values)), self.find)
+            found, good = found_at(self._scene_of(values), self.find)
         except (ValueError, OverflowError):
             status[row] = REFUSED
             return
