@@ -217,17 +217,19 @@ double imbalance_of(const revchain::PairShape<T>& shape, Quad l1, Quad l2, Quad 
 /// How many hanging figures there are, counted another way: from the lowest inclination upwards, sec d2 from the balance of
 /// all below, the support's offset changes its sign at every figure.
 int figures_by_sweeping(double share, double l1, double l2) {
-    const auto end = [&](Quad t1) {
-        const Quad y0 = t1, y1 = y0 - l1 * t1 / sqrtq(1 + t1 * t1);  // y0 = lambda tan d1, lambda = 1
-        const Quad t2 = share * y0 + (1 - share) * y1;
-        return y1 - l2 * t2 / sqrtq(1 + t2 * t2);
+    using Long = long double;  // signs are all that is wanted
+    const auto end = [&](Long t1) {
+        const Long y0 = t1, y1 = y0 - l1 * t1 / std::sqrt(1 + t1 * t1);  // y0 = lambda tan d1, lambda = 1
+        const Long t2 = share * y0 + (1 - share) * y1;
+        return y1 - l2 * t2 / std::sqrt(1 + t2 * t2);
     };
     int count = 0;
-    Quad last = 0;
+    Long last = 0;
     const int steps = 40000;
     for (int i = 0; i <= steps; ++i) {  // d1 towards the vertical and the horizontal alike
-        const Quad t1 = expq(Quad(-14) + Quad(28) * i / steps + (i == steps ? 0 : logq(Quad(l1 + l2))) * i / steps);
-        const Quad now = end(t1);
+        const Long t1 =
+            std::exp(Long(-14) + Long(28) * i / steps + (i == steps ? 0 : std::log(Long(l1 + l2))) * i / steps);
+        const Long now = end(t1);
         count += i > 0 && (now > 0) != (last > 0);
         last = now;
     }
