@@ -15,7 +15,7 @@ from ._chain import Chain, compiled
 from ._results import Record
 from ._rig import Rig
 from ._solve import modes
-from ._tables import digits
+
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -100,7 +100,7 @@ class Explanation(Record):
     >>> import revchain as rc
     >>> why = rc.explain(rc.Chain.uniform_rods(100_000), rtol=0.01)
     >>> why.chosen.name, f"{why.chosen.error_bound:.1e}"
-    ('continuous chain', '6.1e-12')
+    ('continuous chain', '2.9e-11')
     """
 
     rows: tuple[ModelEstimate, ...]
@@ -152,7 +152,7 @@ def time_text(seconds: float) -> str:
     """With the unit that suits it."""
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)):
         if seconds >= size or unit == "ns":
-            return f"{digits(seconds / size, 2)} {unit}"
+            return f"{seconds / size:.3g} {unit}"
     raise AssertionError
 
 

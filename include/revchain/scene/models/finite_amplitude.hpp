@@ -14,7 +14,7 @@ struct FiniteAmplitude {
     static constexpr bool is_linear = false;
 
     Fit applies(const ChainKind& kind, const Question& question) const {
-        if (!(question.inclination > 0)) return Fit::no("no inclination given: the theory of small ones is exact");
+        if (!(question.inclination > 0)) return Fit::no("no inclination given");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
         return {};
     }
