@@ -28,7 +28,10 @@ struct CoarseChain {
     double cost(const ChainKind& kind, const Question& question) const {
         const double n = static_cast<double>(kind.size), m = static_cast<double>(groups(question));
         const double k = static_cast<double>(question.count);
-        const double small = m <= 32 ? 4e-7 + 2.6e-8 * m + 4e-9 * m * m : 8e-7 + m * (1.6e-7 + 2.9e-7 * k);
+        // its modes by the ways of models/numerical.hpp
+        double small = m <= 32 ? 4e-7 + 2.6e-8 * m + 4e-9 * m * m : 8e-7 + m * (1.6e-7 + 2.9e-7 * k);
+        if (m >= 12 && k >= 8) small = std::min(small, 2.5e-5 + m * (5e-7 + 2.5e-9 * k));
+        if (m >= 256) small = std::min(small, 3e-5 + 1.7e-9 * m + 5e-5 * k * (1 + k / 20));
         return 2e-6 + n * (1.1e-7 + 2e-8 * k) + small;
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
