@@ -66,3 +66,4 @@ void bind_batch(py::module_& module);
 void bind_analytic(py::module_& module);
 void bind_elliptic(py::module_& module);
 void bind_response(py::module_& module);
+void bind_models(py::module_& module);

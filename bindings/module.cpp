@@ -24,4 +24,5 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_analytic(module);
     bind_elliptic(module);
     bind_response(module);
+    bind_models(module);
 }

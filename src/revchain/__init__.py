@@ -20,6 +20,7 @@ array([ 6.2757, 14.4064, 22.59  ])
 from __future__ import annotations
 
 from contextlib import suppress
+from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
@@ -46,6 +47,7 @@ from ._held import (
     held_shapes,
     taut_modes,
 )
+from ._models import Explanation, ModelEstimate, Solution, explain, solve
 from ._modes import Certificate, Modes
 from ._response import Response, SmallOscillation, response, small_oscillation
 from ._rig import Rig, driven_flywheel, free_flywheel
@@ -68,7 +70,10 @@ from .governor import GovernorMotion
 from .ropes import SkippingRope, TortuousRope
 
 if TYPE_CHECKING:
+    from ._sweep import sweep
+    from ._sweep_result import SweepResult
     from .scene import Scene, load_scene
+    from .study import Study, load_study
 
     __version__: str
 
@@ -83,6 +88,7 @@ __all__ = [
     "ContinuousShape",
     "ContinuousShapes",
     "Derivatives",
+    "Explanation",
     "ForceDiagram",
     "FunicularPolygon",
     "GovernorMotion",
@@ -90,6 +96,7 @@ __all__ = [
     "HeldCordShape",
     "HeldShape",
     "HeldShapes",
+    "ModelEstimate",
     "Modes",
     "OtherModes",
     "Response",
@@ -100,6 +107,7 @@ __all__ = [
     "Sensitivity",
     "SkippingRope",
     "SmallOscillation",
+    "Solution",
     "Stability",
     "StabilityWindow",
     "SteadyShape",
@@ -107,9 +115,9 @@ __all__ = [
     "TautModes",
     "TortuousRope",
     "TransverseModes",
-    "WhirlModes",
     "Tuned",
     "Uncertainty",
+    "WhirlModes",
     "__version__",
     "bell_and_clapper",
     "branch",
@@ -121,6 +129,7 @@ __all__ = [
     "count_modes",
     "driven_flywheel",
     "elliptic",
+    "explain",
     "free_flywheel",
     "funicular_polygon",
     "heavy_chain",
@@ -133,8 +142,9 @@ __all__ = [
     "plummet",
     "recurrence_matrices",
     "response",
-    "small_oscillation",
     "rig_sensitivity",
+    "small_oscillation",
+    "solve",
     "steady_shape",
     "steady_shapes",
     "tapered_chain",
@@ -144,23 +154,23 @@ __all__ = [
     "tune",
     "two_links",
 ]
+_OF_FILES = {"Scene": "scene", "load_scene": "scene", "Study": "study", "load_study": "study"}
+_OF_FILES |= {"SweepResult": "_sweep_result", "sweep": "_sweep"}
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them
     if find_spec("msgspec") is not None:
-        __all__ += ["Scene", "load_scene"]
+        __all__ += list(_OF_FILES)
 
 
 def __getattr__(name: str) -> Any:
     """Import what needs more than numpy at the moment it is asked for."""
-    if name in ("Scene", "load_scene"):
+    if name in _OF_FILES:
         from ._extras import require
 
         try:
             require("msgspec", "cli", "a scene file")
         except ImportError as error:
             raise AttributeError(str(error)) from error
-        from . import scene
-
-        value = getattr(scene, name)
+        value = getattr(import_module(f".{_OF_FILES[name]}", __name__), name)
     elif name == "__version__":
         from importlib.metadata import version
 

@@ -20,17 +20,18 @@ from ._exit_codes import ExitCode
 from ._files import written_aside
 from ._modes import Modes
 from ._progress import watched
-from ._report import NARROWEST, csv_text, json_text, table
+from ._report import NARROWEST, csv_text, json_of, json_text, table
 from ._response import Response
 from ._rig_modes import RigModes
 from ._scene_error import SceneError
 from ._solve import solve as solve_chain
 from .scene import Scene, json_schema, load_scene
+from .study import study_schema
 
 
 def run(arguments: list[str] | None = None) -> int:
     """Run the command line; the exit code is returned."""
-    from . import _cli_motion  # noqa: F401  its commands come after those here
+    from . import _cli_motion, _cli_sweep  # noqa: F401  their commands come after those here
 
     if sys.stdout is None:  # closed by the caller
         sys.stdout = open(os.devnull, "w")
@@ -127,6 +128,43 @@ def solve(
         raise Stop(f"the tolerance is not met{asked_for}", ExitCode.TOLERANCE_NOT_MET)
 
 
+@app.command(epilog=EXIT_CODES)
+@guarded
+def explain(
+    scene: Annotated[Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json).")],
+    rtol: Annotated[
+        float | None, typer.Option(metavar="X", help="Relative tolerance of the heights, instead of the scene's.")
+    ] = None,
+    inclination: Annotated[
+        float, typer.Option(metavar="A", help="Of the lowest link, in rad: of the shapes that grow out of the modes.")
+    ] = 0.0,
+    time_budget: Annotated[
+        float | None, typer.Option(metavar="S", help="The most time it may take, in seconds.")
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="As JSON, on stdout.")] = False,
+) -> None:
+    """Say which model finds the scene's heights cheapest for a tolerance, and what others would cost."""
+    from ._models import explain as explain_models
+
+    given = load_scene(scene)
+    try:
+        why = explain_models(given, rtol=rtol, inclination=inclination, time_budget=time_budget)
+    except SceneError:
+        raise
+    except ValueError as error:
+        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+    title = given.title or scene.stem
+    if json:
+        sys.stdout.write(json_of({"title": title, **why.to_dict()}))
+    else:
+        print(title)
+        print(why)
+    if not why.meets_tolerance:
+        raise Stop(
+            f"no model keeps the tolerance; the best bound is {why.chosen.error_bound:.1e}", ExitCode.TOLERANCE_NOT_MET
+        )
+
+
 @app.command()
 @guarded
 def validate(scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", help="Scene files.")]) -> None:
@@ -146,13 +184,15 @@ def validate(scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", he
 @app.command()
 @guarded
 def new(
-    file: Annotated[Path, typer.Argument(metavar="[FILE]", help="Where to write it; - is stdout.")] = Path(
-        "scene.toml"
-    ),
+    file: Annotated[Path | None, typer.Argument(metavar="[FILE]", help="Where to write it; - is stdout.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite the file if it is there.")] = False,
+    study: Annotated[bool, typer.Option("--study", help="A study, not a scene.")] = False,
 ) -> None:
-    """Write a commented scene to start from."""
-    text = Path(__file__).with_name("new_scene.toml").read_text(encoding="utf-8")
+    """Write a commented scene to start from, or a study."""
+    kind, command = ("study", "sweep") if study else ("scene", "solve")
+    text = Path(__file__).with_name(f"new_{kind}.toml").read_text(encoding="utf-8")
+    if file is None:
+        file = Path(f"{kind}.toml")
     if str(file) == STDOUT:
         sys.stdout.write(text)
         return
@@ -160,14 +200,14 @@ def new(
         raise Stop(f"{file}: is there already; --force overwrites it", ExitCode.OUTPUT_FAILED)
     with written_aside(file) as [aside]:
         aside.write_text(text, encoding="utf-8")
-    print(f"wrote {file}; now: revchain solve {file}")
+    print(f"wrote {file}; now: revchain {command} {file}")
 
 
 @app.command()
 @guarded
-def schema() -> None:
+def schema(study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False) -> None:
     """Print the JSON Schema of scene files, for editors."""
-    sys.stdout.write(json_module.dumps(json_schema(), indent=2) + "\n")
+    sys.stdout.write(json_module.dumps(study_schema() if study else json_schema(), indent=2) + "\n")
 
 
 def _numbers(text: str) -> dict[str, Any]:

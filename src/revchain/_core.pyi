@@ -7,6 +7,7 @@ import numpy.typing
 _Floats = numpy.typing.NDArray[numpy.float64]
 
 METHODS: tuple[str, ...]
+MODELS: tuple[str, ...]
 DATA: tuple[str, ...]
 BELL_DATA: tuple[str, ...]
 PRECISIONS: tuple[str, ...]
@@ -719,6 +720,15 @@ def response(
 def rig_response(
     rig: Rig, given: _Floats, speeds: bool, support_radius: float, pins: _Whole | None, gravity: float
 ) -> tuple[_Floats, _Floats, _Whole, _Flags, _Flags, _Floats, _Floats]: ...
+def select(
+    chain: Chain, first: int, count: int, rtol: float, inclination: float, time_budget: float | None
+) -> tuple[list[tuple[str, str | None, float, float]], int, bool]: ...
+def solve(
+    chain: Chain, first: int, count: int, rtol: float, inclination: float, time_budget: float | None
+) -> tuple[_Floats, _Floats, _Floats | None, str, str]: ...
+def solve_by(
+    chain: Chain, first: int, count: int, rtol: float, inclination: float, model: str
+) -> tuple[_Floats, _Floats, _Floats | None, str, str]: ...
 def small_oscillation(
     chain: Chain, offsets: _Floats, velocities: _Floats, time: _Floats, modes: int | None, gravity: float
 ) -> tuple[

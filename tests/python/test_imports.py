@@ -9,6 +9,7 @@ import pytest
 import revchain as rc
 
 OPTIONAL = ["matplotlib", "msgspec", "typer", "rich", "xarray", "h5netcdf", "h5py", "pint", "scipy", "mpmath", "pandas"]
+OPTIONAL += ["pyarrow", "dask", "distributed"]
 
 
 def test_import_needs_numpy_only(python):
@@ -59,7 +60,7 @@ def test_names():
 
 def test_what_is_shipped():
     folder = Path(rc.__file__).parent
-    for name in ("py.typed", "_core.pyi", "scene.schema.json", "new_scene.toml"):
+    for name in ("py.typed", "_core.pyi", "scene.schema.json", "new_scene.toml", "study.schema.json", "new_study.toml"):
         assert (folder / name).is_file()
     for path in folder.glob("*.py"):
         assert path.read_text(encoding="utf-8").startswith("# SPDX-License-Identifier: GPL-3.0-or-later\n"), path

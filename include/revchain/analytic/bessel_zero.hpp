@@ -6,6 +6,7 @@
 #include "revchain/analytic/detail/bessel_recurrence.hpp"
 #include "revchain/analytic/detail/gsl.hpp"
 #include "revchain/core/status.hpp"
+#include "revchain/core/zero_of_j0.hpp"
 
 namespace revchain::analytic {
 
@@ -36,19 +37,11 @@ inline void require_order(std::string_view place, Index k) {
 
 }  // namespace detail
 
-/// j_{0,k}, the k-th positive zero of J_0, k >= 1. Greenhill (1908) §4 (10).
-/// Accuracy: 1 ulp (2^-52 relative), measured against 40 digits for k up to 1e6 (tests/cpp/analytic/bessel_zero.cpp);
-/// GSL's own zeros are up to 15 ulp off and get one Newton step here. Throws InvalidArgument for k < 1.
-inline double zero_of_j0(Index k) {
-    detail::require_order("analytic::zero_of_j0", k);
-    if (k >= detail::first_mcmahon) return detail::mcmahon(0, static_cast<double>(k));
-    gsl_sf_result start{};
-    gsl_sf_bessel_zero_J0_e(static_cast<unsigned>(k), &start);
-    const double z = start.val;
-    return z + detail::gsl_value(gsl_sf_bessel_J0_e, z) / detail::gsl_value(gsl_sf_bessel_J1_e, z);  // J_0' = -J_1
-}
+/// j_{0,k}: see core/zero_of_j0.hpp.
+using revchain::zero_of_j0;
 
-/// j_{1,k}, the k-th positive zero of J_1, k >= 1. Greenhill (1908) §4 (13). Accuracy and errors as `zero_of_j0`.
+/// j_{1,k}, the k-th positive zero of J_1, k >= 1. Greenhill (1908) §4 (13). Accuracy
+/// and errors as `zero_of_j0`; GSL's own zeros are up to 15 ulp off and get one Newton step here.
 inline double zero_of_j1(Index k) {
     detail::require_order("analytic::zero_of_j1", k);
     if (k >= detail::first_mcmahon) return detail::mcmahon(1, static_cast<double>(k));

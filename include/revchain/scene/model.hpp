@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <string_view>
+
+#include "revchain/chain/chain.hpp"
+
+namespace revchain {
+
+/// What is asked of a chain: the conical heights of modes number `first`, ..., each to a relative tolerance; 0: as accurate as
+/// there is.
+struct Question {
+    Index first = 1;  ///< number of the slowest mode wanted, from 1
+    Index count = 1;
+    double rtol = 0;
+    double inclination = 0;  ///< of the lowest link, rad, below a right angle: of the shape that grows out of the mode
+
+    Index last() const { return first - 1 + count; }
+};
+
+/// Heights and what bounds their relative errors.
+struct Answer {
+    Vector<double> conical_height;
+    Vector<double> error_bound;
+    /// Whether the model had an answer after all.
+    bool found = true;
+    Vector<double> conical_height_low{};  ///< what a double cannot hold of the heights; empty where it is not known
+
+    double worst_bound() const {
+        return error_bound.size() > 0 && found ? error_bound.maxCoeff() : std::numeric_limits<double>::infinity();
+    }
+};
+
+/// What the models have to know of a chain at once. Cost O(1), but of equal links stored one by one, which are compared.
+struct ChainKind {
+    Index size = 0;
+    Index mode_count = 0;
+    bool equal = false;     ///< one number of each kind serves all links
+    bool plummets = false;  ///< equal plummets
+    bool rods = false;      ///< equal uniform rods
+    double length = 0;      ///< of the whole chain
+
+   private:
+    template <class V>
+    static bool is_one(const Column<V>& column) {
+        const V* const numbers = column.data();
+        return std::all_of(numbers, numbers + column.stored(), [&](const V& x) { return x == numbers[0]; });
+    }
+
+   public:
+    explicit ChainKind(const Chain<double>& chain)
+        : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()) {
+        equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
+                is_one(chain.gyration_ratio());
+        if (!equal) return;
+        const Link<double> link = chain.link(0);
+        plummets = link == plummet(link.weight, link.length);
+        rods = link == uniform_rod(link.weight, link.length);
+    }
+};
+
+/// Whether a model can answer, and if not why: a sentence that lives for ever.
+struct Fit {
+    bool applies = true;
+    std::string_view reason{};
+
+    static Fit no(std::string_view why) { return {false, why}; }
+};
+
+/// One theory or method: whether it applies to a question, how large its error can be (relative, of every height asked for;
+/// a bound, before anything is computed), what it costs (seconds, predicted), and its answer, with the bounds reached.
+template <class M>
+concept Model = requires(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
+    { M::name } -> std::convertible_to<std::string_view>;
+    { model.applies(kind, question) } -> std::same_as<Fit>;
+    { model.error_bound(kind, question) } -> std::same_as<double>;
+    { model.cost(kind, question) } -> std::same_as<double>;
+    { model.solve(chain, kind, question) } -> std::same_as<Answer>;
+};
+
+/// Whether a model is of the theory of small inclinations, as all are that do not say otherwise.
+template <class M>
+constexpr bool is_linear() {
+    if constexpr (requires { M::is_linear; })
+        return M::is_linear;
+    else
+        return true;
+}
+
+/// How far the theory of small inclinations is off where the lowest link has one that is not: at most 1/cos - 1, if no
+/// link leans more than the lowest. Offsets of a shape are those of a mode of the straight chain with links as long as they
+/// reach down (`transferred_to_axis`), and no link made longer as a whole lowers a height. Of equal links the slowest third of
+/// the modes, and one, are steepest at the free end (measured: tests/cpp/scene/models.cpp); infinite of others.
+inline double error_of_small_inclinations(const ChainKind& kind, const Question& question) {
+    if (!(question.inclination > 0)) return 0;
+    if (!(kind.plummets || kind.rods) || question.last() > std::max<Index>(1, kind.size / 3))
+        return std::numeric_limits<double>::infinity();
+    const double sine = std::sin(question.inclination / 2);
+    return 2 * sine * sine / std::cos(question.inclination) * (1 + 1e-15);
+}
+
+}  // namespace revchain

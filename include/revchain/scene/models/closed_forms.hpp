@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linear/two_links.hpp"
+#include "revchain/scene/model.hpp"
+
+namespace revchain::models {
+
+/// One link, or two: a length, or the roots of a quadratic. Greenhill (1908) §1, §2 (5), §6 (11), §8 (12), (14).
+/// Error bound 8 ulp, measured 2.6 (tests/cpp/scene/models.cpp). Cost 10 ns.
+struct ClosedForms {
+    static constexpr std::string_view name = "closed forms";
+    static constexpr double bound = 8 * std::numeric_limits<double>::epsilon();
+
+    Fit applies(const ChainKind& kind, const Question&) const {
+        if (kind.size > 2) return Fit::no("more than two links");
+        if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question&) const { return bound; }
+    double cost(const ChainKind&, const Question&) const { return 1e-7; }
+
+    Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
+        const Link<double> lower = chain.link(0);
+        const double turning = turning_of(lower), l = turning / lower.centroid;
+        HeightPair<double> heights{l, 0};
+        if (kind.size == 2) {
+            const Link<double> upper = chain.link(1);
+            const double unit = lower.weight + upper.weight, w1 = lower.weight / unit, w2 = upper.weight / unit;
+            const double a = upper.length, second = turning_of(upper);
+            const double kappa = w2 * upper.centroid + w1 * a;
+            // a sum in which a centroid above its pin cancels, or lengths whose squares leave the range: not for this model
+            if (!(lower.centroid > 0 && upper.centroid >= 0 && kappa > 0)) return {{}, {}, false};
+            const double q = (w2 * second + w1 * a * a) / kappa, coupling = w1 * lower.centroid * a * a / kappa;
+            const double beyond = turning_ratio(lower) * lower.length * lower.length / lower.centroid;  // l - h
+            const double rest = (l * w2 * second + w1 * a * a * beyond) / kappa;
+            heights = revchain::detail::coupled_roots(l, q, coupling, rest);
+        }
+        Answer answer{Vector<double>(question.count), Vector<double>::Constant(question.count, bound)};
+        for (Index j = 0; j < question.count; ++j) {
+            answer.conical_height[j] = heights[static_cast<std::size_t>(question.first - 1 + j)];
+            answer.found = answer.found && std::isnormal(answer.conical_height[j]);
+        }
+        return answer;
+    }
+
+   private:
+    static double turning_ratio(const Link<double>& link) { return static_cast<double>(link.gyration_ratio); }
+    /// h l = h^2 + rho^2
+    static double turning_of(const Link<double>& link) {
+        return link.centroid * link.centroid + turning_ratio(link) * link.length * link.length;
+    }
+};
+
+}  // namespace revchain::models

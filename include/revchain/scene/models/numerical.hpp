@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linear/modes.hpp"
+#include "revchain/scene/model.hpp"
+
+/// The four ways of `modes` to the heights of any chain (docs/design.md), each as a model. All bounds are proved. Costs:
+/// fitted to `bench_models` (x86-64, AVX2, 2 cores, GCC 12), flat within a factor of 2.
+namespace revchain::models {
+
+namespace detail {
+inline Answer answered(const Modes<double>& modes) { return {modes.conical_height, modes.error_bound}; }
+
+inline ModesOptions<double> options_for(const Question& question, ModesMethod method) {
+    ModesOptions<double> options{.first = question.first, .count = question.count};
+    if (question.rtol > 2 * std::numeric_limits<double>::epsilon()) options.rtol = question.rtol;
+    options.shapes = false, options.method = method;
+    return options;
+}
+
+/// A way is taken at its word: where it could not, and another did the work, it has no answer.
+inline Answer by(const Chain<double>& chain, const Question& question, ModesMethod method, std::string_view word) {
+    const Modes<double> found = modes(chain, options_for(question, method));
+    Answer answer = answered(found);
+    answer.found = found.method == word;
+    return answer;
+}
+
+inline double real(Index x) { return static_cast<double>(x); }
+}  // namespace detail
+
+/// Halving between counts, one mode after the other: any chain, any modes, 2 ulp.
+struct ElementBisection {
+    static constexpr std::string_view name = "element bisection";
+    static constexpr double bound = 2 * std::numeric_limits<double>::epsilon();
+
+    Fit applies(const ChainKind&, const Question&) const { return {}; }
+    double error_bound(const ChainKind&, const Question&) const { return bound; }
+    double cost(const ChainKind& kind, const Question& question) const {
+        // with a loose tolerance no double words, and a few halvings for each digit
+        const bool loose = question.rtol > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
+        const double each = loose ? 2e-8 + 4.5e-9 * std::max(0.0, -std::log10(question.rtol)) : 2.9e-7;
+        return 8e-7 + detail::real(kind.size) * (1.6e-7 + each * detail::real(question.count));
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        return detail::by(chain, question, ModesMethod::bisection, "bisection");
+    }
+};
+
+/// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp.
+struct Blocks {
+    static constexpr std::string_view name = "compressed blocks";
+    static constexpr double bound = 2 * std::numeric_limits<double>::epsilon();
+
+    Fit applies(const ChainKind& kind, const Question& question) const {
+        if (kind.size < 256) return Fit::no("fewer than 256 links");
+        if (question.last() > kind.size / 8) return Fit::no("more than an eighth of the modes");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question&) const { return bound; }
+    double cost(const ChainKind& kind, const Question& question) const {
+        const double count = detail::real(question.count);
+        return 3e-5 + 1.7e-9 * detail::real(kind.size) + 5e-5 * count * (1 + count / 20);
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        return detail::by(chain, question, ModesMethod::blocks, "blocks");
+    }
+};
+
+/// All modes of a small chain at once in SIMD lanes: 1e-14 or looser.
+struct AllTogether {
+    static constexpr std::string_view name = "all together";
+    static constexpr double bound = 1e-14;
+
+    Fit applies(const ChainKind& kind, const Question&) const {
+        if (kind.size > 100) return Fit::no("more than 100 links");
+        if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question&) const { return bound; }
+    double cost(const ChainKind& kind, const Question&) const {
+        const double n = detail::real(kind.size);
+        return 4e-7 + 2.6e-8 * n + 4e-9 * n * n;
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        Question loose = question;
+        loose.rtol = std::max(question.rtol, bound);
+        return detail::by(chain, loose, ModesMethod::together, "together");
+    }
+};
+
+/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14.
+struct Spectrum {
+    static constexpr std::string_view name = "interpolated spectrum";
+    static constexpr double fine = 2 * std::numeric_limits<double>::epsilon(), loose = 1e-14;
+
+    Fit applies(const ChainKind& kind, const Question& question) const {
+        if (kind.size < 12) return Fit::no("fewer than 12 links");
+        if (question.count < 8) return Fit::no("fewer than 8 modes asked for");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question& question) const {
+        return question.rtol >= loose ? loose : fine;
+    }
+    double cost(const ChainKind& kind, const Question& question) const {
+        const double each = question.rtol >= loose ? 2.5e-9 : 5e-9;
+        return 2.5e-5 + detail::real(kind.size) * (5e-7 + each * detail::real(question.count));
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        return detail::by(chain, question, ModesMethod::spectrum, "spectrum");
+    }
+};
+
+}  // namespace revchain::models

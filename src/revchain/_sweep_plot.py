@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of a study."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._extras import require
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._sweep_result import SweepResult
+
+MOST_CURVES = 10
+
+
+def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
+    """Curves over one number, dots over a random one, a map over two grids."""
+    pyplot = require("matplotlib.pyplot", "plot", "plotting")
+    place = "revchain.SweepResult.plot"
+    blocks = {block.name: block for block in result._plan.blocks}
+    name = next(iter(blocks)) if name is None else name
+    if name not in blocks:
+        raise ValueError(f"{place}: name must be one of {', '.join(blocks)}, got {name!r}")
+    axes = result._plan.axes
+    if len(axes) > 2:
+        raise ValueError(f"{place}: draws one or two numbers, and {len(axes)} varied: {', '.join(result.varied)}")
+    if any(axis.values is not None and axis.values.dtype.kind not in "fi" for axis in axes):
+        raise ValueError(f"{place}: draws numbers, not words")
+    values = result[name].reshape(len(result), -1).astype(float)
+    if ax is None:
+        _, ax = pyplot.subplots(layout="constrained")
+        assert ax is not None
+    one = axes[0]
+    ax.set_xlabel(one.name)
+    if _log(one.values):
+        ax.set_xscale("log")
+    if len(axes) == 1:
+        mark = "." if one.values is None else "-"
+        for k in range(min(values.shape[1], MOST_CURVES)):
+            label = f"{blocks[name].along} {blocks[name].labels[k]}" if blocks[name].along else name
+            ax.plot(result[one.name], values[:, k], mark, label=label)
+        ax.set_ylabel(name.replace("_", " "))
+        if values.shape[1] > 1:
+            ax.legend()
+        return ax
+    two = axes[1]
+    ax.set_ylabel(two.name)
+    if _log(two.values):
+        ax.set_yscale("log")
+    if one.values is not None and two.values is not None:
+        drawn = ax.pcolormesh(one.values, two.values, values[:, 0].reshape(result.shape).T, shading="nearest")
+    else:
+        drawn = ax.scatter(result[one.name], result[two.name], c=values[:, 0], s=6)
+    first = f"{name.replace('_', ' ')}, {blocks[name].along} {blocks[name].labels[0]}" if blocks[name].along else name
+    ax.figure.colorbar(drawn, ax=ax, label=first)
+    return ax
+
+
+def _log(values: np.ndarray | None) -> bool:
+    """Whether a grid goes in equal ratios."""
+    if values is None or values.size < 3 or not (values > 0).all():
+        return False
+    ratios = values[1:] / values[:-1]
+    return bool(ratios[0] != 1 and np.allclose(ratios, ratios[0], rtol=1e-6))

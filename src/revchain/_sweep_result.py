@@ -1,0 +1,307 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `revchain.sweep` returns."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._arguments import read_only
+from ._study_find import REFUSED, STATUS, Arrays
+from ._study_plan import Plan, Stretch
+from .study import Study
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+
+MOST_SENTENCES = 20
+
+
+class SweepResult:
+    """All points of a study and what was found there; made by `revchain.sweep`.
+
+    ``result["angular_speed"]`` is an array whose first axis counts the points, grids with the last fastest, samples
+    faster still; ``result["links[0].mass"]`` is what varied. Of modes, shapes and speeds a second axis counts these.
+    NaN, or 0 of whole numbers, stands where a point has nothing of the kind.
+
+    Attributes
+    ----------
+    study : Study
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> found = rc.sweep({
+    ...     "scene": {"links": [{"mass": 1.0, "length": 0.5}]},
+    ...     "vary": {"links[0].length": {"values": [0.25, 1.0]}},
+    ... })
+    >>> found
+    SweepResult: 2 points of links[0].length; angular_speed, conical_height
+    >>> found["conical_height"]
+    array([[0.25],
+           [1.  ]])
+    """
+
+    study: Study
+    _plan: Plan
+    _arrays: Arrays
+    _status: NDArray[np.uint8]
+    _done: list[tuple[int, int]]
+    _finished: int
+    _resumed: int
+
+    @classmethod
+    def _empty(cls, study: Study, plan: Plan) -> SweepResult:
+        result = cls.__new__(cls)
+        result.study, result._plan = study, plan
+        result._arrays = {block.name: block.memory(plan.points) for block in plan.stored}
+        result._status = np.empty(plan.points, np.uint8)
+        result._done, result._finished, result._resumed = [], 0, 0
+        return result
+
+    def _place(self, start: int, stop: int) -> Arrays:
+        """Where a stretch of points belongs."""
+        return {name: array[start:stop] for name, array in self._arrays.items()}
+
+    def _take(self, stretch: Stretch) -> None:
+        for name, place in self._place(stretch.start, stretch.stop).items():
+            if (array := stretch.arrays[name]).base is not place.base:
+                place[...] = array
+        self._status[stretch.start : stretch.stop] = stretch.status
+        self._done.append((stretch.start, stretch.stop))
+        self._finished += stretch.stop - stretch.start
+
+    def _missing(self) -> list[tuple[int, int]]:
+        """The stretches between those that are done."""
+        missing, end = [], 0
+        for start, stop in [*sorted(self._done), (self._plan.points, self._plan.points)]:
+            if start > end:
+                missing.append((end, start))
+            end = stop
+        return missing
+
+    def __len__(self) -> int:
+        return self._plan.points
+
+    @property
+    def resumed(self) -> int:
+        """How many of the points were there already, from a run that was ended."""
+        return self._resumed
+
+    @property
+    def varied(self) -> list[str]:
+        """Names of what varied, in the order of the study."""
+        return [axis.name for axis in self._plan.axes]
+
+    @property
+    def found(self) -> list[str]:
+        """Names of what was found."""
+        return [block.name for block in self._plan.blocks]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many values each grid has, and, where numbers are random, how many samples."""
+        return self._plan.shape
+
+    @property
+    def status(self) -> NDArray[Any]:
+        """Of each point: ``success``, ``tolerance_not_met`` (something is not proved) or ``refused``."""
+        return np.array(STATUS)[self._status]
+
+    @property
+    def refused(self) -> dict[int, str]:
+        """Sentences for points that their scenes refuse, by their numbers: the first twenty."""
+        points = np.flatnonzero(self._status == REFUSED)[:MOST_SENTENCES].tolist()
+        return {point: self._plan.refusal(point) for point in points}
+
+    def count(self, status: str) -> int:
+        """Count the points with a status.
+
+        Parameters
+        ----------
+        status : {"success", "tolerance_not_met", "refused"}
+
+        Returns
+        -------
+        int
+
+        Raises
+        ------
+        ValueError
+            If there is no such status.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
+        >>> vary = {"links[0].length": {"normal": ["1 m", "0.3 m"]}}
+        >>> rc.sweep({"scene": scene, "vary": vary, "samples": 1000}).count("success")
+        1000
+        """
+        if status not in STATUS:
+            raise ValueError(f"revchain.SweepResult.count: status must be one of {', '.join(STATUS)}, got {status!r}")
+        return int(np.count_nonzero(self._status == STATUS.index(status)))
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name in self._arrays:
+            return read_only(self._arrays[name])
+        if name == "status":
+            return self.status
+        if name in self.varied:
+            self._fill_varied()
+        elif name == "angular_speed" and name in self.found:
+            self._arrays[name] = self._plan.speeds(self._arrays["conical_height"])
+        else:
+            known = ", ".join([*self.varied, *self.found, "status"])
+            raise KeyError(f"there is no {name!r}; there are {known}")
+        return read_only(self._arrays[name])
+
+    def _fill_varied(self) -> None:
+        values = self._plan.values(0, self._plan.points)
+        self._arrays.update(zip(self.varied, values, strict=True))
+
+    def columns(self, words: bool = True) -> dict[str, NDArray[Any]]:
+        """Return everything as columns of equal length, as the tables have them.
+
+        Parameters
+        ----------
+        words : bool
+            Whether the status is said in words, or else as 0, 1, 2 in their order.
+
+        Returns
+        -------
+        dict of str to ndarray
+            The point's number, what varied, what was found (``conical_height_1`` and on), the status.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
+        >>> list(rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}}).columns())
+        ['point', 'gravity', 'angular_speed_1', 'conical_height_1', 'status']
+        """
+        columns: dict[str, NDArray[Any]] = {"point": np.arange(len(self))}
+        columns |= {name: self[name] for name in self.varied}
+        for block in self._plan.blocks:
+            values = self[block.name].reshape(len(self), -1)
+            columns |= {name: values[:, k] for k, name in enumerate(block.columns)}
+        return {**columns, "status": self.status if words else self._status}
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas table with one row for each point.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ImportError
+            If pandas is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
+        >>> found = rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}})
+        >>> found.to_dataframe().shape  # doctest: +SKIP
+        (2, 5)
+        """
+        from ._sweep_output import dataframe_of
+
+        return dataframe_of(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return a labelled dataset with one dimension for each grid, and one for samples.
+
+        Returns
+        -------
+        xarray.Dataset
+
+        Raises
+        ------
+        ImportError
+            If xarray is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
+        >>> vary = {"gravity": {"values": [1.62, 9.81]}, "links[0].length": {"from": 1, "to": 2, "steps": 5}}
+        >>> dict(rc.sweep({"scene": scene, "vary": vary}).to_xarray().sizes)  # doctest: +SKIP
+        {'gravity': 2, 'links[0].length': 5, 'mode': 1}
+        """
+        from ._sweep_output import dataset_of
+
+        dataset: xarray.Dataset = dataset_of(self)
+        return dataset
+
+    def save(self, path: str) -> None:
+        """Write everything to a file.
+
+        Parameters
+        ----------
+        path : path-like
+            Ends in ``.csv``, ``.parquet`` or ``.nc``.
+
+        Raises
+        ------
+        ValueError
+            If `path` ends otherwise.
+        OSError
+            If it cannot be written.
+        ImportError
+            If a package for it is missing; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
+        >>> rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}}).save("moon.csv")
+        """
+        from ._files import written_aside
+        from ._sweep_output import writer_of
+
+        write = writer_of(path)
+        with written_aside(path) as [aside]:
+            write(self, aside)
+
+    def plot(self, name: str | None = None, ax: Axes | None = None) -> Axes:
+        """Draw what was found against what varied: one number as curves, two grids as a map of the first.
+
+        Parameters
+        ----------
+        name : str, optional
+            Of what was found; whatever comes first if left out.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If more than two numbers varied, or words.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
+        >>> found = rc.sweep({"scene": scene, "vary": {"links[0].length": {"from": 1, "to": 2, "steps": 5}}})
+        >>> found.plot().get_xlabel()
+        'links[0].length'
+        """
+        from ._sweep_plot import plot_sweep
+
+        return plot_sweep(self, name, ax)
+
+    def __repr__(self) -> str:
+        refused = f"; {count:,} refused" if (count := self.count("refused")) else ""
+        return f"SweepResult: {len(self):,} points of {', '.join(self.varied)}; {', '.join(self.found)}{refused}"
