@@ -16,7 +16,7 @@ from ._modes import Modes
 from ._response import Response, SmallOscillation
 from ._rig import Rig
 from ._rig_modes import RigModes
-from ._scene_ask import DEFAULT_MODES, asked
+from ._scene_ask import asked, asked_of_held
 from ._scene_ask_tables import Ask, AskResponse, AskShapes, AskSwing, Held
 from ._scene_chain import Numbers, chain_of_links, uniform_chain
 from ._scene_error import SceneError
@@ -245,7 +245,7 @@ class Scene(Table, frozen=True):
         Raises
         ------
         SceneError
-            If the modes asked for are not there, or cannot be meant.
+            If the modes asked for are not there, or cannot be meant, or the scene holds both ends.
 
         Examples
         --------
@@ -254,6 +254,8 @@ class Scene(Table, frozen=True):
         >>> scene.asked(scene.chain())
         {'modes': range(25, 31)}
         """
+        if self.is_held:
+            raise SceneError("scene", "held", "is for shapes and modes: there is one model of it, `revchain.taut_modes`")
         return asked(self.ask, chain, self.gravity_value(), "scene", self.is_rigged)
 
     def modes(self) -> Modes | RigModes | TautModes:
@@ -290,7 +292,7 @@ class Scene(Table, frozen=True):
             return modes(rig, **self.asked(rig.chain))
         chain = self.chain()
         if self.held is not UNSET:
-            return taut_modes_of(self.held, chain, self._mode_count(chain), "scene")
+            return taut_modes_of(self.held, chain, asked_of_held(self.ask, chain, "scene"), "scene")
         return modes(chain, **self.asked(chain))
 
     def steady_shapes(self, **changed: Any) -> SteadyShapes | HeldShapes[HeldShape]:
@@ -395,16 +397,11 @@ class Scene(Table, frozen=True):
             raise SceneError(source, "held", "does not go with a support, standing links, flywheels or a fluid")
         else:
             ends_of(self.held, chain, source)
+            asked_of_held(self.ask, chain, source)
         the_speed(self.ask.shapes, source)
         the_speeds(self.ask.response, self._rig(source) if self.is_rigged else chain, source)
         if self.ask.swing is not UNSET:
             start_of(self.ask.swing, chain, source)
-
-    def _mode_count(self, chain: Chain) -> int:
-        """How many modes are asked of a chain held at both ends."""
-        most = max(chain.size - 1, 1)
-        asked = self.ask.modes
-        return most if asked == "all" else DEFAULT_MODES if isinstance(asked, UnsetType) else asked
 
     def _links(self) -> list[Link]:
         return [] if self.links is UNSET else self.links
