@@ -394,3 +394,8 @@ def _refuse_link(place: str, wrong: NDArray[np.bool_], column: Floats, sentence:
 def _restored(chain: Chain, given: dict[str, Any]) -> Rig:
     """A rig from its pickled state."""
     return Rig(chain, **given)
+
+
+def base_chain(hung: Chain | Rig) -> Chain:
+    """The chain by itself."""
+    return hung.chain if isinstance(hung, Rig) else hung
