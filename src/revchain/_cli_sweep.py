@@ -14,9 +14,8 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from ._cli_frame import EXIT_CODES, PICTURES, Stop, app, guarded
+from ._cli_frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
 from ._exit_codes import ExitCode
-from ._extras import require
 from ._files import written_aside
 from ._progress import PATIENCE
 from ._sweep import dask_client
@@ -57,9 +56,7 @@ def sweep(
             print(line)
         return
     if plot is not None:
-        if plot.suffix.lower() not in PICTURES:
-            raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
-        require("matplotlib", "plot", "--plot")
+        checked_picture(plot)
     if workers is not None and dask not in (None, "local"):
         raise Stop("--workers is for this machine: a cluster has its own", ExitCode.WRONG_USAGE)
     out = Path(f"{study.stem}.csv") if out is None else out
@@ -150,9 +147,8 @@ def _draw(found: Any, plot: Path, title: str) -> None:
         axes = found.plot()
     except ValueError as error:
         raise Stop(f"--plot: {error}", ExitCode.WRONG_USAGE) from None
-    axes.set_title(title, wrap=True)
     with written_aside(plot) as [aside]:
-        axes.figure.savefig(aside, dpi=150)
+        save_picture(axes, title, aside)
 
 
 def _complain(found: Any) -> None:

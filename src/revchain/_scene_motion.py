@@ -52,6 +52,8 @@ def shapes_of(
     if not speed:
         raise SceneError(source, "ask.shapes", "is missing: say at which angular_speed or conical_height")
     if held is UNSET:
+        if "half_waves" in changed:
+            raise SceneError(source, "ask.shapes", "half_waves is for a chain held at both ends")
         arguments = {"sense": asked.sense, "hanging_only": not asked.any_posture, **changed}
         return steady_shapes(hung, **speed, gravity=gravity, **arguments)
     if isinstance(hung, Rig):

@@ -255,7 +255,9 @@ class Scene(Table, frozen=True):
         {'modes': range(25, 31)}
         """
         if self.is_held:
-            raise SceneError("scene", "held", "is for shapes and modes: there is one model of it, `revchain.taut_modes`")
+            raise SceneError(
+                "scene", "held", "is for shapes and modes: there is one model of it, `revchain.taut_modes`"
+            )
         return asked(self.ask, chain, self.gravity_value(), "scene", self.is_rigged)
 
     def modes(self) -> Modes | RigModes | TautModes:
