@@ -221,9 +221,7 @@ class Scene(Table, frozen=True):
         """Whether the support is carried round a circle, and one speed of that is asked about."""
         if isinstance(self.support, UnsetType) or isinstance(self.ask.response, UnsetType):
             return False
-        asked = self.ask.response
-        speeds = asked.conical_height if isinstance(asked.angular_speed, UnsetType) else asked.angular_speed
-        return not isinstance(speeds, UnsetType) and len(speeds) == 1 and radius_of(self.support, "scene") > 0
+        return len(self.ask.response.ends) == 1 and radius_of(self.support, "scene") > 0
 
     @property
     def is_held(self) -> bool:
