@@ -148,7 +148,7 @@ Found = TypeVar("Found", bound=Answer)
 
 
 def answered(scene: Path, find: Callable[[], Found], wanted: Wanted) -> Found:
-    """Find, write the files, print the table or what was asked for on stdout. Places are tried before anything is found."""
+    """Find, write the files, print the table or what was asked for on stdout. Places to write are tried first."""
     outputs = outputs_of(scene, wanted)
     with written_aside(*(path for path, _ in outputs)) as asides:
         with told_of(scene):

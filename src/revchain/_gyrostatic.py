@@ -37,8 +37,9 @@ class GyrostaticString:
 
     In a circular wave every pin runs round the line with speed n, each a phase behind its neighbour:
     ``(T/a + n H/a^2) 4 sin^2(phase/2) = (n^2/g) (W - 4 X sin^2(phase/2))``, where ``X`` is
-    ``W (h (a - h) - rho^2)/a^2``. The spin makes the string stiffer one way round and softer the other: of a vibration to and fro, which is two circular
-    waves, the plane turns along the string, as that of light does in a magnetised body.
+    ``W (h (a - h) - rho^2)/a^2``. The spin makes the string stiffer one way round and softer the other: of a vibration
+    to and fro, which is two circular waves, the plane turns along the string, as that of light does in a magnetised
+    body.
 
     Parameters
     ----------
@@ -195,8 +196,11 @@ class GyrostaticString:
 
         Examples
         --------
-        >>> import numpy as np, revchain as rc
+        >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0, centroid=1.0)
+        >>> waves = string.angular_speeds([0.5, 1.0])
+        >>> waves.forward.round(4), waves.backward.round(4)
+        (array([ 5.072 , 10.0592]), array([-4.8272, -9.1398]))
         """
         return WaveSpeeds(*self._at("angular_speeds", phase, _core.gyrostatic_string_speeds, "phase"))
 
