@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, count, floats, numbers, one_positive, real, refuse_where
+from ._results import Unchangeable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +33,7 @@ class WaveSpeeds(NamedTuple):
     backward: Any
 
 
-class GyrostaticString:
+class GyrostaticString(Unchangeable):
     """Equal links jointed in a row under one pull, each with a flywheel about its own axis.
 
     In a circular wave every pin runs round the line with speed n, each a phase behind its neighbour:
@@ -350,12 +351,6 @@ class GyrostaticString:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._given,)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a GyrostaticString cannot be changed: {name} was not set")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a GyrostaticString cannot be changed: {name} was not deleted")
 
 
 def _restored(given: dict[str, float]) -> GyrostaticString:
