@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import UNSET, UnsetType, json
 
 from ._chain import Chain
-from ._scene_ask_tables import Ask
+from ._scene_ask_tables import Ask, AskShapes
 from ._scene_chain import Numbers
 from ._scene_error import SceneError
 from ._scene_tables import MOST_LINKS
@@ -39,8 +39,11 @@ def asked(ask: Ask, chain: Chain, gravity: float, source: str, rigged: bool) -> 
 
 
 def asked_of_held(ask: Ask, chain: Chain, source: str) -> int:
-    """How many modes of a chain held at both ends, slowest first: nothing else can be asked of them."""
-    _refuse_any(("first", *_OF_HANGING_CHAINS), ask, source, "is for a chain that hangs: held at both ends give modes")
+    """How many modes of a chain held at both ends, slowest first; what would be passed over is refused."""
+    reason = "is for a chain that hangs"
+    _refuse_any(("first", *_OF_HANGING_CHAINS), ask, Numbers(source, "ask"), f"{reason}: held at both ends give modes")
+    if not isinstance(ask.shapes, UnsetType):
+        _refuse_any(("sense", "any_posture"), ask.shapes, Numbers(source, "ask.shapes"), reason)
     most = max(chain.size - 1, 1)
     return most if ask.modes == "all" else DEFAULT_MODES if isinstance(ask.modes, UnsetType) else ask.modes
 
@@ -48,7 +51,7 @@ def asked_of_held(ask: Ask, chain: Chain, source: str) -> int:
 def _asked_of_rig(ask: Ask, gravity: float, source: str) -> dict[str, Any]:
     """The modes of each sense of rotation, by their numbers: how many there are is found with them."""
     reason = "is for a chain alone: with a support, standing links, flywheels or a fluid give modes"
-    _refuse_any(_OF_HANGING_CHAINS, ask, source, reason)
+    _refuse_any(_OF_HANGING_CHAINS, ask, Numbers(source, "ask"), reason)
     first = 1 if ask.first is UNSET else ask.first
     if ask.modes == "all":
         return {"gravity": gravity} if first == 1 else {"gravity": gravity, "modes": range(first, 2 * MOST_LINKS)}
@@ -56,11 +59,12 @@ def _asked_of_rig(ask: Ask, gravity: float, source: str) -> dict[str, Any]:
     return {"gravity": gravity, "modes": range(first, first + count)}
 
 
-def _refuse_any(names: tuple[str, ...], ask: Ask, source: str, reason: str) -> None:
-    defaults = Ask()
+def _refuse_any(names: tuple[str, ...], table: Ask | AskShapes, numbers: Numbers, reason: str) -> None:
+    """Refuse keys of a table that are not left at their defaults."""
+    defaults = type(table)()
     for name in names:
-        if (value := getattr(ask, name)) != getattr(defaults, name):
-            raise SceneError(source, f"ask.{name}", f"{reason}, got {_as_written(value)}")
+        if (value := getattr(table, name)) != getattr(defaults, name):
+            raise numbers.refuse(name, f"{reason}, got {_as_written(value)}")
 
 
 def _as_written(value: Any) -> str:

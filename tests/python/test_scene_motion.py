@@ -121,6 +121,8 @@ def test_both_ends_held():
         (BLADE, {"certify": True}, "ask.certify", "got true"),
         (BLADE, {"precision": "single"}, "ask.precision", 'got "single"'),
         (BLADE, {"method": "dense"}, "ask.method", 'got "dense"'),
+        (BLADE, {"shapes": {"angular_speed": 1, "sense": -1}}, "ask.shapes.sense", "a chain that hangs, got -1"),
+        (BLADE, {"shapes": {"angular_speed": 1, "any_posture": True}}, "ask.shapes.any_posture", "hangs, got true"),
     ],
 )
 def test_refused_when_read(base, ask, key, words):
@@ -144,6 +146,11 @@ def test_refused_when_read(base, ask, key, words):
 def test_refused_when_asked(base, method, words):
     with pytest.raises(rc.SceneError, match=words):
         getattr(scene(base), method)()
+
+
+def test_half_waves_are_of_chains_held_at_both_ends():
+    with pytest.raises(rc.SceneError, match="ask.shapes: half_waves is for a chain held at both ends"):
+        scene({"links": LINKS}, shapes={"angular_speed": 3.0}).steady_shapes(half_waves=2)
 
 
 @pytest.mark.parametrize("ask", [rc.solve, rc.explain, lambda held: held.asked(held.chain())])
