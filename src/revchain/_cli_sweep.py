@@ -20,7 +20,7 @@ from ._files import written_aside
 from ._progress import PATIENCE
 from ._sweep import dask_client
 from ._sweep import sweep as compute
-from ._sweep_output import first_refused
+from ._sweep_output import first_refused, writer_of
 from .study import Study, load_study
 
 SENTENCES = 5  # shown of points that are refused
@@ -64,6 +64,7 @@ def sweep(
         raise Stop(f"{study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
     began = time.perf_counter()
     with ExitStack() as stack:
+        picture = None if plot is None else _picture(plot, out, stack)
         executor = None if dask is None else _executor(dask, workers, stack)
         told = _bar(stack, given.points, quiet)
         threads = None if executor is not None else workers
@@ -75,8 +76,8 @@ def sweep(
             raise
         except ValueError as error:
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
-    if plot is not None:
-        _draw(found, plot, given.title or study.stem)
+        if picture is not None:
+            _draw(found, picture, given.title or study.stem)
     if not quiet:
         there = f", {found.resumed:,} of them from before" if found.resumed else ""
         print(f"wrote {out}: {len(found):,} points in {time.perf_counter() - began:.3g} s{there}")
@@ -142,13 +143,23 @@ def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], Non
     return told
 
 
+def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:
+    """Where the picture is drawn; that its place can be written is found out before anything is computed."""
+    try:
+        writer_of(out)
+    except ValueError as error:
+        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+    out.parent.mkdir(parents=True, exist_ok=True)  # the picture may go there, too
+    [aside] = stack.enter_context(written_aside(plot))
+    return aside
+
+
 def _draw(found: Any, plot: Path, title: str) -> None:
     try:
         axes = found.plot()
     except ValueError as error:
         raise Stop(f"--plot: {error}", ExitCode.WRONG_USAGE) from None
-    with written_aside(plot) as [aside]:
-        save_picture(axes, title, aside)
+    save_picture(axes, title, plot)
 
 
 def _complain(found: Any) -> None:

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain import _cli, _core
+from revchain import _cli, _cli_sweep, _core
 from revchain._exit_codes import MEANING, ExitCode
 
 WATCH = """
@@ -279,6 +279,25 @@ def test_results_of_studies_that_cannot_be_written(run, place):
     done = run("sweep", "study.toml", "--out", place)
     ends_in_one_sentence(done, ExitCode.OUTPUT_FAILED, place)
     assert files() == ["study.toml", "swinging.toml", "watch.toml"]
+
+
+@pytest.mark.parametrize("place", ["watch.toml/a.png", "/proc/a.png"])
+def test_a_picture_of_a_study_that_cannot_be_written_is_found_out_before_computing(run, monkeypatch, place):
+    Path("swinging.toml").write_text(SWINGING)
+    Path("study.toml").write_text(STUDY)
+    monkeypatch.setattr(_cli_sweep, "compute", lambda *_, **__: pytest.fail("computed"))
+    done = run("sweep", "study.toml", "--plot", place)
+    ends_in_one_sentence(done, ExitCode.OUTPUT_FAILED, f"revchain: {place}: cannot be written: ")
+    done = run("sweep", "study.toml", "--plot", "a.png", "--out", "a.txt")
+    ends_in_one_sentence(done, ExitCode.WRONG_USAGE, "a.txt must end in")
+    assert files() == ["study.toml", "swinging.toml", "watch.toml"]
+
+
+def test_a_picture_of_a_study_beside_its_results(run):
+    Path("swinging.toml").write_text(SWINGING)
+    Path("study.toml").write_text(STUDY)
+    assert run("sweep", "study.toml", "--out", "new/a.csv", "--plot", "new/a.png")[0] == 0
+    assert sorted(path.name for path in Path("new").iterdir()) == ["a.csv", "a.png"]
 
 
 def test_no_scene_and_no_command(run):
