@@ -157,7 +157,7 @@ def answered(scene: Path, find: Callable[[], Found], wanted: Wanted) -> Found:
             try:
                 _write(found, aside, kind)
             except OSError as error:  # says the place that was asked for, or none
-                raise OSError(error.errno, error.strerror, str(path)) from None
+                raise OSError(error.errno, error.strerror or str(error), str(path)) from None
     if wanted.json == STDOUT:
         sys.stdout.write(found.json())
     elif wanted.csv == STDOUT:
