@@ -167,7 +167,7 @@ def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
 
 
 def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
-    """What `Chain` takes, as arrays by name: weight, length and, of links that are not plummets, what goes with them."""
+    """What `Chain` takes, as arrays by name: weight, length and, of links that are no plummets, what goes with them."""
     bodies = [name for name in ("pendulum_length", "radius_of_gyration") if given[name] is not None]
     if given["centroid"] is None and bodies:
         raise ValueError(f"{place}: {bodies[-1]} needs centroid beside it")

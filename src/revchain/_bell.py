@@ -83,7 +83,8 @@ class BellAndClapper:
         How far below the axle must the clapper be hung to swing half as far again as its bell?
 
         >>> import revchain as rc
-        >>> chain = rc.Chain(weight=[18, 500], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
+        >>> links = {"weight": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
+        >>> chain = rc.Chain(**links, radius_of_gyration=[0.08, 0.3])
         >>> round(rc.bell_and_clapper(chain).with_ratio(1.5)["joint"], 4)
         0.1928
         """

@@ -11,12 +11,13 @@ from numpy.typing import ArrayLike
 from . import _core
 from ._arguments import Floats, integer, link_arrays, real, shown
 from ._arguments import count as checked_count
+from ._results import Unchangeable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class Chain:
+class Chain(Unchangeable):
     """A chain of links hanging from a support, listed lowest first.
 
     Give each quantity as one number for every link, or as an array with one number for each link;
@@ -360,12 +361,6 @@ class Chain:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._compiled.__getstate__(),)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a Chain cannot be changed: {name} was not set")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a Chain cannot be changed: {name} was not deleted")
 
 
 def _restored(state: tuple[Any, ...]) -> Chain:

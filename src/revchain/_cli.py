@@ -8,20 +8,22 @@ import json as json_module
 import os
 import re
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
+from rich.console import Console, RenderableType
 
 from . import _core
-from ._cli_frame import EXIT_CODES, STDOUT, Stop, app, guarded, outputs_of
+from ._cli_frame import EXIT_CODES, STDOUT, Stop, Wanted, answered, app, guarded, run_app, told_of
 from ._exit_codes import ExitCode
 from ._files import written_aside
 from ._modes import Modes
 from ._progress import watched
-from ._report import NARROWEST, csv_text, json_of, json_text, table
+from ._report import csv_text, json_of, json_text, table
 from ._response import Response
+from ._rig import base_chain
 from ._rig_modes import RigModes
 from ._scene_error import SceneError
 from ._solve import solve as solve_chain
@@ -39,12 +41,11 @@ def run(arguments: list[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a terminal that has no line characters shows question marks
     try:
-        app(arguments, prog_name="revchain")
+        return run_app(arguments)
     except SystemExit as end:
         return end.code if isinstance(end.code, int) else int(end.code is not None)
     except KeyboardInterrupt:
         return ExitCode.INTERRUPTED
-    return ExitCode.OK
 
 
 @app.command(epilog=EXIT_CODES)
@@ -82,17 +83,13 @@ def solve(
     chosen = {"modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
     overriding = {"rtol": rtol, "precision": precision, "method": method}
     if given.is_held:
-        from ._cli_motion import answer
+        from ._cli_motion import answer, refuse_any
 
-        refused = [name for name, value in {**chosen, **overriding, "out": out}.items() if value is not None]
-        if refused or certify:
-            option = (refused or ["certify"])[0].replace("_", "-")
-            raise Stop(f"--{option} is not for a chain held at both ends", ExitCode.WRONG_USAGE)
-        return answer(scene, Scene.modes, plot, json, csv, quiet)
-    outputs = outputs_of(scene, plot, json, csv, out)
-    hung = given.rig() if given.is_rigged else given.chain()
-    gravity = given.gravity_value()
-    asked = given.asked(given.chain())
+        of_others = {**chosen, **overriding, "out": out, "certify": certify or None}
+        refuse_any(of_others, "a chain held at both ends")
+        return answer(scene, Scene.modes, Wanted(plot, json, csv, quiet))
+    hung, gravity = given._hung(str(scene)), given.gravity_value()
+    asked = given.asked(base_chain(hung))
     if len(named := [name for name, value in chosen.items() if value is not None]) > 0:
         if len(named) > 1:
             options = " and ".join("--" + name.replace("_", "-") for name in named)
@@ -103,29 +100,43 @@ def solve(
     asked |= {name: value for name, value in overriding.items() if value is not None}
     if certify:
         asked["certify"] = True
-    title = given.title or scene.stem
-    carried = given.response() if given.is_carried else None
-    with written_aside(*(path for path, _ in outputs)) as asides:
-        try:
-            found = watched(lambda progress: solve_chain(hung, **asked, progress=progress), Console(stderr=True), quiet)
-        except ValueError as error:  # the scene itself has been checked: it is what the options say
-            raise Stop(str(error), ExitCode.WRONG_USAGE) from None
-        for aside, (_, kind) in zip(asides, outputs, strict=True):
-            _write(found, aside, kind, title, gravity, carried)
-    if json == STDOUT:
-        sys.stdout.write(json_text(found, title, gravity, carried))
-    elif csv == STDOUT:
-        sys.stdout.write(csv_text(found, gravity))
-    elif not quiet:
-        console = Console()
-        console.width = max(console.width, NARROWEST)
-        console.print(table(found, title, gravity, carried))
-        for path, _ in outputs:
-            print(f"wrote {path}")
+
+    def find() -> _Solved:
+        carried = given.response() if given.is_carried else None
+        found = watched(lambda progress: solve_chain(hung, **asked, progress=progress), Console(stderr=True), quiet)
+        return _Solved(found, given.title or scene.stem, gravity, carried)
+
+    found = answered(scene, find, Wanted(plot, json, csv, quiet, out)).found
     if found.status != "success":
         wanted = asked.get("rtol")
         asked_for = "" if wanted is None else f": asked {wanted:g}, reached {found.error_bound.max():.1e}"
         raise Stop(f"the tolerance is not met{asked_for}", ExitCode.TOLERANCE_NOT_MET)
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """Modes as the command shows them."""
+
+    found: Modes | RigModes
+    title: str
+    gravity: float
+    carried: Response | None
+
+    def json(self) -> str:
+        return json_text(self.found, self.title, self.gravity, self.carried)
+
+    def csv(self) -> str:
+        return csv_text(self.found, self.gravity)
+
+    def table(self) -> RenderableType:
+        return table(self.found, self.title, self.gravity, self.carried)
+
+    def plot(self) -> Any:
+        found = self.found
+        return found.plot(carried=self.carried) if isinstance(found, RigModes) else found.plot(gravity=self.gravity)
+
+    def save(self, path: Path) -> None:
+        self.found.save(path)
 
 
 @app.command(epilog=EXIT_CODES)
@@ -147,12 +158,8 @@ def explain(
     from ._models import explain as explain_models
 
     given = load_scene(scene)
-    try:
+    with told_of(scene):
         why = explain_models(given, rtol=rtol, inclination=inclination, time_budget=time_budget)
-    except SceneError:
-        raise
-    except ValueError as error:
-        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
     title = given.title or scene.stem
     if json:
         sys.stdout.write(json_of({"title": title, **why.to_dict()}))
@@ -173,7 +180,7 @@ def validate(scenes: Annotated[list[Path], typer.Argument(metavar="SCENE...", he
     for path in scenes:
         try:
             scene = load_scene(path)
-            print(f"{path}: valid: {scene.rig() if scene.is_rigged else scene.chain()!r}")
+            print(f"{path}: valid: {scene._hung(str(path))!r}")
         except SceneError as error:
             bad += 1
             print(f"revchain: {error}", file=sys.stderr)
@@ -218,19 +225,3 @@ def _numbers(text: str) -> dict[str, Any]:
     if found[2] is None:
         return {"count": int(found[1])}
     return {"modes": range(int(found[1]), int(found[2]) + 1)}
-
-
-def _write(
-    modes: Modes | RigModes, path: Path, kind: str, title: str, gravity: float, carried: Response | None
-) -> None:
-    if kind == ".json":
-        path.write_text(json_text(modes, title, gravity, carried), encoding="utf-8")
-    elif kind == ".csv":
-        path.write_text(csv_text(modes, gravity), encoding="utf-8")
-    elif kind == ".npz":
-        modes.save(path)
-    else:
-        axes = modes.plot(carried=carried) if isinstance(modes, RigModes) else modes.plot(gravity=gravity)
-        axes.set_title(title, wrap=True)
-        figure: Any = axes.figure
-        figure.savefig(path, dpi=150)

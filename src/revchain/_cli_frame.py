@@ -1,25 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all commands share: the application, how one ends, the files it writes."""
+"""What all commands share: the application, how one ends, what it prints and the files it writes."""
 
 from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, NoReturn, ParamSpec
+from typing import Annotated, Any, NoReturn, ParamSpec, Protocol, TypeVar
 
 import typer
+from rich.console import Console, RenderableType
 
 from ._exit_codes import MEANING, ExitCode
 from ._extras import require
+from ._files import written_aside
+from ._report import NARROWEST
 from ._scene_error import SceneError
 
 Arguments = ParamSpec("Arguments")
 
 PICTURES = (".png", ".svg", ".pdf")
 STDOUT = "-"
+
+UNREADABLE: Any = typer.BadParameter.__mro__[1]  # click's UsageError, which not every version of typer has as its own
 
 EXIT_CODES = "Exit codes: " + "; ".join(f"{code.value} {meaning}" for code, meaning in MEANING.items()) + "."
 
@@ -76,6 +82,24 @@ def fail(message: str, code: ExitCode) -> NoReturn:
     raise typer.Exit(code)
 
 
+def run_app(arguments: list[str] | None) -> int:
+    """The exit code; of a command line that cannot be read, one sentence on stderr."""
+    try:
+        code = app(arguments, prog_name="revchain", standalone_mode=False)
+    except UNREADABLE as error:
+        sentence, context = error.format_message(), error.ctx
+        if "\n" in sentence:  # the help, for want of arguments; newer versions of typer have printed it
+            print(sentence, file=sys.stderr)
+        elif sentence:
+            command = "revchain" if context is None else context.command_path
+            sentence = sentence[0].lower() + sentence[1:].rstrip(".")
+            print(f"revchain: {sentence}; see {command} --help", file=sys.stderr)
+        return ExitCode.WRONG_USAGE
+    except typer.Abort:
+        return ExitCode.INTERRUPTED
+    return code if isinstance(code, int) else ExitCode.OK
+
+
 def show_version(wanted: bool) -> None:
     """Print the version and end."""
     if wanted:
@@ -94,17 +118,102 @@ def common(
     """At which speeds a hanging chain whirls, in which shapes, and how sure these numbers are."""
 
 
-def outputs_of(
-    scene: Path, plot: Path | None, json: str | None, csv: str | None, out: Path | None
-) -> list[tuple[Path, str]]:
+@dataclass(frozen=True)
+class Wanted:
+    """What the options of a command say of its output."""
+
+    plot: Path | None
+    json: str | None
+    csv: str | None
+    quiet: bool
+    out: Path | None = None
+
+
+class Answer(Protocol):
+    """What a command found, in every form in which it can be asked for."""
+
+    @property
+    def title(self) -> str: ...
+    def json(self) -> str: ...
+    def csv(self) -> str: ...
+    def table(self) -> RenderableType: ...
+    def plot(self) -> Any:
+        """Axes without a title."""
+
+    def save(self, path: Path) -> None:
+        """As an .npz file."""
+
+
+Found = TypeVar("Found", bound=Answer)
+
+
+def answered(scene: Path, find: Callable[[], Found], wanted: Wanted) -> Found:
+    """Find, write the files, print the table or what was asked for on stdout. Places to write are tried first."""
+    outputs = outputs_of(scene, wanted)
+    with written_aside(*(path for path, _ in outputs)) as asides:
+        with told_of(scene):
+            found = find()
+        for aside, (path, kind) in zip(asides, outputs, strict=True):
+            try:
+                _write(found, aside, kind)
+            except OSError as error:  # says the place that was asked for, or none
+                raise OSError(error.errno, error.strerror or str(error), str(path)) from None
+    if wanted.json == STDOUT:
+        sys.stdout.write(found.json())
+    elif wanted.csv == STDOUT:
+        sys.stdout.write(found.csv())
+    elif not wanted.quiet:
+        console = Console()
+        console.width = max(console.width, NARROWEST)
+        console.print(found.table())
+        for path, _ in outputs:
+            print(f"wrote {path}")
+    return found
+
+
+@contextmanager
+def told_of(scene: Path) -> Iterator[None]:
+    """Errors of a scene name its file; others are of the options, since the scene itself has been checked."""
+    try:
+        yield
+    except SceneError as error:
+        raise SceneError(str(scene), error.key, error.reason) from None
+    except ValueError as error:
+        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+
+
+def _write(found: Answer, path: Path, kind: str) -> None:
+    if kind == ".json":
+        path.write_text(found.json(), encoding="utf-8")
+    elif kind == ".csv":
+        path.write_text(found.csv(), encoding="utf-8")
+    elif kind == ".npz":
+        found.save(path)
+    else:
+        save_picture(found.plot(), found.title, path)
+
+
+def save_picture(axes: Any, title: str, path: Path) -> None:
+    """With its title."""
+    axes.set_title(title, wrap=True)
+    axes.figure.savefig(path, dpi=150)
+
+
+def checked_picture(plot: Path) -> None:
+    """That it can be drawn."""
+    if plot.suffix.lower() not in PICTURES:
+        raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
+    require("matplotlib", "plot", "--plot")
+
+
+def outputs_of(scene: Path, wanted: Wanted) -> list[tuple[Path, str]]:
     """Files to write and what goes into them; the folder is made if it is not there."""
+    plot, json, csv, out = wanted.plot, wanted.json, wanted.csv, wanted.out
     if json == STDOUT and csv == STDOUT:
         raise Stop("--json - and --csv - cannot share stdout", ExitCode.WRONG_USAGE)
     outputs = [(Path(name), kind) for name, kind in ((json, ".json"), (csv, ".csv")) if name not in (None, STDOUT)]
     if plot is not None:
-        if plot.suffix.lower() not in PICTURES:
-            raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
-        require("matplotlib", "plot", "--plot")
+        checked_picture(plot)
         outputs.append((plot, plot.suffix.lower()))
     if out is not None:
         kinds = [".json", ".csv", ".npz"]

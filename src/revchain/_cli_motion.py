@@ -3,20 +3,17 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from rich.console import Console
+from rich.console import RenderableType
 
-from ._cli_frame import EXIT_CODES, STDOUT, Stop, app, guarded, outputs_of
+from ._cli_frame import EXIT_CODES, Stop, Wanted, answered, app, guarded
 from ._exit_codes import ExitCode
-from ._files import written_aside
-from ._report import NARROWEST
 from ._report_motion import Found, csv_text, json_text, sheet_of, table
-from ._scene_error import SceneError
 from .scene import Scene, load_scene
 
 SceneFile = Annotated[
@@ -51,7 +48,13 @@ def shapes(
     if angular_speed is not None and conical_height is not None:
         raise Stop("--angular-speed and --conical-height cannot both say the speed", ExitCode.WRONG_USAGE)
     changed = _given(given) | ({"hanging_only": False} if any_posture else {})
-    answer(scene, lambda read: read.steady_shapes(**changed), plot, json, csv, quiet)
+
+    def find(read: Scene) -> Any:
+        of_others = {"sense": sense, "any_posture": any_posture or None} if read.is_held else {"half_waves": half_waves}
+        refuse_any(of_others, "a chain held at both ends" if read.is_held else "a chain that hangs")
+        return read.steady_shapes(**changed)
+
+    answer(scene, find, Wanted(plot, json, csv, quiet))
 
 
 @app.command(epilog=EXIT_CODES)
@@ -76,7 +79,7 @@ def response(
     if angular_speed is not None and conical_height is not None:
         raise Stop("--angular-speed and --conical-height cannot both say the speeds", ExitCode.WRONG_USAGE)
     changed = _given({**given, "support_radius": support_radius})
-    answer(scene, lambda read: read.response(**changed), plot, json, csv, quiet)
+    answer(scene, lambda read: read.response(**changed), Wanted(plot, json, csv, quiet))
 
 
 @app.command(epilog=EXIT_CODES)
@@ -93,58 +96,47 @@ def swing(
 ) -> None:
     """Let the chain go where the scene says, and see it swing: small oscillations in a plane."""
     changed = _given({"until": until, "steps": steps, "modes": modes})
-    answer(scene, lambda read: read.small_oscillation(**changed), plot, json, csv, quiet)
+    answer(scene, lambda read: read.small_oscillation(**changed), Wanted(plot, json, csv, quiet))
+
+
+def refuse_any(options: dict[str, Any], hung: str) -> None:
+    """Options that were given and say nothing of what the scene holds."""
+    for name in _given(options):
+        raise Stop(f"--{name.replace('_', '-')} is not for {hung}", ExitCode.WRONG_USAGE)
 
 
 def _given(options: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in options.items() if value is not None}
 
 
-def answer(
-    scene: Path, find: Callable[[Scene], Any], plot: Path | None, json: str | None, csv: str | None, quiet: bool
-) -> None:
-    """Find, write the files, print the table."""
+@dataclass(frozen=True)
+class _Motion:
+    """Shapes or a motion, or modes between two held ends, as the commands show them."""
+
+    found: Found
+    title: str
+    gravity: float
+
+    def json(self) -> str:
+        return json_text(self.found, self.title, self.gravity)
+
+    def csv(self) -> str:
+        return csv_text(self.found, self.gravity)
+
+    def table(self) -> RenderableType:
+        return table(self.found, self.title, self.gravity)
+
+    def plot(self) -> Any:
+        return self.found.plot()
+
+    def save(self, path: Path) -> None:
+        raise NotImplementedError  # no command that finds them has --out
+
+
+def answer(scene: Path, find: Callable[[Scene], Any], wanted: Wanted) -> None:
+    """Find it in the scene, write the files, print the table."""
     read = load_scene(scene)
-    outputs = outputs_of(scene, plot, json, csv, None)
     title, gravity = read.title or scene.stem, read.gravity_value()
-    with written_aside(*(path for path, _ in outputs)) as asides:
-        try:
-            found = find(read)
-        except SceneError as error:
-            raise SceneError(str(scene), error.key, error.reason) from None
-        except ValueError as error:  # the scene itself has been checked: it is what the options say
-            raise Stop(str(error), ExitCode.WRONG_USAGE) from None
-        for aside, (_, kind) in zip(asides, outputs, strict=True):
-            write_motion(found, aside, kind, title, gravity)
-    print_motion(found, title, gravity, json, csv, quiet, [str(path) for path, _ in outputs])
-    if not sheet_of(found, gravity).good:
+    motion = answered(scene, lambda: _Motion(find(read), title, gravity), wanted)
+    if not sheet_of(motion.found, gravity).good:
         raise Stop("not proved to be all there is", ExitCode.TOLERANCE_NOT_MET)
-
-
-def print_motion(
-    found: Found, title: str, gravity: float, json: str | None, csv: str | None, quiet: bool, written: list[str]
-) -> None:
-    """To stdout what was asked for there."""
-    if json == STDOUT:
-        sys.stdout.write(json_text(found, title, gravity))
-    elif csv == STDOUT:
-        sys.stdout.write(csv_text(found, gravity))
-    elif not quiet:
-        console = Console()
-        console.width = max(console.width, NARROWEST)
-        console.print(table(found, title, gravity))
-        for path in written:
-            print(f"wrote {path}")
-
-
-def write_motion(found: Found, path: Path, kind: str, title: str, gravity: float) -> None:
-    """One file."""
-    if kind == ".json":
-        path.write_text(json_text(found, title, gravity), encoding="utf-8")
-    elif kind == ".csv":
-        path.write_text(csv_text(found, gravity), encoding="utf-8")
-    else:
-        axes = found.plot()
-        axes.set_title(title, wrap=True)
-        figure: Any = axes.figure
-        figure.savefig(path, dpi=150)

@@ -14,14 +14,13 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from ._cli_frame import EXIT_CODES, PICTURES, Stop, app, guarded
+from ._cli_frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
 from ._exit_codes import ExitCode
-from ._extras import require
 from ._files import written_aside
 from ._progress import PATIENCE
 from ._sweep import dask_client
 from ._sweep import sweep as compute
-from ._sweep_output import first_refused
+from ._sweep_output import first_refused, writer_of
 from .study import Study, load_study
 
 SENTENCES = 5  # shown of points that are refused
@@ -57,9 +56,7 @@ def sweep(
             print(line)
         return
     if plot is not None:
-        if plot.suffix.lower() not in PICTURES:
-            raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
-        require("matplotlib", "plot", "--plot")
+        checked_picture(plot)
     if workers is not None and dask not in (None, "local"):
         raise Stop("--workers is for this machine: a cluster has its own", ExitCode.WRONG_USAGE)
     out = Path(f"{study.stem}.csv") if out is None else out
@@ -67,6 +64,7 @@ def sweep(
         raise Stop(f"{study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
     began = time.perf_counter()
     with ExitStack() as stack:
+        picture = None if plot is None else _picture(plot, out, stack)
         executor = None if dask is None else _executor(dask, workers, stack)
         told = _bar(stack, given.points, quiet)
         threads = None if executor is not None else workers
@@ -78,8 +76,8 @@ def sweep(
             raise
         except ValueError as error:
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
-    if plot is not None:
-        _draw(found, plot, given.title or study.stem)
+        if picture is not None:
+            _draw(found, picture, given.title or study.stem)
     if not quiet:
         there = f", {found.resumed:,} of them from before" if found.resumed else ""
         print(f"wrote {out}: {len(found):,} points in {time.perf_counter() - began:.3g} s{there}")
@@ -145,14 +143,23 @@ def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], Non
     return told
 
 
+def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:
+    """Where the picture is drawn; that its place can be written is found out before anything is computed."""
+    try:
+        writer_of(out)
+    except ValueError as error:
+        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+    out.parent.mkdir(parents=True, exist_ok=True)  # the picture may go there, too
+    [aside] = stack.enter_context(written_aside(plot))
+    return aside
+
+
 def _draw(found: Any, plot: Path, title: str) -> None:
     try:
         axes = found.plot()
     except ValueError as error:
         raise Stop(f"--plot: {error}", ExitCode.WRONG_USAGE) from None
-    axes.set_title(title, wrap=True)
-    with written_aside(plot) as [aside]:
-        axes.figure.savefig(aside, dpi=150)
+    save_picture(axes, title, plot)
 
 
 def _complain(found: Any) -> None:

@@ -114,7 +114,7 @@ class ContinuousShape(Result[_core.ContinuousShape, _core.LineDensity | None]):
 
     @property
     def condition(self) -> float:
-        """Largest change of an inclination, rad, for a relative change 1 of the length: great near a critical height."""
+        """Largest change of an inclination, rad, per relative change of the length: great near a critical height."""
         return self._compiled.condition
 
     def __call__(self, arc_length: ArrayLike) -> ContinuousPlace:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from ._arguments import STANDARD_GRAVITY, Floats, count, floats, numbers, one_positive, real, refuse_where
+from ._results import Unchangeable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,13 +33,14 @@ class WaveSpeeds(NamedTuple):
     backward: Any
 
 
-class GyrostaticString:
+class GyrostaticString(Unchangeable):
     """Equal links jointed in a row under one pull, each with a flywheel about its own axis.
 
     In a circular wave every pin runs round the line with speed n, each a phase behind its neighbour:
     ``(T/a + n H/a^2) 4 sin^2(phase/2) = (n^2/g) (W - 4 X sin^2(phase/2))``, where ``X`` is
-    ``W (h (a - h) - rho^2)/a^2``. The spin makes the string stiffer one way round and softer the other: of a vibration to and fro, which is two circular
-    waves, the plane turns along the string, as that of light does in a magnetised body.
+    ``W (h (a - h) - rho^2)/a^2``. The spin makes the string stiffer one way round and softer the other: of a vibration
+    to and fro, which is two circular waves, the plane turns along the string, as that of light does in a magnetised
+    body.
 
     Parameters
     ----------
@@ -195,8 +197,11 @@ class GyrostaticString:
 
         Examples
         --------
-        >>> import numpy as np, revchain as rc
+        >>> import revchain as rc
         >>> string = rc.GyrostaticString(weight=9.80665, length=1.0, tension=100.0, momentum=1.0, centroid=1.0)
+        >>> waves = string.angular_speeds([0.5, 1.0])
+        >>> waves.forward.round(4), waves.backward.round(4)
+        (array([ 5.072 , 10.0592]), array([-4.8272, -9.1398]))
         """
         return WaveSpeeds(*self._at("angular_speeds", phase, _core.gyrostatic_string_speeds, "phase"))
 
@@ -346,12 +351,6 @@ class GyrostaticString:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._given,)
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a GyrostaticString cannot be changed: {name} was not set")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a GyrostaticString cannot be changed: {name} was not deleted")
 
 
 def _restored(given: dict[str, float]) -> GyrostaticString:

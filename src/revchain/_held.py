@@ -527,7 +527,7 @@ class TautModes:
 
     @property
     def shape(self) -> Floats:
-        """Offsets of the pins, shape (modes, N + 1), lower end first; largest 1, that of the lowest free pin positive."""
+        """Offsets of the pins, (modes, N + 1), lower end first; the largest 1, that of the lowest free pin positive."""
         return self._compiled.shape
 
     def angular_speed(self, gravity: float = STANDARD_GRAVITY) -> Floats:

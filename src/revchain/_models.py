@@ -13,9 +13,8 @@ from ._arguments import STANDARD_GRAVITY, Floats, integer, one_positive, positiv
 from ._arguments import count as checked_count
 from ._chain import Chain, compiled
 from ._results import Record
-from ._rig import Rig
+from ._rig import Rig, base_chain
 from ._solve import modes
-
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -38,8 +37,8 @@ class Solution(Record):
     model : str
         Who answered; one of those that `explain` lists.
     status : str
-        ``"success"``, or ``"tolerance_not_met"`` where no model keeps `rtol` (within the budget); the bounds are then the
-        best there are.
+        ``"success"``, or ``"tolerance_not_met"`` where no model keeps `rtol` (within the budget); the bounds are then
+        the best there are.
     rtol : float
         What was asked; 0: as accurate as there is.
     first : int
@@ -141,8 +140,8 @@ class Explanation(Record):
                 rows.append((mark, row.name, "-", "-", row.reason))
         widths = [max(len(row[column]) for row in rows) for column in range(4)]
         lines = [
-            f"{row[0]:{widths[0]}} {row[1]:{widths[1]}}  {row[2]:>{widths[2]}}  {row[3]:>{widths[3]}}  {row[4]}".rstrip()
-            for row in rows
+            f"{mark:{widths[0]}} {name:{widths[1]}}  {bound:>{widths[2]}}  {cost:>{widths[3]}}  {reason}".rstrip()
+            for mark, name, bound, cost, reason in rows
         ]
         asked = f"rtol {self.rtol:g}" if self.rtol else "as accurate as there is"
         return "\n".join([asked + ("" if self.meets_tolerance else ": no model keeps it"), *lines])
@@ -191,21 +190,21 @@ def solve(
     Returns
     -------
     Solution
-        ``status`` is ``"tolerance_not_met"`` where no model keeps the tolerance (within the budget); no heights where the
-        model named does not apply.
+        ``status`` is ``"tolerance_not_met"`` where no model keeps the tolerance (within the budget); no heights where
+        the model named does not apply.
 
     Raises
     ------
     TypeError
         If `what` is none of these.
     ValueError
-        For modes that are not there, a tolerance that is negative or NaN, a budget that is not positive, an inclination that
-        is negative or a right angle, a name that no model has.
+        For modes that are not there, a tolerance that is negative or NaN, a budget that is not positive, an
+        inclination that is negative or a right angle, a name that no model has, a scene that holds both ends.
 
     Notes
     -----
-    Choosing takes 0.1 microseconds, with this call some 10. A model that finds that its bound is larger than foreseen is
-    left out and the next one asked: the bound returned always holds.
+    Choosing takes 0.1 microseconds, with this call some 10. A model that finds that its bound is larger than foreseen
+    is left out and the next one asked: the bound returned always holds.
 
     Examples
     --------
@@ -219,11 +218,7 @@ def solve(
     ['continuous chain', 'finite amplitude']
     """
     place = "revchain.solve"
-    hung, k, n, tolerance, g = _asked(place, what, count, first, rtol, gravity)
-    budget = None if time_budget is None else one_positive(place, "time_budget", time_budget)
-    lean = real(place, "inclination", inclination)
-    if isinstance(hung, Rig) and lean != 0:
-        raise ValueError(f"{place}: inclination is for a chain alone, got a Rig")
+    hung, k, n, tolerance, lean, budget, g = _asked(place, what, count, first, rtol, inclination, time_budget, gravity)
     if isinstance(hung, Rig):
         found = modes(hung, modes=range(k, k + n), gravity=g, shapes=False)
         met = tolerance == 0 or bool(np.all(found.error_bound <= tolerance))
@@ -274,11 +269,7 @@ def explain(
     'all together'
     """
     place = "revchain.explain"
-    hung, k, n, tolerance, _ = _asked(place, what, count, first, rtol, None)
-    budget = None if time_budget is None else one_positive(place, "time_budget", time_budget)
-    lean = real(place, "inclination", inclination)
-    if isinstance(hung, Rig) and lean != 0:
-        raise ValueError(f"{place}: inclination is for a chain alone, got a Rig")
+    hung, k, n, tolerance, lean, budget, _ = _asked(place, what, count, first, rtol, inclination, time_budget, None)
     if isinstance(hung, Rig):
         each = 1e-6 * hung.size * n * (1 + bool(np.any(hung.momentum)))
         row = ModelEstimate(RIG_MODEL, True, "", 2.0**-52, each, True)
@@ -294,16 +285,34 @@ def explain(
     )
 
 
+class _Asked(NamedTuple):
+    """What `solve` and `explain` were given, checked."""
+
+    hung: Chain | Rig
+    first: int
+    how_many: int
+    rtol: float
+    inclination: float
+    time_budget: float | None
+    gravity: float
+
+
 def _asked(
-    place: str, what: Any, count: int | None, first: int | None, rtol: float | None, gravity: float | None
-) -> tuple[Chain | Rig, int, int, float, float]:
-    """What hangs, the first mode, how many, the tolerance, gravity."""
+    place: str,
+    what: Any,
+    count: int | None,
+    first: int | None,
+    rtol: float | None,
+    inclination: float,
+    time_budget: float | None,
+    gravity: float | None,
+) -> _Asked:
     scene: Any = None
     if isinstance(what, Chain | Rig):
         hung = what
     elif hasattr(what, "gravity_value") and hasattr(what, "ask"):
         scene = what
-        hung = scene.rig() if scene.is_rigged else scene.chain()
+        hung = scene._hung("scene")
     else:
         raise TypeError(f"{place}: what must be a revchain.Scene, Chain or Rig, got {shown(what)}")
     n = 1 if count is None else checked_count(place, "count", count)
@@ -311,7 +320,7 @@ def _asked(
     tolerance = 0.0 if rtol is None else real(place, "rtol", rtol)
     g = STANDARD_GRAVITY
     if scene is not None:
-        said = scene.asked(hung if isinstance(hung, Chain) else hung.chain)
+        said = scene.asked(base_chain(hung))
         if count is None and first is None:
             wanted = said.get("modes", range(1, 1 + said.get("count", _available(hung))))
             k, n = wanted.start, min(len(wanted), max(1, _available(hung) - wanted.start + 1))
@@ -322,7 +331,11 @@ def _asked(
         g = float(positive(place, "gravity", real(place, "gravity", gravity)))
     if not tolerance >= 0:
         raise ValueError(f"{place}: rtol must not be negative or NaN, got {tolerance}")
-    return hung, k, n, tolerance, g
+    budget = None if time_budget is None else one_positive(place, "time_budget", time_budget)
+    lean = real(place, "inclination", inclination)
+    if isinstance(hung, Rig) and lean != 0:
+        raise ValueError(f"{place}: inclination is for a chain alone, got a Rig")
+    return _Asked(hung, k, n, tolerance, lean, budget, g)
 
 
 def _available(hung: Chain | Rig) -> int:

@@ -7,6 +7,7 @@ import csv
 import io
 import json
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -18,10 +19,20 @@ from rich.text import Text
 from ._modes import Modes
 from ._response import Response
 from ._rig_modes import RigModes
-from ._tables import digits, which
+from ._tables import MOST_ROWS, digits, which
 
-MOST_ROWS = 20
 NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
+_MODE_HEADINGS = ("mode\n", "speed\nrad/s", "speed\nrev/min", "period\ns", "height\nm", "error\nbound")
+
+
+def empty_grid(numbers: Iterable[str], words: Iterable[str] = (), title: str | None = None) -> Table:
+    """A table without rows yet: headings of columns of numbers, then of words; none of them is ever cut."""
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True, title=title, title_justify="left")
+    for heading in numbers:
+        grid.add_column(heading, justify="right", no_wrap=True)
+    for heading in words:
+        grid.add_column(heading, no_wrap=True)
+    return grid
 
 
 def table(modes: Modes | RigModes, title: str, gravity: float, carried: Response | None = None) -> Group:
@@ -30,40 +41,18 @@ def table(modes: Modes | RigModes, title: str, gravity: float, carried: Response
         return _rig_table(modes, title, carried)
     chain = modes.chain
     links = f"{chain.size:,} link" + ("s" if chain.size > 1 else "")
-    heading = Text(title, style="bold")
     facts = Text(
         f"{links}, length {chain.total_length:.6g} m, weight {chain.total_weight:.6g} N, gravity {gravity:.6g} m/s²\n"
         f"{which(modes)} by {modes.method}: "
     )
-    met = modes.status == "success"
-    facts.append("success" if met else modes.status.replace("_", " "), style="green" if met else "bold yellow")
-
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for name, unit in (("mode", ""), ("speed", "rad/s"), ("speed", "rev/min"), ("period", "s"), ("height", "m")):
-        grid.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
-    grid.add_column("error\nbound", justify="right", no_wrap=True)
-    grid.add_column("nodes, m from\nthe free end", no_wrap=True)
-    speed = modes.angular_speed(gravity)
-    turns = 60 * modes.revolutions_per_second(gravity)
-    period = modes.period(gravity)
+    grid = empty_grid(_MODE_HEADINGS, ["nodes, m from\nthe free end"])
+    speed, period = modes.angular_speed(gravity), modes.period(gravity)
     for k in range(min(len(modes), MOST_ROWS)):
-        grid.add_row(
-            f"{modes.number[k]}",
-            digits(speed[k], 6),
-            digits(turns[k], 6),
-            digits(period[k], 6),
-            digits(modes.conical_height[k], 10),
-            f"{modes.error_bound[k]:.1e}",
-            _nodes(modes, k),
-        )
-    parts: list[Text | Table] = [heading, facts, grid]
+        grid.add_row(*_mode_cells(modes, k, "", speed[k], period[k]), _nodes(modes, k))
+    parts: list[Text | Table] = [Text(title, style="bold"), _with_status(facts, modes), grid]
     if modes.certificate is not None:
         parts.append(_proof(modes))
-    hidden = len(modes) - MOST_ROWS
-    if hidden > 0:
-        parts.append(Text(f"and {hidden:,} more; --json and --csv write all of them", style="dim"))
-    parts.append(Text("height: of the equivalent conical pendulum; error bound: relative, of the height", style="dim"))
-    return Group(*parts)
+    return Group(*parts, *_and_more(len(modes)), _footnote())
 
 
 def _rig_table(modes: RigModes, title: str, carried: Response | None) -> Group:
@@ -72,70 +61,69 @@ def _rig_table(modes: RigModes, title: str, carried: Response | None) -> Group:
     what = repr(modes.rig).partition(": ")[2]
     counts = f"{len(modes)} of {modes.forward.available + modes.backward.available} modes by {modes.method}: "
     facts = Text(f"{chain!r} in m and N, gravity {modes.gravity:.6g} m/s²\n{what}\n{counts}")
-    met = modes.status == "success"
-    facts.append("success" if met else modes.status.replace("_", " "), style="green" if met else "bold yellow")
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    headings = [
-        ("mode", ""),
-        ("speed", "rad/s"),
-        ("speed", "rev/min"),
-        ("period", "s"),
-        ("height", "m"),
-        ("error", "bound"),
-    ]
-    for name, unit in headings:
-        grid.add_column(f"{name}\n{unit}", justify="right", no_wrap=True)
+    grid = empty_grid(_MODE_HEADINGS)
     speed, period = modes.angular_speed(), modes.period()
     words = {1: "forward ", -1: "backward "} if modes.has_momentum else {1: ""}
     for k in range(min(len(modes), MOST_ROWS)):
-        grid.add_row(
-            f"{words[int(modes.sense[k])]}{modes.number[k]}",
-            digits(speed[k], 6),
-            digits(speed[k] * 30 / math.pi, 6),
-            digits(period[k], 6),
-            digits(modes.conical_height[k], 10),
-            f"{modes.error_bound[k]:.1e}",
-        )
-    parts: list[Text | Table] = [Text(title, style="bold"), facts]
+        grid.add_row(*_mode_cells(modes, k, words[int(modes.sense[k])], speed[k], period[k]))
+    parts: list[Text | Table] = [Text(title, style="bold"), _with_status(facts, modes)]
     if len(modes):
         parts.append(grid)
-    hidden = len(modes) - MOST_ROWS
-    if hidden > 0:
-        parts.append(Text(f"and {hidden:,} more; --json and --csv write all of them", style="dim"))
+    parts += _and_more(len(modes))
     if len(modes.other):
         parts.append(_others(modes))
     for link, at in list(zip(modes.slack_link, modes.slack_speed, strict=True))[:MOST_ROWS]:
         parts.append(Text(f"link {link + 1} goes slack at {digits(at, 6)} rad/s: its wheel bears all that it carries"))
     if carried is not None:
         parts += _carried(carried)
-    parts.append(Text("height: of the equivalent conical pendulum; error bound: relative, of the height", style="dim"))
-    return Group(*parts)
+    return Group(*parts, _footnote())
+
+
+def _mode_cells(modes: Modes | RigModes, k: int, sense: str, speed: float, period: float) -> list[str]:
+    """What stands under `_MODE_HEADINGS` for a mode."""
+    return [
+        f"{sense}{modes.number[k]}",
+        digits(speed, 6),
+        digits(speed * 30 / math.pi, 6),
+        digits(period, 6),
+        digits(modes.conical_height[k], 10),
+        f"{modes.error_bound[k]:.1e}",
+    ]
+
+
+def _with_status(facts: Text, modes: Modes | RigModes) -> Text:
+    """The facts, and at their end how it went."""
+    met = modes.status == "success"
+    return facts.append(modes.status.replace("_", " "), style="green" if met else "bold yellow")
+
+
+def _and_more(count: int, written: str = "--json and --csv write") -> list[Text]:
+    """Where a table has not all `count` rows: how many more there are."""
+    hidden = count - MOST_ROWS
+    return [Text(f"and {hidden:,} more; {written} all of them", style="dim")] if hidden > 0 else []
+
+
+def _footnote() -> Text:
+    return Text("height: of the equivalent conical pendulum; error bound: relative, of the height", style="dim")
 
 
 def _carried(found: Response) -> list[Text | Table]:
     """Where the pins are while the support goes round."""
     speed = float(found.angular_speed)
     turns = f"{digits(speed, 6)} rad/s, {digits(speed * 30 / math.pi, 6)} rev/min"
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for name in ("pin\n0: free end", "from the axis\nm"):
-        grid.add_column(name, justify="right", no_wrap=True)
     if found.resonant:
         return [Text(f"carried round at {turns}: a resonance, it goes out without bound")]
+    grid = empty_grid(["pin\n0: free end", "from the axis\nm"])
     shown = list(zip(found.pins, found.offset, strict=True))
     for pin, offset in shown if len(shown) <= MOST_ROWS else [*shown[: MOST_ROWS - 1], shown[-1]]:
         grid.add_row(f"{pin}", digits(offset, 10))
-    parts: list[Text | Table] = [Text(f"carried round at {turns}; error bound {float(found.error_bound):.1e}"), grid]
-    hidden = len(shown) - MOST_ROWS
-    return [*parts, Text(f"and {hidden:,} more; --json writes all of them", style="dim")] if hidden > 0 else parts
+    heading = Text(f"carried round at {turns}; error bound {float(found.error_bound):.1e}")
+    return [heading, grid, *_and_more(len(shown), "--json writes")]
 
 
 def _others(modes: RigModes) -> Table:
     """Heights that no steady motion has."""
-    grid = Table(
-        box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True, title="no steady motion", title_justify="left"
-    )
-    for name in ("height\nm", "falls away as exp(r t)\nr in 1/s", "error\nbound"):
-        grid.add_column(name, justify="right", no_wrap=True)
+    grid = empty_grid(["height\nm", "falls away as exp(r t)\nr in 1/s", "error\nbound"], title="no steady motion")
     other = modes.other
     for k in range(min(len(other), MOST_ROWS)):
         height = other.conical_height[k]
@@ -146,14 +134,13 @@ def _others(modes: RigModes) -> Table:
 
 def _proof(modes: Modes) -> Table:
     """The certificate: ends of each interval to all their digits, and the counts there."""
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for name in ("mode", "height is above\nm", "and up to\nm", "proved: so many\nare above", "and above\nthe latter"):
-        grid.add_column(name, justify="right", no_wrap=True)
+    ends = ("height is above\nm", "and up to\nm")
+    grid = empty_grid(["mode", *ends, "proved: so many\nare above", "and above\nthe latter"])
     proof = modes.certificate
     assert proof is not None
     for k in range(min(len(modes), MOST_ROWS)):
-        ends = (f"{proof.lower[k]:.17g}", f"{proof.upper[k]:.17g}")
-        grid.add_row(f"{modes.number[k]}", *ends, f"{proof.above_lower[k]}", f"{proof.above_upper[k]}")
+        between = (f"{proof.lower[k]:.17g}", f"{proof.upper[k]:.17g}")
+        grid.add_row(f"{modes.number[k]}", *between, f"{proof.above_lower[k]}", f"{proof.above_upper[k]}")
     return grid
 
 

@@ -9,17 +9,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from rich import box
 from rich.console import Group
-from rich.table import Table
 from rich.text import Text
 
 from ._arguments import Floats
 from ._held import HeldShape, HeldShapes, TautModes
-from ._report import MOST_ROWS, json_of
+from ._report import empty_grid, json_of
 from ._response import Response, SmallOscillation
 from ._steady import SteadyShapes
-from ._tables import digits
+from ._tables import MOST_ROWS, digits
 
 Found = SteadyShapes | HeldShapes[HeldShape] | Response | SmallOscillation | TautModes
 
@@ -75,9 +73,7 @@ def sheet_of(found: Found, gravity: float) -> Sheet:
 def table(found: Found, title: str, gravity: float) -> Group:
     """The table with its heading; of many rows some, evenly spaced."""
     sheet = sheet_of(found, gravity)
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for column in sheet.columns:
-        grid.add_column(f"{column.heading}\n{column.unit}", justify="right", no_wrap=True)
+    grid = empty_grid(f"{column.heading}\n{column.unit}" for column in sheet.columns)
     shown = np.unique(np.linspace(0, sheet.rows - 1, min(sheet.rows, MOST_ROWS)).round().astype(int))
     for k in shown if sheet.rows else ():
         grid.add_row(*(column.cell(int(k)) for column in sheet.columns))

@@ -193,6 +193,7 @@ def response(
     this theory: where offsets are no longer small beside the links, multiply by a smaller radius.
     A chain slower than its first whirl speed goes out with its support. Past each whirl speed its motion is turned
     round; between two there is a speed at which a pin stays on the axis.
+    Lowest links that weigh nothing in a fluid that turns with them hang along with the link above.
 
     Method: dynamic stiffness carried up in words of two doubles, several speeds to a pass, with a running bound.
     Accuracy: half an ulp of each offset until the speed is within 1e-12 or so of a resonance. Cost: about

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the classes around compiled results share: how one is made, and lists of them."""
+"""What the classes around compiled results share: how one is made, lists of them, that they cannot be changed."""
 
 from __future__ import annotations
 
@@ -48,6 +48,18 @@ class Results(Sequence[Item]):
 
     def __iter__(self) -> Iterator[Item]:
         return iter(self._items)
+
+
+class Unchangeable:
+    """For classes whose attributes are set once, by `object.__setattr__`."""
+
+    __slots__ = ()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a {type(self).__name__} cannot be changed: {name} was not set")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a {type(self).__name__} cannot be changed: {name} was not deleted")
 
 
 class Record:

@@ -23,6 +23,7 @@ from ._arguments import (
     together,
 )
 from ._chain import Chain, compiled
+from ._results import Unchangeable
 
 _PER_LINK = (
     "momentum",
@@ -35,7 +36,7 @@ _PER_LINK = (
 _FLUIDS = ("still", "turning")
 
 
-class Rig:
+class Rig(Unchangeable):
     """A chain and what it is rigged with.
 
     What is left out is not there, and costs nothing. Quantities of the links are given as one number
@@ -262,12 +263,6 @@ class Rig:
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._chain, {name: value for name, value in self._given.items() if value is not None})
 
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(f"a Rig cannot be changed: {name} was not set")
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"a Rig cannot be changed: {name} was not deleted")
-
 
 _NUMBERS = ("stiffness", "carriage_weight", "support_radius", "fluid")
 
@@ -394,3 +389,8 @@ def _refuse_link(place: str, wrong: NDArray[np.bool_], column: Floats, sentence:
 def _restored(chain: Chain, given: dict[str, Any]) -> Rig:
     """A rig from its pickled state."""
     return Rig(chain, **given)
+
+
+def base_chain(hung: Chain | Rig) -> Chain:
+    """The chain by itself."""
+    return hung.chain if isinstance(hung, Rig) else hung

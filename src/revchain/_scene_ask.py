@@ -6,15 +6,17 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from msgspec import UNSET
+from msgspec import UNSET, UnsetType, json
 
 from ._chain import Chain
-from ._scene_ask_tables import Ask
+from ._scene_ask_tables import Ask, AskShapes
 from ._scene_chain import Numbers
 from ._scene_error import SceneError
 from ._scene_tables import MOST_LINKS
 
 DEFAULT_MODES = 10
+
+_OF_HANGING_CHAINS = ("conical_height", "angular_speed", "rtol", "certify", "precision", "method")
 
 
 def asked(ask: Ask, chain: Chain, gravity: float, source: str, rigged: bool) -> dict[str, Any]:
@@ -36,21 +38,38 @@ def asked(ask: Ask, chain: Chain, gravity: float, source: str, rigged: bool) -> 
     return arguments
 
 
+def asked_of_held(ask: Ask, chain: Chain, source: str) -> int:
+    """How many modes of a chain held at both ends, slowest first; what would be passed over is refused."""
+    reason = "is for a chain that hangs"
+    _refuse_any(("first", *_OF_HANGING_CHAINS), ask, Numbers(source, "ask"), f"{reason}: held at both ends give modes")
+    if not isinstance(ask.shapes, UnsetType):
+        _refuse_any(("sense", "any_posture"), ask.shapes, Numbers(source, "ask.shapes"), reason)
+    most = max(chain.size - 1, 1)
+    return most if ask.modes == "all" else DEFAULT_MODES if isinstance(ask.modes, UnsetType) else ask.modes
+
+
 def _asked_of_rig(ask: Ask, gravity: float, source: str) -> dict[str, Any]:
     """The modes of each sense of rotation, by their numbers: how many there are is found with them."""
-    defaults = Ask()
-    for name in ("conical_height", "angular_speed", "rtol", "certify", "precision", "method"):
-        if getattr(ask, name) != getattr(defaults, name):
-            raise SceneError(
-                source,
-                f"ask.{name}",
-                "is for a chain alone: with a support, standing links, flywheels or a fluid give modes",
-            )
+    reason = "is for a chain alone: with a support, standing links, flywheels or a fluid give modes"
+    _refuse_any(_OF_HANGING_CHAINS, ask, Numbers(source, "ask"), reason)
     first = 1 if ask.first is UNSET else ask.first
     if ask.modes == "all":
         return {"gravity": gravity} if first == 1 else {"gravity": gravity, "modes": range(first, 2 * MOST_LINKS)}
     count = DEFAULT_MODES if ask.modes is UNSET else ask.modes
     return {"gravity": gravity, "modes": range(first, first + count)}
+
+
+def _refuse_any(names: tuple[str, ...], table: Ask | AskShapes, numbers: Numbers, reason: str) -> None:
+    """Refuse keys of a table that are not left at their defaults."""
+    defaults = type(table)()
+    for name in names:
+        if (value := getattr(table, name)) != getattr(defaults, name):
+            raise numbers.refuse(name, f"{reason}, got {_as_written(value)}")
+
+
+def _as_written(value: Any) -> str:
+    """As a scene file has it."""
+    return f"{value}" if isinstance(value, float) else json.encode(value).decode()  # JSON has no infinity
 
 
 def _selection(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str, Any]:

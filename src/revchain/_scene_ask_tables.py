@@ -50,6 +50,12 @@ class AskResponse(Table, frozen=True):
     conical_height: Annotated[OneOrTwo | UnsetType, Meta(description="Instead: g / n^2 of the speeds.")] = UNSET
     steps: Annotated[Count, Meta(description="How many speeds from one end to the other.")] = 200
 
+    @property
+    def ends(self) -> list[float | str]:
+        """The one speed or height, or the first and the last; none where nothing is said."""
+        said = self.conical_height if isinstance(self.angular_speed, UnsetType) else self.angular_speed
+        return [] if isinstance(said, UnsetType) else list(said)
+
 
 class AskSwing(Table, frozen=True):
     """A hanging chain let go: small oscillations in a plane. Numbers are SI or text with a unit.

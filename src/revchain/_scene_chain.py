@@ -107,7 +107,7 @@ def _tip(link: Link, gravity: float, numbers: Numbers) -> float:
 
 
 def _joined(chain: Chain, links: list[Link], tips: list[float], source: str) -> Chain:
-    """The chain with weights fixed to pins, and with links locked to those above; from the top, so that numbers hold."""
+    """The chain with weights fixed to pins, and links locked to those above; from the top, so that numbers hold."""
     first = np.cumsum([0, *(link.repeat for link in links)])
     for index in reversed(range(len(links))):
         link = links[index]

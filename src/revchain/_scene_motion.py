@@ -23,13 +23,19 @@ QUANTITY = {"angular_speed": "angular_speed", "conical_height": "length"}
 
 def the_speed(table: AskShapes | UnsetType, source: str) -> dict[str, float]:
     """The one speed at which shapes are asked for, as a keyword argument; empty where the scene says none."""
-    if table is UNSET:
+    if isinstance(table, UnsetType):
         return {}
     numbers = Numbers(source, "ask.shapes")
-    given = {name: getattr(table, name) for name in QUANTITY if getattr(table, name) is not UNSET}
+    name, value = _one_of_two(table, numbers)
+    return {name: numbers.value(name, value, QUANTITY[name], "positive")}
+
+
+def _one_of_two(table: AskShapes | AskResponse, numbers: Numbers) -> tuple[str, Any]:
+    """Which of the two keys says the speed, and what it says."""
+    given = [name for name in QUANTITY if getattr(table, name) is not UNSET]
     if len(given) != 1:
         raise numbers.refuse("", "give either angular_speed or conical_height")
-    return {name: numbers.value(name, value, QUANTITY[name], "positive") for name, value in given.items()}
+    return given[0], getattr(table, given[0])
 
 
 def shapes_of(
@@ -46,6 +52,8 @@ def shapes_of(
     if not speed:
         raise SceneError(source, "ask.shapes", "is missing: say at which angular_speed or conical_height")
     if held is UNSET:
+        if "half_waves" in changed:
+            raise SceneError(source, "ask.shapes", "half_waves is for a chain held at both ends")
         arguments = {"sense": asked.sense, "hanging_only": not asked.any_posture, **changed}
         return steady_shapes(hung, **speed, gravity=gravity, **arguments)
     if isinstance(hung, Rig):
@@ -114,13 +122,10 @@ def response_of(
 
 def the_speeds(table: AskResponse | UnsetType, hung: Chain | Rig, source: str) -> dict[str, list[float]]:
     """One speed or the two ends of a range, as a keyword argument."""
-    if table is UNSET:
+    if isinstance(table, UnsetType):
         return {}
     numbers = Numbers(source, "ask.response")
-    given = {name: getattr(table, name) for name in QUANTITY if getattr(table, name) is not UNSET}
-    if len(given) != 1:
-        raise numbers.refuse("", "give either angular_speed or conical_height")
-    ((name, ends),) = given.items()
+    name, ends = _one_of_two(table, numbers)
     either_sense = name == "angular_speed" and isinstance(hung, Rig) and bool(hung.momentum.any())
     found = [numbers.value(name, x, QUANTITY[name], "any" if either_sense else "positive") for x in ends]
     if 0 in found:

@@ -59,6 +59,13 @@ def rig_of(
         raise SceneError(source, "", str(error)) from None
 
 
+def radius_of(support: Support | UnsetType, source: str) -> float:
+    """Of the circle in which the support is carried round."""
+    if isinstance(support, UnsetType) or support.radius is UNSET:
+        return 0.0
+    return Numbers(source, "support").value("radius", support.radius, "length", "not negative")
+
+
 def _support(table: Support, gravity: float, numbers: Numbers) -> dict[str, float]:
     stiffness = math.inf
     if table.stiffness is not UNSET:
@@ -66,7 +73,7 @@ def _support(table: Support, gravity: float, numbers: Numbers) -> dict[str, floa
     carriage = numbers.weight_if_given(table, gravity)
     if carriage and table.stiffness is UNSET:
         raise numbers.refuse("stiffness", "is missing: what moves sideways needs a support that yields")
-    radius = 0.0 if table.radius is UNSET else numbers.value("radius", table.radius, "length", "not negative")
+    radius = radius_of(table, numbers.source)
     return {"stiffness": stiffness, "carriage_weight": carriage, "support_radius": radius}
 
 

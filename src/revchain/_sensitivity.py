@@ -295,8 +295,8 @@ def rig_sensitivity(
         return RigSensitivity(*_core.rig_sensitivity(rig._compiled, float(speeds), offsets, g))
     if speeds.ndim != 1 or offsets.shape != (speeds.size, rig.chain.size + 1):
         raise ValueError(
-            f"{place}: offset must have a row of {rig.chain.size + 1} offsets for each of the {speeds.size} speeds, got "
-            f"shape {offsets.shape}"
+            f"{place}: offset must have a row of {rig.chain.size + 1} offsets for each of the {speeds.size} speeds, "
+            f"got shape {offsets.shape}"
         )
     rows = [_core.rig_sensitivity(rig._compiled, float(n), y, g) for n, y in zip(speeds, offsets, strict=True)]
     if not rows:

@@ -14,14 +14,14 @@ from ._chain import Chain
 from ._held import HeldShape, HeldShapes, TautModes
 from ._modes import Modes
 from ._response import Response, SmallOscillation
-from ._rig import Rig
+from ._rig import Rig, base_chain
 from ._rig_modes import RigModes
-from ._scene_ask import DEFAULT_MODES, asked
+from ._scene_ask import asked, asked_of_held
 from ._scene_ask_tables import Ask, AskResponse, AskShapes, AskSwing, Held
 from ._scene_chain import Numbers, chain_of_links, uniform_chain
 from ._scene_error import SceneError
 from ._scene_motion import ends_of, response_of, shapes_of, start_of, swing_of, taut_modes_of, the_speed, the_speeds
-from ._scene_rig import is_rigged, rig_of
+from ._scene_rig import is_rigged, radius_of, rig_of
 from ._scene_tables import Displaced, Flywheel, Link, Positive, Support, Table, UniformChain
 from ._solve import modes
 from ._steady import SteadyShapes
@@ -167,7 +167,7 @@ class Scene(Table, frozen=True):
         >>> rc.Scene.from_dict({"gravity": "981 cm/s^2", "links": [{"mass": 1, "length": 1}]}).gravity_value()
         9.81
         """
-        return Numbers("scene", "").value("gravity", self.gravity, "gravity", "positive")
+        return self._gravity("scene")
 
     def chain(self) -> Chain:
         """Build the chain, with lengths in m and weights in N.
@@ -221,9 +221,7 @@ class Scene(Table, frozen=True):
         """Whether the support is carried round a circle, and one speed of that is asked about."""
         if isinstance(self.support, UnsetType) or isinstance(self.ask.response, UnsetType):
             return False
-        asked = self.ask.response
-        speeds = asked.conical_height if isinstance(asked.angular_speed, UnsetType) else asked.angular_speed
-        return not isinstance(speeds, UnsetType) and len(speeds) == 1 and bool(self.rig().support_radius)
+        return len(self.ask.response.ends) == 1 and radius_of(self.support, "scene") > 0
 
     @property
     def is_held(self) -> bool:
@@ -245,7 +243,7 @@ class Scene(Table, frozen=True):
         Raises
         ------
         SceneError
-            If the modes asked for are not there, or cannot be meant.
+            If the modes asked for are not there, or cannot be meant, or the scene holds both ends.
 
         Examples
         --------
@@ -254,6 +252,10 @@ class Scene(Table, frozen=True):
         >>> scene.asked(scene.chain())
         {'modes': range(25, 31)}
         """
+        if self.is_held:
+            raise SceneError(
+                "scene", "held", "is for shapes and modes: there is one model of it, `revchain.taut_modes`"
+            )
         return asked(self.ask, chain, self.gravity_value(), "scene", self.is_rigged)
 
     def modes(self) -> Modes | RigModes | TautModes:
@@ -285,13 +287,10 @@ class Scene(Table, frozen=True):
         >>> scene.modes().angular_speed().round(4)
         array([ 2.9086, 11.3491])
         """
-        if self.is_rigged:
-            rig = self.rig()
-            return modes(rig, **self.asked(rig.chain))
-        chain = self.chain()
-        if self.held is not UNSET:
-            return taut_modes_of(self.held, chain, self._mode_count(chain), "scene")
-        return modes(chain, **self.asked(chain))
+        hung = self._hung("scene")
+        if self.held is not UNSET and isinstance(hung, Chain):
+            return taut_modes_of(self.held, hung, asked_of_held(self.ask, hung, "scene"), "scene")
+        return modes(hung, **self.asked(base_chain(hung)))
 
     def steady_shapes(self, **changed: Any) -> SteadyShapes | HeldShapes[HeldShape]:
         """Find the steady shapes that ``[ask.shapes]`` asks for, at any inclination.
@@ -321,8 +320,7 @@ class Scene(Table, frozen=True):
         >>> scene.steady_shapes(angular_speed=3.0)
         SteadyShapes: 3, proved complete
         """
-        hung = self.rig() if self.is_rigged else self.chain()
-        return shapes_of(hung, self.held, self.ask.shapes, changed, self.gravity_value(), "scene")
+        return shapes_of(self._hung("scene"), self.held, self.ask.shapes, changed, self.gravity_value(), "scene")
 
     def response(self, **changed: Any) -> Response:
         """Find the small motions that ``[ask.response]`` asks for, of a support carried round.
@@ -353,8 +351,7 @@ class Scene(Table, frozen=True):
         """
         if self.held is not UNSET:
             raise SceneError("scene", "held", "is for shapes and modes: no response is known of it")
-        hung = self.rig() if self.is_rigged else self.chain()
-        return response_of(hung, self.ask.response, changed, self.gravity_value(), "scene")
+        return response_of(self._hung("scene"), self.ask.response, changed, self.gravity_value(), "scene")
 
     def small_oscillation(self, **changed: Any) -> SmallOscillation:
         """See the chain swing that ``[ask.swing]`` lets go.
@@ -388,34 +385,36 @@ class Scene(Table, frozen=True):
 
     def _check(self, source: str) -> None:
         """Whatever the other methods would refuse of the scene, said with the name of the file."""
-        chain = self._rig(source).chain if self.is_rigged else self._chain(source)
+        hung = self._hung(source)
+        chain = base_chain(hung)
         if self.held is UNSET:
-            asked(self.ask, chain, self.gravity_value(), source, self.is_rigged)
+            asked(self.ask, chain, self._gravity(source), source, self.is_rigged)
         elif self.is_rigged:
             raise SceneError(source, "held", "does not go with a support, standing links, flywheels or a fluid")
         else:
             ends_of(self.held, chain, source)
+            asked_of_held(self.ask, chain, source)
         the_speed(self.ask.shapes, source)
-        the_speeds(self.ask.response, self._rig(source) if self.is_rigged else chain, source)
+        the_speeds(self.ask.response, hung, source)
         if self.ask.swing is not UNSET:
             start_of(self.ask.swing, chain, source)
-
-    def _mode_count(self, chain: Chain) -> int:
-        """How many modes are asked of a chain held at both ends."""
-        most = max(chain.size - 1, 1)
-        asked = self.ask.modes
-        return most if asked == "all" else DEFAULT_MODES if isinstance(asked, UnsetType) else asked
 
     def _links(self) -> list[Link]:
         return [] if self.links is UNSET else self.links
 
+    def _gravity(self, source: str) -> float:
+        return Numbers(source, "").value("gravity", self.gravity, "gravity", "positive")
+
+    def _hung(self, source: str) -> Chain | Rig:
+        """What hangs; a rig where the scene says more than a chain."""
+        return self._rig(source) if self.is_rigged else self._chain(source)
+
     def _rig(self, source: str) -> Rig:
         chain = self._chain(source)
-        gravity = Numbers(source, "").value("gravity", self.gravity, "gravity", "positive")
-        return rig_of(chain, self._links(), self.support, self.fluid, gravity, source)
+        return rig_of(chain, self._links(), self.support, self.fluid, self._gravity(source), source)
 
     def _chain(self, source: str) -> Chain:
-        gravity = Numbers(source, "").value("gravity", self.gravity, "gravity", "positive")
+        gravity = self._gravity(source)
         if (self.links is UNSET) == (self.uniform_chain is UNSET):
             raise SceneError(source, "", "give either [[links]] or [uniform_chain]")
         if self.uniform_chain is not UNSET:

@@ -205,8 +205,8 @@ class Study(Table, frozen=True):
             blocks += shape_blocks(self.most_shapes, bounds)
         if "response" in find:
             asked = scene.ask.response
-            speeds = asked.conical_height if isinstance(asked.angular_speed, UnsetType) else asked.angular_speed  # type: ignore[union-attr]
-            blocks += response_blocks(1 if len(speeds) == 1 else asked.steps, bounds)  # type: ignore[arg-type, union-attr]
+            assert not isinstance(asked, UnsetType)  # else it would not be found
+            blocks += response_blocks(1 if len(asked.ends) == 1 else asked.steps, bounds)
         columns = {column for block in blocks for column in block.columns} | {"point", "status"}
         columns |= {block.name for block in blocks} | {"mode", "shape", "speed", "sample"}
         for axis in axes:

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain import _cli, _core
+from revchain import _cli, _cli_sweep, _core
 from revchain._exit_codes import MEANING, ExitCode
 
 WATCH = """
@@ -171,8 +171,139 @@ def test_wrong_usage(run, arguments, message):
     assert files() == ["watch.toml"]
 
 
+SWINGING = """
+[[links]]
+mass = 0.5
+length = 0.5
+repeat = 2
+[ask.shapes]
+conical_height = 0.05
+[ask.response]
+angular_speed = [1, 12]
+steps = 5
+[ask.swing]
+offset = [0.02, 0]
+"""
+STUDY = """
+scene = "swinging.toml"
+find = ["modes"]
+[vary."links[0].mass"]
+values = [1, 2]
+"""
+OF_SCENES = ("solve", "explain", "shapes", "response", "swing")
+
+
+def ends_in_one_sentence(done, code, words):
+    assert done[0] == code and done[1] == "" and done[2].startswith("revchain: ") and done[2].count("\n") == 1
+    assert words in done[2]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("missing.toml", None, "missing.toml: cannot be read: No such file or directory"),
+        ("watch.toml/missing.toml", None, "watch.toml/missing.toml: cannot be read: Not a directory"),
+        (".", None, ".: cannot be read: Is a directory"),
+        ("a.toml", "not toml", "a.toml: line 1, column 5: "),
+        ("a.json", '{"links": [', "a.json: line 1, column 12: "),
+        ("a.json", "[1, 2]", "a.json: must be a table, got [1, 2]"),
+        ("a.toml", b"\x89PNG\xff", "a.toml: is not UTF-8 text (byte 1)"),
+        ("a.toml", "", "a.toml: "),
+        ("a.toml", "[[links]]\nmass = 1\nlength = 1\ncolour = 3", "a.toml: links"),
+        ("a.toml", '[[links]]\nmass = "1 m"\nlength = 1', "a.toml: links"),
+        ("a.toml", '[[links]]\nmass = "1 parsnip"\nlength = 1', "a.toml: links"),
+    ],
+)
+@pytest.mark.parametrize("command", [*OF_SCENES, "validate", "sweep"])
+def test_files_that_cannot_be_read(run, command, name, text, words):
+    if text is not None:
+        Path(name).write_bytes(text if isinstance(text, bytes) else text.encode())
+    ends_in_one_sentence(run(command, name), ExitCode.SCENE_INVALID, words)
+
+
+@pytest.mark.parametrize("command", [*OF_SCENES, "validate", "sweep", "new", "schema"])
+def test_command_lines_that_cannot_be_read(run, command):
+    see = f"see revchain {command} --help"
+    ends_in_one_sentence(run(command, "watch.toml", "--colour"), ExitCode.WRONG_USAGE, "no such option: --colour")
+    ends_in_one_sentence(run(command, "watch.toml", "--colour"), ExitCode.WRONG_USAGE, see)
+    if command not in ("new", "schema"):
+        ends_in_one_sentence(run(command), ExitCode.WRONG_USAGE, "missing argument")
+    if command != "validate":
+        ends_in_one_sentence(run(command, "watch.toml", "b", "c"), ExitCode.WRONG_USAGE, "unexpected extra argument")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["frobnicate"], "no such command 'frobnicate'; see revchain --help"),
+        (["--colour"], "no such option: --colour; see revchain --help"),
+        (["solve", "watch.toml", "--rtol", "much"], "'--rtol'"),
+        (["response", "swinging.toml", "--steps", "0"], "'--steps'"),
+        (["response", "swinging.toml", "--angular-speed", "1"], "'--angular-speed' requires 2 arguments"),
+        (["shapes", "swinging.toml", "--half-waves", "2"], "--half-waves is not for a chain that hangs"),
+        (["explain", "watch.toml", "--rtol", "-1"], "rtol must not be negative or NaN, got -1"),
+        (["sweep", "study.toml", "--chunk", "0"], "'--chunk'"),
+        (["sweep", "study.toml", "--out", "a.txt"], "a.txt must end in .csv, .parquet or .nc"),
+        (["sweep", "study.toml", "--out", "study.toml"], "study.toml: the study itself would be overwritten"),
+    ],
+)
+def test_options_that_cannot_be_meant(run, arguments, words):
+    Path("swinging.toml").write_text(SWINGING)
+    Path("study.toml").write_text(STUDY)
+    ends_in_one_sentence(run(*arguments), ExitCode.WRONG_USAGE, words)
+
+
+@pytest.mark.parametrize("command", ["shapes", "response", "swing"])
+@pytest.mark.parametrize(
+    ("option", "place"),
+    [
+        ("--json", "missing/a.json"),
+        ("--csv", "watch.toml/a.csv"),
+        ("--plot", "/proc/a.png"),
+        ("--json", "."),
+        ("--json", "/dev/full"),
+        ("--plot", "missing/a.png"),
+    ],
+)
+def test_outputs_of_motions_that_cannot_be_written(run, command, option, place):
+    Path("swinging.toml").write_text(SWINGING)
+    done = run(command, "swinging.toml", option, place)
+    ends_in_one_sentence(done, ExitCode.OUTPUT_FAILED, f"revchain: {place}: cannot be written: ")
+    assert files() == ["swinging.toml", "watch.toml"]
+
+
+@pytest.mark.parametrize("place", ["watch.toml/a.csv", "/proc/a.csv", "/proc/a.nc"])
+def test_results_of_studies_that_cannot_be_written(run, place):
+    Path("swinging.toml").write_text(SWINGING)
+    Path("study.toml").write_text(STUDY)
+    done = run("sweep", "study.toml", "--out", place)
+    ends_in_one_sentence(done, ExitCode.OUTPUT_FAILED, place)
+    assert files() == ["study.toml", "swinging.toml", "watch.toml"]
+
+
+@pytest.mark.parametrize("place", ["watch.toml/a.png", "/proc/a.png"])
+def test_a_picture_of_a_study_that_cannot_be_written_is_found_out_before_computing(run, monkeypatch, place):
+    Path("swinging.toml").write_text(SWINGING)
+    Path("study.toml").write_text(STUDY)
+    monkeypatch.setattr(_cli_sweep, "compute", lambda *_, **__: pytest.fail("computed"))
+    done = run("sweep", "study.toml", "--plot", place)
+    ends_in_one_sentence(done, ExitCode.OUTPUT_FAILED, f"revchain: {place}: cannot be written: ")
+    done = run("sweep", "study.toml", "--plot", "a.png", "--out", "a.txt")
+    ends_in_one_sentence(done, ExitCode.WRONG_USAGE, "a.txt must end in")
+    assert files() == ["study.toml", "swinging.toml", "watch.toml"]
+
+
+def test_a_picture_of_a_study_beside_its_results(run):
+    Path("swinging.toml").write_text(SWINGING)
+    Path("study.toml").write_text(STUDY)
+    assert run("sweep", "study.toml", "--out", "new/a.csv", "--plot", "new/a.png")[0] == 0
+    assert sorted(path.name for path in Path("new").iterdir()) == ["a.csv", "a.png"]
+
+
 def test_no_scene_and_no_command(run):
-    assert run("solve")[0] == run()[0] == run("dissolve")[0] == ExitCode.WRONG_USAGE
+    assert run("solve")[0] == run("dissolve")[0] == ExitCode.WRONG_USAGE
+    code, out, err = run()
+    assert code == ExitCode.WRONG_USAGE and "Usage: revchain" in out + err and "solve" in out + err
 
 
 def test_scene_invalid(run):
@@ -202,7 +333,7 @@ def test_scene_invalid(run):
 def test_output_that_cannot_be_written(run, arguments):
     code, out, err = run("solve", "watch.toml", *arguments)
     assert (code, out) == (ExitCode.OUTPUT_FAILED, "") and code == 4
-    assert len(err.splitlines()) == 1 and "cannot be written" in err
+    assert len(err.splitlines()) == 1 and f"{arguments[-1]}: cannot be written: " in err.replace("/watch.json", "")
     assert files() == ["watch.toml"]
 
 

@@ -62,5 +62,6 @@ def test_examples_run(module, tmp_path, monkeypatch):
     assert result.failed == 0
 
 
-def test_there_are_examples():
+def test_there_are_examples(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
     assert sum(doctest.testmod(module).attempted for module in MODULES) > 80

@@ -113,6 +113,16 @@ def test_both_ends_held():
         ({**BLADE, "held": {"span": 3.0}}, {}, "held.span", "less than the length"),
         ({**BLADE, "held": {"tension": 3.0, "weightless": True}}, {}, "held.weightless", "goes with span"),
         ({**BLADE, "support": {"radius": 1}}, {}, "held", "does not go with"),
+        (BLADE, {"first": 2}, "ask.first", "held at both ends give modes, got 2"),
+        (BLADE, {"rtol": 1e-3}, "ask.rtol", "held at both ends give modes, got 0.001"),
+        (BLADE, {"rtol": np.inf}, "ask.rtol", "got inf"),
+        (BLADE, {"conical_height": [0, "2 m"]}, "ask.conical_height", 'got [0.0,"2 m"]'),
+        (BLADE, {"angular_speed": [1, 2]}, "ask.angular_speed", "got [1.0,2.0]"),
+        (BLADE, {"certify": True}, "ask.certify", "got true"),
+        (BLADE, {"precision": "single"}, "ask.precision", 'got "single"'),
+        (BLADE, {"method": "dense"}, "ask.method", 'got "dense"'),
+        (BLADE, {"shapes": {"angular_speed": 1, "sense": -1}}, "ask.shapes.sense", "a chain that hangs, got -1"),
+        (BLADE, {"shapes": {"angular_speed": 1, "any_posture": True}}, "ask.shapes.any_posture", "hangs, got true"),
     ],
 )
 def test_refused_when_read(base, ask, key, words):
@@ -136,6 +146,18 @@ def test_refused_when_read(base, ask, key, words):
 def test_refused_when_asked(base, method, words):
     with pytest.raises(rc.SceneError, match=words):
         getattr(scene(base), method)()
+
+
+def test_half_waves_are_of_chains_held_at_both_ends():
+    with pytest.raises(rc.SceneError, match="ask.shapes: half_waves is for a chain held at both ends"):
+        scene({"links": LINKS}, shapes={"angular_speed": 3.0}).steady_shapes(half_waves=2)
+
+
+@pytest.mark.parametrize("ask", [rc.solve, rc.explain, lambda held: held.asked(held.chain())])
+def test_models_are_not_of_chains_held_at_both_ends(ask):
+    """Nor is the answer that of the chain let go."""
+    with pytest.raises(rc.SceneError, match="held: is for shapes and modes"):
+        ask(scene({**BLADE, "held": {"tension": "500 N"}}))
 
 
 def test_the_commands(run, tmp_path):

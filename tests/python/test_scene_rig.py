@@ -127,7 +127,7 @@ def test_weights_at_pins_and_clamped_links():
         ({"support": {"radius": 1}, "ask": at(-1.0)}, r"ask.response.angular_speed: must be positive, got -1"),
         ({"support": {"radius": 1}, "ask": at("8 m")}, r"ask.response.angular_speed: must be an angular speed"),
         ({"links": [{**ROD, "flywheel": WHEEL}], "support": {"radius": 1}, "ask": at(0)}, "must not be 0"),
-        ({"support": {"radius": 1}, "ask": {"rtol": 1e-3}}, r"ask.rtol: is for a chain alone"),
+        ({"support": {"radius": 1}, "ask": {"rtol": 1e-3}}, r"ask.rtol: is for a chain alone.* got 0\.001"),
         ({"support": {"radius": 1}, "ask": {"angular_speed": [1, 2]}}, r"ask.angular_speed: is for a chain alone"),
     ],
 )

@@ -16,7 +16,8 @@ struct DrivenChain {
     ChainUnits units;
     bool one_unit = true;  ///< of weight
     bool turning = false;  ///< whether a stiffness goes with the speed
-    Index standing = 0;    ///< links that stand: so many negative pivots are no modes
+    Index standing = 0;    ///< elements that stand: so many negative pivots are no modes
+    Index idle = 0;        ///< lowest links left out: nothing on them bears, spins or moves
 };
 
 inline const Chain<double>& base_chain(const Chain<double>& chain) { return chain; }
@@ -27,7 +28,7 @@ inline bool tells_senses_apart(const Rig& rig) { return rig.has_momentum(); }
 inline DrivenChain driven_chain(const Chain<double>& chain) {
     const AssembledChain<double> assembled = assemble(chain);
     const auto& pencil = assembled.pencil;
-    DrivenChain result{{}, assembled.units, pencil.units.empty(), false, 0};
+    DrivenChain result{{}, assembled.units, pencil.units.empty()};
     result.elements.reserve(pencil.elements.size());
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const auto& e = pencil.elements[m];
@@ -43,7 +44,7 @@ inline DrivenChain driven_chain(const Chain<double>& chain) {
 }
 
 inline DrivenChain driven_chain(const Rig& rig) {
-    DrivenChain result{{}, rig.chain().units(), true, rig.has_momentum(), 0};
+    DrivenChain result{{}, rig.chain().units(), true, rig.has_momentum()};
     const auto add = [&](const RigElement& of) {
         const auto& [e, off] = of;
         result.elements.push_back(
@@ -52,7 +53,12 @@ inline DrivenChain driven_chain(const Rig& rig) {
     Index m = 0;
     for (const RigLink& link : rig_links(rig)) {
         const bool stands = rig.stands(m++);
-        add(rig_element(link, stands));
+        const RigElement element = rig_element(link, stands);
+        if (result.elements.empty() && is_nothing(element)) {
+            ++result.idle;
+            continue;
+        }
+        add(element);
         if (stands) ++result.standing;
     }
     if (const auto support = support_element(rig)) add(*support);

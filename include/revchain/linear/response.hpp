@@ -71,7 +71,10 @@ struct PinsAsked {
     std::vector<Index> carried_columns;       ///< of the moved end itself
 };
 
-inline PinsAsked pins_asked(const ResponseOptions& options, Index links, std::size_t below) {
+/// Of a chain with so many `links`: pins of links left out as idle are where the lowest of those left is.
+inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
+    const std::size_t below = chain.elements.size();
+    const auto place = [&](Index pin) { return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle)); };
     PinsAsked result;
     if (options.pins) {
         result.asked = *options.pins;
@@ -81,14 +84,14 @@ inline PinsAsked pins_asked(const ResponseOptions& options, Index links, std::si
     }
     for (const Index pin : result.asked) {
         if (pin < 0 || pin > links) refuse("response", "pins must be numbers from 0 to " + std::to_string(links), pin);
-        if (static_cast<std::size_t>(pin) < below) result.wanted.pins.push_back(static_cast<std::size_t>(pin));
+        if (place(pin) < below) result.wanted.pins.push_back(place(pin));
     }
     auto& pins = result.wanted.pins;
     std::sort(pins.begin(), pins.end());
     pins.erase(std::unique(pins.begin(), pins.end()), pins.end());
     result.columns.resize(pins.size());
     for (std::size_t column = 0; column < result.asked.size(); ++column) {
-        const auto pin = static_cast<std::size_t>(result.asked[column]);
+        const std::size_t pin = place(result.asked[column]);
         if (pin >= below) {
             result.carried_columns.push_back(static_cast<Index>(column));
         } else {
@@ -130,7 +133,7 @@ Response responses(const Carried& carried, const std::vector<double>& given, boo
     const double radius = options.support_radius;
     const std::vector<Driving> at = drives(carried, given, speeds, options.gravity);
     const DrivenChain chain = driven_chain(carried);
-    PinsAsked pins = pins_asked(options, base_chain(carried).size(), chain.elements.size());
+    PinsAsked pins = pins_asked(options, base_chain(carried).size(), chain);
 
     const auto rows = static_cast<Index>(at.size()), columns = static_cast<Index>(pins.asked.size());
     Response result{pins.asked,           Table<double>(rows, columns), Vector<double>(rows),
@@ -171,7 +174,8 @@ Response responses(const Carried& carried, const std::vector<double>& given, boo
 
 /// What a chain does whose support is carried round a circle of radius b (or to and fro) at given conical heights, once
 /// free motions have died away: small amplitudes, K y = M y / lambda with y = b at the support. A `Rig` as well as a
-/// `Chain`: on a spring it is the spring's place of rest that is carried round.
+/// `Chain`: on a spring it is the spring's place of rest that is carried round. Lowest links that weigh nothing in a fluid
+/// that turns with them hang along with the link above; where that is so of all, straight below what carries them.
 ///
 /// Method: the dynamic stiffness of what hangs below a pin is carried up in words of two doubles, several speeds to a
 /// pass, and with it a bound of its error; ratios of neighbouring offsets lead down again. What that leaves in doubt, next

@@ -26,6 +26,19 @@ inline RigElement rig_element(const RigLink& link, bool stands) {
     return e;
 }
 
+namespace detail {
+
+/// Whether it bears, spins and moves nothing, for certain. Lowest links of which this is so, with none below, hang along
+/// with the rest: no equation holds them.
+inline bool is_nothing(const RigElement& e) {
+    const Wide<double> none(0.0);
+    const auto& [k, s, lower, upper, cross] = e.numbers;
+    return k == none && s == none && lower == none && upper == none && cross == none &&
+           e.off.stiffness + e.off.spin + e.off.lower + e.off.upper + e.off.cross == 0;
+}
+
+}  // namespace detail
+
 /// A support that yields: its spring, massless, with the carriage at its lower pin. None where it is firm.
 /// Throws InvalidArgument where its stiffness is beyond the range of weights over lengths.
 inline std::optional<RigElement> support_element(const Rig& rig) {

@@ -73,13 +73,6 @@ inline Index inertialess_coordinates(const Rig& rig) {
     return nullity + (free ? 1 : 0);
 }
 
-inline bool is_nothing(const RigElement& e) {
-    const Wide<double> none(0.0);
-    const auto& [k, s, lower, upper, cross] = e.numbers;
-    return k == none && s == none && lower == none && upper == none && cross == none &&
-           e.off.stiffness + e.off.spin + e.off.lower + e.off.upper + e.off.cross == 0;
-}
-
 /// Whether a mass whose numbers have these errors is positive or 0 for certain.
 inline bool is_not_negative(const linalg::SignedElement<Wide<double>>& e,
                             const linalg::SignedElementError<double>& off) {

@@ -390,6 +390,84 @@ TEST_CASE("response of rigs: springs, standing links, flywheels, fluids", "[line
     CHECK(largest_bound <= 1.2e-16);
 }
 
+TEST_CASE("response of rigs: lowest links that weigh nothing in a fluid that turns hang along", "[linear]") {
+    support::Random random(77);
+    const double gravity = 3.7;
+    for (int trial = 0; trial < 200; ++trial) {
+        const Index n = 1 + static_cast<Index>(random() * 6);
+        const auto idle = static_cast<Index>(random() * static_cast<double>(n));  // fewer than n
+        const bool stand = random() < 0.4, wheels = random() < 0.5;
+        std::vector<revchain::Link<double>> links, kept;
+        revchain::Rigging with{.fluid = revchain::Fluid::turning};
+        if (random() < 0.5)
+            with.support = revchain::horizontal_spring(random.log_between(0.1, 1e3), random.between(0, 2));
+        revchain::Rigging rest = with;
+        for (Index m = 0; m < n; ++m) {
+            const double a = random.between(0.3, 2);
+            const auto link = revchain::compound_pendulum<double>({.weight = random.log_between(0.1, 10),
+                                                                   .length = a,
+                                                                   .centroid = a * random.between(0.2, 1.2),
+                                                                   .radius_of_gyration = a * random.between(0, 0.6)});
+            const bool floats = m < idle;
+            const revchain::Displaced fluid{.weight = link.weight * (floats ? 1 : random.between(0, 0.9)),
+                                            .centroid = link.centroid,
+                                            .gyration_ratio = link.gyration_ratio};
+            const auto posture = stand && random() < 0.5 ? revchain::Posture::stands : revchain::Posture::hangs;
+            const revchain::Flywheel wheel{wheels && !floats ? random.between(-3, 3) : 0.0, 0.0};
+            const auto put = [&](std::vector<revchain::Link<double>>& into, revchain::Rigging& rigging) {
+                into.push_back(link);
+                rigging.displaced.push_back(fluid);
+                rigging.posture.push_back(posture);
+                rigging.flywheels.push_back(wheel);
+            };
+            put(links, with);
+            if (!floats) put(kept, rest);
+        }
+        const Rig rig(Chain<double>(links), with), without(Chain<double>(kept), rest);
+        std::vector<double> speeds;
+        for (int i = 0; i < 10; ++i) speeds.push_back(random.log_between(0.1, 30));
+        const auto found = revchain::response_at_speed(rig, speeds, {.support_radius = 0.25, .gravity = gravity});
+        const auto own = revchain::response_at_speed(without, speeds, {.support_radius = 0.25, .gravity = gravity});
+        const auto some = revchain::response_at_speed(
+            rig, speeds, {.support_radius = 0.25, .pins = std::vector<Index>{n, idle, 0}, .gravity = gravity});
+        CHECK(found.modes_below == own.modes_below);
+        CHECK(found.resonant == own.resonant);
+        CHECK(found.reversed == own.reversed);
+        for (Index i = 0; i < 10; ++i) {
+            CAPTURE(trial, n, idle, speeds[static_cast<std::size_t>(i)]);
+            auto exact = truth(without, speeds[static_cast<std::size_t>(i)], gravity);
+            exact.offset.insert(exact.offset.begin(), static_cast<std::size_t>(idle), exact.offset.front());
+            CHECK(error_over_bound(found, i, exact, 0.25) <= 1);
+            CHECK(found.error_bound[i] <= 1.2e-16);
+            CHECK(std::abs(found.support_force[i] - own.support_force[i]) <=
+                  found.support_force_error[i] + own.support_force_error[i]);
+            CHECK(found.offset.row(i).head(idle + 1).isConstant(found.offset(i, idle), 0));
+            const double size = found.offset.row(i).cwiseAbs().maxCoeff();
+            for (Index column = 0; column < 3; ++column)
+                CHECK(std::abs(some.offset(i, column) - found.offset(i, some.pins[static_cast<std::size_t>(column)])) <=
+                      2.3e-16 * size);
+        }
+    }
+}
+
+TEST_CASE("response of rigs: a chain of which nothing has weight stays below what carries it", "[linear]") {
+    const auto rod = revchain::uniform_rod(2.0, 1.0);
+    const revchain::Displaced like{rod.weight, rod.centroid, rod.gyration_ratio, 0};
+    const Chain<double> chain({rod, rod});
+    for (const bool firm : {true, false}) {
+        revchain::Rigging with{.fluid = revchain::Fluid::turning, .displaced = {like, like}};
+        if (!firm) with.support = revchain::horizontal_spring(3.0);
+        const auto found = revchain::response(Rig(chain, with), {0.1, 1.0, 10.0}, {.support_radius = 0.5});
+        CAPTURE(firm);
+        CHECK((found.offset.array() == 0.5).all());
+        CHECK(found.error_bound.maxCoeff() <= 1.2e-16);
+        CHECK(found.support_force.cwiseAbs().maxCoeff() <= found.support_force_error.maxCoeff());
+        CHECK(found.support_force_error.maxCoeff() <= 1e-28);
+        CHECK(found.modes_below.isZero(0));
+        CHECK(found.resonant == std::vector<char>(3, 0));
+    }
+}
+
 TEST_CASE("response of rigs: a plain rig is its chain, a spring is a thread more", "[linear]") {
     const auto chain = support::families()[2].make(5);
     const std::vector<double> heights{4.0, 0.7, 0.2};
