@@ -3,6 +3,7 @@
 
 #include "revchain/linalg/certificate.hpp"
 #include "revchain/linear/mode_table.hpp"
+#include "revchain/linear/plain_pencil.hpp"
 
 /// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
 namespace revchain::detail {
@@ -65,20 +66,49 @@ void restore_order(std::vector<Height<T>>& heights) {
         }
 }
 
+/// Heights number `range` to within `goal` (relative) by bisection in P, float or double, on the plain pencil, each proved by
+/// two counts there, in double. Nothing where there is no such pencil or rounding leaves one in doubt: about where `goal`
+/// is below 8 ulp of P for each link.
+/// Cost for each link: 5 ns, 7 ns for each three bits and 8 modes (float: 5), and 24 ns a mode for the proof.
+template <std::floating_point P, class Finished>
+std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,
+                                             Finished finished) {
+    const auto pencil = plain_pencil(chain);
+    if (!pencil) return std::nullopt;
+    // Brackets leave an eighth of the goal on either side to the counts' roundings.
+    const auto brackets =
+        linalg::bisect(linalg::rounded<P>(*pencil), range.first - 1, range.count, static_cast<P>(0.75 * goal),
+                       static_cast<P>(std::ldexp(chain.total_length(), -chain.units().length_exponent)), finished);
+    Heights<double> result{{}, "bisection"};
+    result.height.reserve(brackets.size());
+    for (const auto& bracket : brackets) {
+        const double start = linalg::between<double>(bracket.lower, bracket.upper);
+        const Index j = range.first - 1 + static_cast<Index>(result.height.size());
+        if (!linalg::lies_within<double>(*pencil, j, start, goal / 2)) return std::nullopt;
+        result.height.push_back({start, linalg::bound_of_margin<double>(goal / 2), start});
+    }
+    restore_order(result.height);
+    return result;
+}
+
 /// Stage 1 of `modes`: the heights of `range`, which is not empty, to `options.rtol`. Reports progress up to `share`.
 /// This one serves every valid chain; cost as said there.
 template <Real T>
 Heights<T> heights_by_bisection(const Chain<T>& chain, OnDemand<T>& assembled, const ModeRange& range,
                                 const ModesOptions<T>& options, double share) {
-    using std::ldexp;
-    const Pencils<T>& pencils = assembled.pencils();
     const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
     const bool loose = is_loose(chain, options);
     const double count = static_cast<double>(range.count);
+    const auto half_way = [&](Index done) {
+        advance(options.progress, share * 0.5 * static_cast<double>(done) / count);
+    };
+    if constexpr (std::is_same_v<T, double>)
+        if (loose)
+            if (auto found = loose_heights<double>(chain, range, goal, half_way)) return std::move(*found);
+    const Pencils<T>& pencils = assembled.pencils();
     const auto brackets =
         linalg::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
-                       pencils.scaled(chain.total_length()),
-                       [&](Index done) { advance(options.progress, share * 0.5 * static_cast<double>(done) / count); });
+                       pencils.scaled(chain.total_length()), half_way);
     Heights<T> result{{}, "bisection"};
     result.height.reserve(brackets.size());
     for (const auto& bracket : brackets) {
