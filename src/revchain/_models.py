@@ -220,6 +220,8 @@ def solve(
     place = "revchain.solve"
     hung, k, n, tolerance, lean, budget, g = _asked(place, what, count, first, rtol, inclination, time_budget, gravity)
     if isinstance(hung, Rig):
+        if model is not None and model != RIG_MODEL:
+            raise ValueError(f"{place}: model must be {RIG_MODEL!r} for a Rig, got {shown(model)}")
         found = modes(hung, modes=range(k, k + n), gravity=g, shapes=False)
         met = tolerance == 0 or bool(np.all(found.error_bound <= tolerance))
         status = found.status if found.status != "success" or met else "tolerance_not_met"

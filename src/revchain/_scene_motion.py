@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from msgspec import UNSET, UnsetType
 
-from ._arguments import Floats
+from ._arguments import Floats, one_positive
 from ._chain import Chain
 from ._held import HeldShape, HeldShapes, TautModes, held_shapes, taut_modes
 from ._response import Response, SmallOscillation, response, small_oscillation
@@ -141,7 +141,9 @@ def swing_of(
         raise SceneError(source, "ask.swing", "is missing: say with offset where the chain is let go")
     until, steps = changed.pop("until", None), changed.pop("steps", table.steps)
     offset, velocity, last = start_of(table, chain, source)
-    times = np.linspace(0.0, last if until is None else until, steps + 1)
+    if until is not None:
+        last = one_positive("revchain.Scene.small_oscillation", "until", until)
+    times = np.linspace(0.0, last, steps + 1)
     return small_oscillation(chain, offset, velocity, times, gravity=gravity, **changed)
 
 

@@ -95,6 +95,9 @@ def test_scenes_and_rigs():
     found = rc.solve(rig, 2, rtol=1e-9)
     assert np.array_equal(found.conical_height, rc.modes(rig, 2).conical_height) and found.status == "success"
     assert [row.chosen for row in rc.explain(rig).rows] == [True]
+    assert rc.solve(rig, model=found.model) == rc.solve(rig)
+    with pytest.raises(ValueError, match="model must be 'rig, by counts or discs' for a Rig, got 'closed forms'"):
+        rc.solve(rig, model="closed forms")
     with pytest.raises(TypeError, match="Scene, Chain or Rig, got 3"):
         rc.solve(3)
 

@@ -227,6 +227,8 @@ def test_wrong_options(run, tmp_path):
     assert code == 3 and f"{path}: ask.swing: is for a chain" in err
     code, _, err = run("swing", write(tmp_path, SWING), "--until", "nan")
     assert code == 2 and "finite" in err
+    code, _, err = run("swing", write(tmp_path, SWING), "--until", -1)
+    assert code == 2 and "until must be positive" in err and "-1" in err
     assert run("shapes", path, "--plot", tmp_path / "x.txt")[0] == 2
     assert sorted(p.name for p in tmp_path.iterdir()) == ["scene.toml"]
 
