@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linalg/certificate.hpp"
+#include "revchain/linalg/dense.hpp"
+#include "revchain/linear/pencils.hpp"
+#include "revchain/scene/models/numerical.hpp"
+
+namespace revchain::models {
+
+/// What a textbook does: both matrices assembled, Cholesky and the symmetric QR algorithm for all modes. Assembling adds
+/// neighbouring stiffnesses up, which loses the slowest modes of long or unlike chains; how much is lost is proved by counts
+/// on the chain's elements, as for every other way. For comparison: it is never the cheapest.
+/// A header of its own: it takes seconds to compile. Cost: 4 ns N^3 or so.
+struct Dense {
+    static constexpr std::string_view name = "dense";
+    static constexpr Index most_links = 300;
+
+    Fit applies(const ChainKind& kind, const Question&) const {
+        if (kind.size > most_links) return Fit::no("more than 300 links");
+        if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        return {};
+    }
+    /// Foreseen for like links, whose stiffness has a condition of about N^2; no bound of others.
+    double error_bound(const ChainKind& kind, const Question&) const {
+        const double n = detail::real(kind.size);
+        return 2e-16 * (6 + n) * (6 + n);
+    }
+    double cost(const ChainKind& kind, const Question& question) const {
+        const double n = detail::real(kind.size);
+        return 2e-6 + n * (3e-7 + 5e-7 * detail::real(question.count) + n * (1e-7 + n * 4e-9));
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        const revchain::detail::Pencils<double> pencils(chain);
+        const auto matrices = linalg::assembled(pencils.rounded());
+        const Vector<double> heights = linalg::solve_symmetric_definite(matrices.K, matrices.M).values;
+        Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
+        for (Index i = 0; i < question.count; ++i) {
+            const Index j = question.first - 1 + i;
+            double margin = 2 * std::numeric_limits<double>::epsilon();
+            if (!(heights[j] > 0)) return {{}, {}, false};
+            while (margin < 0.5 && !linalg::lies_within(pencils.wide(), j, heights[j], margin)) margin *= 2;
+            if (!(margin < 0.5)) return {{}, {}, false};
+            answer.conical_height[i] = std::ldexp(heights[j], pencils.length_exponent());
+            answer.error_bound[i] = linalg::bound_of_margin<Wide<double>>(margin);
+        }
+        return answer;
+    }
+};
+
+}  // namespace revchain::models
