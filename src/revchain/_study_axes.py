@@ -15,13 +15,13 @@ from msgspec import UNSET
 from numpy.typing import NDArray
 
 from . import _scene_file
-from ._arguments import Whole, read_only
+from ._arguments import read_only
 from ._scene_error import SceneError
 from ._study_paths import Path, path_of, quantity_of
 from ._study_tables import Vary
 from ._units import si_value
 
-BLOCK = 16384  # random numbers are drawn in blocks of so many points, each from a stream of its own
+BLOCK = 65536  # random numbers are drawn in blocks of so many points, each from a stream of its own
 MOST_STEPS = 10**7
 
 Values = NDArray[Any]
@@ -150,13 +150,32 @@ def shape_of(axes: Sequence[Axis], samples: int) -> tuple[int, ...]:
 
 
 def values_at(axes: Sequence[Axis], samples: int, seed: int, start: int, stop: int) -> list[Values]:
-    """Of each axis, its number at the points start <= k < stop."""
+    """Of each axis, its number at the points start <= k < stop; not to be written to."""
     shape = shape_of(axes, samples)
-    places: list[Whole] = []
-    if any(axis.values is not None for axis in axes):
-        places = list(np.unravel_index(np.arange(start, stop), shape))
-    grids = iter(places)
-    return [axis.values[next(grids)] if axis.values is not None else _drawn(axis, seed, start, stop) for axis in axes]
+    strides = iter([math.prod(shape[k + 1 :]) for k in range(len(shape))])
+    return [
+        _drawn(axis, seed, start, stop) if axis.values is None else _repeated(axis.values, next(strides), start, stop)
+        for axis in axes
+    ]
+
+
+def _repeated(values: Values, stride: int, start: int, stop: int) -> Values:
+    """values[k // stride % size] at start <= k < stop, without a division at each k."""
+    first, last = start // stride, (stop - 1) // stride
+    runs, size = last - first + 1, values.size
+    at = first % size
+    if at + runs <= size:
+        of_runs = values[at : at + runs]
+    elif runs <= size:
+        of_runs = np.concatenate([values[at:], values[: at + runs - size]])
+    else:
+        of_runs = np.tile(values, -(-(at + runs) // size))[at : at + runs]
+    if stride == 1:
+        return of_runs
+    lengths = np.full(runs, stride)
+    lengths[0] -= start - first * stride
+    lengths[-1] -= (last + 1) * stride - stop
+    return np.repeat(of_runs, lengths)
 
 
 def _drawn(axis: Axis, seed: int, start: int, stop: int) -> Values:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, _scene_file
+from . import _scene_file
 from ._arguments import Floats
 from ._batch import conical_heights
 from ._scene_error import SceneError
@@ -24,8 +24,9 @@ from ._study_find import NOT_MET, REFUSED, SUCCESS, Arrays, Block, found_at, put
 from ._study_paths import with_value
 from .scene import Scene
 
-FORMAT = 1
-BATCH = 4096  # chains of a batch: their numbers stay in the cache
+FORMAT = 2
+_LARGEST, _SMALLEST = 32768, 1024  # chains of a batch: few enough that their numbers stay in the cache,
+_WORK = 2**20  # links times modes of a batch: and so many that Python's share of the time is small
 _NOWHERE = SceneError("study", "vary", "")
 
 
@@ -112,16 +113,27 @@ class Plan:
         """The blocks that are computed; speeds of batches follow from the heights."""
         return tuple(block for block in self.blocks if not (self.batched and block.name == "angular_speed"))
 
-    def speeds(self, heights: Floats) -> Floats:
-        """Whirl speeds of batches, of all points."""
+    @property
+    def numbers(self) -> int:
+        """How many numbers are stored of each point."""
+        return sum(prod(block.each) for block in self.stored)
+
+    @property
+    def batch(self) -> int:
+        """How many chains go to `revchain.conical_heights` together."""
+        if "batch" not in self._kept:
+            most = _WORK // (self._scene.chain().size * self.stored[0].labels[-1])
+            self._kept["batch"] = min(max(1 << max(most.bit_length() - 1, 0), _SMALLEST), _LARGEST)
+        return int(self._kept["batch"])
+
+    def speeds(self, heights: Floats, start: int, stop: int) -> Floats:
+        """Whirl speeds of batches, at a stretch of points with these heights."""
         varied = {axis.path: k for k, axis in enumerate(self.axes)}
         where = varied.get(("gravity",))
-        gravity = np.asarray(self._scene.gravity_value() if where is None else self.values(0, self.points)[where])
-        speeds = np.full_like(heights, np.nan)
-        rows = np.isfinite(heights)
-        each = np.broadcast_to(gravity[..., np.newaxis], heights.shape)
-        speeds[rows] = _core.conical_pendulum_angular_speed(heights[rows], each[rows])
-        return speeds
+        gravity = np.asarray(self._scene.gravity_value() if where is None else self.values(start, stop)[where], float)
+        with np.errstate(invalid="ignore"):  # where a point is refused the height is no number
+            speeds = np.sqrt(heights)
+            return np.divide(np.sqrt(gravity)[..., np.newaxis], speeds, out=speeds)
 
     def found(
         self,
@@ -135,9 +147,9 @@ class Plan:
         arrays = {block.name: block.memory(stop - start) for block in self.stored} if arrays is None else arrays
         status = np.full(stop - start, SUCCESS, np.uint8)
         if self.batched:
-            columns = LinkColumns(self._scene, BATCH)
-            for first in range(start, stop, BATCH):
-                last = min(first + BATCH, stop)
+            columns = LinkColumns(self._scene, min(self.batch, stop - start))
+            for first in range(start, stop, self.batch):
+                last = min(first + self.batch, stop)
                 self._heights(first, last, start, columns, arrays["conical_height"], status)
         else:
             for array in arrays.values():
