@@ -18,7 +18,7 @@ from . import _scene_file
 from ._arguments import Floats
 from ._batch import conical_heights
 from ._scene_error import SceneError
-from ._study_axes import Axis, Values, shape_of, values_at
+from ._study_axes import Axis, Reader, Values, shape_of
 from ._study_batch import LinkColumns
 from ._study_find import NOT_MET, REFUSED, SUCCESS, Arrays, Block, found_at, put
 from ._study_paths import with_value
@@ -84,7 +84,11 @@ class Plan:
 
     def values(self, start: int, stop: int) -> list[Values]:
         """Of each axis, its numbers at a stretch of points."""
-        return values_at(self.axes, self.samples, self.seed, start, stop)
+        return self.reader().at(start, stop)
+
+    def reader(self) -> Reader:
+        """What gives the numbers of one stretch after another; one thread's own."""
+        return Reader(self.axes, self.samples, self.seed)
 
     def scene_data(self, values: list[Any]) -> dict[str, Any]:
         """The scene with these numbers, as plain data."""
@@ -126,14 +130,15 @@ class Plan:
             self._kept["batch"] = min(max(1 << max(most.bit_length() - 1, 0), _SMALLEST), _LARGEST)
         return int(self._kept["batch"])
 
-    def speeds(self, heights: Floats, start: int, stop: int) -> Floats:
-        """Whirl speeds of batches, at a stretch of points with these heights."""
+    def speeds(self, heights: Floats, values: list[Values]) -> Floats:
+        """Whirl speeds of batches, at points with these heights where the axes have these numbers."""
         varied = {axis.path: k for k, axis in enumerate(self.axes)}
         where = varied.get(("gravity",))
-        gravity = np.asarray(self._scene.gravity_value() if where is None else self.values(start, stop)[where], float)
+        gravity = np.asarray(self._scene.gravity_value() if where is None else values[where], float)
         with np.errstate(invalid="ignore"):  # where a point is refused the height is no number
             speeds = np.sqrt(heights)
-            return np.divide(np.sqrt(gravity)[..., np.newaxis], speeds, out=speeds)
+            np.divide(np.sqrt(gravity)[..., np.newaxis], speeds, out=speeds)
+        return speeds
 
     def found(
         self,
@@ -148,9 +153,10 @@ class Plan:
         status = np.full(stop - start, SUCCESS, np.uint8)
         if self.batched:
             columns = LinkColumns(self._scene, min(self.batch, stop - start))
+            reader = self.reader()
             for first in range(start, stop, self.batch):
                 last = min(first + self.batch, stop)
-                self._heights(first, last, start, columns, arrays["conical_height"], status)
+                self._heights(first, reader.at(first, last), start, columns, arrays["conical_height"], status)
         else:
             for array in arrays.values():
                 array[...] = np.nan if array.dtype.kind == "f" else 0
@@ -186,7 +192,7 @@ class Plan:
     def _heights(
         self,
         start: int,
-        stop: int,
+        values: list[Values],
         origin: int,
         columns: LinkColumns,
         heights: Floats,
@@ -194,24 +200,22 @@ class Plan:
     ) -> None:
         """Heights of plain chains; where a batch is refused its halves, down to the chain that is to blame."""
         (block,) = self.stored
+        stop = start + len(values[0])
         try:
-            links: dict[str, Any] = dict(columns.at(self._at(start, stop)))
+            points = {axis.path: column for axis, column in zip(self.axes, values, strict=True)}
+            links: dict[str, Any] = dict(columns.at(points))
             found = conical_heights(**links, count=block.labels[-1])
         except ValueError:
             if stop - start > 1:
-                middle = (start + stop) // 2
-                self._heights(start, middle, origin, columns, heights, status)
-                self._heights(middle, stop, origin, columns, heights, status)
+                half = (stop - start) // 2
+                self._heights(start, [column[:half] for column in values], origin, columns, heights, status)
+                self._heights(start + half, [column[half:] for column in values], origin, columns, heights, status)
             else:
-                values = [column.tolist()[0] for column in self.values(start, stop)]
                 heights[start - origin] = np.nan
-                self._one(start - origin, values, {block.name: heights}, status)
+                only = [column.tolist()[0] for column in values]
+                self._one(start - origin, only, {block.name: heights}, status)
             return
         heights[start - origin : stop - origin] = found[..., block.labels[0] - 1 :]
-
-    def _at(self, start: int, stop: int) -> dict[Any, Floats]:
-        values = self.values(start, stop)
-        return {axis.path: np.asarray(column, float) for axis, column in zip(self.axes, values, strict=True)}
 
     @property
     def _scene(self) -> Scene:

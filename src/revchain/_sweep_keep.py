@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from contextlib import suppress
 from queue import Empty, Queue
 from threading import Thread
@@ -27,14 +28,20 @@ class Keeper:
         self._beyond = dict(self.kept)  # stretches not reached yet: their ends by their beginnings
         self._whole = self._written = 0  # all points before are kept; are in the output
         self._reach()
+        self._reader = journal.plan.reader()
+        self._idle: deque[Arrays] = deque(maxlen=2 * _WAITING)  # memory of stretches that are kept
         self._queue: Queue[Stretch | None] = Queue(_WAITING)
         self._failed: BaseException | None = None
         self._given_up = False
         self._thread = Thread(target=self._run, name="revchain-sweep-keep", daemon=True)
         self._thread.start()
 
-    def place(self, start: int, stop: int) -> None:
-        """Stretches have arrays of their own."""
+    def place(self, start: int, stop: int) -> Arrays:
+        """Memory for a stretch: that of one that is kept by now, if it is large enough."""
+        memory = self._idle.pop() if self._idle else {}
+        if not memory or len(next(iter(memory.values()))) < stop - start:
+            memory = {block.name: block.memory(stop - start) for block in self._journal.plan.stored}
+        return {name: array[: stop - start] for name, array in memory.items()}
 
     def take(self, stretch: Stretch) -> None:
         """Have it kept; what went wrong with one before is raised here."""
@@ -87,6 +94,7 @@ class Keeper:
                 self._write()
             else:
                 self._journal.add(stretch)
+                self._idle.append(stretch.arrays)
                 self.finished += stretch.stop - stretch.start
                 self._beyond[stretch.start] = stretch.stop
                 self._reach()
@@ -99,5 +107,6 @@ class Keeper:
 
     def _write(self) -> None:
         start, stop = self._written, min(self._written + ROWS, self._whole)
-        self._writer.add(start, stop, pieces_of(self._journal.plan, self._stored, start, stop))
+        values = self._reader.at(start, stop)
+        self._writer.add(start, stop, pieces_of(self._journal.plan, values, self._stored, start, stop))
         self._written = stop

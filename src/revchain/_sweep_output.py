@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ._extras import require
 from ._files import write_fully
-from ._study_axes import Axis
+from ._study_axes import Axis, Values
 from ._study_find import STATUS, Arrays
 from ._study_plan import Plan
 
@@ -60,23 +60,24 @@ def writer_of(path: str | os.PathLike[str]) -> type[_Csv] | type[_Parquet] | typ
     return _Csv
 
 
-def pieces_of(plan: Plan, stored: Arrays, start: int, stop: int) -> Arrays:
+def pieces_of(plan: Plan, values: list[Values], stored: Arrays, start: int, stop: int) -> Arrays:
     """Of a stretch of points all that a file has, by name: what varied, what was found, the status as 0, 1, 2."""
-    pieces = dict(zip([axis.name for axis in plan.axes], plan.values(start, stop), strict=True))
+    pieces = dict(zip([axis.name for axis in plan.axes], values, strict=True))
     for block in plan.blocks:
         if block.name in stored:
             pieces[block.name] = stored[block.name][start:stop]
         else:
-            pieces[block.name] = plan.speeds(stored["conical_height"][start:stop], start, stop)
+            pieces[block.name] = plan.speeds(stored["conical_height"][start:stop], values)
     pieces["status"] = stored["status"][start:stop]
     return pieces
 
 
 def write_all(writer: Writer, plan: Plan, stored: Arrays) -> None:
     """Everything that is there already."""
+    reader = plan.reader()
     for start in range(0, plan.points, ROWS):
         stop = min(start + ROWS, plan.points)
-        writer.add(start, stop, pieces_of(plan, stored, start, stop))
+        writer.add(start, stop, pieces_of(plan, reader.at(start, stop), stored, start, stop))
     writer.close()
 
 
@@ -228,7 +229,10 @@ class _NetCdf:
                 made.attrs.update({**about, **_marked(values.dtype)})
             for name, kind, along, about in _variables(plan):
                 dtype = np.dtype(kind)
-                made = file.create_variable(name, (*dimensions, *along), _on_disk(dtype), **_filled(dtype))
+                unfilled = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+                unfilled.set_fill_time(h5py.h5d.FILL_TIME_NEVER)
+                place = (*dimensions, *along)
+                made = file.create_variable(name, place, _on_disk(dtype), dcpl=unfilled, **_filled(dtype))
                 made.attrs.update({**about, **_marked(dtype)})
             file.attrs.update(_about(study))
         with h5py.File(path, "r+") as file:

@@ -130,11 +130,17 @@ class SweepResult:
         if name in self.varied:
             self._fill_varied()
         elif name == "angular_speed" and name in self.found:
-            self._arrays[name] = self._plan.speeds(self._arrays["conical_height"], 0, len(self))
+            self._arrays[name] = self._speeds()
         else:
             known = ", ".join([*self.varied, *self.found, "status"])
             raise KeyError(f"there is no {name!r}; there are {known}")
         return read_only(self._arrays[name])
+
+    def _speeds(self) -> NDArray[np.float64]:
+        if "gravity" in [axis.key for axis in self._plan.axes]:
+            self._fill_varied()
+        values = [self._arrays.get(axis.name, np.empty(0)) for axis in self._plan.axes]
+        return self._plan.speeds(self._arrays["conical_height"], values)
 
     def _fill_varied(self) -> None:
         values = self._plan.values(0, self._plan.points)
