@@ -20,7 +20,7 @@ class OutputError(OSError, ValueError):
 
 def write_fully(file: FileIO, data: bytes | NDArray[Any]) -> None:
     """Write all bytes, however many a call takes."""
-    left = memoryview(data).cast("B")
+    left = memoryview(data if isinstance(data, bytes) else data.data).cast("B")
     while left:
         left = left[file.write(left) or 0 :]
 

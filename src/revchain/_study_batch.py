@@ -61,6 +61,10 @@ class _Product:
     def __len__(self) -> int:
         return max(len(factor) for factor in self.factors if isinstance(factor, np.ndarray))
 
+    def put(self, place: Floats) -> None:
+        mass, gravity = self.factors
+        np.multiply(mass, gravity, out=place)
+
     def __truediv__(self, count: int) -> Any:
         mass, gravity = self.factors
         return (mass * gravity)[:, 0] / count
@@ -114,7 +118,7 @@ class LinkColumns:
         for k in varied:
             place = column[:size, self._slices[k]]
             if isinstance(parts[k], _Product):
-                np.multiply(*parts[k].factors, out=place)
+                parts[k].put(place)
             else:
                 place[...] = parts[k][:, np.newaxis]
         return column[:size]

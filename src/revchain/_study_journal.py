@@ -53,7 +53,7 @@ class Journal:
             bytes_ = plan.points * int(np.prod(columns, dtype=object)) * np.dtype(kind).itemsize
             self._size += -(-bytes_ // _PAGE) * _PAGE
         self._lock: int | None = None
-        self._ours = True
+        self._ours = False  # its folder, to be removed if nothing is kept
         self._files: list[FileIO] = []
         self._synced = time.monotonic()
 
@@ -72,6 +72,7 @@ class Journal:
                 self._same(head)
             else:
                 self._begin(head)
+            self._ours = True
             for left in self.folder.glob(".*.writing*"):
                 left.unlink()
             self._open()
@@ -108,14 +109,12 @@ class Journal:
         except (ValueError, KeyError, TypeError):
             known = None
         if known != self.fingerprint:
-            self._ours = False
             reason = f"{self.folder} holds points of another study, or of another version; remove it or write elsewhere"
             raise OutputError(17, reason, os.fspath(self.output))
 
     def _begin(self, head: Path) -> None:
         """A new journal: the head is written last, so that where it is there everything is."""
         if any(path.name not in (_POINTS, _INDEX) and ".writing" not in path.name for path in self.folder.iterdir()):
-            self._ours = False
             reason = f"{self.folder} holds other files; remove it or write elsewhere"
             raise OutputError(17, reason, os.fspath(self.output))
         for name in (_POINTS, _INDEX):
@@ -186,10 +185,14 @@ class Journal:
             os.fsync(file.fileno())
         self._synced = time.monotonic()
 
+    def sync_output(self) -> None:
+        """Make the disk keep what is written of the output."""
+        with FileIO(self.aside, "r+") as file:
+            os.fsync(file.fileno())
+
     def finish(self) -> None:
         """Give the output its name, and remove what was kept of it."""
-        with open(self.aside, "r+b") as file:
-            os.fsync(file.fileno())
+        self.sync_output()
         os.replace(self.aside, self.output)
         for file in self._files:
             file.close()
@@ -202,16 +205,15 @@ class Journal:
 def _checksum(arrays: list[NDArray[Any]]) -> int:
     checksum = 0
     for array in arrays:
-        checksum = zlib.crc32(array, checksum)
+        checksum = zlib.crc32(array.data, checksum)
     return checksum
 
 
 def _write_whole(path: Path, *parts: bytes) -> None:
     """A small file that is whole or as it was."""
     aside = path.with_name(f".{path.name}.writing")
-    with open(aside, "wb") as file:
-        file.writelines(parts)
-        file.flush()
+    with FileIO(aside, "w") as file:
+        write_fully(file, b"".join(parts))
         os.fsync(file.fileno())
     os.replace(aside, path)
 

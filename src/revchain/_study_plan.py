@@ -136,7 +136,7 @@ class Plan:
         where = varied.get(("gravity",))
         gravity = np.asarray(self._scene.gravity_value() if where is None else values[where], float)
         with np.errstate(invalid="ignore"):  # where a point is refused the height is no number
-            speeds = np.sqrt(heights)
+            speeds: Floats = np.sqrt(heights)
             np.divide(np.sqrt(gravity)[..., np.newaxis], speeds, out=speeds)
         return speeds
 

@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import closing
+from functools import partial
 from threading import Event
 from typing import Any
 
@@ -112,7 +113,7 @@ def sweep(
         stored = journal.map()
         result = SweepResult._of(study, plan, stored)
         result._resumed = sum(stop - start for start, stop in journal.kept)
-        with closing(Keeper(journal, writer(journal.aside, study, plan), stored)) as keeper:
+        with closing(Keeper(journal, partial(writer, journal.aside, study, plan), stored)) as keeper:
             _Run(plan, keeper, chunk, progress).anywhere(executor, workers)
         journal.finish()
     return result

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from contextlib import suppress
 from queue import Empty, Queue
 from threading import Thread
@@ -14,6 +15,7 @@ from ._study_plan import Stretch
 from ._sweep_output import ROWS, Writer, pieces_of
 
 _WAITING = 4  # stretches that wait to be kept, at most
+_SYNC = 2**25  # bytes of output after which the disk is made to keep them
 
 
 class Keeper:
@@ -21,8 +23,10 @@ class Keeper:
     a gap. To be closed; only after `finish` is the output whole.
     """
 
-    def __init__(self, journal: Journal, writer: Writer, stored: Arrays) -> None:
-        self._journal, self._writer, self._stored = journal, writer, stored
+    def __init__(self, journal: Journal, make: Callable[[], Writer], stored: Arrays) -> None:
+        self._journal, self._make, self._stored = journal, make, stored
+        self._writer: Writer | None = None
+        self._unsynced = 0  # bytes of the output
         self.kept = sorted(journal.kept)
         self.finished = sum(stop - start for start, stop in self.kept)
         self._beyond = dict(self.kept)  # stretches not reached yet: their ends by their beginnings
@@ -71,7 +75,8 @@ class Keeper:
         while not self._given_up and self._written < self._whole:
             self._try(None)
         try:
-            self._writer.close()
+            if self._writer is not None:
+                self._writer.close()
         except BaseException as error:
             self._failed = self._failed or error
         if self._given_up or self._failed is not None:
@@ -107,6 +112,12 @@ class Keeper:
 
     def _write(self) -> None:
         start, stop = self._written, min(self._written + ROWS, self._whole)
-        values = self._reader.at(start, stop)
-        self._writer.add(start, stop, pieces_of(self._journal.plan, values, self._stored, start, stop))
+        if self._writer is None:
+            self._writer = self._make()
+        pieces = pieces_of(self._journal.plan, self._reader.at(start, stop), self._stored, start, stop)
+        self._writer.add(start, stop, pieces)
         self._written = stop
+        self._unsynced += sum(piece.nbytes for piece in pieces.values())
+        if self._unsynced > _SYNC:  # not all of it at the end, when nothing is left to be done meanwhile
+            self._journal.sync_output()
+            self._unsynced = 0

@@ -32,6 +32,7 @@ ENDINGS = (".csv", ".parquet", ".nc")
 ROWS = 65536  # written together
 _LINES = 4096  # turned to text together
 _JSON = Encoder()
+_Variable = tuple[str, str, list[str], dict[str, Any]]
 _WORDS = np.array([Raw(word.encode()) for word in STATUS], dtype=object)
 
 
@@ -127,12 +128,14 @@ def _coordinates(plan: Plan) -> list[tuple[str, NDArray[Any], dict[str, Any]]]:
     return [*grids, *((name, labels, {}) for name, labels in along.items())]
 
 
-def _variables(plan: Plan) -> list[tuple[str, str, list[str], dict[str, Any]]]:
+def _variables(plan: Plan) -> list[_Variable]:
     """What depends on the point: name, kind, dimension beside those of the points, what to say of it."""
-    random = [(axis.name, "f8", [], _path(axis)) for axis in plan.axes if axis.values is None]
-    found = [(block.name, block.kind, [block.along] if block.along else [], {}) for block in plan.blocks]
+    random: list[_Variable] = [(axis.name, "f8", [], _path(axis)) for axis in plan.axes if axis.values is None]
+    found: list[_Variable] = [
+        (block.name, block.kind, [block.along] if block.along else [], {}) for block in plan.blocks
+    ]
     flags = {"flag_values": np.arange(len(STATUS), dtype=np.int8), "flag_meanings": " ".join(STATUS)}
-    return [*random, *found, ("status", "i1", [], flags)]  # type: ignore[list-item]
+    return [*random, *found, ("status", "i1", [], flags)]
 
 
 def _path(axis: Axis) -> dict[str, Any]:

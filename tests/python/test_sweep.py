@@ -6,7 +6,9 @@ import itertools
 import json
 import math
 import os
+import random
 import signal
+import struct
 import sys
 import threading
 import time
@@ -366,38 +368,109 @@ def ended_after(points):
 LARGE = (GYROSTAT, {"support.stiffness": {"uniform": [1.0, 300.0]}})
 
 
+def kept(folder="a.csv.partial"):
+    """The records of a journal: beginnings and ends of stretches, as they lie there."""
+    path = Path(folder, "index")
+    data = path.read_bytes() if path.exists() else b""
+    return [struct.unpack_from("<QQ", data, place) for place in range(0, len(data) - 23, 24)]
+
+
 def test_a_run_goes_on_where_it_was():
     given = study(*LARGE, samples=100)
     with pytest.raises(Ended):
         rc.sweep(given, out="a.csv", chunk=10, progress=ended_after(40))
-    assert files() == ["a.csv.partial"]
-    kept = sorted(path.name for path in Path("a.csv.partial").glob("*.points"))
-    assert kept[0] == "000000000000-000000000010.points" and len(kept) >= 4
-    seen = []
+    assert files() == ["a.csv.partial"] and len(kept()) >= 4
+    assert sorted(os.listdir("a.csv.partial")) == ["index", "points", "study.json"]
+    there, seen = 10 * len(kept()), []
     found = rc.sweep(given, out="a.csv", chunk=7, threads=1, progress=lambda done, total: seen.append((done, total)))
-    assert found.resumed == 10 * len(kept) == seen[0][0] and seen[-1] == (100, 100)
+    assert found.resumed == there == seen[0][0] and seen[-1] == (100, 100)
     same(found, rc.sweep(given))
     assert files() == ["a.csv"]
     assert len(Path("a.csv").read_text().splitlines()) == 101
 
 
-def test_what_is_damaged_is_computed_again():
+@pytest.fixture
+def ended():
+    """A study of 60 points in six stretches, all of them kept, and its journal's folder."""
     given = study(*LARGE, samples=60)
     with pytest.raises(Ended):
         rc.sweep(given, out="a.csv", chunk=10, threads=1, progress=ended_after(60))
-    parts = sorted(Path("a.csv.partial").glob("*.points"))
-    assert len(parts) == 6
-    data = bytearray(parts[0].read_bytes())
-    data[-50] ^= 1
-    parts[0].write_bytes(data)
-    parts[1].write_bytes(parts[1].read_bytes()[:-1])
-    parts[2].write_bytes(b"")
-    parts[3].rename(parts[3].with_name("000000000025-000000000035.points"))
-    Path("a.csv.partial/.000000000000-000000000010.points.writing").write_bytes(b"half")
+    folder = Path("a.csv.partial")
+    assert kept() == [(k, k + 10) for k in range(0, 60, 10)]
+    return given, folder, {name: (folder / name).read_bytes() for name in ("points", "index")}
+
+
+def goes_on(given, whole):
+    """A run that finds so many points that are whole; its numbers are those of one that was never ended."""
     found = rc.sweep(given, out="a.csv")
-    assert found.resumed == 20  # the one renamed has other points than it says
+    assert found.resumed == whole
     same(found, rc.sweep(given))
     assert files() == ["a.csv"]
+
+
+def test_what_is_damaged_is_computed_again(ended):
+    given, folder, data = ended
+    plan = given._plan("")
+    stiffness = next(block for block in plan.stored if block.kind == "f8")
+    points, index = bytearray(data["points"]), bytearray(data["index"])
+    points[10 * stiffness.each[0] * 8 + 3] ^= 1  # a bit of the second stretch, in its numbers
+    points[-4096 + 25] ^= 1  # and of the third, in its status
+    index[3 * 24 + 2] ^= 1  # the fourth said to be elsewhere
+    index[4 * 24 + 17] ^= 1  # the checksum of the fifth
+    (folder / "points").write_bytes(points)
+    (folder / "index").write_bytes(bytes(index) + data["index"][:24])  # and the first said twice
+    (folder / ".output.writing.csv").write_bytes(b"half")
+    goes_on(given, 20)
+
+
+def test_a_journal_cut_anywhere_gives_what_is_whole(ended):
+    given, folder, data = ended
+    plan = given._plan("")
+    for length in [*range(0, 49), 100, 143, 144]:
+        (folder / "index").write_bytes(data["index"][:length])
+        with Journal("a.csv", plan) as journal:
+            assert journal.kept == kept() == [(k, k + 10) for k in range(0, length // 24 * 10, 10)]
+            assert (folder / "index").stat().st_size == length // 24 * 24
+        for name in data:  # where nothing was whole the folder is gone
+            folder.mkdir(exist_ok=True)
+            (folder / name).write_bytes(data[name])
+        if length < 24:
+            (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
+    counts = set()
+    for length in [0, 1, *random.Random(1).sample(range(len(data["points"])), 30), len(data["points"]) - 4096 + 35]:
+        cut = data["points"][:length]
+        (folder / "points").write_bytes(cut)
+        (folder / "index").write_bytes(data["index"])
+        holes = cut + bytes(len(data["points"]) - length)
+        (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
+        with Journal("a.csv", plan) as journal:
+            for start, stop in journal.kept:
+                for name, array in journal.map().items():
+                    place, kind, each = journal._layout[name]
+                    row = kind.itemsize * math.prod(each)
+                    first, last = place + start * row, place + stop * row
+                    assert holes[first:last] == data["points"][first:last] == array[start:stop].tobytes()
+            counts.add(len(journal.kept))
+        folder.mkdir(exist_ok=True)
+    assert min(counts) == 0 and max(counts) == 3
+    for name in data:
+        (folder / name).write_bytes(data[name])
+    (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
+    (folder / "index").write_bytes(data["index"][:100])
+    goes_on(given, 40)
+
+
+def test_a_folder_of_something_else_is_left_alone():
+    given = study(PLUMMETS, {"gravity": {"values": [1.0]}})
+    Path("a.csv.partial").mkdir()
+    Path("a.csv.partial/mine.txt").write_text("mine")
+    with pytest.raises(OSError, match="a.csv.partial holds other files; remove it or write elsewhere"):
+        rc.sweep(given, out="a.csv")
+    assert Path("a.csv.partial/mine.txt").read_text() == "mine"
+    Path("b.csv.partial").write_text("mine")
+    with pytest.raises(OSError, match="b.csv.partial is no folder"):
+        rc.sweep(given, out="b.csv")
+    assert Path("b.csv.partial").read_text() == "mine"
 
 
 def test_another_study_is_refused():
@@ -438,37 +511,72 @@ uniform = [1, 2]
 def test_killed_at_any_moment_nothing_is_lost_or_repeated(start):
     Path("a.toml").write_text(SLOW)
     command = (sys.executable, "-m", "revchain", "sweep", "a.toml", "--chunk", "5", "--workers", "2")
-    partial, kept, kills = Path("a.csv.partial"), {}, 0
-    for wanted in (5, 60, 150, 300):
+    partial, there, kills, chance = Path("a.csv.partial"), b"", 0, random.Random(2)
+    for wanted in (1, 20, 60, 100, 150, 220, 300):
         process = start(*command)
         deadline = time.monotonic() + 30
-        while len(list(partial.glob("*.points"))) < wanted and process.poll() is None:
+        while len(kept()) < wanted and process.poll() is None:
             assert time.monotonic() < deadline
             time.sleep(0.001)
+        time.sleep(chance.uniform(0, 0.02))
         process.send_signal(signal.SIGKILL)
         process.wait()
         if not partial.exists():
             break
         kills += 1
         assert not Path("a.csv").exists()
-        now = {path.name: path.stat() for path in partial.glob("*.points")}
-        for name, stat in kept.items():  # neither gone nor written again
-            assert (now[name].st_ino, now[name].st_mtime_ns) == (stat.st_ino, stat.st_mtime_ns)
-        kept = now
-    assert kills >= 2 and kept
+        now = (partial / "index").read_bytes()
+        assert now[: len(there)] == there  # nothing is gone or written again
+        there = now[: len(now) // 24 * 24]
+    stretches = kept()
+    assert kills >= 2 and len(set(stretches)) == len(stretches)
     process = start(*command, stdout=-1)
     out, _ = process.communicate(timeout=60)
-    assert process.returncode == 0 and "3,000 points in" in out and f"{5 * len(kept):,} of them from before" in out
+    assert process.returncode == 0 and "3,000 points in" in out and f"{5 * len(stretches):,} of them from before" in out
     assert files() == ["a.csv", "a.toml"]
     written = Path("a.csv").read_bytes()
     rc.sweep("a.toml", out="b.csv")
     assert Path("b.csv").read_bytes() == written
 
 
+MILLION = """
+samples = 1_000_000
+[scene]
+links = [{mass = 1, length = 0.1}, {mass = 1, length = 0.1}]
+ask = {modes = "all"}
+[vary."links[0].mass"]
+uniform = [1, 2]
+"""
+
+
+def test_a_million_points_killed_again_and_again(start):
+    pytest.importorskip("h5netcdf")
+    Path("a.toml").write_text(MILLION)
+    command = (sys.executable, "-m", "revchain", "sweep", "a.toml", "--out", "a.nc", "-q")
+    partial, chance = Path("a.nc.partial"), random.Random(3)
+    for _ in range(8):
+        process, before = start(*command), len(kept(partial))
+        deadline = time.monotonic() + 30
+        while len(kept(partial)) <= before and process.poll() is None:
+            assert time.monotonic() < deadline
+        time.sleep(chance.uniform(0, 0.03))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        if Path("a.nc").exists():
+            break
+    stretches = sorted(kept(partial))
+    assert all(stop <= start for (_, stop), (start, _) in itertools.pairwise(stretches))
+    if not Path("a.nc").exists():
+        assert start(*command).wait(timeout=60) == 0
+    rc.sweep("a.toml", out="b.nc", threads=1)
+    assert Path("a.nc").read_bytes() == Path("b.nc").read_bytes()
+    assert not partial.exists() or not Path("a.nc").exists() or stretches
+
+
 def test_ctrl_c_ends_cleanly(start):
     Path("a.toml").write_text(SLOW.replace("3000", "300_000"))
     process = start(sys.executable, "-m", "revchain", "sweep", "a.toml", stdout=-1, stderr=-1)
-    while not list(Path().glob("a.csv.partial/*.points")):
+    while not kept():
         assert process.poll() is None
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
@@ -482,12 +590,12 @@ def test_no_file_of_half_the_points(monkeypatch):
     given = study(*LARGE, samples=20)
     Path("a.csv").write_text("before")
 
-    def fails(result, path):
-        path.write_text("half")
+    def fails(writer, start, stop, pieces):
+        writer._file.write(b"half")
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patched:
-        patched.setattr("revchain._sweep_output._csv", fails)
+        patched.setattr("revchain._sweep_output._Csv.add", fails)
         with pytest.raises(OSError, match="No space"):
             rc.sweep(given, out="a.csv")
     assert Path("a.csv").read_text() == "before" and files() == ["a.csv", "a.csv.partial"]
@@ -672,7 +780,7 @@ def test_pictures():
 
 def test_missing_packages_are_named(python, without):
     Path("a.toml").write_text("scene = {links = [{mass = 1, length = 1}]}\nvary.gravity.values = [1]\n")
-    blocked = ("pandas", "pyarrow", "xarray", "dask", "distributed")
+    blocked = ("pandas", "pyarrow", "xarray", "h5netcdf", "dask", "distributed")
     program = without(*blocked) + (
         "import revchain as rc\n"
         "found = rc.sweep('a.toml', out='a.csv')\n"
