@@ -436,23 +436,26 @@ def test_a_journal_cut_anywhere_gives_what_is_whole(ended):
             (folder / name).write_bytes(data[name])
         if length < 24:
             (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
-    counts = set()
-    for length in [0, 1, *random.Random(1).sample(range(len(data["points"])), 30), len(data["points"]) - 4096 + 35]:
-        cut = data["points"][:length]
-        (folder / "points").write_bytes(cut)
-        (folder / "index").write_bytes(data["index"])
-        holes = cut + bytes(len(data["points"]) - length)
+    def survives(stretch, cut):
+        """Whether all numbers of a stretch are as they were; what is beyond the end reads as zeros."""
+        for place, kind, each in journal._layout.values():
+            row = kind.itemsize * math.prod(each)
+            piece = slice(place + stretch[0] * row, place + stretch[1] * row)
+            if cut[piece] != data["points"][piece]:
+                return False
+        return True
+
+    counts, size = set(), len(data["points"])
+    for length in [0, 1, *random.Random(1).sample(range(size), 30), size - 4096 + 35]:
+        for name in data:
+            (folder / name).write_bytes(data[name][:length] if name == "points" else data[name])
         (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
         with Journal("a.csv", plan) as journal:
-            for start, stop in journal.kept:
-                for name, array in journal.map().items():
-                    place, kind, each = journal._layout[name]
-                    row = kind.itemsize * math.prod(each)
-                    first, last = place + start * row, place + stop * row
-                    assert holes[first:last] == data["points"][first:last] == array[start:stop].tobytes()
+            cut = data["points"][:length] + bytes(size - length)
+            assert journal.kept == [ends for ends in [(k, k + 10) for k in range(0, 60, 10)] if survives(ends, cut)]
             counts.add(len(journal.kept))
         folder.mkdir(exist_ok=True)
-    assert min(counts) == 0 and max(counts) == 3
+    assert len(counts) >= 3 and min(counts) == 0
     for name in data:
         (folder / name).write_bytes(data[name])
     (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
