@@ -188,7 +188,7 @@ def _empty(plan: Plan) -> Arrays:
 
 
 class _Parquet:
-    """A row group for each piece. No dictionaries: hardly any number comes twice, and looking for that costs most."""
+    """A row group for each piece; what comes again and again is packed, in results hardly any number comes twice."""
 
     def __init__(self, path: Path, study: Study, plan: Plan) -> None:
         self._plan, self._path = plan, path
@@ -205,7 +205,10 @@ class _Parquet:
         table = self._arrow.table(columns)
         if self._writer is None:
             schema = table.schema.with_metadata(self._metadata)
-            self._writer = self._parquet.ParquetWriter(self._path, schema, use_dictionary=["status"])
+            repeated = ["status", *(axis.name for axis in self._plan.axes if axis.values is not None)]
+            packed = {name: "snappy" if name in (*repeated, "point") else "none" for name in columns}
+            options = {"use_dictionary": repeated, "compression": packed}
+            self._writer = self._parquet.ParquetWriter(self._path, schema, **options)
         self._writer.write_table(table.replace_schema_metadata(self._metadata))
 
     def close(self) -> None:

@@ -12,6 +12,7 @@ import struct
 import sys
 import threading
 import time
+import tracemalloc
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
@@ -270,6 +271,22 @@ def test_a_dask_cluster_of_two_workers_changes_nothing():
     assert len(Path("a.csv").read_text().splitlines()) == 1 + 21 * 3
 
 
+def test_begun_by_threads_and_ended_by_a_dask_cluster():
+    distributed = pytest.importorskip("distributed")
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        for scene, vary, samples in MIXED.values():
+            given = study(scene, vary, samples=samples)
+            for first, second in (({}, {"executor": client.get_executor()}), ({"executor": client.get_executor()}, {})):
+                with pytest.raises(Ended):
+                    rc.sweep(given, out="a.csv", chunk=samples // 9, progress=ended_after(samples // 3), **first)
+                there = sum(stop - start for start, stop in kept())
+                assert samples // 3 <= there < given.points
+                found = rc.sweep(given, out="a.csv", **second)
+                assert found.resumed == there
+                same(found, rc.sweep(given))
+
+
 def test_what_is_refused_of_the_call():
     given = study(PLUMMETS, {"gravity": {"values": [1.0]}})
     with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="threads does not go with executor"):
@@ -348,6 +365,136 @@ def test_tables_and_labelled_arrays():
         assert at.tobytes() == found["angular_speed"][53].tobytes()
         assert Study.from_dict(json.loads(read.attrs["study"])) == given
         assert read["bob"].attrs["path"] == "links[0].mass" and read.attrs["title"] == "t"
+
+
+STREAMED = {
+    "rig": (GYROSTAT, {"support.stiffness": {"uniform": [1.0, 300.0]}, "gravity": {"values": [1.0, 9.8]}}, {"samples": 5}),
+    "words": (
+        {"uniform_chain": {"kind": "rods", "count": 3, "length": 1.0, "mass": 1.0}},
+        {"uniform_chain.count": {"from": 1, "to": 5, "steps": 3}, "uniform_chain.kind": {"values": ["rods", "plummets"]}},
+        {},
+    ),
+    "refused": (PLUMMETS, {"links[0].mass": {"normal": [0.01, 0.1]}}, {"samples": 40}),
+    "yes and no": (
+        {"links": [{"mass": 1.0, "length": 0.5, "clamped": False}] * 2, "support": {"stiffness": 10.0}},
+        {"links[0].clamped": {"values": [True, False]}},
+        {},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "vary", "more"), STREAMED.values(), ids=STREAMED.keys())
+@pytest.mark.parametrize("chunk", [None, 3])
+def test_files_are_the_same_in_whatever_pieces(scene, vary, more, chunk, monkeypatch):
+    for package in ("pyarrow", "pandas", "h5netcdf"):
+        pytest.importorskip(package)
+    xarray = pytest.importorskip("xarray")
+    import pandas
+
+    monkeypatch.setattr("revchain._sweep_keep.ROWS", 7)
+    monkeypatch.setattr("revchain._sweep_output._LINES", 3)
+    given = study(scene, vary, **more)
+    found = rc.sweep(given, out="a.nc", chunk=chunk)
+    with xarray.open_dataset("a.nc", engine="h5netcdf") as read:
+        xarray.testing.assert_identical(read.load(), found.to_xarray())
+    found.to_xarray().to_netcdf("b.nc", engine="h5netcdf")  # as xarray itself would write it
+    with xarray.open_dataset("a.nc", engine="h5netcdf") as one, xarray.open_dataset("b.nc", engine="h5netcdf") as two:
+        for name in two.variables:
+            assert one[name].dtype == two[name].dtype and one[name].dims == two[name].dims
+            fills = [str(each[name].encoding.get("_FillValue")) for each in (one, two)]
+            assert fills[0] == fills[1] or one[name].dtype.kind == "O"
+    rc.sweep(given, out="a.parquet", chunk=chunk)
+    frame = pandas.read_parquet("a.parquet")
+    pandas.testing.assert_frame_equal(frame, found.to_dataframe())
+    rc.sweep(given, out="a.csv", chunk=chunk)
+    found.save("b.csv")
+    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+    with open("a.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    for name, column in found.columns().items():
+        texts = [row[name] for row in rows]
+        if column.dtype.kind == "f":
+            numbers = np.array([float(text) for text in texts])
+            assert (np.isnan(numbers) == np.isnan(column)).all()
+            assert numbers[~np.isnan(numbers)].tobytes() == column[~np.isnan(column)].tobytes()
+        else:
+            assert texts == [str(value) for value in column.tolist()]
+
+
+def test_numbers_of_all_sizes_read_back_from_text():
+    from revchain._sweep_output import _lines
+
+    bits = np.random.default_rng(1).integers(0, 2**64 - 1, 20_000, dtype=np.uint64, endpoint=True)
+    special = [
+        0.0,
+        -0.0,
+        5e-324,
+        -5e-324,
+        2.2250738585072014e-308,
+        1.7976931348623157e308,
+        math.inf,
+        -math.inf,
+        1e22,
+        0.1,
+    ]
+    numbers = np.concatenate([bits.view(np.float64), special])
+    lines = _lines({"a": numbers, "b": np.arange(numbers.size), "status": np.zeros(numbers.size, np.uint8)})
+    assert lines.endswith(b",success\n")
+    rows = [line.split(",") for line in lines.decode().splitlines()]
+    there = np.isfinite(numbers) | np.isinf(numbers)
+    read = np.array([float(row[0]) for row in rows])
+    assert read[there].tobytes() == numbers[there].tobytes() and np.isnan(read[~there]).all()
+    assert [int(row[1]) for row in rows] == list(range(numbers.size))
+
+
+def test_grids_by_their_definition():
+    """In whatever stretches, the numbers of a grid are those that counting through it gives."""
+    vary = {
+        "links[0].mass": {"values": [1.0, 2.0, 3.0]},
+        "gravity": {"values": [5.0]},
+        "links[0].length": {"from": 1, "to": 7, "steps": 7},
+        "links[1].length": {"values": [0.1, 0.2]},
+        "links[1].mass": {"uniform": [1, 2]},
+    }
+    plan = study(PLUMMETS, vary, samples=3)._plan("")
+    axes = [axis.values.tolist() for axis in plan.axes[:4]]
+    expected = [values[:4] for values in itertools.product(*axes, range(3))]
+    drawn = plan.values(0, plan.points)[4]
+    chance = random.Random(1)
+    for _ in range(300):
+        start = chance.randrange(plan.points)
+        stop = min(start + chance.choice([1, 2, 5, 17, 126]), plan.points)
+        *grids, numbers = plan.values(start, stop)
+        assert list(zip(*(grid.tolist() for grid in grids), strict=True)) == expected[start:stop]
+        assert numbers.tobytes() == drawn[start:stop].tobytes()
+
+
+def test_random_numbers_across_their_blocks():
+    plan = study(PLUMMETS, {"links[0].mass": {"log_uniform": [1, 2]}}, samples=200_000)._plan("")
+    (whole,) = plan.values(0, plan.points)
+    reader, chance, start = plan.reader(), random.Random(1), 0
+    while start < plan.points:
+        stop = min(start + chance.choice([1, 1000, 65536, 70000, 65536 - start % 65536]), plan.points)
+        assert reader.at(start, stop)[0].tobytes() == whole[start:stop].tobytes()
+        start = stop
+    for start in (65535, 65536, 5, 131072, 131073, 0):  # back and forth
+        assert reader.at(start, start + 3)[0].tobytes() == whole[start : start + 3].tobytes()
+    assert np.unique(whole).size > 199_990
+
+
+def test_results_of_a_file_need_no_memory_of_their_own():
+    """Peak of what Python allocates: a piece of the results, not all 40 MB of them."""
+    given = study(PLUMMETS, {"links[0].mass": {"uniform": [1, 2]}}, samples=1_000_000)
+    rc.sweep(study(PLUMMETS, {"gravity": {"values": [1.0]}}), out="a.nc")
+    for name in ("a.nc", "a.csv"):
+        if name == "a.csv":
+            given = study(PLUMMETS, {"links[0].mass": {"uniform": [1, 2]}}, samples=300_000)
+        tracemalloc.start()
+        found = rc.sweep(given, out=name, threads=1)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert peak < 30e6, name
+        assert np.isfinite(found["conical_height"]).all() and files().count(name) == 1
 
 
 # ---- runs that were ended
@@ -436,6 +583,7 @@ def test_a_journal_cut_anywhere_gives_what_is_whole(ended):
             (folder / name).write_bytes(data[name])
         if length < 24:
             (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
+
     def survives(stretch, cut):
         """Whether all numbers of a stretch are as they were; what is beyond the end reads as zeros."""
         for place, kind, each in journal._layout.values():
