@@ -22,6 +22,7 @@ from ._progress import PATIENCE
 from ._sweep import dask_client
 from ._sweep import sweep as compute
 from ._sweep_output import first_refused
+from ._sweep_plot import why_not_drawn
 from .study import Study, load_study
 
 SENTENCES = 5  # shown of points that are refused
@@ -60,6 +61,8 @@ def sweep(
         if plot.suffix.lower() not in PICTURES:
             raise Stop(f"--plot: {plot} must end in {', '.join(PICTURES)}", ExitCode.WRONG_USAGE)
         require("matplotlib", "plot", "--plot")
+        if reason := why_not_drawn(given._plan(str(study))):
+            raise Stop(f"--plot: {reason}", ExitCode.WRONG_USAGE)
     if workers is not None and dask not in (None, "local"):
         raise Stop("--workers is for this machine: a cluster has its own", ExitCode.WRONG_USAGE)
     out = Path(f"{study.stem}.csv") if out is None else out

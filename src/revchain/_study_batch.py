@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec import UNSET
+from numpy.typing import NDArray
 
 from ._arguments import Floats
 from ._scene_chain import Numbers
@@ -176,3 +177,18 @@ class LinkColumns:
         squared = centroid * (self._of(link, place, "pendulum_length", "length", points) - centroid)
         with np.errstate(invalid="ignore"):
             return weight, length, centroid, np.sqrt(squared), False
+
+
+def wrong_chains(links: Mapping[str, Floats], count: int) -> NDArray[np.bool_]:
+    """Which of the chains have numbers that `revchain.Chain` is known to refuse."""
+    wrong = np.zeros(count, bool)
+    for name, column in links.items():
+        right = np.isfinite(column)
+        if name in ("weight", "radius_of_gyration"):
+            right &= column >= 0
+        elif name == "length":
+            right &= column > 0
+        wrong |= ~right.all(axis=-1)
+        if name == "weight":
+            wrong |= column[..., 0] <= 0
+    return wrong

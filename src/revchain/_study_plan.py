@@ -19,7 +19,7 @@ from ._arguments import Floats
 from ._batch import conical_heights
 from ._scene_error import SceneError
 from ._study_axes import Axis, Reader, Values, shape_of
-from ._study_batch import LinkColumns
+from ._study_batch import LinkColumns, wrong_chains
 from ._study_find import NOT_MET, REFUSED, SUCCESS, Arrays, Block, found_at, put
 from ._study_paths import with_value
 from .scene import Scene
@@ -156,7 +156,8 @@ class Plan:
             reader = self.reader()
             for first in range(start, stop, self.batch):
                 last = min(first + self.batch, stop)
-                self._heights(first, reader.at(first, last), start, columns, arrays["conical_height"], status)
+                rows = slice(first - start, last - start)
+                self._heights(rows, reader.at(first, last), columns, arrays["conical_height"], status)
         else:
             for array in arrays.values():
                 array[...] = np.nan if array.dtype.kind == "f" else 0
@@ -191,31 +192,34 @@ class Plan:
 
     def _heights(
         self,
-        start: int,
+        rows: slice | NDArray[np.int64],
         values: list[Values],
-        origin: int,
         columns: LinkColumns,
         heights: Floats,
         status: NDArray[np.uint8],
     ) -> None:
-        """Heights of plain chains; where a batch is refused its halves, down to the chain that is to blame."""
+        """Heights of plain chains; where a batch is refused, of those that look right, and of the others each alone."""
         (block,) = self.stored
-        stop = start + len(values[0])
         try:
             points = {axis.path: column for axis, column in zip(self.axes, values, strict=True)}
             links: dict[str, Any] = dict(columns.at(points))
             found = conical_heights(**links, count=block.labels[-1])
         except ValueError:
-            if stop - start > 1:
-                half = (stop - start) // 2
-                self._heights(start, [column[:half] for column in values], origin, columns, heights, status)
-                self._heights(start + half, [column[half:] for column in values], origin, columns, heights, status)
-            else:
-                heights[start - origin] = np.nan
+            each = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
+            if each.size == 1:
+                heights[each] = np.nan
                 only = [column.tolist()[0] for column in values]
-                self._one(start - origin, only, {block.name: heights}, status)
+                self._one(int(each[0]), only, {block.name: heights}, status)
+                return
+            wrong = wrong_chains(links, each.size)
+            parts = [*np.flatnonzero(wrong)[:, np.newaxis], np.flatnonzero(~wrong)]
+            if len(parts) == 1:  # what is wrong is not seen from here: halves, down to it
+                parts = np.array_split(parts[0], 2)
+            for part in parts:
+                if part.size:
+                    self._heights(each[part], [column[part] for column in values], columns, heights, status)
             return
-        heights[start - origin : stop - origin] = found[..., block.labels[0] - 1 :]
+        heights[rows] = found[..., block.labels[0] - 1 :]
 
     @property
     def _scene(self) -> Scene:

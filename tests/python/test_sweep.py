@@ -907,6 +907,10 @@ def test_how_the_command_ends(run):
     assert run("sweep", "a.toml", "--out", "a.toml")[0] == 2
     assert run("sweep", "a.toml", "--plot", "a.gif")[0] == 2
     assert run("sweep", "a.toml", "--out", "/proc/a.csv")[0] == 4
+    toml('values = [1]\n[vary.gravity]\nvalues = [1]\n[vary."links[0].length"]\nvalues = [1]')
+    message = "revchain: --plot: draws one or two numbers, and 3 vary: links[0].mass, gravity, links[0].length\n"
+    assert run("sweep", "a.toml", "--plot", "a.png") == (2, "", message)
+    toml("values = [1]")
     assert run("sweep", "a.toml", "--dask", "tcp://127.0.0.1:1", "--workers", "2")[0] == 2
     assert files() == ["a.toml"]
     toml("normal = [0.1, 1]", "samples = 8")
