@@ -21,11 +21,11 @@ import tempfile
 import threading
 import time
 from math import isqrt
+from unittest import mock
 
 import numpy as np
 
 import revchain as rc
-import revchain._sweep
 
 WORKS = ("memory", "journal", "nc", "parquet", "csv")
 
@@ -80,12 +80,11 @@ def work_of(name, study, threads, folder):
         return began
 
     def without_output():
-        known = revchain._sweep.writer_of
-        revchain._sweep.writer_of = lambda path: Nothing
-        try:
+        with (
+            mock.patch("revchain._sweep.writer_of", lambda path: Nothing),
+            mock.patch("revchain._sweep_keep.pieces_of", lambda *given: {}),
+        ):
             return with_a_file()
-        finally:
-            revchain._sweep.writer_of = known
 
     return without_output if name == "journal" else with_a_file
 

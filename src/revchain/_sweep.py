@@ -15,6 +15,7 @@ import numpy as np
 
 from ._arguments import count as checked_count
 from ._extras import require
+from ._study_axes import BLOCK
 from ._study_find import Arrays
 from ._study_journal import Journal
 from ._study_plan import Plan, Stretch
@@ -198,7 +199,10 @@ class _Run:
     def _stretches(self) -> Iterator[tuple[int, int]]:
         for start, stop in self.missing:
             while start < stop:
-                end = min(start + self.chunk, stop)
+                end = start + self.chunk
+                if not self.fixed and end // BLOCK > start // BLOCK:
+                    end -= end % BLOCK  # a stretch that begins inside a block draws the numbers before it in vain
+                end = min(end, stop)
                 yield start, end
                 start = end
 

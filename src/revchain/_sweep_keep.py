@@ -114,7 +114,7 @@ class Keeper:
         start, stop = self._written, min(self._written + ROWS, self._whole)
         if self._writer is None:
             self._writer = self._make()
-        pieces = pieces_of(self._journal.plan, self._reader.at(start, stop), self._stored, start, stop)
+        pieces = pieces_of(self._journal.plan, self._reader, self._stored, start, stop)
         self._writer.add(start, stop, pieces)
         self._written = stop
         self._unsynced += sum(piece.nbytes for piece in pieces.values())

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ._extras import require
 from ._files import write_fully
-from ._study_axes import Axis, Values
+from ._study_axes import Axis, Reader
 from ._study_find import STATUS, Arrays
 from ._study_plan import Plan
 
@@ -61,8 +61,9 @@ def writer_of(path: str | os.PathLike[str]) -> type[_Csv] | type[_Parquet] | typ
     return _Csv
 
 
-def pieces_of(plan: Plan, values: list[Values], stored: Arrays, start: int, stop: int) -> Arrays:
+def pieces_of(plan: Plan, reader: Reader, stored: Arrays, start: int, stop: int) -> Arrays:
     """Of a stretch of points all that a file has, by name: what varied, what was found, the status as 0, 1, 2."""
+    values = reader.at(start, stop)
     pieces = dict(zip([axis.name for axis in plan.axes], values, strict=True))
     for block in plan.blocks:
         if block.name in stored:
@@ -78,7 +79,7 @@ def write_all(writer: Writer, plan: Plan, stored: Arrays) -> None:
     reader = plan.reader()
     for start in range(0, plan.points, ROWS):
         stop = min(start + ROWS, plan.points)
-        writer.add(start, stop, pieces_of(plan, reader.at(start, stop), stored, start, stop))
+        writer.add(start, stop, pieces_of(plan, reader, stored, start, stop))
     writer.close()
 
 
