@@ -1,29 +1,39 @@
 # SPDX-License-Identifier: MPL-2.0
 """A million small chains: `revchain.sweep` beside the bare `revchain.conical_heights` on arrays that are there already.
 
-    python bench/sweep.py [--points 1000000] [--links 10] [--threads 1] [--rounds 7]
+    python bench/sweep.py [--points 1000000] [--links 2 3 5 10] [--modes 0] [--threads 1] [--rounds 9] [--works memory nc]
 
-Rows of CSV: what varies (`two`: two masses on a grid; `all`: all masses and a length, random), kind, links, chains, threads;
-least seconds of interleaved rounds of the bare call, of the sweep in memory, and of the sweep kept on disk and written as
-.nc; the share of the bare speed that each sweep has, and in CPU seconds the share of the one in memory (on a machine with
-other work the one to believe). It ends with an error where the heights of the two are not the same to the last bit.
+Rows of CSV: what varies (`two`: two masses on a grid; `all`: all masses and a length, random), kind, links, modes (`all`, or
+the first of them), chains, threads; what is done (`memory`: the sweep without a file; `journal`: every point kept on disk,
+but no output; `nc`, `parquet`, `csv`: that and the output, made to last by fsync); median seconds of the bare call and of
+the sweep, in wall and in CPU time; the share of the bare speed that the sweep has, the median of interleaved rounds, in
+each; megabytes that are written. It ends with an error where the heights of the two are not the same to the last bit.
+
+    python bench/sweep.py --memory nc --points 10000000
+
+prints the most memory that one sweep took, from a process of its own: all of it, and what is not pages of files.
 """
 
 import argparse
+import contextlib
 import os
 import tempfile
+import threading
 import time
 from math import isqrt
+from unittest import mock
 
 import numpy as np
 
 import revchain as rc
 
+WORKS = ("memory", "journal", "nc", "parquet", "csv")
 
-def study_of(kind, links, points, varied="all"):
-    """All numbers of the chains random, or two of them on a grid."""
+
+def study_of(kind, links, points, varied="all", modes=0):
+    """All numbers of the chains random, or two of them on a grid; 0 modes are all."""
     link = {"mass": 1.0, "length": 1.0, "kind": kind}
-    scene = {"links": [dict(link) for _ in range(links)], "ask": {"modes": "all"}}
+    scene = {"links": [dict(link) for _ in range(links)], "ask": {"modes": modes or "all"}}
     if varied == "two":
         grid = {"from": 0.5, "to": 2.0, "steps": isqrt(points)}
         return rc.Study.from_dict({"scene": scene, "vary": {"links[0].mass": grid, "links[1].mass": grid}})
@@ -43,43 +53,122 @@ def arrays_of(kind, links, swept):
     return {"weight": mass * swept.study.scene.gravity_value(), "length": length, **body}
 
 
-def measure(study, kind, links, threads, rounds):
-    """Least seconds of each, and least CPU seconds."""
+class Nothing:
+    """An output that is none."""
+
+    def __init__(self, path, study, plan):
+        path.touch()
+
+    def add(self, start, stop, pieces):
+        pass
+
+    def close(self):
+        pass
+
+
+def work_of(name, study, threads, folder):
+    """What is measured."""
+    if name == "memory":
+        return lambda: rc.sweep(study, threads=threads)
+    out = os.path.join(folder, "out." + ("nc" if name == "journal" else name))
+
+    def with_a_file():
+        if os.path.exists(out):
+            os.remove(out)
+        began = time.perf_counter(), time.process_time()
+        rc.sweep(study, threads=threads, out=out)
+        return began
+
+    def without_output():
+        with (
+            mock.patch("revchain._sweep.writer_of", lambda path: Nothing),
+            mock.patch("revchain._sweep_keep.pieces_of", lambda *given: {}),
+        ):
+            return with_a_file()
+
+    return without_output if name == "journal" else with_a_file
+
+
+def timed(work):
+    wall, cpu = time.perf_counter(), time.process_time()
+    began = work()
+    wall, cpu = began if isinstance(began, tuple) else (wall, cpu)
+    return time.perf_counter() - wall, time.process_time() - cpu
+
+
+def measure(study, kind, links, modes, threads, rounds, works):
+    """Of each work the median seconds of the bare call and of its own, and the median share; wall and CPU."""
     first = rc.sweep(study, threads=threads)
     arrays = arrays_of(kind, links, first)
-    bare = rc.conical_heights(**arrays, threads=threads)
-    if bare.tobytes() != first["conical_height"].tobytes():
+    count = modes or None
+
+    def bare():
+        rc.conical_heights(**arrays, threads=threads, count=count)
+
+    if rc.conical_heights(**arrays, count=count).tobytes() != first["conical_height"].tobytes():
         raise SystemExit("the heights of the sweep and of the bare call differ")
-    spent = []
-    with tempfile.TemporaryDirectory() as folder:
-        works = (
-            lambda: rc.conical_heights(**arrays, threads=threads),
-            lambda: rc.sweep(study, threads=threads),
-            lambda: rc.sweep(study, threads=threads, out=os.path.join(folder, "out.nc")),
-        )
-        for _ in range(rounds):
-            for work in works:
-                wall, cpu = time.perf_counter(), time.process_time()
-                work()
-                spent.append((time.perf_counter() - wall, time.process_time() - cpu))
-    return np.array(spent).reshape(rounds, len(works), 2).min(axis=0).T
+    del first
+    for name in works:
+        with tempfile.TemporaryDirectory(dir=".") as folder:
+            work = work_of(name, study, threads, folder)
+            work()
+            spent = np.array([[timed(bare), timed(work), timed(bare)] for _ in range(rounds)])
+            size = sum(os.path.getsize(os.path.join(folder, file)) for file in os.listdir(folder))
+        plain = (spent[:, 0] + spent[:, 2]) / 2
+        medians = np.median(plain, axis=0), np.median(spent[:, 1], axis=0)
+        yield name, *medians, np.median(plain / spent[:, 1], axis=0), size
+
+
+def peak(name, study, threads):
+    """Megabytes of this process at most, sampled: all that is resident, and what is memory of its own."""
+    most, ended = [0, 0], threading.Event()
+
+    def look():
+        while not ended.wait(0.01):
+            with open("/proc/self/status") as file:
+                lines = dict(line.split(":", 1) for line in file)
+            now = [int(lines[key].split()[0]) / 1e3 for key in ("VmRSS", "RssAnon")]
+            most[:] = [max(pair) for pair in zip(most, now, strict=True)]
+
+    with tempfile.TemporaryDirectory(dir=".") as folder, contextlib.ExitStack() as stack:
+        thread = threading.Thread(target=look)
+        thread.start()
+        stack.callback(thread.join)
+        stack.callback(ended.set)
+        began = time.perf_counter()
+        found = work_of(name, study, threads, folder)()
+        seconds = time.perf_counter() - began
+        del found
+    print("work,chains,links,seconds,resident_MB,own_MB")
+    print(f"{name},{study.points},{len(study.scene.links)},{seconds:.1f},{most[0]:.0f},{most[1]:.0f}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--points", type=int, default=1_000_000)
-    parser.add_argument("--links", type=int, default=10)
+    parser.add_argument("--links", type=int, nargs="+", default=[2, 3, 5, 10])
+    parser.add_argument("--modes", type=int, nargs="+", default=[0])
     parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--rounds", type=int, default=7)
+    parser.add_argument("--rounds", type=int, default=9)
+    parser.add_argument("--works", nargs="+", choices=WORKS, default=["memory", "journal", "nc"])
+    parser.add_argument("--varied", nargs="+", choices=("two", "all"), default=["two", "all"])
+    parser.add_argument("--kinds", nargs="+", choices=("plummet", "rod"), default=["plummet", "rod"])
+    parser.add_argument("--memory", choices=WORKS)
     asked = parser.parse_args()
-    print("varied,kind,links,chains,threads,bare_s,sweep_s,disk_s,sweep_share,disk_share,sweep_cpu_share")
-    for varied in ("two", "all"):
-        for kind in ("plummet", "rod"):
-            study = study_of(kind, asked.links, asked.points, varied)
-            (bare, memory, disk), cpu = measure(study, kind, asked.links, asked.threads, asked.rounds)
-            shares = f"{bare / memory:.2f},{bare / disk:.2f},{cpu[0] / cpu[1]:.2f}"
-            row = f"{varied},{kind},{asked.links},{study.points},{asked.threads}"
-            print(f"{row},{bare:.3f},{memory:.3f},{disk:.3f},{shares}", flush=True)
+    if asked.memory:
+        peak(asked.memory, study_of("plummet", asked.links[-1], asked.points), asked.threads)
+        return
+    print("varied,kind,links,modes,chains,threads,work,bare_s,bare_cpu_s,sweep_s,sweep_cpu_s,share,cpu_share,MB")
+    for varied in asked.varied:
+        for kind in asked.kinds:
+            for links in asked.links:
+                for modes in asked.modes:
+                    study = study_of(kind, links, asked.points, varied, modes)
+                    given = kind, links, modes, asked.threads, asked.rounds, asked.works
+                    for work, bare, sweep, share, size in measure(study, *given):
+                        row = f"{varied},{kind},{links},{modes or 'all'},{study.points},{asked.threads},{work}"
+                        seconds = ",".join(f"{number:.3f}" for number in (*bare, *sweep))
+                        print(f"{row},{seconds},{share[0]:.2f},{share[1]:.2f},{size / 1e6:.0f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ from ._progress import PATIENCE
 from ._sweep import dask_client
 from ._sweep import sweep as compute
 from ._sweep_output import first_refused, writer_of
+from ._sweep_plot import why_not_drawn
 from .study import Study, load_study
 
 SENTENCES = 5  # shown of points that are refused
@@ -57,6 +58,8 @@ def sweep(
         return
     if plot is not None:
         checked_picture(plot)
+        if reason := why_not_drawn(given._plan(str(study))):
+            raise Stop(f"--plot: {reason}", ExitCode.WRONG_USAGE)
     if workers is not None and dask not in (None, "local"):
         raise Stop("--workers is for this machine: a cluster has its own", ExitCode.WRONG_USAGE)
     out = Path(f"{study.stem}.csv") if out is None else out

@@ -7,7 +7,6 @@ import math
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, Literal, get_origin
 
 import numpy as np
@@ -15,13 +14,12 @@ from msgspec import UNSET
 from numpy.typing import NDArray
 
 from . import _scene_file
-from ._arguments import Whole, read_only
 from ._scene_error import SceneError
 from ._study_paths import Path, path_of, quantity_of
 from ._study_tables import Vary
 from ._units import si_value
 
-BLOCK = 16384  # random numbers are drawn in blocks of so many points, each from a stream of its own
+BLOCK = 65536  # random numbers are drawn in blocks of so many points, each from a stream of its own
 MOST_STEPS = 10**7
 
 Values = NDArray[Any]
@@ -149,35 +147,83 @@ def shape_of(axes: Sequence[Axis], samples: int) -> tuple[int, ...]:
     return (*grid, samples) if any(axis.values is None for axis in axes) else tuple(grid)
 
 
-def values_at(axes: Sequence[Axis], samples: int, seed: int, start: int, stop: int) -> list[Values]:
-    """Of each axis, its number at the points start <= k < stop."""
-    shape = shape_of(axes, samples)
-    places: list[Whole] = []
-    if any(axis.values is not None for axis in axes):
-        places = list(np.unravel_index(np.arange(start, stop), shape))
-    grids = iter(places)
-    return [axis.values[next(grids)] if axis.values is not None else _drawn(axis, seed, start, stop) for axis in axes]
+class Reader:
+    """The numbers of the axes at one stretch of points after another; quickest if each begins where the last ended."""
+
+    def __init__(self, axes: Sequence[Axis], samples: int, seed: int) -> None:
+        shape = shape_of(axes, samples)
+        strides = iter([math.prod(shape[k + 1 :]) for k in range(len(shape))])
+        self._grids = [(axis.values, next(strides)) if axis.values is not None else None for axis in axes]
+        self._draws = [_Draws(axis, seed) if axis.values is None else None for axis in axes]
+
+    def at(self, start: int, stop: int) -> list[Values]:
+        """Of each axis, its numbers at the points start <= k < stop; not to be written to."""
+        return [
+            _repeated(*grid, start, stop) if grid is not None else draws.at(start, stop)  # type: ignore[union-attr]
+            for grid, draws in zip(self._grids, self._draws, strict=True)
+        ]
 
 
-def _drawn(axis: Axis, seed: int, start: int, stop: int) -> Values:
-    """Random numbers by their points alone: whoever draws them, in whatever pieces, finds the same."""
-    stream = zlib.crc32(axis.key.encode())
-    blocks = range(start // BLOCK, (stop - 1) // BLOCK + 1)
-    parts = []
-    for block in blocks:
-        first = block * BLOCK
-        numbers = _block(axis.law, *axis.law_numbers, seed, stream, block)
-        parts.append(numbers[max(start - first, 0) : stop - first])
-    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+def _repeated(values: Values, stride: int, start: int, stop: int) -> Values:
+    """values[k // stride % size] at start <= k < stop, without a division at each k."""
+    first, last = start // stride, (stop - 1) // stride
+    runs, size = last - first + 1, values.size
+    at = first % size
+    if at + runs <= size:
+        of_runs = values[at : at + runs]
+    elif runs <= size:
+        of_runs = np.concatenate([values[at:], values[: at + runs - size]])
+    else:
+        of_runs = np.tile(values, -(-(at + runs) // size))[at : at + runs]
+    if stride == 1:
+        return of_runs
+    lengths = np.full(runs, stride)
+    lengths[0] -= start - first * stride
+    lengths[-1] -= (last + 1) * stride - stop
+    return np.repeat(of_runs, lengths)
 
 
-@lru_cache(maxsize=64)
-def _block(law: str, one: float, two: float, seed: int, stream: int, block: int) -> Values:
-    random = np.random.Generator(np.random.SFC64(np.random.SeedSequence(seed, spawn_key=(stream, block))))
-    if law == "normal":
-        return read_only(random.normal(one, two, BLOCK))
-    low, high = (math.log(one), math.log(two)) if law == "log_uniform" else (one, two)
-    numbers = random.random(BLOCK)
-    numbers *= high - low
-    numbers += low
-    return read_only(np.exp(numbers) if law == "log_uniform" else numbers)
+class _Draws:
+    """Random numbers by their points alone: whoever draws them, in whatever pieces, finds the same.
+
+    Each block of points has a stream of its own, which is kept as far as it has been drawn.
+    """
+
+    def __init__(self, axis: Axis, seed: int) -> None:
+        self._law = axis.law
+        self._one, self._two = axis.law_numbers
+        if self._law == "log_uniform":
+            self._one, self._two = math.log(self._one), math.log(self._two)
+        self._seed, self._key = seed, zlib.crc32(axis.key.encode())
+        self._place = -1  # of the point whose number comes next
+        self._stream: np.random.Generator
+
+    def at(self, start: int, stop: int) -> Values:
+        numbers = np.empty(stop - start)
+        first = start
+        while first < stop:
+            last = min(first - first % BLOCK + BLOCK, stop)
+            self._go_to(first)
+            self._draw(numbers[first - start : last - start])
+            self._place = first = last
+        return numbers
+
+    def _go_to(self, point: int) -> None:
+        behind = self._place // BLOCK == point // BLOCK and self._place <= point
+        if not behind or self._place % BLOCK == 0:
+            block = point // BLOCK
+            sequence = np.random.SeedSequence(self._seed, spawn_key=(self._key, block))
+            self._stream, self._place = np.random.Generator(np.random.SFC64(sequence)), block * BLOCK
+        if self._place < point:
+            self._draw(np.empty(point - self._place))
+
+    def _draw(self, numbers: Values) -> None:
+        if self._law == "normal":
+            self._stream.standard_normal(out=numbers)
+            numbers *= self._two
+        else:
+            self._stream.random(out=numbers)
+            numbers *= self._two - self._one
+        numbers += self._one
+        if self._law == "log_uniform":
+            np.exp(numbers, out=numbers)

@@ -45,7 +45,12 @@ class Block:
 
     def memory(self, points: int) -> NDArray[Any]:
         """An array for so many points, with whatever lies there."""
-        return np.empty((points, len(self.labels)) if self.along else points, dtype=self.kind)
+        return np.empty((points, *self.each), dtype=self.kind)
+
+    @property
+    def each(self) -> tuple[int, ...]:
+        """The shape of what one point has."""
+        return (len(self.labels),) if self.along else ()
 
     @property
     def columns(self) -> list[str]:

@@ -1,33 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finished stretches of a study on disk, beside its output: one file each, whole or not there, checked when read."""
+"""Finished stretches of a study on disk, beside its output: their numbers, and a list of them with checksums."""
 
 from __future__ import annotations
 
 import json
 import os
-import re
 import shutil
+import struct
+import time
 import zlib
-from collections.abc import Iterator
+from bisect import bisect
 from contextlib import suppress
+from io import FileIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ._files import OutputError
+from ._files import OutputError, write_fully
 from ._study_find import Arrays
 from ._study_plan import Plan, Stretch
 
-_NAME = re.compile(r"(\d{12})-(\d{12})\.points")
-_HEAD = "study.json"
+_HEAD, _POINTS, _INDEX = "study.json", "points", "index"
+_RECORD = struct.Struct("<QQI")  # start, stop, checksum of the numbers; then one of these three
+_CHECK = struct.Struct("<I")
+_LENGTH = _RECORD.size + _CHECK.size
+_PAGE = 4096  # where each array begins
+_SYNC = 1.0  # seconds between the times when the disk is made to keep what was written
+STATUS = "status"
 
 
 class Journal:
     """The folder ``OUT.partial``; use it in a with statement.
 
-    A process killed at any moment leaves whole files of finished stretches, and at most one file under another name,
-    which is not read. Files that a failing disk or power left damaged are known by their checksums, and their points
-    computed again.
+    ``points`` has all arrays behind one another, with holes where nothing is finished; ``index`` a record for each
+    finished stretch, written after its numbers. A process killed at any moment leaves whole records, and at most a
+    piece of one, which is dropped. Records whose numbers a failing disk or power damaged are known by their
+    checksums, and their points computed again.
     """
 
     def __init__(self, output: str | os.PathLike[str], plan: Plan) -> None:
@@ -35,12 +45,25 @@ class Journal:
         self.folder = self.output.with_name(self.output.name + ".partial")
         self.plan = plan
         self.fingerprint = plan.fingerprint()
+        self.kept: list[tuple[int, int]] = []
+        self._layout: dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]] = {}
+        self._size = 0
+        for name, kind, columns in [*((b.name, b.kind, b.each) for b in plan.stored), (STATUS, "u1", ())]:
+            self._layout[name] = self._size, np.dtype(kind), columns
+            bytes_ = plan.points * int(np.prod(columns, dtype=object)) * np.dtype(kind).itemsize
+            self._size += -(-bytes_ // _PAGE) * _PAGE
         self._lock: int | None = None
+        self._ours = False  # its folder, to be removed if nothing is kept
+        self._files: list[FileIO] = []
+        self._synced = time.monotonic()
 
     def __enter__(self) -> Journal:
         if self.output.exists() and not self.output.is_file():
             raise OutputError(21, "is no file", os.fspath(self.output))
-        self.folder.mkdir(parents=True, exist_ok=True)
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except FileExistsError:
+            raise OutputError(17, f"{self.folder} is no folder", os.fspath(self.output)) from None
         self._lock = os.open(self.folder, os.O_RDONLY)
         try:
             _only_one(self._lock, self.output)
@@ -48,28 +71,35 @@ class Journal:
             if head.exists():
                 self._same(head)
             else:
-                text = json.dumps({"fingerprint": self.fingerprint, "points": self.plan.points})
-                self._write(head, text.encode())
+                self._begin(head)
+            self._ours = True
             for left in self.folder.glob(".*.writing*"):
                 left.unlink()
+            self._open()
         except BaseException:
-            self._unlock()
+            self._close()
             raise
         return self
 
     def __exit__(self, *_: object) -> None:
-        with suppress(OSError):
-            if not any(self.folder.glob("*.points")):
-                shutil.rmtree(self.folder)
-        self._unlock()
+        self._close()
 
     @property
     def aside(self) -> Path:
         """Where the output is written before it gets its name."""
         return self.folder / f".output.writing{self.output.suffix}"
 
-    def _unlock(self) -> None:
+    def _close(self) -> None:
+        if self._files:
+            with suppress(OSError):
+                self.sync()
+        for file in self._files:
+            file.close()
+        self._files.clear()
         if self._lock is not None:
+            if self._ours and not self.kept:
+                with suppress(OSError):
+                    shutil.rmtree(self.folder)
             os.close(self._lock)
             self._lock = None
 
@@ -82,68 +112,110 @@ class Journal:
             reason = f"{self.folder} holds points of another study, or of another version; remove it or write elsewhere"
             raise OutputError(17, reason, os.fspath(self.output))
 
-    def add(self, stretch: Stretch) -> None:
-        """Keep a finished stretch."""
-        arrays = {**stretch.arrays, "status": stretch.status}
-        header = {
-            "fingerprint": self.fingerprint,
-            "points": [stretch.start, stretch.stop],
-            "arrays": [[name, array.dtype.str, array.shape] for name, array in arrays.items()],
+    def _begin(self, head: Path) -> None:
+        """A new journal: the head is written last, so that where it is there everything is."""
+        if any(path.name not in (_POINTS, _INDEX) and ".writing" not in path.name for path in self.folder.iterdir()):
+            reason = f"{self.folder} holds other files; remove it or write elsewhere"
+            raise OutputError(17, reason, os.fspath(self.output))
+        for name in (_POINTS, _INDEX):
+            (self.folder / name).write_bytes(b"")
+        text = json.dumps({"fingerprint": self.fingerprint, "points": self.plan.points})
+        _write_whole(head, text.encode())
+
+    def _open(self) -> None:
+        for name in (_POINTS, _INDEX):
+            path = self.folder / name
+            path.touch()
+            self._files.append(FileIO(path, "r+"))
+        if os.fstat(self._files[0].fileno()).st_size < self._size:
+            try:
+                self._files[0].truncate(self._size)  # all holes at first
+            except OSError as error:
+                raise OutputError(error.errno, f"{error.strerror}: {self._size:.3g} bytes", str(self.output)) from None
+        self._read_index()
+
+    def _read_index(self) -> None:
+        """What is there and whole, no point twice; the index is written anew if anything is not."""
+        arrays = self.map()
+        data = (self.folder / _INDEX).read_bytes()
+        whole: list[bytes] = []
+        for place in range(0, len(data) - _LENGTH + 1, _LENGTH):
+            record = data[place : place + _RECORD.size]
+            start, stop, checksum = _RECORD.unpack(record)
+            good = _CHECK.unpack_from(data, place + _RECORD.size)[0] == zlib.crc32(record)
+            good = good and start < stop <= self.plan.points
+            place_among = bisect(self.kept, (start, stop))
+            good = good and all(
+                stop <= first or last <= start for first, last in self.kept[max(place_among - 1, 0) : place_among + 1]
+            )
+            if good and _checksum([array[start:stop] for array in arrays.values()]) == checksum:
+                whole.append(data[place : place + _LENGTH])
+                self.kept.insert(place_among, (start, stop))
+        if data != b"".join(whole):
+            self._files.pop().close()
+            _write_whole(self.folder / _INDEX, *whole)
+            self._files.append(FileIO(self.folder / _INDEX, "r+"))
+        self._files[1].seek(0, os.SEEK_END)
+
+    def map(self) -> Arrays:
+        """All arrays as they lie on disk, read when looked at; valid after the files are removed, too."""
+        path, points = self.folder / _POINTS, self.plan.points
+        return {
+            name: np.asarray(np.memmap(path, kind, "r", place, (points, *columns)))
+            for name, (place, kind, columns) in self._layout.items()
         }
-        parts = [json.dumps(header).encode() + b"\n", *(np.ascontiguousarray(array) for array in arrays.values())]
-        name = f"{stretch.start:012d}-{stretch.stop:012d}.points"
-        self._write(self.folder / name, *parts)
 
-    def _write(self, path: Path, *parts: object) -> None:
-        aside = path.with_name(f".{path.name}.writing")
-        checksum = 0
-        with open(aside, "wb") as file:
-            for part in parts:
-                checksum = zlib.crc32(part, checksum)  # type: ignore[arg-type]
-                file.write(part)  # type: ignore[arg-type]
-            if path.name != _HEAD:
-                file.write(b"%08x" % checksum)
-        os.replace(aside, path)
+    def add(self, stretch: Stretch) -> None:
+        """Keep a finished stretch: first the numbers, then the record of them."""
+        arrays = [np.ascontiguousarray(stretch.arrays[name]) for name in self._layout if name != STATUS]
+        arrays.append(stretch.status)
+        points, index = self._files
+        for (place, kind, columns), array in zip(self._layout.values(), arrays, strict=True):
+            points.seek(place + stretch.start * kind.itemsize * int(np.prod(columns, dtype=int)))
+            write_fully(points, array)
+        record = _RECORD.pack(stretch.start, stretch.stop, _checksum(arrays))
+        write_fully(index, record + _CHECK.pack(zlib.crc32(record)))
+        self.kept.append((stretch.start, stretch.stop))
+        if time.monotonic() - self._synced > _SYNC:
+            self.sync()
 
-    def stretches(self) -> Iterator[Stretch]:
-        """What is there, in order, no point twice; what cannot be read is removed."""
-        end = 0
-        for path in sorted(self.folder.iterdir()):
-            found = _NAME.fullmatch(path.name)
-            if found is None:
-                continue
-            start, stop = int(found[1]), int(found[2])
-            stretch = self._read(path, start, stop) if end <= start < stop <= self.plan.points else None
-            if stretch is None:
-                path.unlink()
-                continue
-            end = stop
-            yield stretch
+    def sync(self) -> None:
+        """Until now a loss of power may cost points, though it never makes wrong ones."""
+        for file in self._files:
+            os.fsync(file.fileno())
+        self._synced = time.monotonic()
 
-    def _read(self, path: Path, start: int, stop: int) -> Stretch | None:
-        data = path.read_bytes()
-        body, checksum = memoryview(data)[:-8], data[-8:]
-        if len(data) < 8 or checksum != b"%08x" % zlib.crc32(body):
-            return None
-        line = data.index(b"\n")
-        header = json.loads(data[:line])
-        if header["fingerprint"] != self.fingerprint or header["points"] != [start, stop]:
-            return None
-        arrays: Arrays = {}
-        place = line + 1
-        for name, kind, shape in header["arrays"]:
-            count = int(np.prod(shape))
-            arrays[name] = np.frombuffer(body, kind, count, place).reshape(shape)
-            place += count * np.dtype(kind).itemsize
-        status = arrays.pop("status")
-        return Stretch(start, stop, arrays, status)
+    def sync_output(self) -> None:
+        """Make the disk keep what is written of the output."""
+        with FileIO(self.aside, "r+") as file:
+            os.fsync(file.fileno())
 
     def finish(self) -> None:
         """Give the output its name, and remove what was kept of it."""
+        self.sync_output()
         os.replace(self.aside, self.output)
+        for file in self._files:
+            file.close()
+        self._files.clear()
         for path in sorted(self.folder.iterdir(), key=lambda path: path.name == _HEAD):  # that one last
             path.unlink()
         self.folder.rmdir()
+
+
+def _checksum(arrays: list[NDArray[Any]]) -> int:
+    checksum = 0
+    for array in arrays:
+        checksum = zlib.crc32(array.data, checksum)
+    return checksum
+
+
+def _write_whole(path: Path, *parts: bytes) -> None:
+    """A small file that is whole or as it was."""
+    aside = path.with_name(f".{path.name}.writing")
+    with FileIO(aside, "w") as file:
+        write_fully(file, b"".join(parts))
+        os.fsync(file.fileno())
+    os.replace(aside, path)
 
 
 def _only_one(folder: int, output: Path) -> None:

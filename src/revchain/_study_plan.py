@@ -14,18 +14,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, _scene_file
+from . import _scene_file
 from ._arguments import Floats
 from ._batch import conical_heights
 from ._scene_error import SceneError
-from ._study_axes import Axis, Values, shape_of, values_at
-from ._study_batch import LinkColumns
+from ._study_axes import Axis, Reader, Values, shape_of
+from ._study_batch import LinkColumns, wrong_chains
 from ._study_find import NOT_MET, REFUSED, SUCCESS, Arrays, Block, found_at, put
 from ._study_paths import with_value
 from .scene import Scene
 
-FORMAT = 1
-BATCH = 4096  # chains of a batch: their numbers stay in the cache
+FORMAT = 2
+_LARGEST, _SMALLEST = 32768, 1024  # chains of a batch: few enough that their numbers stay in the cache,
+_WORK = 2**20  # links times modes of a batch: and so many that Python's share of the time is small
 _NOWHERE = SceneError("study", "vary", "")
 
 
@@ -83,7 +84,11 @@ class Plan:
 
     def values(self, start: int, stop: int) -> list[Values]:
         """Of each axis, its numbers at a stretch of points."""
-        return values_at(self.axes, self.samples, self.seed, start, stop)
+        return self.reader().at(start, stop)
+
+    def reader(self) -> Reader:
+        """What gives the numbers of one stretch after another; one thread's own."""
+        return Reader(self.axes, self.samples, self.seed)
 
     def scene_data(self, values: list[Any]) -> dict[str, Any]:
         """The scene with these numbers, as plain data."""
@@ -112,15 +117,27 @@ class Plan:
         """The blocks that are computed; speeds of batches follow from the heights."""
         return tuple(block for block in self.blocks if not (self.batched and block.name == "angular_speed"))
 
-    def speeds(self, heights: Floats) -> Floats:
-        """Whirl speeds of batches, of all points."""
+    @property
+    def numbers(self) -> int:
+        """How many numbers are stored of each point."""
+        return sum(prod(block.each) for block in self.stored)
+
+    @property
+    def batch(self) -> int:
+        """How many chains go to `revchain.conical_heights` together."""
+        if "batch" not in self._kept:
+            most = _WORK // (self._scene.chain().size * self.stored[0].labels[-1])
+            self._kept["batch"] = min(max(1 << max(most.bit_length() - 1, 0), _SMALLEST), _LARGEST)
+        return int(self._kept["batch"])
+
+    def speeds(self, heights: Floats, values: list[Values]) -> Floats:
+        """Whirl speeds of batches, at points with these heights where the axes have these numbers."""
         varied = {axis.path: k for k, axis in enumerate(self.axes)}
         where = varied.get(("gravity",))
-        gravity = np.asarray(self._scene.gravity_value() if where is None else self.values(0, self.points)[where])
-        speeds = np.full_like(heights, np.nan)
-        rows = np.isfinite(heights)
-        each = np.broadcast_to(gravity[..., np.newaxis], heights.shape)
-        speeds[rows] = _core.conical_pendulum_angular_speed(heights[rows], each[rows])
+        gravity = np.asarray(self._scene.gravity_value() if where is None else values[where], float)
+        with np.errstate(invalid="ignore"):  # where a point is refused the height is no number
+            speeds: Floats = np.sqrt(heights)
+            np.divide(np.sqrt(gravity)[..., np.newaxis], speeds, out=speeds)
         return speeds
 
     def found(
@@ -135,10 +152,12 @@ class Plan:
         arrays = {block.name: block.memory(stop - start) for block in self.stored} if arrays is None else arrays
         status = np.full(stop - start, SUCCESS, np.uint8)
         if self.batched:
-            columns = LinkColumns(self._scene, BATCH)
-            for first in range(start, stop, BATCH):
-                last = min(first + BATCH, stop)
-                self._heights(first, last, start, columns, arrays["conical_height"], status)
+            columns = LinkColumns(self._scene, min(self.batch, stop - start))
+            reader = self.reader()
+            for first in range(start, stop, self.batch):
+                last = min(first + self.batch, stop)
+                rows = slice(first - start, last - start)
+                self._heights(rows, reader.at(first, last), columns, arrays["conical_height"], status)
         else:
             for array in arrays.values():
                 array[...] = np.nan if array.dtype.kind == "f" else 0
@@ -173,33 +192,34 @@ class Plan:
 
     def _heights(
         self,
-        start: int,
-        stop: int,
-        origin: int,
+        rows: slice | NDArray[np.int64],
+        values: list[Values],
         columns: LinkColumns,
         heights: Floats,
         status: NDArray[np.uint8],
     ) -> None:
-        """Heights of plain chains; where a batch is refused its halves, down to the chain that is to blame."""
+        """Heights of plain chains; where a batch is refused, of those that look right, and of the others each alone."""
         (block,) = self.stored
         try:
-            links: dict[str, Any] = dict(columns.at(self._at(start, stop)))
+            points = {axis.path: column for axis, column in zip(self.axes, values, strict=True)}
+            links: dict[str, Any] = dict(columns.at(points))
             found = conical_heights(**links, count=block.labels[-1])
         except ValueError:
-            if stop - start > 1:
-                middle = (start + stop) // 2
-                self._heights(start, middle, origin, columns, heights, status)
-                self._heights(middle, stop, origin, columns, heights, status)
-            else:
-                values = [column.tolist()[0] for column in self.values(start, stop)]
-                heights[start - origin] = np.nan
-                self._one(start - origin, values, {block.name: heights}, status)
+            each = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
+            if each.size == 1:
+                heights[each] = np.nan
+                only = [column.tolist()[0] for column in values]
+                self._one(int(each[0]), only, {block.name: heights}, status)
+                return
+            wrong = wrong_chains(links, each.size)
+            parts = [*np.flatnonzero(wrong)[:, np.newaxis], np.flatnonzero(~wrong)]
+            if len(parts) == 1:  # what is wrong is not seen from here: halves, down to it
+                parts = np.array_split(parts[0], 2)
+            for part in parts:
+                if part.size:
+                    self._heights(each[part], [column[part] for column in values], columns, heights, status)
             return
-        heights[start - origin : stop - origin] = found[..., block.labels[0] - 1 :]
-
-    def _at(self, start: int, stop: int) -> dict[Any, Floats]:
-        values = self.values(start, stop)
-        return {axis.path: np.asarray(column, float) for axis, column in zip(self.axes, values, strict=True)}
+        heights[rows] = found[..., block.labels[0] - 1 :]
 
     @property
     def _scene(self) -> Scene:

@@ -6,19 +6,28 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from contextlib import closing
+from functools import partial
 from threading import Event
 from typing import Any
 
+import numpy as np
+
 from ._arguments import count as checked_count
 from ._extras import require
+from ._study_axes import BLOCK
+from ._study_find import Arrays
 from ._study_journal import Journal
-from ._study_plan import BATCH, Plan, Stretch
+from ._study_plan import Plan, Stretch
+from ._sweep_keep import Keeper
 from ._sweep_output import writer_of
 from ._sweep_result import SweepResult
 from .study import Study, load_study
 
 _PLACE = "revchain.sweep"
-_FEWEST, _MOST = 16, 8192  # points of a stretch
+_FEWEST, _MOST = 16, 8192  # points of a stretch, one by one
+_MOST_IN_BATCHES = 2**17
+_NUMBERS = 2**20  # of a stretch in batches
 _SECONDS = 0.5  # that such a stretch is to take
 _IN_FLIGHT = 3  # stretches for each worker
 
@@ -95,73 +104,88 @@ def sweep(
     chunk = None if chunk is None else checked_count(_PLACE, "chunk", chunk)
     workers = _processors() if threads is None else checked_count(_PLACE, "threads", threads)
     plan = study._plan("study")
-    result = SweepResult._empty(study, plan)
     if out is None:
-        _compute(plan, result, None, executor, workers, chunk, progress)
+        memory = {block.name: block.memory(plan.points) for block in plan.stored}
+        result = SweepResult._of(study, plan, {**memory, "status": np.empty(plan.points, np.uint8)})
+        _Run(plan, _Memory(result), chunk, progress).anywhere(executor, workers)
         return result
-    write = writer_of(out)
+    writer = writer_of(out)
     with Journal(out, plan) as journal:
-        for stretch in journal.stretches():
-            result._take(stretch)
-        result._resumed = result._finished
-        _compute(plan, result, journal, executor, workers, chunk, progress)
-        write(result, journal.aside)
+        stored = journal.map()
+        result = SweepResult._of(study, plan, stored)
+        result._resumed = sum(stop - start for start, stop in journal.kept)
+        with closing(Keeper(journal, partial(writer, journal.aside, study, plan), stored)) as keeper:
+            _Run(plan, keeper, chunk, progress).anywhere(executor, workers)
         journal.finish()
     return result
 
 
-def _compute(
-    plan: Plan,
-    result: SweepResult,
-    journal: Journal | None,
-    executor: Executor | None,
-    workers: int,
-    chunk: int | None,
-    told: Told | None,
-) -> None:
-    run = _Run(plan, result, journal, chunk, told)
-    if executor is not None:
-        run.all(executor, _workers_of(executor))
-    elif run.missing:
-        run.in_threads(workers)
+class _Memory:
+    """Where stretches go without a file."""
+
+    def __init__(self, result: SweepResult) -> None:
+        self._result = result
+        self.kept: list[tuple[int, int]] = []
+        self.finished = 0
+
+    def place(self, start: int, stop: int) -> Arrays:
+        """Where a stretch of points belongs."""
+        return {name: array[start:stop] for name, array in self._result._arrays.items()}
+
+    def take(self, stretch: Stretch) -> None:
+        for name, place in self.place(stretch.start, stretch.stop).items():
+            if (array := stretch.arrays[name]).base is not place.base:
+                place[...] = array
+        self._result._status[stretch.start : stretch.stop] = stretch.status
+        self.finished += stretch.stop - stretch.start
+
+    def finish(self) -> None:
+        """Everything is where it belongs."""
 
 
 class _Run:
-    """What is to be done, and what becomes of it."""
+    """What is to be done, and by whom."""
 
-    def __init__(
-        self, plan: Plan, result: SweepResult, journal: Journal | None, chunk: int | None, told: Told | None
-    ) -> None:
+    def __init__(self, plan: Plan, kept_in: _Memory | Keeper, chunk: int | None, told: Told | None) -> None:
         self.plan = plan
-        self.result = result
-        self.journal = journal
+        self.kept_in = kept_in
         self.told = told
-        self.missing = result._missing()
+        self.missing = _missing(kept_in.kept, plan.points)
         self.fixed = chunk is not None
-        self.unit = BATCH if plan.batched and chunk is None else 1
-        self.chunk = chunk or (4 * BATCH if plan.batched else _FEWEST)
+        self.unit = plan.batch if plan.batched and chunk is None else 1
+        self.most = min(max(_NUMBERS // plan.numbers, self.unit), _MOST_IN_BATCHES) if plan.batched else _MOST
+        self.chunk = chunk or (self.unit if plan.batched else _FEWEST)
         self.stopped = Event()
 
-    def in_threads(self, workers: int) -> None:
+    def anywhere(self, executor: Executor | None, workers: int) -> None:
+        """Every stretch that is missing."""
+        if executor is not None:
+            self._all(executor, _workers_of(executor))
+        elif self.missing:
+            self._in_threads(workers)
+        self.kept_in.finish()
+        self._tell()
+
+    def _in_threads(self, workers: int) -> None:
         """With threads of our own; they end with the stretch at hand when interrupted."""
         pool = ThreadPoolExecutor(workers, thread_name_prefix="revchain-sweep")
         try:
-            self.all(pool, workers, own=True)
+            self._all(pool, workers, own=True)
         except BaseException:
             self.stopped.set()
             raise
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
 
-    def all(self, executor: Executor, workers: int, own: bool = False) -> None:
-        """Every stretch that is missing; a few at a time, so that little waits to be kept."""
+    def _all(self, executor: Executor, workers: int, own: bool = False) -> None:
+        """A few stretches at a time, so that little waits to be kept."""
         left = self._stretches()
         pending: set[Future[Stretch]] = set()
         try:
             self._tell()
             while True:
                 while len(pending) < _IN_FLIGHT * workers and (ends := next(left, None)) is not None:
-                    more = (self.stopped.is_set, self.result._place(*ends)) if own else ()
+                    more = (self.stopped.is_set, self.kept_in.place(*ends)) if own else ()
                     pending.add(executor.submit(_found, self.plan, *ends, *more))
                 if not pending:
                     return
@@ -175,23 +199,34 @@ class _Run:
     def _stretches(self) -> Iterator[tuple[int, int]]:
         for start, stop in self.missing:
             while start < stop:
-                end = min(start + self.chunk, stop)
+                end = start + self.chunk
+                if not self.fixed and end // BLOCK > start // BLOCK:
+                    end -= end % BLOCK  # a stretch that begins inside a block draws the numbers before it in vain
+                end = min(end, stop)
                 yield start, end
                 start = end
 
     def _take(self, stretch: Stretch) -> None:
-        if self.journal is not None:
-            self.journal.add(stretch)
-        self.result._take(stretch)
+        self.kept_in.take(stretch)
         if not self.fixed:
             rate = (stretch.stop - stretch.start) / max(stretch.seconds, 1e-9)
-            most = min(rate * _SECONDS, 4 * self.chunk, _MOST if self.unit == 1 else 16 * BATCH)
+            most = min(rate * _SECONDS, 4 * self.chunk, self.most)
             self.chunk = max(int(most) // self.unit, 1) * self.unit
         self._tell()
 
     def _tell(self) -> None:
         if self.told is not None:
-            self.told(self.result._finished, self.plan.points)
+            self.told(self.kept_in.finished, self.plan.points)
+
+
+def _missing(kept: list[tuple[int, int]], points: int) -> list[tuple[int, int]]:
+    """The stretches between those that are there, which come in order."""
+    missing, end = [], 0
+    for start, stop in [*kept, (points, points)]:
+        if start > end:
+            missing.append((end, start))
+        end = stop
+    return missing
 
 
 def _found(plan: Plan, start: int, stop: int, *more: Any) -> Stretch:

@@ -12,9 +12,19 @@ from ._extras import require
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ._study_plan import Plan
     from ._sweep_result import SweepResult
 
 MOST_CURVES = 10
+
+
+def why_not_drawn(plan: Plan) -> str:
+    """A sentence where a study has no picture; known before anything is computed."""
+    names = [axis.name for axis in plan.axes]
+    if len(names) > 2:
+        return f"draws one or two numbers, and {len(names)} vary: {', '.join(names)}"
+    words = [axis.name for axis in plan.axes if axis.values is not None and axis.values.dtype.kind not in "fi"]
+    return f"draws numbers, not words, and {words[0]} is one" if words else ""
 
 
 def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
@@ -26,10 +36,8 @@ def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
     if name not in blocks:
         raise ValueError(f"{place}: name must be one of {', '.join(blocks)}, got {name!r}")
     axes = result._plan.axes
-    if len(axes) > 2:
-        raise ValueError(f"{place}: draws one or two numbers, and {len(axes)} varied: {', '.join(result.varied)}")
-    if any(axis.values is not None and axis.values.dtype.kind not in "fi" for axis in axes):
-        raise ValueError(f"{place}: draws numbers, not words")
+    if reason := why_not_drawn(result._plan):
+        raise ValueError(f"{place}: {reason}")
     values = result[name].reshape(len(result), -1).astype(float)
     if ax is None:
         _, ax = pyplot.subplots(layout="constrained")

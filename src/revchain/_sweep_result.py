@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ._arguments import read_only
 from ._study_find import REFUSED, STATUS, Arrays
-from ._study_plan import Plan, Stretch
+from ._study_plan import Plan
 from .study import Study
 
 if TYPE_CHECKING:
@@ -49,39 +49,16 @@ class SweepResult:
     _plan: Plan
     _arrays: Arrays
     _status: NDArray[np.uint8]
-    _done: list[tuple[int, int]]
-    _finished: int
     _resumed: int
 
     @classmethod
-    def _empty(cls, study: Study, plan: Plan) -> SweepResult:
+    def _of(cls, study: Study, plan: Plan, stored: Arrays) -> SweepResult:
+        """With arrays for all points, of what is computed and of the status."""
         result = cls.__new__(cls)
-        result.study, result._plan = study, plan
-        result._arrays = {block.name: block.memory(plan.points) for block in plan.stored}
-        result._status = np.empty(plan.points, np.uint8)
-        result._done, result._finished, result._resumed = [], 0, 0
+        result.study, result._plan, result._resumed = study, plan, 0
+        result._arrays = {name: array for name, array in stored.items() if name != "status"}
+        result._status = stored["status"]
         return result
-
-    def _place(self, start: int, stop: int) -> Arrays:
-        """Where a stretch of points belongs."""
-        return {name: array[start:stop] for name, array in self._arrays.items()}
-
-    def _take(self, stretch: Stretch) -> None:
-        for name, place in self._place(stretch.start, stretch.stop).items():
-            if (array := stretch.arrays[name]).base is not place.base:
-                place[...] = array
-        self._status[stretch.start : stretch.stop] = stretch.status
-        self._done.append((stretch.start, stretch.stop))
-        self._finished += stretch.stop - stretch.start
-
-    def _missing(self) -> list[tuple[int, int]]:
-        """The stretches between those that are done."""
-        missing, end = [], 0
-        for start, stop in [*sorted(self._done), (self._plan.points, self._plan.points)]:
-            if start > end:
-                missing.append((end, start))
-            end = stop
-        return missing
 
     def __len__(self) -> int:
         return self._plan.points
@@ -153,11 +130,17 @@ class SweepResult:
         if name in self.varied:
             self._fill_varied()
         elif name == "angular_speed" and name in self.found:
-            self._arrays[name] = self._plan.speeds(self._arrays["conical_height"])
+            self._arrays[name] = self._speeds()
         else:
             known = ", ".join([*self.varied, *self.found, "status"])
             raise KeyError(f"there is no {name!r}; there are {known}")
         return read_only(self._arrays[name])
+
+    def _speeds(self) -> NDArray[np.float64]:
+        if "gravity" in [axis.key for axis in self._plan.axes]:
+            self._fill_varied()
+        values = [self._arrays.get(axis.name, np.empty(0)) for axis in self._plan.axes]
+        return self._plan.speeds(self._arrays["conical_height"], values)
 
     def _fill_varied(self) -> None:
         values = self._plan.values(0, self._plan.points)
@@ -183,12 +166,11 @@ class SweepResult:
         >>> list(rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}}).columns())
         ['point', 'gravity', 'angular_speed_1', 'conical_height_1', 'status']
         """
-        columns: dict[str, NDArray[Any]] = {"point": np.arange(len(self))}
-        columns |= {name: self[name] for name in self.varied}
-        for block in self._plan.blocks:
-            values = self[block.name].reshape(len(self), -1)
-            columns |= {name: values[:, k] for k, name in enumerate(block.columns)}
-        return {**columns, "status": self.status if words else self._status}
+        from ._sweep_output import columns_of
+
+        pieces = {name: self[name] for name in [*self.varied, *self.found]}
+        columns = columns_of(self._plan, {**pieces, "status": self._status}, 0, len(self))
+        return {**columns, "status": self.status} if words else columns
 
     def to_dataframe(self) -> Any:
         """Return a pandas table with one row for each point.
@@ -263,11 +245,12 @@ class SweepResult:
         >>> rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}}).save("moon.csv")
         """
         from ._files import written_aside
-        from ._sweep_output import writer_of
+        from ._sweep_output import write_all, writer_of
 
-        write = writer_of(path)
+        writer = writer_of(path)
+        stored = {block.name: self._arrays[block.name] for block in self._plan.stored}
         with written_aside(path) as [aside]:
-            write(self, aside)
+            write_all(writer(aside, self.study, self._plan), self._plan, {**stored, "status": self._status})
 
     def plot(self, name: str | None = None, ax: Axes | None = None) -> Axes:
         """Draw what was found against what varied: one number as curves, two grids as a map of the first.

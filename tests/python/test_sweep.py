@@ -6,10 +6,13 @@ import itertools
 import json
 import math
 import os
+import random
 import signal
+import struct
 import sys
 import threading
 import time
+import tracemalloc
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
@@ -268,6 +271,22 @@ def test_a_dask_cluster_of_two_workers_changes_nothing():
     assert len(Path("a.csv").read_text().splitlines()) == 1 + 21 * 3
 
 
+def test_begun_by_threads_and_ended_by_a_dask_cluster():
+    distributed = pytest.importorskip("distributed")
+    options = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        for scene, vary, samples in MIXED.values():
+            given = study(scene, vary, samples=samples)
+            for first, second in (({}, {"executor": client.get_executor()}), ({"executor": client.get_executor()}, {})):
+                with pytest.raises(Ended):
+                    rc.sweep(given, out="a.csv", chunk=samples // 9, progress=ended_after(samples // 3), **first)
+                there = sum(stop - start for start, stop in kept())
+                assert samples // 3 <= there < given.points
+                found = rc.sweep(given, out="a.csv", **second)
+                assert found.resumed == there
+                same(found, rc.sweep(given))
+
+
 def test_what_is_refused_of_the_call():
     given = study(PLUMMETS, {"gravity": {"values": [1.0]}})
     with ThreadPoolExecutor(1) as pool, pytest.raises(ValueError, match="threads does not go with executor"):
@@ -348,6 +367,136 @@ def test_tables_and_labelled_arrays():
         assert read["bob"].attrs["path"] == "links[0].mass" and read.attrs["title"] == "t"
 
 
+STREAMED = {
+    "rig": (GYROSTAT, {"support.stiffness": {"uniform": [1.0, 300.0]}, "gravity": {"values": [1.0, 9.8]}}, {"samples": 5}),
+    "words": (
+        {"uniform_chain": {"kind": "rods", "count": 3, "length": 1.0, "mass": 1.0}},
+        {"uniform_chain.count": {"from": 1, "to": 5, "steps": 3}, "uniform_chain.kind": {"values": ["rods", "plummets"]}},
+        {},
+    ),
+    "refused": (PLUMMETS, {"links[0].mass": {"normal": [0.01, 0.1]}}, {"samples": 40}),
+    "yes and no": (
+        {"links": [{"mass": 1.0, "length": 0.5, "clamped": False}] * 2, "support": {"stiffness": 10.0}},
+        {"links[0].clamped": {"values": [True, False]}},
+        {},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "vary", "more"), STREAMED.values(), ids=STREAMED.keys())
+@pytest.mark.parametrize("chunk", [None, 3])
+def test_files_are_the_same_in_whatever_pieces(scene, vary, more, chunk, monkeypatch):
+    for package in ("pyarrow", "pandas", "h5netcdf"):
+        pytest.importorskip(package)
+    xarray = pytest.importorskip("xarray")
+    import pandas
+
+    monkeypatch.setattr("revchain._sweep_keep.ROWS", 7)
+    monkeypatch.setattr("revchain._sweep_output._LINES", 3)
+    given = study(scene, vary, **more)
+    found = rc.sweep(given, out="a.nc", chunk=chunk)
+    with xarray.open_dataset("a.nc", engine="h5netcdf") as read:
+        xarray.testing.assert_identical(read.load(), found.to_xarray())
+    found.to_xarray().to_netcdf("b.nc", engine="h5netcdf")  # as xarray itself would write it
+    with xarray.open_dataset("a.nc", engine="h5netcdf") as one, xarray.open_dataset("b.nc", engine="h5netcdf") as two:
+        for name in two.variables:
+            assert one[name].dtype == two[name].dtype and one[name].dims == two[name].dims
+            fills = [str(each[name].encoding.get("_FillValue")) for each in (one, two)]
+            assert fills[0] == fills[1] or one[name].dtype.kind == "O"
+    rc.sweep(given, out="a.parquet", chunk=chunk)
+    frame = pandas.read_parquet("a.parquet")
+    pandas.testing.assert_frame_equal(frame, found.to_dataframe())
+    rc.sweep(given, out="a.csv", chunk=chunk)
+    found.save("b.csv")
+    assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
+    with open("a.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    for name, column in found.columns().items():
+        texts = [row[name] for row in rows]
+        if column.dtype.kind == "f":
+            numbers = np.array([float(text) for text in texts])
+            assert (np.isnan(numbers) == np.isnan(column)).all()
+            assert numbers[~np.isnan(numbers)].tobytes() == column[~np.isnan(column)].tobytes()
+        else:
+            assert texts == [str(value) for value in column.tolist()]
+
+
+def test_numbers_of_all_sizes_read_back_from_text():
+    from revchain._sweep_output import _lines
+
+    bits = np.random.default_rng(1).integers(0, 2**64 - 1, 20_000, dtype=np.uint64, endpoint=True)
+    special = [
+        0.0,
+        -0.0,
+        5e-324,
+        -5e-324,
+        2.2250738585072014e-308,
+        1.7976931348623157e308,
+        math.inf,
+        -math.inf,
+        1e22,
+        0.1,
+    ]
+    numbers = np.concatenate([bits.view(np.float64), special])
+    lines = _lines({"a": numbers, "b": np.arange(numbers.size), "status": np.zeros(numbers.size, np.uint8)})
+    assert lines.endswith(b",success\n")
+    rows = [line.split(",") for line in lines.decode().splitlines()]
+    there = np.isfinite(numbers) | np.isinf(numbers)
+    read = np.array([float(row[0]) for row in rows])
+    assert read[there].tobytes() == numbers[there].tobytes() and np.isnan(read[~there]).all()
+    assert [int(row[1]) for row in rows] == list(range(numbers.size))
+
+
+def test_grids_by_their_definition():
+    """In whatever stretches, the numbers of a grid are those that counting through it gives."""
+    vary = {
+        "links[0].mass": {"values": [1.0, 2.0, 3.0]},
+        "gravity": {"values": [5.0]},
+        "links[0].length": {"from": 1, "to": 7, "steps": 7},
+        "links[1].length": {"values": [0.1, 0.2]},
+        "links[1].mass": {"uniform": [1, 2]},
+    }
+    plan = study(PLUMMETS, vary, samples=3)._plan("")
+    axes = [axis.values.tolist() for axis in plan.axes[:4]]
+    expected = [values[:4] for values in itertools.product(*axes, range(3))]
+    drawn = plan.values(0, plan.points)[4]
+    chance = random.Random(1)
+    for _ in range(300):
+        start = chance.randrange(plan.points)
+        stop = min(start + chance.choice([1, 2, 5, 17, 126]), plan.points)
+        *grids, numbers = plan.values(start, stop)
+        assert list(zip(*(grid.tolist() for grid in grids), strict=True)) == expected[start:stop]
+        assert numbers.tobytes() == drawn[start:stop].tobytes()
+
+
+def test_random_numbers_across_their_blocks():
+    plan = study(PLUMMETS, {"links[0].mass": {"log_uniform": [1, 2]}}, samples=200_000)._plan("")
+    (whole,) = plan.values(0, plan.points)
+    reader, chance, start = plan.reader(), random.Random(1), 0
+    while start < plan.points:
+        stop = min(start + chance.choice([1, 1000, 65536, 70000, 65536 - start % 65536]), plan.points)
+        assert reader.at(start, stop)[0].tobytes() == whole[start:stop].tobytes()
+        start = stop
+    for start in (65535, 65536, 5, 131072, 131073, 0):  # back and forth
+        assert reader.at(start, start + 3)[0].tobytes() == whole[start : start + 3].tobytes()
+    assert np.unique(whole).size > 199_990
+
+
+def test_results_of_a_file_need_no_memory_of_their_own():
+    """Peak of what Python allocates: a piece of the results, not all 40 MB of them."""
+    given = study(PLUMMETS, {"links[0].mass": {"uniform": [1, 2]}}, samples=1_000_000)
+    rc.sweep(study(PLUMMETS, {"gravity": {"values": [1.0]}}), out="a.nc")
+    for name in ("a.nc", "a.csv"):
+        if name == "a.csv":
+            given = study(PLUMMETS, {"links[0].mass": {"uniform": [1, 2]}}, samples=300_000)
+        tracemalloc.start()
+        found = rc.sweep(given, out=name, threads=1)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert peak < 30e6, name
+        assert np.isfinite(found["conical_height"]).all() and files().count(name) == 1
+
+
 # ---- runs that were ended
 
 
@@ -366,38 +515,113 @@ def ended_after(points):
 LARGE = (GYROSTAT, {"support.stiffness": {"uniform": [1.0, 300.0]}})
 
 
+def kept(folder="a.csv.partial"):
+    """The records of a journal: beginnings and ends of stretches, as they lie there."""
+    path = Path(folder, "index")
+    data = path.read_bytes() if path.exists() else b""
+    return [struct.unpack_from("<QQ", data, place) for place in range(0, len(data) - 23, 24)]
+
+
 def test_a_run_goes_on_where_it_was():
     given = study(*LARGE, samples=100)
     with pytest.raises(Ended):
         rc.sweep(given, out="a.csv", chunk=10, progress=ended_after(40))
-    assert files() == ["a.csv.partial"]
-    kept = sorted(path.name for path in Path("a.csv.partial").glob("*.points"))
-    assert kept[0] == "000000000000-000000000010.points" and len(kept) >= 4
-    seen = []
+    assert files() == ["a.csv.partial"] and len(kept()) >= 4
+    assert sorted(os.listdir("a.csv.partial")) == ["index", "points", "study.json"]
+    there, seen = 10 * len(kept()), []
     found = rc.sweep(given, out="a.csv", chunk=7, threads=1, progress=lambda done, total: seen.append((done, total)))
-    assert found.resumed == 10 * len(kept) == seen[0][0] and seen[-1] == (100, 100)
+    assert found.resumed == there == seen[0][0] and seen[-1] == (100, 100)
     same(found, rc.sweep(given))
     assert files() == ["a.csv"]
     assert len(Path("a.csv").read_text().splitlines()) == 101
 
 
-def test_what_is_damaged_is_computed_again():
+@pytest.fixture
+def ended():
+    """A study of 60 points in six stretches, all of them kept, and its journal's folder."""
     given = study(*LARGE, samples=60)
     with pytest.raises(Ended):
         rc.sweep(given, out="a.csv", chunk=10, threads=1, progress=ended_after(60))
-    parts = sorted(Path("a.csv.partial").glob("*.points"))
-    assert len(parts) == 6
-    data = bytearray(parts[0].read_bytes())
-    data[-50] ^= 1
-    parts[0].write_bytes(data)
-    parts[1].write_bytes(parts[1].read_bytes()[:-1])
-    parts[2].write_bytes(b"")
-    parts[3].rename(parts[3].with_name("000000000025-000000000035.points"))
-    Path("a.csv.partial/.000000000000-000000000010.points.writing").write_bytes(b"half")
+    folder = Path("a.csv.partial")
+    assert kept() == [(k, k + 10) for k in range(0, 60, 10)]
+    return given, folder, {name: (folder / name).read_bytes() for name in ("points", "index")}
+
+
+def goes_on(given, whole):
+    """A run that finds so many points that are whole; its numbers are those of one that was never ended."""
     found = rc.sweep(given, out="a.csv")
-    assert found.resumed == 20  # the one renamed has other points than it says
+    assert found.resumed == whole
     same(found, rc.sweep(given))
     assert files() == ["a.csv"]
+
+
+def test_what_is_damaged_is_computed_again(ended):
+    given, folder, data = ended
+    plan = given._plan("")
+    stiffness = next(block for block in plan.stored if block.kind == "f8")
+    points, index = bytearray(data["points"]), bytearray(data["index"])
+    points[10 * stiffness.each[0] * 8 + 3] ^= 1  # a bit of the second stretch, in its numbers
+    points[-4096 + 25] ^= 1  # and of the third, in its status
+    index[3 * 24 + 2] ^= 1  # the fourth said to be elsewhere
+    index[4 * 24 + 17] ^= 1  # the checksum of the fifth
+    (folder / "points").write_bytes(points)
+    (folder / "index").write_bytes(bytes(index) + data["index"][:24])  # and the first said twice
+    (folder / ".output.writing.csv").write_bytes(b"half")
+    goes_on(given, 20)
+
+
+def test_a_journal_cut_anywhere_gives_what_is_whole(ended):
+    given, folder, data = ended
+    plan = given._plan("")
+    for length in [*range(0, 49), 100, 143, 144]:
+        (folder / "index").write_bytes(data["index"][:length])
+        with Journal("a.csv", plan) as journal:
+            assert journal.kept == kept() == [(k, k + 10) for k in range(0, length // 24 * 10, 10)]
+            assert (folder / "index").stat().st_size == length // 24 * 24
+        for name in data:  # where nothing was whole the folder is gone
+            folder.mkdir(exist_ok=True)
+            (folder / name).write_bytes(data[name])
+        if length < 24:
+            (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
+
+    def survives(stretch, cut):
+        """Whether all numbers of a stretch are as they were; what is beyond the end reads as zeros."""
+        for place, kind, each in journal._layout.values():
+            row = kind.itemsize * math.prod(each)
+            piece = slice(place + stretch[0] * row, place + stretch[1] * row)
+            if cut[piece] != data["points"][piece]:
+                return False
+        return True
+
+    counts, size = set(), len(data["points"])
+    for length in [0, 1, *random.Random(1).sample(range(size), 30), size - 4096 + 35]:
+        for name in data:
+            (folder / name).write_bytes(data[name][:length] if name == "points" else data[name])
+        (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
+        with Journal("a.csv", plan) as journal:
+            cut = data["points"][:length] + bytes(size - length)
+            assert journal.kept == [ends for ends in [(k, k + 10) for k in range(0, 60, 10)] if survives(ends, cut)]
+            counts.add(len(journal.kept))
+        folder.mkdir(exist_ok=True)
+    assert len(counts) >= 3 and min(counts) == 0
+    for name in data:
+        (folder / name).write_bytes(data[name])
+    (folder / "study.json").write_text(json.dumps({"fingerprint": plan.fingerprint(), "points": 60}))
+    (folder / "index").write_bytes(data["index"][:100])
+    goes_on(given, 40)
+
+
+def test_a_folder_of_something_else_is_left_alone():
+    given = study(PLUMMETS, {"gravity": {"values": [1.0]}})
+    Path("a.csv.partial").mkdir()
+    Path("a.csv.partial/mine.txt").write_text("mine")
+    with pytest.raises(OSError, match="a.csv.partial holds other files; remove it or write elsewhere"):
+        rc.sweep(given, out="a.csv")
+    assert Path("a.csv.partial/mine.txt").read_text() == "mine"
+    Path("b.csv.partial").write_text("mine")
+    with pytest.raises(OSError, match="b.csv.partial is no folder"):
+        rc.sweep(given, out="b.csv")
+    assert Path("b.csv.partial").read_text() == "mine"
 
 
 def test_another_study_is_refused():
@@ -438,37 +662,72 @@ uniform = [1, 2]
 def test_killed_at_any_moment_nothing_is_lost_or_repeated(start):
     Path("a.toml").write_text(SLOW)
     command = (sys.executable, "-m", "revchain", "sweep", "a.toml", "--chunk", "5", "--workers", "2")
-    partial, kept, kills = Path("a.csv.partial"), {}, 0
-    for wanted in (5, 60, 150, 300):
+    partial, there, kills, chance = Path("a.csv.partial"), b"", 0, random.Random(2)
+    for wanted in (1, 20, 60, 100, 150, 220, 300):
         process = start(*command)
         deadline = time.monotonic() + 30
-        while len(list(partial.glob("*.points"))) < wanted and process.poll() is None:
+        while len(kept()) < wanted and process.poll() is None:
             assert time.monotonic() < deadline
             time.sleep(0.001)
+        time.sleep(chance.uniform(0, 0.02))
         process.send_signal(signal.SIGKILL)
         process.wait()
         if not partial.exists():
             break
         kills += 1
         assert not Path("a.csv").exists()
-        now = {path.name: path.stat() for path in partial.glob("*.points")}
-        for name, stat in kept.items():  # neither gone nor written again
-            assert (now[name].st_ino, now[name].st_mtime_ns) == (stat.st_ino, stat.st_mtime_ns)
-        kept = now
-    assert kills >= 2 and kept
+        now = (partial / "index").read_bytes()
+        assert now[: len(there)] == there  # nothing is gone or written again
+        there = now[: len(now) // 24 * 24]
+    stretches = kept()
+    assert kills >= 2 and len(set(stretches)) == len(stretches)
     process = start(*command, stdout=-1)
     out, _ = process.communicate(timeout=60)
-    assert process.returncode == 0 and "3,000 points in" in out and f"{5 * len(kept):,} of them from before" in out
+    assert process.returncode == 0 and "3,000 points in" in out and f"{5 * len(stretches):,} of them from before" in out
     assert files() == ["a.csv", "a.toml"]
     written = Path("a.csv").read_bytes()
     rc.sweep("a.toml", out="b.csv")
     assert Path("b.csv").read_bytes() == written
 
 
+MILLION = """
+samples = 1_000_000
+[scene]
+links = [{mass = 1, length = 0.1}, {mass = 1, length = 0.1}]
+ask = {modes = "all"}
+[vary."links[0].mass"]
+uniform = [1, 2]
+"""
+
+
+def test_a_million_points_killed_again_and_again(start):
+    pytest.importorskip("h5netcdf")
+    Path("a.toml").write_text(MILLION)
+    command = (sys.executable, "-m", "revchain", "sweep", "a.toml", "--out", "a.nc", "-q")
+    partial, chance = Path("a.nc.partial"), random.Random(3)
+    for _ in range(8):
+        process, before = start(*command), len(kept(partial))
+        deadline = time.monotonic() + 30
+        while len(kept(partial)) <= before and process.poll() is None:
+            assert time.monotonic() < deadline
+        time.sleep(chance.uniform(0, 0.03))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        if Path("a.nc").exists():
+            break
+    stretches = sorted(kept(partial))
+    assert all(stop <= start for (_, stop), (start, _) in itertools.pairwise(stretches))
+    if not Path("a.nc").exists():
+        assert start(*command).wait(timeout=60) == 0
+    rc.sweep("a.toml", out="b.nc", threads=1)
+    assert Path("a.nc").read_bytes() == Path("b.nc").read_bytes()
+    assert not partial.exists() or not Path("a.nc").exists() or stretches
+
+
 def test_ctrl_c_ends_cleanly(start):
     Path("a.toml").write_text(SLOW.replace("3000", "300_000"))
     process = start(sys.executable, "-m", "revchain", "sweep", "a.toml", stdout=-1, stderr=-1)
-    while not list(Path().glob("a.csv.partial/*.points")):
+    while not kept():
         assert process.poll() is None
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
@@ -482,12 +741,12 @@ def test_no_file_of_half_the_points(monkeypatch):
     given = study(*LARGE, samples=20)
     Path("a.csv").write_text("before")
 
-    def fails(result, path):
-        path.write_text("half")
+    def fails(writer, start, stop, pieces):
+        writer._file.write(b"half")
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patched:
-        patched.setattr("revchain._sweep_output._csv", fails)
+        patched.setattr("revchain._sweep_output._Csv.add", fails)
         with pytest.raises(OSError, match="No space"):
             rc.sweep(given, out="a.csv")
     assert Path("a.csv").read_text() == "before" and files() == ["a.csv", "a.csv.partial"]
@@ -648,6 +907,10 @@ def test_how_the_command_ends(run):
     assert run("sweep", "a.toml", "--out", "a.toml")[0] == 2
     assert run("sweep", "a.toml", "--plot", "a.gif")[0] == 2
     assert run("sweep", "a.toml", "--out", "/proc/a.csv")[0] == 4
+    toml('values = [1]\n[vary.gravity]\nvalues = [1]\n[vary."links[0].length"]\nvalues = [1]')
+    message = "revchain: --plot: draws one or two numbers, and 3 vary: links[0].mass, gravity, links[0].length\n"
+    assert run("sweep", "a.toml", "--plot", "a.png") == (2, "", message)
+    toml("values = [1]")
     assert run("sweep", "a.toml", "--dask", "tcp://127.0.0.1:1", "--workers", "2")[0] == 2
     assert files() == ["a.toml"]
     toml("normal = [0.1, 1]", "samples = 8")
@@ -672,7 +935,7 @@ def test_pictures():
 
 def test_missing_packages_are_named(python, without):
     Path("a.toml").write_text("scene = {links = [{mass = 1, length = 1}]}\nvary.gravity.values = [1]\n")
-    blocked = ("pandas", "pyarrow", "xarray", "dask", "distributed")
+    blocked = ("pandas", "pyarrow", "xarray", "h5netcdf", "dask", "distributed")
     program = without(*blocked) + (
         "import revchain as rc\n"
         "found = rc.sweep('a.toml', out='a.csv')\n"
