@@ -60,7 +60,7 @@ std::pair<S, S> mean_and_variance(double exponent, const S& u) {
 /// With q = exponent + 1 and u = 1/(2m + 1), what hangs below a pin falls from one to the next by ((1-u)/(1+u))^q, from the
 /// support down; no difference of neighbours is taken.
 /// Accuracy: weights and centroids 0.51 ulp, gyration ratios 3e-28, in double up to a million links (tests/cpp/chain/
-/// tapered.cpp); where `Wide<T>` is T the weights are off by as many ulps as there are links. Cost: 0.4 microseconds a link.
+/// tapered.cpp); where `Wide<T>` is T the weights are off by as many ulps as there are links. Cost: 0.5 to 2 microseconds a link.
 template <Real T>
 TaperedLinks<T> tapered_links(Index count, const T& link, double exponent, const T& weight) {
     using S = Wide<T>;

@@ -27,7 +27,8 @@ struct ContinuousChain {
         return kind.rods && question.first == 1 ? std::max(bound, answer(kind, 1).error_bound) : bound;
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        return 8e-8 + (kind.rods ? 4e-8 : 1.2e-8) * static_cast<double>(question.count);
+        return kind.rods ? 1.5e-7 + 2.8e-8 * static_cast<double>(question.count)
+                         : 8e-8 + 1.2e-8 * static_cast<double>(question.count);
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
         Answer all{Vector<double>(question.count), Vector<double>(question.count)};
