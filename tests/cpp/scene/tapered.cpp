@@ -11,6 +11,7 @@ namespace {
 
 struct Shares {
     double most = 0;      // of error over bound, within one answer to the other
+    double foreseen = 0;  // the most of the bound foreseen over the bound
     double rounded = 0;   // error in ulp where the bound is mostly roundings
     double left_out = 0;  // of what the next order takes over its bound
 };
@@ -34,6 +35,7 @@ void compare(const M& model, const Chain<double>& chain, double exponent, Shares
         REQUIRE(error <= bound);
         REQUIRE(bound <= foreseen * (1 + 1e-12));
         shares.most = std::max(shares.most, error / bound);
+        shares.foreseen = std::max(shares.foreseen, foreseen / bound);
         if (bound < 20 * 0x1p-52) shares.rounded = std::max(shares.rounded, error / 0x1p-52);
         // cord/chain = 1 + lost (1 - d): 0 <= d <= the bound, where rounding lets that be seen
         const double j = zeros(k), cord = 4 * (exponent + 1) * chain.total_length() / (j * j);
@@ -63,10 +65,12 @@ TEST_CASE("tapered chain: as near to the links as it says") {
         }
         CHECK(here.left_out > 0.5);  // the bound is not idle
         shares.left_out = std::max(shares.left_out, here.left_out);
+        shares.foreseen = std::max(shares.foreseen, here.foreseen);
         shares.most = std::max(shares.most, here.most), shares.rounded = std::max(shares.rounded, here.rounded);
     }
-    CAPTURE(shares.most, shares.left_out, shares.rounded);
+    CAPTURE(shares.most, shares.left_out, shares.foreseen, shares.rounded);
     CHECK(shares.left_out <= 0.95);
+    CHECK(shares.foreseen <= 2);
     CHECK(shares.most > 0.8);
     CHECK(shares.rounded <= 5);
 }
