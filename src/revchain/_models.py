@@ -212,7 +212,7 @@ def solve(
     >>> import revchain as rc
     >>> rods = rc.Chain.uniform_rods(100_000, length=0.36)
     >>> rc.solve(rods, 3, rtol=0.01)
-    Solution: 3 heights by continuous chain, error below 8.9e-16, success
+    Solution: 3 heights by continuous chain, error below 9.0e-16, success
     >>> rc.solve(rods, 3).model
     'compressed blocks'
     >>> [rc.solve(rc.Chain.uniform_rods(9), rtol=r, inclination=0.2).model for r in (0.1, 1e-3)]
