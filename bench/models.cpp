@@ -37,6 +37,7 @@ double timed(const F& call) {
 Chain<double> random_chain(Random& random, Index size, int kind) {
     if (kind == 0) return Chain<double>::uniform_rods(size, 2.0);
     if (kind == 1) return Chain<double>::uniform_plummets(size, 2.0);
+    if (kind == 4) return Chain<double>::tapered(size, 2.0, random.between(-0.9, 9));
     std::vector<Link<double>> links;
     for (Index m = 0; m < size; ++m) {
         const double W = random.between(0.5, 2), a = random.between(0.5, 2);
@@ -52,7 +53,7 @@ int costs() {
     int bad = 0;
     std::printf("model,links,first,count,rtol,predicted_us,measured_us,ratio\n");
     for (const Index size : {1, 2, 5, 10, 20, 50, 100, 300, 1000, 5000, 30'000, 200'000}) {
-        for (const int kind : {0, 1, 2, 3}) {
+        for (const int kind : {0, 1, 2, 3, 4}) {
             const Chain<double> chain = random_chain(random, size, kind);
             const ChainKind known(chain);
             for (const Index count : {1, 3, 10, 40}) {
@@ -92,7 +93,7 @@ int choice(int count) {
     std::printf("links,kind,first,count,rtol,model,took_us,best_model,best_us,ratio,error_over_bound\n");
     for (int i = 0; i < count; ++i) {
         const Index size = static_cast<Index>(random.log_between(1, 20'000));
-        const int kind = static_cast<int>(random.between(0, 4));
+        const int kind = static_cast<int>(random.between(0, 5));
         const Chain<double> chain = random_chain(random, size, kind);
         const Index most = std::min<Index>(chain.mode_count(), 20);
         const Index first = 1 + static_cast<Index>(random.between(0, 0.999 * static_cast<double>(most)));

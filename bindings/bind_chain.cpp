@@ -95,22 +95,26 @@ py::array derived(const Chain& chain) {
     return to_numpy(is_scalar, chain.size(), [&](Index m) { return property(chain.link(m)); });
 }
 
-/// What `get_state` returns ends with this; states of version 1 end before, with the squared radius of gyration itself.
+/// What `get_state` returns ends with this and, of a chain that `tapered` made, its exponent; states of version 1 end before,
+/// with the squared radius of gyration itself.
 constexpr int state_version = 2;
 
 /// Exact: both words of the ratio of squares.
 py::tuple get_state(const Chain& chain) {
     const Column<Wide>& g = chain.gyration_ratio();
     const Index stored = static_cast<Index>(g.stored());
-    return py::make_tuple(chain.size(), to_numpy(chain.weight()), to_numpy(chain.length()), to_numpy(chain.centroid()),
-                          to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].high; }),
-                          to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].low; }), state_version);
+    const auto state =
+        py::make_tuple(chain.size(), to_numpy(chain.weight()), to_numpy(chain.length()), to_numpy(chain.centroid()),
+                       to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].high; }),
+                       to_numpy(g.is_scalar(), stored, [&](Index m) { return g[m].low; }), state_version);
+    if (!chain.taper()) return state;
+    return py::tuple(state + py::make_tuple(*chain.taper()));
 }
 
 Chain set_state(const py::tuple& state) {
-    if (state.size() != 6 && state.size() != 7)
-        refuse("Chain", "this is not the state of a chain; its number of parts must be 7", state.size());
-    if (state.size() == 7 && state[6].cast<int>() != state_version)
+    if (state.size() < 6 || state.size() > 8)
+        refuse("Chain", "this is not the state of a chain; its number of parts must be 7 or 8", state.size());
+    if (state.size() > 6 && state[6].cast<int>() != state_version)
         refuse("Chain", "this is the state of a chain of another version; known is 2", state[6].cast<int>());
     const Index size = state[0].cast<Index>();
     const Column<double> a = column(state[2].cast<Array>(), "length");
@@ -127,8 +131,12 @@ Chain set_state(const py::tuple& state) {
         const Index common = std::min(gyration.is_scalar() ? size : stored, a.is_scalar() ? size : Index(a.stored()));
         gyration = combined(common, ratio, gyration, a);
     }
+    std::optional<double> taper;
+    if (state.size() == 8) taper = state[7].cast<double>();
+    if (taper && !Chain::is_taper(*taper))
+        refuse("Chain", "this is not the state of a chain; its exponent must be above -1 and at most 1000", *taper);
     return Chain(size, column(state[1].cast<Array>(), "weight"), a, column(state[3].cast<Array>(), "centroid"),
-                 std::move(gyration));
+                 std::move(gyration), taper);
 }
 
 }  // namespace
@@ -139,6 +147,14 @@ void bind_chain(py::module_& module) {
              "radius_of_gyration"_a = py::none())
         .def_static("uniform_plummets", &Chain::uniform_plummets, "count"_a, "length"_a, "weight"_a)
         .def_static("uniform_rods", &Chain::uniform_rods, "count"_a, "length"_a, "weight"_a)
+        .def_static(
+            "tapered",
+            [](Index count, double length, double exponent, double weight) {
+                const py::gil_scoped_release release;
+                return Chain::tapered(count, length, exponent, weight);
+            },
+            "count"_a, "length"_a, "exponent"_a, "weight"_a)
+        .def_property_readonly("taper", &Chain::taper)
         .def_property_readonly("size", &Chain::size)
         .def_property_readonly("mode_count", &Chain::mode_count)
         .def_property_readonly("total_weight", &Chain::total_weight)

@@ -12,10 +12,10 @@ from msgspec import UNSET
 from ._arguments import Floats
 from ._chain import Chain
 from ._scene_error import SceneError
-from ._scene_tables import MOST_LINKS, Displaced, Flywheel, Link, Support, UniformChain
+from ._scene_tables import MOST_LINKS, Displaced, Flywheel, Link, Support, TaperedChain, UniformChain
 from ._units import si_value
 
-Weighed = Link | UniformChain | Flywheel | Displaced | Support
+Weighed = Link | UniformChain | TaperedChain | Flywheel | Displaced | Support
 
 
 class Numbers:
@@ -68,6 +68,18 @@ def uniform_chain(table: UniformChain, gravity: float, source: str) -> Chain:
     tip = numbers.weight_if_given(table, gravity, "tip_")
     try:
         chain = make(table.count, length, weight)
+        return chain.with_weight(tip) if tip else chain
+    except ValueError as error:
+        raise numbers.refuse("", _without_place(str(error))) from None
+
+
+def tapered_chain(table: TaperedChain, gravity: float, source: str) -> Chain:
+    numbers = Numbers(source, "tapered_chain")
+    length = numbers.value("length", table.length, "length", "positive")
+    weight = numbers.weight(table, gravity, "positive")
+    tip = numbers.weight_if_given(table, gravity, "tip_")
+    try:
+        chain = Chain.tapered(table.count, length, weight, exponent=table.exponent)
         return chain.with_weight(tip) if tip else chain
     except ValueError as error:
         raise numbers.refuse("", _without_place(str(error))) from None

@@ -156,6 +156,34 @@ class Link(Table, frozen=True):
     displaced: Annotated[Displaced | UnsetType, Meta(description="What it displaces of a fluid.")] = UNSET
 
 
+class TaperedChain(Table, frozen=True):
+    """A chain cut from a cord whose line density is a power of the distance from its free end.
+
+    Numbers are SI or text with a unit.
+
+    Attributes
+    ----------
+    count : int
+        How many links, straight and equally long.
+    exponent : float
+        Of that power, above -1 and at most 1000: 0 is equal rods, 1 a cord that thickens upwards.
+    length, weight, mass : float or str
+        Of the WHOLE chain; one of weight and mass.
+    tip_weight, tip_mass : float or str, optional
+        Of a point fixed to its free end; at most one of the two.
+    """
+
+    count: Annotated[Count, Meta(description="How many links.")]
+    exponent: Annotated[
+        float, Meta(gt=-1, le=1000, description="Of the line density, by the distance from the free end.")
+    ]
+    length: Annotated[Positive, Meta(description="Of the whole chain.")]
+    weight: Annotated[Positive | UnsetType, Meta(description="Of the whole chain (N); or give mass.")] = UNSET
+    mass: Annotated[Positive | UnsetType, Meta(description="Of the whole chain (kg); or give weight.")] = UNSET
+    tip_weight: Annotated[NotNegative | UnsetType, Meta(description="Of a point fixed to its free end (N).")] = UNSET
+    tip_mass: Annotated[NotNegative | UnsetType, Meta(description="Of a point fixed to its free end (kg).")] = UNSET
+
+
 class UniformChain(Table, frozen=True):
     """A chain of equal links. Numbers are SI (m, kg, N) or text with a unit.
 

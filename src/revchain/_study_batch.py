@@ -30,6 +30,8 @@ _Body = tuple[Any, Any, Any, Any, bool]
 def goes_in_batches(scene: Scene, paths: list[Path]) -> bool:
     """Whether all points are chains that differ in the numbers of their links alone, asked as batches answer."""
     ask = scene.ask
+    if scene.tapered_chain is not UNSET:
+        return False
     if scene.is_rigged or scene.is_held or ask.rtol is not UNSET or ask.certify:
         return False
     if ask.precision != "double" or ask.method != "auto":

@@ -18,11 +18,11 @@ from ._rig import Rig, base_chain
 from ._rig_modes import RigModes
 from ._scene_ask import asked, asked_of_held
 from ._scene_ask_tables import Ask, AskResponse, AskShapes, AskSwing, Held
-from ._scene_chain import Numbers, chain_of_links, uniform_chain
+from ._scene_chain import Numbers, chain_of_links, tapered_chain, uniform_chain
 from ._scene_error import SceneError
 from ._scene_motion import ends_of, response_of, shapes_of, start_of, swing_of, taut_modes_of, the_speed, the_speeds
 from ._scene_rig import is_rigged, radius_of, rig_of
-from ._scene_tables import Displaced, Flywheel, Link, Positive, Support, Table, UniformChain
+from ._scene_tables import Displaced, Flywheel, Link, Positive, Support, Table, TaperedChain, UniformChain
 from ._solve import modes
 from ._steady import SteadyShapes
 
@@ -37,6 +37,7 @@ __all__ = [
     "Link",
     "Scene",
     "Support",
+    "TaperedChain",
     "UniformChain",
     "json_schema",
     "load_scene",
@@ -53,7 +54,9 @@ class Scene(Table, frozen=True):
     links : list of Link
         The links, lowest first; or
     uniform_chain : UniformChain
-        a chain of equal ones.
+        a chain of equal ones; or
+    tapered_chain : TaperedChain
+        one cut from a cord that tapers by a power law.
     gravity : float or str
         In m/s^2, or text with a unit.
     support : Support, optional
@@ -92,6 +95,9 @@ class Scene(Table, frozen=True):
     gravity: Annotated[Positive, Meta(description="In m/s^2.")] = STANDARD_GRAVITY
     links: Annotated[list[Link] | UnsetType, Meta(description="The links, lowest first.")] = UNSET
     uniform_chain: Annotated[UniformChain | UnsetType, Meta(description="Equal links, instead of links.")] = UNSET
+    tapered_chain: Annotated[
+        TaperedChain | UnsetType, Meta(description="Links cut from a cord that tapers, instead of links.")
+    ] = UNSET
     support: Annotated[
         Support | UnsetType, Meta(description="What the chain hangs from, if not a firm point on the axis.")
     ] = UNSET
@@ -415,10 +421,12 @@ class Scene(Table, frozen=True):
 
     def _chain(self, source: str) -> Chain:
         gravity = self._gravity(source)
-        if (self.links is UNSET) == (self.uniform_chain is UNSET):
-            raise SceneError(source, "", "give either [[links]] or [uniform_chain]")
+        if sum(given is not UNSET for given in (self.links, self.uniform_chain, self.tapered_chain)) != 1:
+            raise SceneError(source, "", "give either [[links]] or [uniform_chain] or [tapered_chain]")
         if self.uniform_chain is not UNSET:
             return uniform_chain(self.uniform_chain, gravity, source)
+        if self.tapered_chain is not UNSET:
+            return tapered_chain(self.tapered_chain, gravity, source)
         assert self.links is not UNSET
         return chain_of_links(self.links, gravity, source)
 
@@ -469,7 +477,7 @@ def json_schema() -> dict[str, Any]:
     for table in schema["$defs"].values():
         if "description" in table:
             table["description"] = table["description"].partition("\n")[0]
-    weighed = ("Link", "UniformChain", "Flywheel", "Displaced")
-    for name, pair in (("Scene", ("links", "uniform_chain")), *((name, _WEIGHT) for name in weighed)):
+    weighed = ("Link", "UniformChain", "TaperedChain", "Flywheel", "Displaced")
+    for name, pair in (("Scene", ("links", "uniform_chain", "tapered_chain")), *((name, _WEIGHT) for name in weighed)):
         schema["$defs"][name]["oneOf"] = [{"required": [key]} for key in pair]
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "revchain scene", **schema}

@@ -23,6 +23,7 @@ from revchain.scene import (
     Link,
     Scene,
     Support,
+    TaperedChain,
     UniformChain,
     json_schema,
 )
@@ -284,7 +285,7 @@ def test_the_schema_shipped_is_the_one_of_the_program(repository):
 
 def test_the_schema_knows_every_key():
     tables = json_schema()["$defs"]
-    structs = (Scene, Link, UniformChain, Support, Flywheel, Displaced, Held, Ask, AskShapes, AskResponse, AskSwing)
+    structs = (Scene, Link, UniformChain, TaperedChain, Support, Flywheel, Displaced, Held, Ask, AskShapes, AskResponse, AskSwing)
     assert set(tables) == {struct.__name__ for struct in structs}
     for struct in structs:
         name = struct.__name__

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "revchain/chain/column.hpp"
 #include "revchain/chain/link.hpp"
+#include "revchain/chain/tapered_links.hpp"
 
 namespace revchain {
 
@@ -37,13 +39,15 @@ class Chain {
         check();
     }
 
-    /// `size` links from columns, each of `size` numbers or one.
-    Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio)
+    /// `size` links from columns, each of `size` numbers or one. `taper`: of links that `tapered` made; it is believed.
+    Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio,
+          std::optional<double> taper = std::nullopt)
         : size_(size),
           weight_(std::move(weight)),
           length_(std::move(length)),
           centroid_(std::move(centroid)),
-          gyration_ratio_(std::move(gyration_ratio)) {
+          gyration_ratio_(std::move(gyration_ratio)),
+          taper_(taper) {
         check();
     }
 
@@ -56,6 +60,31 @@ class Chain {
     static Chain uniform_rods(Index count, T length = T(1), T weight = T(1)) {
         return repeated("Chain::uniform_rods", count, length, weight, &uniform_rod<T>);
     }
+
+    /// `count` straight links of equal length, each the piece of a cord whose line density is as x^exponent, x from the free
+    /// end: 0 is `uniform_rods`, 1 a cord that thickens upwards; towards -1 the mass gathers at the free end.
+    /// Greenhill (1908) §4. `length` and `weight` are those of the whole chain.
+    /// Throws InvalidArgument, too, for an exponent that is not above -1 or above 1000, and where the lowest link would be
+    /// left with no weight that T can hold. Accuracy and cost: chain/tapered_links.hpp.
+    static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
+        constexpr std::string_view place = "Chain::tapered";
+        if (!is_taper(exponent)) detail::refuse(place, "exponent must be above -1 and at most 1000", exponent);
+        Chain rods = repeated(place, count, length, weight, &uniform_rod<T>);
+        rods.taper_ = exponent;
+        if (exponent == 0) return rods;
+        const T link = rods.length_[0];
+        detail::TaperedLinks<T> links = detail::tapered_links<T>(count, link, exponent, weight);
+        if (!(links.weight[0] >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon()))
+            detail::refuse(place, "the lowest link is left with too little weight for this scalar by an exponent of",
+                           exponent);
+        return Chain(count, std::move(links.weight), link, std::move(links.centroid), std::move(links.gyration_ratio),
+                     exponent);
+    }
+    /// Whether a chain can taper so.
+    static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
+
+    /// The exponent of the line density, of a chain that `tapered` made (or a copy of it); nothing of others.
+    std::optional<double> taper() const { return taper_; }
 
     Index size() const { return size_; }
     Link<T> link(Index m) const { return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]}; }
@@ -92,7 +121,7 @@ class Chain {
         return units;
     }
 
-    /// The same links, however they are stored.
+    /// The same links, however they are stored or were made.
     friend bool operator==(const Chain& x, const Chain& y) {
         if (x.size_ != y.size_) return false;
         for (Index m = 0; m < std::max(x.distinct_links(), y.distinct_links()); ++m)
@@ -138,6 +167,7 @@ class Chain {
     T total_length_{};
     T largest_length_{};  // a or |h|
     bool one_weight_unit_ = true;
+    std::optional<double> taper_;  // the links' numbers cannot change, so that it stays true
 };
 
 namespace detail {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include "revchain/chain/chain.hpp"
@@ -38,10 +39,11 @@ struct Answer {
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
-    bool equal = false;     ///< one number of each kind serves all links
-    bool plummets = false;  ///< equal plummets
-    bool rods = false;      ///< equal uniform rods
-    double length = 0;      ///< of the whole chain
+    bool equal = false;           ///< one number of each kind serves all links
+    bool plummets = false;        ///< equal plummets
+    bool rods = false;            ///< equal uniform rods
+    double length = 0;            ///< of the whole chain
+    std::optional<double> taper;  ///< `Chain::taper`
 
    private:
     template <class V>
@@ -52,7 +54,7 @@ struct ChainKind {
 
    public:
     explicit ChainKind(const Chain<double>& chain)
-        : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()) {
+        : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()), taper(chain.taper()) {
         equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
                 is_one(chain.gyration_ratio());
         if (!equal) return;

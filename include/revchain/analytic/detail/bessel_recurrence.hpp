@@ -3,28 +3,15 @@
 
 #include <cmath>
 
-#include "revchain/analytic/detail/bessel_phase.hpp"
+#include "revchain/core/bessel_ratio.hpp"
 
 namespace revchain::analytic::detail {
 
-/// How many orders above `order` Miller's recurrence begins: what is left out is 1e-20 and less.
-inline Index steps_above(double order, double z) {
-    return static_cast<Index>(std::max(0.0, z - order) + 9 * std::cbrt(std::max(z, 1.0)) + 12);
-}
-
-/// J_order(z) / J_{order+1}(z) by Miller's recurrence in S, order > -1, z >= 2e-8. Cost: 3 ns a step in double, 15 ns
-/// in two doubles, z - order + 9 cbrt(z) + 12 steps.
-template <class S>
-S bessel_ratio(double order, double z) {
-    const S step = S(2.0) / S(z);
-    S above(0.0), here(1e-100);
-    for (Index n = steps_above(order, z); n > 0; --n) {
-        const S below = (S(order) + S(static_cast<double>(n))) * step * here - above;
-        above = here;
-        here = below;
-    }
-    return here / above;
-}
+using revchain::detail::bessel_ratio;
+using revchain::detail::PhaseSeries;
+using revchain::detail::steps_above;
+using revchain::detail::two_word_pi;
+using revchain::detail::TwoDoubles;
 
 /// Gamma(order+1) (z/2)^-order J_order(z), 1 at z = 0; -1 < order <= 1e4, z >= 0. Miller's recurrence with Neumann's
 /// sum for (z/2)^order, power series where that is short, phase and modulus far out.

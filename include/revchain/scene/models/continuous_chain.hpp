@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <array>
+#include <numbers>
+
 #include "revchain/core/zero_of_j0.hpp"
 #include "revchain/scene/model.hpp"
+#include "revchain/scene/models/straight_links.hpp"
 
 namespace revchain::models {
 
 /// The limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4 (9), (10).
-/// Error bound from how chains of N links tend to it, with J = J_1(j): of plummets (1/2)/N and the terms of order 1/N^2, of
-/// rods |q (1/24 J^2 - 1/12) - 1/24|/N^2, q = j^2/4. Measured: tests/cpp/scene/models.cpp. Cost: 5 ns a mode.
+/// From how chains of N links tend to it, with J = J_1(j): the error bound of plummets, (1/2)/N and the terms of order 1/N^2;
+/// of rods what is taken off, (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4, and the bound of what that leaves, of the order
+/// log N/N^4 (straight_links.hpp). Measured: tests/cpp/scene/models.cpp, tapered.cpp. Cost: 5 ns a mode, of rods 30.
 struct ContinuousChain {
     static constexpr std::string_view name = "continuous chain";
 
@@ -18,29 +23,42 @@ struct ContinuousChain {
         return {};
     }
     double error_bound(const ChainKind& kind, const Question& question) const {
-        return bound(kind, zero_of_j0(question.last()));
+        const double bound = answer(kind, question.last()).error_bound;
+        return kind.rods && question.first == 1 ? std::max(bound, answer(kind, 1).error_bound) : bound;
     }
-    double cost(const ChainKind&, const Question& question) const {
-        return 8e-8 + 1.2e-8 * static_cast<double>(question.count);
+    double cost(const ChainKind& kind, const Question& question) const {
+        return kind.rods ? 1.5e-7 + 2.8e-8 * static_cast<double>(question.count)
+                         : 8e-8 + 1.2e-8 * static_cast<double>(question.count);
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
-        Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
+        Answer all{Vector<double>(question.count), Vector<double>(question.count)};
         for (Index i = 0; i < question.count; ++i) {
-            const double j = zero_of_j0(question.first + i), half = j / 2;
-            answer.conical_height[i] = kind.length / (half * half);
-            answer.error_bound[i] = bound(kind, j);
+            const detail::Enclosed one = answer(kind, question.first + i);
+            all.conical_height[i] = one.height, all.error_bound[i] = one.error_bound;
         }
-        return answer;
+        return all;
     }
 
    private:
-    static double bound(const ChainKind& kind, double j) {
-        const double n = static_cast<double>(kind.size), rounding = 4 * epsilon<double>();
-        const double share = j / n;  // the wave's phase from link to link at the support
-        if (kind.plummets) return 0.5 / n + (share * share + 12 / (n * n)) / 48 * (1 + 0.25 * share * share) + rounding;
-        // 1/J_1(j)^2 < pi j/2 (1 + 3/(8 j^2))
-        const double q = j * j / 4, inverse = 1.5707963267948966 * j * (1 + 0.375 / (j * j));
-        return (q * inverse / 24 * (1 + share) + 0.05) / (n * n) + rounding;
+    static detail::Enclosed answer(const ChainKind& kind, Index k) {
+        const double n = static_cast<double>(kind.size), j = zero_of_j0(k), half = j / 2;
+        const double cord = kind.length / (half * half), rounding = 4 * epsilon<double>();
+        if (kind.plummets) {
+            const double share = j / n;  // the wave's phase from link to link at the support
+            return {cord, 0.5 / n + (share * share + 12 / (n * n)) / 48 * (1 + 0.25 * share * share) + rounding};
+        }
+        const double q = half * half, lost = (q * (inverse_square(k, j) / 24 - 1.0 / 12) - 1.0 / 24) / (n * n);
+        return detail::enclosed(cord, lost, detail::next_order(0, k, q / n), rounding);
+    }
+    /// 1/J_1(j)^2 at j = j_{0,k}, to 1e-12: pi j/2 and DLMF 10.18.17 far out.
+    static double inverse_square(Index k, double j) {
+        constexpr std::array<double, 8> first{3.7103806857094818, 8.6370599676731407, 13.571034317451809,
+                                              18.505642293256415, 23.440377479990542, 28.375150769745824,
+                                              33.309938538741463, 38.24473275582541};
+        if (k <= static_cast<Index>(first.size())) return first[static_cast<std::size_t>(k) - 1];
+        const double e = 1 / (j * j);
+        return std::numbers::pi / 2 * j *
+               (1 - e * (1.0 / 8 - e * (27.0 / 128 - e * (1125.0 / 1024 - e * (385875.0 / 32768)))));
     }
 };
 

@@ -7,15 +7,16 @@
 #include "revchain/scene/models/equal_plummets.hpp"
 #include "revchain/scene/models/finite_amplitude.hpp"
 #include "revchain/scene/models/numerical.hpp"
+#include "revchain/scene/models/tapered_chain.hpp"
 #include "revchain/scene/models/two_words.hpp"
 #include "revchain/scene/select.hpp"
 
 namespace revchain {
 
 /// All models for conical heights, in the order in which they are listed. The last always answers.
-inline constexpr std::tuple<models::ClosedForms, models::EqualPlummets, models::ContinuousChain, models::CoarseChain,
-                            models::SinglePrecision, models::AllTogether, models::Spectrum, models::Blocks,
-                            models::TwoWords, models::FiniteAmplitude, models::ElementBisection>
+inline constexpr std::tuple<models::ClosedForms, models::EqualPlummets, models::ContinuousChain, models::TaperedChain,
+                            models::CoarseChain, models::SinglePrecision, models::AllTogether, models::Spectrum,
+                            models::Blocks, models::TwoWords, models::FiniteAmplitude, models::ElementBisection>
     height_models{};
 
 /// `select` and `solve` among all of them.

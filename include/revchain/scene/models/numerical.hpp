@@ -80,7 +80,8 @@ struct ElementBisection {
     }
 };
 
-/// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp.
+/// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp. Links that hang from much lighter
+/// ones join into fewer blocks: of chains that are not said to taper, the cost is then up to 14 times what is predicted.
 struct Blocks {
     static constexpr std::string_view name = "compressed blocks";
     static constexpr double bound = 2 * std::numeric_limits<double>::epsilon();
@@ -93,7 +94,9 @@ struct Blocks {
     double error_bound(const ChainKind&, const Question&) const { return bound; }
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count);
-        return 3e-5 + 1.7e-9 * detail::real(kind.size) + 5e-5 * count * (1 + count / 20);
+        const double steep = std::max(0.0, kind.taper.value_or(0)), size = std::log(detail::real(kind.size)) / 6;
+        const double joins = steep > 0 ? 1.5e-4 * std::pow(steep, 0.6) * std::pow(size, 1.8) * std::sqrt(count) : 0;
+        return 3e-5 + 1.7e-9 * detail::real(kind.size) + 5e-5 * count * (1 + count / 20) + joins;
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         return detail::by(chain, question, ModesMethod::blocks, "blocks");

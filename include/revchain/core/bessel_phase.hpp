@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: MPL-2.0
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "revchain/core/double_double.hpp"
 
-namespace revchain::analytic::detail {
+namespace revchain::detail {
 
 using TwoDoubles = DoubleWord<double>;
 
@@ -55,4 +55,4 @@ class PhaseSeries {
     std::array<double, terms + 1> density_{}, lag_{};  // lag_[0] is not used
 };
 
-}  // namespace revchain::analytic::detail
+}  // namespace revchain::detail
