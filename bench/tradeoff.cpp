@@ -13,8 +13,8 @@
 // Where no shape of the mode leans so far (the heavy tip's third), no answer must be called a success.
 //
 // Exit status 1: an error above its bound; an answer of `solve` that is not a success or whose bound is above the tolerance,
-// though a model asked by its name keeps it; or a time in which the work cannot have been done. Last lines, on stderr: how good
-// choices were, and which models never pay.
+// though a model asked by its name keeps it; or a time in which the work cannot have been done. 2: an answer made wrong is not
+// found out. Last lines, on stderr: how good choices and predictions were, and who is the cheapest how often.
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -90,6 +90,16 @@ std::vector<Quad> truth_of(const Chain<double>& chain, Index count) {
     return truth;
 }
 
+/// Whether an answer three bounds off is found out.
+bool finds_a_wrong_answer() {
+    const auto chain = Chain<double>::uniform_rods(300);
+    Answer wrong = solve(chain, {.count = 3, .rtol = 1e-15}).answer;
+    wrong.conical_height[1] *= 1 - 3 * wrong.error_bound[1];
+    double share = 0;
+    error_of(wrong, truth_of(chain, 3), share);
+    return share > 1;
+}
+
 class Bench {
    public:
     explicit Bench(std::vector<double> tolerances) : tolerances_(std::move(tolerances)) {
@@ -132,8 +142,8 @@ class Bench {
         for (std::size_t i = 0; i < choice.estimates.size(); ++i) {
             const Estimate& estimate = choice.estimates[i];
             if (!estimate.fit.applies) continue;
-            const bool third = static_cast<int>(std::lround(-std::log10(question.rtol))) % 3 == 0;
-            if (estimate.cost > slow && estimate.cost <= patience && !third) continue;
+            const auto digits = std::lround(-std::log10(question.rtol));
+            if (estimate.cost > slow && estimate.cost <= patience && digits <= 15 && digits % 3 != 0) continue;
             Row row{estimate.name, estimate.cost, question.rtol, question.rtol, {{}, {}, false}};
             if (estimate.cost <= patience) {
                 const double start = bench::cpu_seconds();
@@ -158,7 +168,7 @@ class Bench {
         Row row{found.model, 0, question.rtol, question.rtol, {}};
         if (!(share <= 1))
             report(tally.violated, "error %.3g of the bound of solve: %s, %s, rtol %g", share, row, name);
-        if ((kept || choice.meets_tolerance) != (found.status == Status::success) ||
+        if ((kept && found.status != Status::success) ||
             (found.status == Status::success && !(found.answer.worst_bound() <= question.rtol)))
             report(tally.not_kept, "bound %.3g of solve: %s, %s, rtol %g", found.answer.worst_bound(), row, name);
         if (found.model != choice.estimates[choice.model].name) ++tally.fallen_back;
@@ -253,6 +263,7 @@ class Bench {
 
 int main(int argc, char** argv) {
     const bool quick = argc > 1 && std::strcmp(argv[1], "--quick") == 0;
+    if (!finds_a_wrong_answer()) return std::fputs("a wrong answer was not found out\n", stderr), 2;
     std::vector<double> tolerances;
     for (int digits = 0; digits <= 15; digits += quick ? 3 : 1) tolerances.push_back(std::pow(10.0, -digits));
     tolerances.insert(tolerances.end(), {1e-20, 1e-26});
@@ -275,8 +286,7 @@ int main(int argc, char** argv) {
                     if (static_cast<Index>(leaning.size()) == count)
                         bench.ask(family.name, chain, count, inclination, leaning);
                     else if (count <= size)
-                        std::fprintf(stderr, "no truth: %s,%td,%td,%g\n", family.name.c_str(), size, count,
-                                     inclination);
+                        bench.ask_in_vain(family.name, chain, count, inclination);
                 }
         }
     Tally& tally = bench.tally;

@@ -40,7 +40,8 @@ struct ElementBisection {
         // with a loose tolerance no double words, and a few halvings for each digit
         const bool loose = question.rtol > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
         const double each = loose ? 2e-8 + 4.5e-9 * std::max(0.0, -std::log10(question.rtol)) : 2.9e-7;
-        return 8e-7 + detail::real(kind.size) * (1.6e-7 + each * detail::real(question.count));
+        const double count = detail::real(question.count);
+        return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + each * count);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         return detail::by(chain, question, ModesMethod::bisection, "bisection");
