@@ -2,7 +2,7 @@
 """Pictures of what bench_tradeoff measured: python bench/plot_tradeoff.py results/tradeoff-DATE.csv [FOLDER]
 
 Writes tradeoff.png (kinds of chain by number of links) and tradeoff_readme.png (two of them, with words) into FOLDER, else
-beside the file. Needs matplotlib.
+beside the file, and prints the table of docs/models.md. Needs matplotlib.
 """
 
 import csv
@@ -35,6 +35,7 @@ STYLE = {
 }
 ROWS = (("equal plummets", 0.0), ("equal rods", 0.0), ("random rods", 0.0), ("heavy tip", 0.0), ("equal rods", 0.3))
 SIZES = ((5, 100, 1000, 100_000), (5, 10, 100, 1000))  # hanging straight; at an inclination
+TABLE = (1e-2, 1e-6, 1e-12, 1e-15, 1e-20)  # tolerances
 TITLE = {"heavy tip": "rods, weights $10^{12}$ … 1 upward"}
 # Where names stand in the picture for the README: points to the right and up, which end.
 ANNOTATED = {
@@ -224,6 +225,27 @@ def for_readme(points, source):
     return figure
 
 
+def table(points):
+    """The cheapest model that keeps a tolerance, and its time, as Markdown."""
+    chains = [(kind, links, 0.0) for kind in ("equal plummets", "equal rods", "random rods") for links in SIZES[0]]
+    chains += [(kind, 100, 0.3) for kind in ("equal rods", "random rods")]
+    lines = ["| three slowest modes of | " + " | ".join(f"to {rtol:g}" for rtol in TABLE) + " |", "|---" * 6 + "|"]
+    for kind, links, inclination in chains:
+        cells = [f"{links:,} {kind}" + (f", {inclination:g} rad" if inclination else "")]
+        for rtol in TABLE:
+            good = [point for point in points[kind, links, 3, inclination] if point.bound <= rtol]
+            best = min(good, key=lambda point: point.us, default=None)
+            cells.append(f"{best.model}, {time_text(best.us)}" if best else "-")
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def time_text(us):
+    """Two digits."""
+    number, unit = (us / 1e3, "ms") if us >= 1000 else (us, "µs")
+    return f"{float(f'{number:.2g}'):g} {unit}"
+
+
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
@@ -233,6 +255,7 @@ def main():
     source = "; ".join(comments[:3])
     save(every_kind(points, source), folder / "tradeoff.png")
     save(for_readme(points, source), folder / "tradeoff_readme.png")
+    print(table(points))
 
 
 if __name__ == "__main__":
