@@ -32,7 +32,7 @@ Chain<double> random_chain(Random& random, Index size, int kind) {
     return Chain<double>(links);
 }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string quoted(std::string_view text) { return std::string("\"").append(text).append("\""); }
 
 int costs() {
     Random random(7);

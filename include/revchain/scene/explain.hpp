@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <ios>
+#include <sstream>
 #include <string>
 
 #include "revchain/scene/select.hpp"
@@ -12,10 +13,11 @@ namespace revchain {
 
 namespace detail {
 
-inline std::string in_digits(const char* format, double x, const char* unit = "") {
-    std::array<char, 40> text{};
-    const int length = std::snprintf(text.data(), text.size(), format, x, unit);
-    return {text.data(), static_cast<std::size_t>(std::max(length, 0))};
+inline std::string bound_text(double bound) {
+    std::ostringstream text;
+    text.precision(1);
+    text << std::scientific << bound;
+    return text.str();
 }
 
 /// Seconds with the unit that suits them.
@@ -23,7 +25,10 @@ inline std::string time_text(double seconds) {
     constexpr std::array<std::pair<const char*, double>, 4> units{{{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
     std::size_t i = 0;
     while (i + 1 < units.size() && !(seconds >= units[i].second)) ++i;
-    return in_digits("%.3g %s", seconds / units[i].second, units[i].first);
+    std::ostringstream text;
+    text.precision(3);
+    text << seconds / units[i].second << ' ' << units[i].first;
+    return text.str();
 }
 
 }  // namespace detail
@@ -39,7 +44,7 @@ std::string explain(const Choice<N>& choice) {
         const Estimate& model = choice.estimates[i];
         Line& line = lines[i + 1] = {i == choice.model ? "->" : "", std::string(model.name), "-", "-", ""};
         if (model.fit.applies)
-            line[2] = detail::in_digits("%.1e", model.error_bound), line[3] = detail::time_text(model.cost);
+            line[2] = detail::bound_text(model.error_bound), line[3] = detail::time_text(model.cost);
         else
             line[4] = model.fit.reason;
     }

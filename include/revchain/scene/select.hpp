@@ -140,7 +140,7 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
     const auto choice = select(models, chain, question, time_budget);
     const double rtol = detail::goal(question), budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     std::array<bool, sizeof...(Models)> out{};
-    Solution best;
+    Solution best{{{}, {}, false}, {}, Status::tolerance_not_met};
     for (std::optional<std::size_t> model = choice.model; model;) {
         const std::string_view name = choice.estimates[*model].name;
         Answer answer = detail::asked(models, *model, chain, kind, question);
