@@ -420,7 +420,7 @@ def main():
     which.add_argument("--full", dest="plan", action="store_const", const=plans.FULL, default=plans.FULL,
                        help="everything, at the sizes of the targets, into bench/results/DATE/ (default)")
     which.add_argument("--quick", dest="plan", action="store_const", const=plans.QUICK,
-                       help="small sizes, under two minutes, into out/bench/")
+                       help="small sizes, some two minutes, into out/bench/")
     parser.add_argument("--into", type=Path, help="another folder for the results")
     parser.add_argument("--only", default="", help="tasks whose description contains this")
     options = parser.parse_args()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // What digits cost: every model by its name, over a grid of chains, modes, inclinations and tolerances, as CSV on stdout.
-//   bench_tradeoff [--quick]    three minutes; quick: small chains, every third tolerance
+//   bench_tradeoff [--quick]    two to three minutes; quick: a third of one, small chains, every third tolerance
 // A row is what a model answers to all tolerances from `loosest` to `tightest`, to which it does the same work: worst relative
 // error against the truth, worst error bound, predicted and measured microseconds of CPU time (median of rounds in which all
 // models take turns, in a new order each), and the tolerances at which `select` chooses it. A row without an error: no answer,
@@ -275,7 +275,7 @@ int main(int argc, char** argv) {
             const auto truth = truth_of(chain, std::min<Index>(size, 30));
             for (const Index count : {1, 3, 10, 30})
                 if (count <= size) bench.ask(family.name, chain, count, 0, truth);
-            if (size > 1000) continue;
+            if (size > (quick ? 100 : 1000)) continue;
             const bench::InclinedTruth at(chain);
             for (const double inclination : {0.01, 0.3, 1.0})
                 for (const Index count : {1, 3}) {
