@@ -317,7 +317,7 @@ def build():
     log = subprocess.run(configure, capture_output=True, text=True)
     if log.returncode:
         sys.exit(log.stdout + log.stderr)
-    targets = ["bench_worker", "bench_worker_native", "bench_convergence"]
+    targets = ["bench_worker", "bench_worker_native", "bench_convergence", "bench_models", "bench_tradeoff"]
     if has_batch():
         targets += ["bench_batch", "bench_batch_native"]
     if subprocess.run(["cmake", "--build", BUILD, "--target", *targets]).returncode:
@@ -369,6 +369,43 @@ def run_batch(folder):
     return rows, sum(table.count("broken") for table in tables.values())
 
 
+def run_models(plan, folder, about):
+    """What models cost beside what they say, how good choices among them are, and every model over a grid of questions:
+    rows for the table of targets, and how many bounds were violated or times too short for the work."""
+    def row(job, method, reached, target, verdict):
+        return dict(zip(COLUMNS, (job, method, "", reached, target, verdict, "", "", "", "")))
+
+    rows, broken = [], 0
+    table = folder / "tradeoff.csv"
+    program = [BUILD / "bench" / "bench_tradeoff", *([] if plan.final else ["--quick"])]
+    done = subprocess.run(program, capture_output=True, text=True)
+    head = "".join(f"# {line}\n" for line in ["SPDX-License-Identifier: MPL-2.0", *about[:3]])
+    table.write_text(head + done.stdout, encoding="utf-8")
+    (folder / "tradeoff.txt").write_text(done.stderr, encoding="utf-8")
+    broken += done.returncode != 0
+    rows.append(row("every model, all tolerances: error within its bound, bound within the tolerance", "solve_by",
+                    f"{done.stdout.count(chr(10)) - 1} answers", "all", "reached" if done.returncode == 0 else "MISSED"))
+    subprocess.run([sys.executable, ROOT / "bench" / "plot_tradeoff.py", table], check=True)
+    if not plan.final:
+        return rows, broken
+    for name, words in (("models", []), ("choices", ["choice", "1000"])):
+        done = subprocess.run([BUILD / "bench" / "bench_models", *words], capture_output=True, text=True)
+        (folder / f"{name}.csv").write_text(done.stdout, encoding="utf-8")
+        found = list(csv.DictReader(done.stdout.splitlines()))
+        if not found:
+            sys.exit(done.stderr)
+        if name == "models":
+            off = sum(not 1 / 3 <= float(entry["ratio"]) <= 3 for entry in found)
+            rows.append(row(f"{len(found)} times predicted, off by more than 3 x", "select", str(off), "0",
+                            "reached" if off == 0 else "MISSED"))
+        else:
+            good = sum(float(e["ratio"]) <= 2 or float(e["took_us"]) < 0.2 for e in found) / len(found)
+            broken += sum(not float(entry["error_over_bound"]) <= 1 for entry in found)
+            rows.append(row(f"{len(found)} random questions: within 2 x of the cheapest model", "select", f"{good:.1%}",
+                            "95 %", "reached" if good >= 0.95 else "MISSED"))
+    return rows, broken
+
+
 def write(folder, name, rows, comments):
     with (folder / name).open("w", newline="", encoding="utf-8") as file:
         file.writelines(f"# {line}\n" for line in ["SPDX-License-Identifier: MPL-2.0", *comments])
@@ -383,7 +420,7 @@ def main():
     which.add_argument("--full", dest="plan", action="store_const", const=plans.FULL, default=plans.FULL,
                        help="everything, at the sizes of the targets, into bench/results/DATE/ (default)")
     which.add_argument("--quick", dest="plan", action="store_const", const=plans.QUICK,
-                       help="small sizes, under two minutes, into out/bench/")
+                       help="small sizes, some two minutes, into out/bench/")
     parser.add_argument("--into", type=Path, help="another folder for the results")
     parser.add_argument("--only", default="", help="tasks whose description contains this")
     options = parser.parse_args()
@@ -409,10 +446,13 @@ def main():
         worker.stop()
 
     rows = [entry.row(bench.ns_per_cycle) for entry in bench.entries]
-    wanted, broken_batches = target_rows(bench), 0
+    wanted, broken_others = target_rows(bench), 0
     if plan.final and has_batch() and not options.only:
-        batch_rows, broken_batches = run_batch(folder)
+        batch_rows, broken_others = run_batch(folder)
         wanted += batch_rows
+    if not options.only:
+        model_rows, broken_models = run_models(plan, folder, about)
+        wanted, broken_others = wanted + model_rows, broken_others + broken_models
     write(folder, "measurements.csv", rows, about)
     write(folder, "targets.csv", wanted, about)
     results = {"heading": about, "plan": asdict(plan), "rows": rows,
@@ -428,8 +468,8 @@ def main():
             print(f"{entry.task}, {entry.method['name']} ({entry.worker.name}): {entry.status}")
     bad = [e for e in bench.entries
            if e.status.startswith("BROKEN") or (e.status != "ok" and e.method["family"] == "revchain")]
-    print(f"{len(rows)} measurements in {time.monotonic() - start:.0f} s, {len(bad) + broken_batches} broken; results in {folder}")
-    return 1 if bad or broken_batches else 0
+    print(f"{len(rows)} measurements in {time.monotonic() - start:.0f} s, {len(bad) + broken_others} broken; results in {folder}")
+    return 1 if bad or broken_others else 0
 
 
 if __name__ == "__main__":

@@ -21,19 +21,6 @@ using support::Random;
 
 double sink = 0;
 
-/// Seconds of CPU time of one call; short ones many times over.
-template <class F>
-double timed(const F& call) {
-    double start = bench::cpu_seconds();
-    call();
-    double took = bench::cpu_seconds() - start;
-    if (took > 2e-4) return took;
-    const int times = static_cast<int>(std::min(2e5, 2e-4 / std::max(took, 1e-9)) + 1);
-    start = bench::cpu_seconds();
-    for (int i = 0; i < times; ++i) call();
-    return (bench::cpu_seconds() - start) / times;
-}
-
 Chain<double> random_chain(Random& random, Index size, int kind) {
     if (kind == 0) return Chain<double>::uniform_rods(size, 2.0);
     if (kind == 1) return Chain<double>::uniform_plummets(size, 2.0);
@@ -46,7 +33,7 @@ Chain<double> random_chain(Random& random, Index size, int kind) {
     return Chain<double>(links);
 }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string quoted(std::string_view text) { return std::string("\"").append(text).append("\""); }
 
 int costs() {
     Random random(7);
@@ -67,7 +54,7 @@ int costs() {
                         std::vector<double> times;
                         bool found = true;
                         for (int round = 0; round < 3; ++round)
-                            times.push_back(timed([&] {
+                            times.push_back(bench::seconds_of([&] {
                                 const Solution s = solve_by(estimate.name, chain, question);
                                 found = s.answer.found;
                                 if (found) sink += s.answer.conical_height[0];
@@ -116,8 +103,8 @@ int choice(int count) {
                 if (!(solve_by(estimate.name, chain, question).status == Status::success)) continue;
                 std::vector<double> times;
                 for (int round = 0; round < 3; ++round)
-                    times.push_back(
-                        timed([&] { sink += solve_by(estimate.name, chain, question).answer.error_bound[0]; }));
+                    times.push_back(bench::seconds_of(
+                        [&] { sink += solve_by(estimate.name, chain, question).answer.error_bound[0]; }));
                 const double t = bench::median(times);
                 if (t < best) best = t, winner = estimate.name;
                 if (estimate.name == found.model) took = t;

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "revchain/scene/models/heights.hpp"
+#include "revchain/scene/models/all.hpp"
 
 namespace {
 
@@ -12,7 +12,8 @@ using revchain::Index;
 /// (name, reason or None, error bound, cost) of each model, the number chosen, whether it keeps the tolerance.
 py::tuple selected(const Chain& chain, Index first, Index count, double rtol, double inclination,
                    std::optional<double> time_budget) {
-    const auto choice = revchain::select(chain, {first, count, rtol, inclination}, time_budget);
+    const auto choice =
+        revchain::select(revchain::all_height_models, chain, {first, count, rtol, inclination}, time_budget);
     py::list rows;
     for (const revchain::Estimate& estimate : choice.estimates)
         rows.append(py::make_tuple(estimate.name,
@@ -34,7 +35,7 @@ py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol,
     revchain::Solution found;
     {
         const py::gil_scoped_release release;
-        found = revchain::solve(chain, {first, count, rtol, inclination}, time_budget);
+        found = revchain::solve(revchain::all_height_models, chain, {first, count, rtol, inclination}, time_budget);
     }
     return answered(found);
 }
@@ -45,7 +46,7 @@ py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, d
     revchain::Solution found;
     {
         const py::gil_scoped_release release;
-        found = revchain::solve_by(model, chain, {first, count, rtol, inclination});
+        found = revchain::solve_by(revchain::all_height_models, model, chain, {first, count, rtol, inclination});
     }
     return answered(found);
 }
@@ -55,7 +56,7 @@ py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, d
 void bind_models(py::module_& module) {
     py::list names;
     std::apply([&](const auto&... models) { (names.append(py::str(models.name.data(), models.name.size())), ...); },
-               revchain::height_models);
+               revchain::all_height_models);
     module.attr("MODELS") = py::tuple(names);
     module.def("select", &selected, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);
     module.def("solve", &solved_best, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);

@@ -140,7 +140,7 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
     const auto choice = select(models, chain, question, time_budget);
     const double rtol = detail::goal(question), budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     std::array<bool, sizeof...(Models)> out{};
-    Solution best;
+    Solution best{{{}, {}, false}, {}, Status::tolerance_not_met};
     for (std::optional<std::size_t> model = choice.model; model;) {
         const std::string_view name = choice.estimates[*model].name;
         Answer answer = detail::asked(models, *model, chain, kind, question);
@@ -153,6 +153,26 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
         if (model && !best.model.empty() && !(choice.estimates[*model].error_bound < best.answer.worst_bound())) break;
     }
     return best;
+}
+
+/// By the model of that name, whatever others would cost. No heights, and `tolerance_not_met`, where it does not apply or
+/// finds no answer; that status, too, where its bound is larger than the tolerance.
+/// Throws InvalidArgument as `select`, and for a name that no model has.
+template <Model... Models>
+Solution solve_by(const std::tuple<Models...>& models, std::string_view model, const Chain<double>& chain,
+                  const Question& question) {
+    const ChainKind kind(chain);
+    detail::check(kind, question);
+    const auto estimates = detail::estimates(models, kind, question);
+    for (std::size_t i = 0; i < estimates.size(); ++i) {
+        if (estimates[i].name != model) continue;
+        Solution found{{{}, {}, false}, estimates[i].name, Status::tolerance_not_met};
+        if (!estimates[i].fit.applies) return found;
+        found.answer = detail::asked(models, i, chain, kind, question);
+        if (found.answer.worst_bound() <= detail::goal(question)) found.status = Status::success;
+        return found;
+    }
+    detail::refuse("solve_by", "there is no model " + std::string(model));
 }
 
 }  // namespace revchain

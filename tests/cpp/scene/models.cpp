@@ -255,3 +255,18 @@ TEST_CASE("at an inclination: the theory of small ones is off by no more than it
     CHECK_THROWS_AS(select(unlike, {.inclination = 1.6}), InvalidArgument);
     CHECK_THROWS_AS(select(unlike, {.inclination = -0.1}), InvalidArgument);
 }
+
+TEST_CASE("no shape of the mode leans so far: no heights, and no success") {
+    // all but the tip weighs next to nothing, and in the third mode hardly moves it: the links above would have to lean more
+    // than a right angle
+    std::vector<Link<double>> links;
+    for (const double weight : {1e12, 1e9, 1e6, 1e3, 1.0}) links.push_back(uniform_rod(weight, 1.0));
+    const Chain<double> chain(links);
+    for (const double rtol : {1.0, 1e-6, 0.0}) {
+        const Solution found = solve(chain, {.first = 3, .rtol = rtol, .inclination = 0.3});
+        CHECK(found.status == Status::tolerance_not_met);
+        CHECK(found.answer.conical_height.size() == 0);
+        CHECK(!found.answer.found);
+        CHECK(found.model.empty());
+    }
+}

@@ -29,22 +29,8 @@ inline Solution solve(const Chain<double>& chain, const Question& question,
     return solve(height_models, chain, question, time_budget);
 }
 
-/// By the model of that name, whatever others would cost. No heights, and `tolerance_not_met`, where it does not apply or
-/// finds no answer; that status, too, where its bound is larger than the tolerance.
-/// Throws InvalidArgument as `select`, and for a name that no model has.
 inline Solution solve_by(std::string_view model, const Chain<double>& chain, const Question& question) {
-    const ChainKind kind(chain);
-    detail::check(kind, question);
-    const auto estimates = detail::estimates(height_models, kind, question);
-    for (std::size_t i = 0; i < estimates.size(); ++i) {
-        if (estimates[i].name != model) continue;
-        Solution found{{{}, {}, false}, estimates[i].name, Status::tolerance_not_met};
-        if (!estimates[i].fit.applies) return found;
-        found.answer = detail::asked(height_models, i, chain, kind, question);
-        if (found.answer.worst_bound() <= detail::goal(question)) found.status = Status::success;
-        return found;
-    }
-    detail::refuse("solve_by", "there is no model " + std::string(model));
+    return solve_by(height_models, model, chain, question);
 }
 
 }  // namespace revchain

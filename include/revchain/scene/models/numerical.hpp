@@ -46,7 +46,7 @@ struct SinglePrecision {
         return std::max(std::min(question.rtol, 0.5), 1e-8 * (100 + detail::real(kind.size)));
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        return 3.5e-7 +
+        return 2.5e-7 + 2e-7 * detail::real(question.count) +
                detail::real(kind.size) * detail::loose_cost(error_bound(kind, question), question.count, 5.7e-9);
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
@@ -71,9 +71,11 @@ struct ElementBisection {
     Fit applies(const ChainKind&, const Question&) const { return {}; }
     double error_bound(const ChainKind&, const Question&) const { return bound; }
     double cost(const ChainKind& kind, const Question& question) const {
+        const double count = detail::real(question.count);
         if (question.rtol > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size))
-            return 5e-7 + detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9);
-        return 8e-7 + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * detail::real(question.count));
+            return 3e-7 + 2e-7 * count +
+                   detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9);
+        return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         return detail::by(chain, question, ModesMethod::bisection, "bisection");
