@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string>
 
-#include "revchain/scene/models/heights.hpp"
+#include "revchain/scene/models/all.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"
 
@@ -27,8 +27,9 @@ Chain<double> random_chain(Random& random, Index size, int kind) {
     if (kind == 4) return Chain<double>::tapered(size, 2.0, random.between(-0.9, 9));
     std::vector<Link<double>> links;
     for (Index m = 0; m < size; ++m) {
-        const double W = random.between(0.5, 2), a = random.between(0.5, 2);
-        links.push_back(kind == 2 ? uniform_rod(W, a) : plummet(W, a));
+        const double a = kind < 5 ? random.between(0.5, 2) : 1;
+        const double W = kind < 5 ? random.between(0.5, 2) : support::graded(kind == 5 ? m : size - 1 - m, size, 1e12);
+        links.push_back(kind == 2 || kind == 5 ? uniform_rod(W, a) : plummet(W, a));
     }
     return Chain<double>(links);
 }
@@ -40,14 +41,14 @@ int costs() {
     int bad = 0;
     std::printf("model,links,first,count,rtol,predicted_us,measured_us,ratio\n");
     for (const Index size : {1, 2, 5, 10, 20, 50, 100, 300, 1000, 5000, 30'000, 200'000}) {
-        for (const int kind : {0, 1, 2, 3, 4}) {
+        for (const int kind : {0, 1, 2, 3, 4, 5, 6}) {
             const Chain<double> chain = random_chain(random, size, kind);
             const ChainKind known(chain);
             for (const Index count : {1, 3, 10, 40}) {
                 if (count > chain.mode_count() || (count > 10 && size > 5000)) continue;
                 for (const double rtol : {1e-2, 1e-5, 1e-13, 0.0}) {
                     const Question question{1, count, rtol};
-                    const auto choice = select(chain, question);
+                    const auto choice = select(all_height_models, chain, question);
                     for (const Estimate& estimate : choice.estimates) {
                         if (!estimate.fit.applies || estimate.cost > 0.5) continue;
                         if (kind < 2 && estimate.name == models::ElementBisection::name && size > 1000) continue;
@@ -55,7 +56,7 @@ int costs() {
                         bool found = true;
                         for (int round = 0; round < 3; ++round)
                             times.push_back(bench::seconds_of([&] {
-                                const Solution s = solve_by(estimate.name, chain, question);
+                                const Solution s = solve_by(all_height_models, estimate.name, chain, question);
                                 found = s.answer.found;
                                 if (found) sink += s.answer.conical_height[0];
                             }));
@@ -88,8 +89,8 @@ int choice(int count) {
         const Modes<double> truth = modes(chain, {.first = first, .count = many, .shapes = false});
         for (const double rtol : {1.0, 0.1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15}) {
             const Question question{first, many, rtol};
-            const auto chosen = select(chain, question);
-            const Solution found = solve(chain, question);
+            const auto chosen = select(all_height_models, chain, question);
+            const Solution found = solve(all_height_models, chain, question);
             double share = 0;
             for (Index j = 0; j < many; ++j)
                 share =
@@ -100,11 +101,12 @@ int choice(int count) {
             std::string_view winner;
             for (const Estimate& estimate : chosen.estimates) {
                 if (!estimate.fit.applies || estimate.cost > 20 * chosen.estimates[chosen.model].cost + 1e-6) continue;
-                if (!(solve_by(estimate.name, chain, question).status == Status::success)) continue;
+                if (!(solve_by(all_height_models, estimate.name, chain, question).status == Status::success)) continue;
                 std::vector<double> times;
                 for (int round = 0; round < 3; ++round)
-                    times.push_back(bench::seconds_of(
-                        [&] { sink += solve_by(estimate.name, chain, question).answer.error_bound[0]; }));
+                    times.push_back(bench::seconds_of([&] {
+                        sink += solve_by(all_height_models, estimate.name, chain, question).answer.error_bound[0];
+                    }));
                 const double t = bench::median(times);
                 if (t < best) best = t, winner = estimate.name;
                 if (estimate.name == found.model) took = t;

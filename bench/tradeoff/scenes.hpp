@@ -31,16 +31,7 @@ inline std::vector<support::Family> tradeoff_families() {
          [](Index n) {
              return chain_of(n, [n](Index m) { return revchain::uniform_rod(graded(n - 1 - m, n, 1e12), 1.0); });
          }},
-        // a cord as thick as it is high above its end, in straight pieces
-        {"tapered rods",
-         [](Index n) {
-             return chain_of(n, [](Index m) {
-                 const double top = static_cast<double>(m + 1), weight = 2 * top - 1;
-                 const double h = (top - 2.0 / 3) / weight, square = (2 * top / 3 - 0.5) / weight;
-                 return revchain::compound_pendulum<double>(
-                     {.weight = weight, .length = 1, .centroid = h, .radius_of_gyration = std::sqrt(square - h * h)});
-             });
-         }},
+        {"tapered rods", [](Index n) { return Chain<double>::tapered(n, 1.0, 1.0); }},
     };
 }
 

@@ -43,6 +43,7 @@ def test_every_model_by_its_name():
         "Laguerre asymptotics",
         "continuous chain",
         "coarse chain",
+        "single precision",
         "compressed blocks",
         "element bisection",
     }

@@ -517,8 +517,10 @@ LARGE = (GYROSTAT, {"support.stiffness": {"uniform": [1.0, 300.0]}})
 
 def kept(folder="a.csv.partial"):
     """The records of a journal: beginnings and ends of stretches, as they lie there."""
-    path = Path(folder, "index")
-    data = path.read_bytes() if path.exists() else b""
+    try:
+        data = Path(folder, "index").read_bytes()
+    except FileNotFoundError:  # not yet, or no longer: the output stands
+        data = b""
     return [struct.unpack_from("<QQ", data, place) for place in range(0, len(data) - 23, 24)]
 
 

@@ -75,9 +75,9 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
                                              Finished finished) {
     const auto pencil = plain_pencil(chain);
     if (!pencil) return std::nullopt;
-    // Brackets leave an eighth of the goal on either side to the counts' roundings.
+    // Brackets leave a quarter of the goal on either side to the counts' roundings.
     const auto brackets =
-        linalg::bisect(linalg::rounded<P>(*pencil), range.first - 1, range.count, static_cast<P>(0.75 * goal),
+        linalg::bisect(linalg::rounded<P>(*pencil), range.first - 1, range.count, static_cast<P>(0.5 * goal),
                        static_cast<P>(std::ldexp(chain.total_length(), -chain.units().length_exponent)), finished);
     Heights<double> result{{}, "bisection"};
     result.height.reserve(brackets.size());

@@ -35,7 +35,8 @@ struct Answer {
     }
 };
 
-/// What the models have to know of a chain at once. Cost O(1), but of equal links stored one by one, which are compared.
+/// What the models have to know of a chain at once. Cost O(log N), but of equal links stored one by one,
+/// which are compared.
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
@@ -44,6 +45,8 @@ struct ChainKind {
     bool rods = false;            ///< equal uniform rods
     double length = 0;            ///< of the whole chain
     std::optional<double> taper;  ///< `Chain::taper`
+    double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
+    Index light = 0;    ///< links at the top that weigh less than 2e-14 of what hangs below them, about
 
    private:
     template <class V>
@@ -52,9 +55,30 @@ struct ChainKind {
         return std::all_of(numbers, numbers + column.stored(), [&](const V& x) { return x == numbers[0]; });
     }
 
+    /// As if they grew lighter upwards: a search among the sums at hand.
+    static Index light_links(const Chain<double>& chain) {
+        const auto& below = chain.partial_weights();
+        if (below.size() < 3) return 0;
+        std::size_t first = 1, last = below.size() - 1;
+        while (first < last) {
+            const std::size_t middle = (first + last) / 2;
+            const double weight = static_cast<double>(below[middle + 1] - below[middle]);
+            if (weight < 2e-14 * segment_size * static_cast<double>(below[middle]))
+                last = middle;
+            else
+                first = middle + 1;
+        }
+        return std::max<Index>(0, chain.size() - static_cast<Index>(first) * segment_size);
+    }
+
    public:
     explicit ChainKind(const Chain<double>& chain)
         : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()), taper(chain.taper()) {
+        if (size >= segment_size) {
+            const double half = static_cast<double>(chain.weight_below(size / 2));
+            growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
+        }
+        light = light_links(chain);
         equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
                 is_one(chain.gyration_ratio());
         if (!equal) return;

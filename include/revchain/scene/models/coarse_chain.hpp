@@ -28,7 +28,9 @@ struct CoarseChain {
     /// As asked: unlike links may need groups of one.
     double error_bound(const ChainKind&, const Question& question) const { return goal(question); }
     double cost(const ChainKind& kind, const Question& question) const {
-        return 6e-7 + 1.7e-8 * detail::real(kind.size) +
+        // the first guess is that of like links
+        const double attempts = 1 + std::clamp(kind.growth / 10, 0.0, 1.0);
+        return 6e-7 + attempts * 1.7e-8 * detail::real(kind.size) +
                groups(question) * detail::loose_cost(0.2 * goal(question), question.count, 7e-9);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {

@@ -26,7 +26,7 @@ struct EqualPlummets {
         return bound(terms(kind, question.last()));
     }
     double cost(const ChainKind&, const Question& question) const {
-        return 9e-8 + 1.6e-8 * static_cast<double>(question.count);
+        return 1.1e-7 + 2e-8 * static_cast<double>(question.count);
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};

@@ -82,8 +82,8 @@ struct ElementBisection {
     }
 };
 
-/// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp. Links that hang from much lighter
-/// ones join into fewer blocks: of chains that are not said to taper, the cost is then up to 14 times what is predicted.
+/// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp. Links that weigh next
+/// to nothing beside what hangs below them join one by one.
 struct Blocks {
     static constexpr std::string_view name = "compressed blocks";
     static constexpr double bound = 2 * std::numeric_limits<double>::epsilon();
@@ -96,9 +96,10 @@ struct Blocks {
     double error_bound(const ChainKind&, const Question&) const { return bound; }
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count);
-        const double steep = std::max(0.0, kind.taper.value_or(0)), size = std::log(detail::real(kind.size)) / 6;
-        const double joins = steep > 0 ? 1.5e-4 * std::pow(steep, 0.6) * std::pow(size, 1.8) * std::sqrt(count) : 0;
-        return 3e-5 + 1.7e-9 * detail::real(kind.size) + 5e-5 * count * (1 + count / 20) + joins;
+        // light above: little to condense; light below: waves as short as there, and many blocks
+        const double few = kind.growth < -5 && kind.size < 2000 ? 0.35 : 1;
+        return 3e-5 + 1.7e-9 * detail::real(kind.size) + 3e-7 * detail::real(kind.light) +
+               2e-5 * std::max(0.0, kind.growth) + 5e-5 * few * count * (1 + count / 20);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         return detail::by(chain, question, ModesMethod::blocks, "blocks");
@@ -118,7 +119,7 @@ struct AllTogether {
     double error_bound(const ChainKind&, const Question&) const { return bound; }
     double cost(const ChainKind& kind, const Question&) const {
         const double n = detail::real(kind.size);
-        return 4e-7 + 2.6e-8 * n + 4e-9 * n * n;
+        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n;
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         Question loose = question;
