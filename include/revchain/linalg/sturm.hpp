@@ -42,16 +42,17 @@ template <std::floating_point T, std::size_t L>
 std::array<Index, L> count_above_in_packs(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
     return simd([&](auto registers) __attribute__((always_inline)) {
         constexpr std::size_t width = std::min<std::size_t>(32, decltype(registers)::bytes) / sizeof(T);
-        using V = Pack<T, width, L / width>;
-        const V shift = V::load(shifts.data()), least(least_pivot<T>()), square(epsilon<T>() * epsilon<T>());
-        V below{};
-        typename V::Mask negative{};
+        using Packed = Pack<T, width, L / width>;
+        const Packed shift = Packed::load(shifts.data()), least(least_pivot<T>()), square(epsilon<T>() * epsilon<T>());
+        Packed below{};
+        typename Packed::Mask negative{};
         for (const Element<T>& e : pencil.elements) {
-            const V stiffness = shift * V(e.stiffness);
-            const V sum = below + (stiffness - V(e.lower));
-            const V pivot = select(abs(sum) < least, stiffness * square + least, sum);  // `not_zero`
-            negative += pivot < V{};
-            below = ((stiffness - V(e.upper)) * below - (stiffness - V(e.turning)) * V(e.weight)) / pivot;
+            const Packed stiffness = shift * Packed(e.stiffness);
+            const Packed sum = below + (stiffness - Packed(e.lower));
+            const Packed pivot = select(abs(sum) < least, stiffness * square + least, sum);  // `not_zero`
+            negative += pivot < Packed{};
+            below =
+                ((stiffness - Packed(e.upper)) * below - (stiffness - Packed(e.turning)) * Packed(e.weight)) / pivot;
         }
         std::array<Index, L> above;
         for (std::size_t i = 0; i < L; ++i) above[i] = -static_cast<Index>(negative[i]);
