@@ -74,14 +74,16 @@ struct ChainKind {
    public:
     explicit ChainKind(const Chain<double>& chain)
         : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()), taper(chain.taper()) {
-        if (size >= segment_size) {
-            const double half = static_cast<double>(chain.weight_below(size / 2));
-            growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
-        }
-        light = light_links(chain);
         equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
                 is_one(chain.gyration_ratio());
-        if (!equal) return;
+        if (!equal) {
+            if (size >= segment_size) {
+                const double half = static_cast<double>(chain.weight_below(size / 2));
+                growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
+            }
+            light = light_links(chain);
+            return;
+        }
         const Link<double> link = chain.link(0);
         plummets = link == plummet(link.weight, link.length);
         rods = link == uniform_rod(link.weight, link.length);

@@ -29,8 +29,8 @@ struct CoarseChain {
     double error_bound(const ChainKind&, const Question& question) const { return goal(question); }
     double cost(const ChainKind& kind, const Question& question) const {
         // the first guess is that of like links
-        const double attempts = 1 + std::clamp(kind.growth / 10, 0.0, 1.0);
-        return 6e-7 + attempts * 1.7e-8 * detail::real(kind.size) +
+        const double attempts = 1 + std::clamp(kind.growth / 30, 0.0, 0.5);
+        return 6e-7 + attempts * 1.5e-8 * detail::real(kind.size) +
                groups(question) * detail::loose_cost(0.2 * goal(question), question.count, 7e-9);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {

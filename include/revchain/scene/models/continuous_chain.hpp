@@ -28,7 +28,7 @@ struct ContinuousChain {
     }
     double cost(const ChainKind& kind, const Question& question) const {
         return kind.rods ? 1.5e-7 + 2.8e-8 * static_cast<double>(question.count)
-                         : 8e-8 + 1.2e-8 * static_cast<double>(question.count);
+                         : 1.2e-7 + 1.2e-8 * static_cast<double>(question.count);
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
         Answer all{Vector<double>(question.count), Vector<double>(question.count)};

@@ -28,7 +28,7 @@ struct Dense {
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double n = detail::real(kind.size);
-        return 6e-7 + n * (1.5e-7 + 5e-7 * detail::real(question.count) + n * (3e-8 + n * 1.4e-9));
+        return 6e-7 + n * (1.5e-7 + 6e-7 * detail::real(question.count) + n * (3e-8 + n * 1.4e-9));
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         const revchain::detail::Pencils<double> pencils(chain);
