@@ -97,6 +97,10 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
     const auto ask = [&]<class M>(const M& model) {
         if (i++ != number) return;
         answer = model.solve(chain, kind, question);
+        constexpr double least = std::numeric_limits<double>::denorm_min();
+        for (Index j = 0; j < answer.conical_height.size(); ++j)  // what a number below the normal ones cannot hold
+            if (!(answer.conical_height[j] >= std::numeric_limits<double>::min()))
+                answer.error_bound[j] += 4 * least / std::max(0.0, answer.conical_height[j]);
         if (!is_linear<M>() || !(question.inclination > 0)) return;
         const double off = error_of_small_inclinations(kind, question);
         for (double& bound : answer.error_bound) bound += off * (1 + bound);

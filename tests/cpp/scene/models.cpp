@@ -211,6 +211,31 @@ TEST_CASE("any chain, any tolerance: a model that keeps it, or it is said") {
     CHECK(chosen.size() >= 6);
 }
 
+TEST_CASE("bounds found are no larger than those foreseen, of every model") {
+    Random random(37);
+    double least = 1;
+    for (int i = 0; i < 200; ++i) {
+        const Index size = static_cast<Index>(random.log_between(1, 2000));
+        const Chain<double> chain = i % 3 == 0 ? Chain<double>::uniform_plummets(size) : random_chain(random, size);
+        const ChainKind kind(chain);
+        for (const double rtol : {0.0, 1e-14, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 2.0}) {
+            const Question question{.count = std::min<Index>(chain.mode_count(), 1 + i % 12), .rtol = rtol};
+            const auto check = [&](const auto& model) {
+                if (!model.applies(kind, question).applies) return;
+                const Answer answer = model.solve(chain, kind, question);
+                if (!answer.found) return;
+                CAPTURE(model.name, i, size, rtol);
+                const bool most = model.name == models::AllTogether::name || model.name == models::Spectrum::name;
+                const double slack = most ? 30 : 1 + 1e-12;  // foreseen of most chains
+                REQUIRE(answer.worst_bound() <= model.error_bound(kind, question) * slack);
+                if (rtol >= 1e-3) least = std::min(least, answer.worst_bound() / rtol);
+            };
+            std::apply([&](const auto&... models) { (check(models), ...); }, height_models);
+        }
+    }
+    CHECK(least < 1e-9);  // some give more than they are asked for
+}
+
 TEST_CASE("a budget of time, what cannot be had, and wrong questions") {
     const auto rods = Chain<double>::uniform_rods(100'000);
     const Choice quick = select(rods, {.count = 3, .rtol = 5e-16}, 1e-6);
@@ -298,6 +323,26 @@ TEST_CASE("no shape of the mode leans so far: no heights, and no success") {
         CHECK(found.answer.conical_height.size() == 0);
         CHECK(!found.answer.found);
         CHECK(found.model.empty());
+    }
+}
+
+TEST_CASE("heights below the normal numbers: bounds say what is lost") {
+    const auto unit = Chain<double>::uniform_plummets(64, 64.0), rods = Chain<double>::uniform_rods(64, 64.0);
+    for (const bool plummets : {false, true}) {
+        const auto tiny =
+            plummets ? Chain<double>::uniform_plummets(64, 0x1p-1054) : Chain<double>::uniform_rods(64, 0x1p-1054);
+        const Modes<double> truth = modes(plummets ? unit : rods, {.count = 3, .shapes = false});
+        const auto check = [&](const auto& model) {
+            for (const double rtol : {1e-2, 1e-6, 0.0}) {
+                const Solution found = solve_by(model.name, tiny, {.count = 3, .rtol = rtol});
+                CAPTURE(model.name, plummets, rtol);
+                for (Index j = 0; j < found.answer.conical_height.size(); ++j) {
+                    const double height = std::ldexp(found.answer.conical_height[j], 1060);
+                    REQUIRE(std::abs(height / truth.conical_height[j] - 1) <= found.answer.error_bound[j] + 2e-16);
+                }
+            }
+        };
+        std::apply([&](const auto&... models) { (check(models), ...); }, height_models);
     }
 }
 
