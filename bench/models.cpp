@@ -27,6 +27,14 @@ Chain<double> random_chain(Random& random, Index size, int kind) {
     if (kind == 4) return Chain<double>::tapered(size, 2.0, random.between(-0.9, 9));
     std::vector<Link<double>> links;
     for (Index m = 0; m < size; ++m) {
+        if (kind == 7) {  // bodies of any kind
+            const double a = random.log_between(0.1, 10);
+            links.push_back(compound_pendulum<double>({.weight = random.log_between(0.01, 100),
+                                                       .length = a,
+                                                       .centroid = a * random.between(0.05, 1.3),
+                                                       .radius_of_gyration = a * random.between(0, 1.5)}));
+            continue;
+        }
         const double a = kind < 5 ? random.between(0.5, 2) : 1;
         const double W = kind < 5 ? random.between(0.5, 2) : support::graded(kind == 5 ? m : size - 1 - m, size, 1e12);
         links.push_back(kind == 2 || kind == 5 ? uniform_rod(W, a) : plummet(W, a));
@@ -41,7 +49,7 @@ int costs() {
     int bad = 0;
     std::printf("model,links,first,count,rtol,predicted_us,measured_us,ratio\n");
     for (const Index size : {1, 2, 5, 10, 20, 50, 100, 300, 1000, 5000, 30'000, 200'000}) {
-        for (const int kind : {0, 1, 2, 3, 4, 5, 6}) {
+        for (const int kind : {0, 1, 2, 3, 4, 5, 6, 7}) {
             const Chain<double> chain = random_chain(random, size, kind);
             const ChainKind known(chain);
             for (const Index count : {1, 3, 10, 40}) {
@@ -85,7 +93,7 @@ int choice(int count) {
     std::printf("links,kind,first,count,rtol,model,took_us,best_model,best_us,ratio,error_over_bound\n");
     for (int i = 0; i < count; ++i) {
         const Index size = static_cast<Index>(random.log_between(1, 20'000));
-        const int kind = static_cast<int>(random.between(0, 7));
+        const int kind = static_cast<int>(random.between(0, 8));
         const Chain<double> chain = random_chain(random, size, kind);
         const Index most = std::min<Index>(chain.mode_count(), 20);
         const Index first = 1 + static_cast<Index>(random.between(0, 0.999 * static_cast<double>(most)));

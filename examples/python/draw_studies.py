@@ -46,5 +46,5 @@ for k, name in enumerate(("first", "second")):
     scatter.hist(deviation, bins, density=True, histtype="step", color=COLOURS[k], label=f"{name} mode")
     print(f"crane, {name} mode: period {periods.mean():.3f} s, deviation {periods.std():.3f} s")
 scatter.set(title="A crane known to some per cent", xlabel="period, % from its mean", ylabel="of 20,000 cranes, 1/%")
-scatter.legend(loc="upper right")
+scatter.legend(loc="upper left", frameon=False, fontsize="small")
 save(figure, "studies")

@@ -167,9 +167,8 @@ def explain(
         print(title)
         print(why)
     if not why.meets_tolerance:
-        raise Stop(
-            f"no model keeps the tolerance; the best bound is {why.chosen.error_bound:.1e}", ExitCode.TOLERANCE_NOT_MET
-        )
+        best = f"keeps the tolerance; the best bound is {why.chosen.error_bound:.1e}" if why.chosen else "applies"
+        raise Stop(f"no model {best}", ExitCode.TOLERANCE_NOT_MET)
 
 
 @app.command()

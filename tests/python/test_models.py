@@ -77,6 +77,23 @@ def test_at_an_inclination():
         rc.solve(chain, inclination=1.6)
 
 
+def test_no_model_applies():
+    threads = rc.Chain(weight=[1.0, 0.0, 1.0, 2.0], length=1.0)
+    why = rc.explain(threads, 3, rtol=1e-3, inclination=0.3)
+    assert why.chosen is None and not why.meets_tolerance and "->" not in repr(why)
+    found = rc.solve(threads, 3, rtol=1e-3, inclination=0.3)
+    assert len(found) == 0 and found.model == "" and found.status == "tolerance_not_met"
+    assert repr(found) == "Solution: 0 heights, no model has an answer, tolerance not met"
+
+
+def test_the_command_where_no_model_applies(capsys, tmp_path):
+    path = tmp_path / "threads.toml"
+    links = "\n".join(f"[[links]]\nmass = {mass}\nlength = 1" for mass in (1, 0, 1, 2))
+    path.write_text(f"{links}\n[ask]\nmodes = 3\n")
+    assert _cli.run(["explain", str(path), "--inclination", "0.3"]) == 1
+    assert "no model applies" in capsys.readouterr().err
+
+
 def test_a_budget_of_time():
     why = rc.explain(RODS, rtol=1e-15, time_budget=1e-6)
     assert not why.meets_tolerance and why.chosen.name == "continuous chain" and "no model keeps it" in repr(why)
@@ -96,6 +113,9 @@ def test_scenes_and_rigs():
     found = rc.solve(rig, 2, rtol=1e-9)
     assert np.array_equal(found.conical_height, rc.modes(rig, 2).conical_height) and found.status == "success"
     assert [row.chosen for row in rc.explain(rig).rows] == [True]
+    wheels = rc.Rig(UNLIKE, **rc.free_flywheel(weight=1.0, radius_of_gyration=0.3, spin=30.0))
+    for one in (rig, wheels):
+        assert rc.solve(one, 2).error_bound.max() <= rc.explain(one, 2).chosen.error_bound
     assert rc.solve(rig, model=found.model) == rc.solve(rig)
     with pytest.raises(ValueError, match="model must be 'rig, by counts or discs' for a Rig, got 'closed forms'"):
         rc.solve(rig, model="closed forms")

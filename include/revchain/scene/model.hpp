@@ -36,15 +36,16 @@ struct Answer {
 };
 
 /// What the models have to know of a chain at once. Cost O(log N), but of equal links stored one by one,
-/// which are compared.
+/// and of at most 100 links, which are looked at.
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
-    bool equal = false;           ///< one number of each kind serves all links
-    bool plummets = false;        ///< equal plummets
-    bool rods = false;            ///< equal uniform rods
-    double length = 0;            ///< of the whole chain
-    std::optional<double> taper;  ///< `Chain::taper`
+    bool equal = false;            ///< one number of each kind serves all links
+    bool plummets = false;         ///< equal plummets
+    bool rods = false;             ///< equal uniform rods
+    double length = 0;             ///< of the whole chain
+    std::optional<double> taper;   ///< `Chain::taper`
+    bool short_pendulums = false;  ///< of at most 100 links: all plummets, or all pendulum lengths below the links'
     double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
     Index light = 0;    ///< links at the top that weigh less than 2e-14 of what hangs below them, about
 
@@ -55,6 +56,15 @@ struct ChainKind {
         return std::all_of(numbers, numbers + column.stored(), [&](const V& x) { return x == numbers[0]; });
     }
 
+    static bool has_short_pendulums(const Chain<double>& chain) {
+        bool plummets = true, shorter = true;
+        for (Index m = 0; m < chain.size() && (plummets || shorter); ++m) {
+            const double a = chain.length()[m], p = chain.centroid()[m] / a, r = chain.gyration_ratio()[m].high;
+            plummets = plummets && p == 1 && r == 0;
+            shorter = shorter && r > 0 && p * (1 - p) > r;
+        }
+        return plummets || shorter;
+    }
     /// As if they grew lighter upwards: a search among the sums at hand.
     static Index light_links(const Chain<double>& chain) {
         const auto& below = chain.partial_weights();
@@ -76,6 +86,7 @@ struct ChainKind {
         : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()), taper(chain.taper()) {
         equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
                 is_one(chain.gyration_ratio());
+        if (size <= 100) short_pendulums = has_short_pendulums(chain);
         if (!equal) {
             if (size >= segment_size) {
                 const double half = static_cast<double>(chain.weight_below(size / 2));

@@ -22,8 +22,8 @@ struct Estimate {
     double cost = std::numeric_limits<double>::infinity();         ///< seconds, predicted
 };
 
-/// What `select` chose: `model` is an index into `estimates`. `meets_tolerance` false: none does (within the budget), and
-/// this is the most accurate.
+/// What `select` chose: `model` is an index into `estimates`, past the last where none applies. `meets_tolerance` false: none
+/// does (within the budget), and this is the most accurate.
 template <std::size_t N>
 struct Choice {
     std::array<Estimate, N> estimates;
@@ -64,7 +64,7 @@ std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& m
             estimate.fit = Fit::no("of small inclinations; how far that is off is not known here");
         if (!estimate.fit.applies) return estimate;
         estimate.error_bound = model.error_bound(kind, question), estimate.cost = model.cost(kind, question);
-        if (is_linear<M>()) estimate.error_bound += off;
+        if (is_linear<M>()) estimate.error_bound += off * (1 + estimate.error_bound);
         return estimate;
     };
     return std::apply([&](const Models&... each) { return std::array<Estimate, sizeof...(Models)>{of(each)...}; },
@@ -97,8 +97,13 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
     const auto ask = [&]<class M>(const M& model) {
         if (i++ != number) return;
         answer = model.solve(chain, kind, question);
-        if (is_linear<M>() && question.inclination > 0)
-            answer.error_bound.array() += error_of_small_inclinations(kind, question);
+        constexpr double least = std::numeric_limits<double>::denorm_min();
+        for (Index j = 0; j < answer.conical_height.size(); ++j)  // what a number below the normal ones cannot hold
+            if (!(answer.conical_height[j] >= std::numeric_limits<double>::min()))
+                answer.error_bound[j] += 4 * least / std::max(0.0, answer.conical_height[j]);
+        if (!is_linear<M>() || !(question.inclination > 0)) return;
+        const double off = error_of_small_inclinations(kind, question);
+        for (double& bound : answer.error_bound) bound += off * (1 + bound);
     };
     std::apply([&](const Models&... each) { (ask(each), ...); }, models);
     return answer;
@@ -118,21 +123,20 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
     Choice<sizeof...(Models)> choice{detail::estimates(models, kind, question), 0, false};
     const double budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, detail::goal(question), budget);
-    if (!chosen) {  // nothing is as cheap: the cheapest there is
-        std::size_t cheapest = 0;
-        for (std::size_t i = 1; i < sizeof...(Models); ++i)
-            if (choice.estimates[i].cost < choice.estimates[cheapest].cost) cheapest = i;
-        chosen = cheapest;
-    }
-    choice.model = *chosen;
-    choice.meets_tolerance = choice.estimates[*chosen].error_bound <= detail::goal(question);
+    if (!chosen)  // nothing is as cheap: the cheapest there is
+        for (std::size_t i = 0; i < sizeof...(Models); ++i)
+            if (choice.estimates[i].fit.applies &&
+                (!chosen || choice.estimates[i].cost < choice.estimates[*chosen].cost))
+                chosen = i;
+    choice.model = chosen.value_or(sizeof...(Models));
+    choice.meets_tolerance = chosen && choice.estimates[*chosen].error_bound <= detail::goal(question);
     return choice;
 }
 
 /// The heights asked for, by the model chosen. One that finds that it has no answer after all, or a worse bound than it
 /// foresaw and than is asked for, is left out and the next one asked. Status `tolerance_not_met` where nothing keeps the
-/// tolerance (within the budget); the bounds are then the best there are, and without any answer (a model list without one
-/// that always has one) there are no heights.
+/// tolerance (within the budget); the bounds are then the best there are. Without any answer there are no heights: of unlike
+/// links without inertia at an inclination, where no model applies, or of a model list without one that always has one.
 template <Model... Models>
 Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, const Question& question,
                std::optional<double> time_budget = std::nullopt) {
@@ -141,6 +145,7 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
     const double rtol = detail::goal(question), budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     std::array<bool, sizeof...(Models)> out{};
     Solution best{{{}, {}, false}, {}, Status::tolerance_not_met};
+    if (choice.model == sizeof...(Models)) return best;
     for (std::optional<std::size_t> model = choice.model; model;) {
         const std::string_view name = choice.estimates[*model].name;
         Answer answer = detail::asked(models, *model, chain, kind, question);

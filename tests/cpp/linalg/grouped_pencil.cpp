@@ -66,6 +66,37 @@ TEST_CASE("grouped elements: coarse <= exact <= coarse + spread, every eigenvalu
     CHECK(most <= 1);
 }
 
+TEST_CASE("grouped elements: short links whose radius of gyration is that of long ones") {
+    Random random(82);
+    Index grouped_away = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Index size = static_cast<Index>(random.log_between(20, 200));
+        const double lengths = random.between(1, 30), spread = random.log_between(1e-5, 0.1);
+        std::vector<Link<double>> links;
+        for (Index m = 0; m < size; ++m) {
+            const double a = std::exp(lengths * random.between(-1, 1));
+            links.push_back(compound_pendulum<double>({.weight = random.between(0.1, 2),
+                                                       .length = a,
+                                                       .centroid = a * random.between(0.01, 1.5),
+                                                       .radius_of_gyration = 1.0}));
+        }
+        const Chain<double> chain(links);
+        const Modes<double> truth = modes(chain, {.count = 1, .shapes = false});
+        const double unit = std::ldexp(1.0, chain.units().length_exponent), exact = truth.conical_height[0] / unit;
+        const auto plain = plain_pencil(chain);
+        REQUIRE(plain);
+        const auto coarse = linalg::grouped(*plain, exact / 2, exact * spread);
+        grouped_away += size - coarse.pencil.size();
+        const auto bracket = linalg::bisect(coarse.pencil, 0, 1, 0.0, exact, [](Index) {}).front();
+        const double height = linalg::between(bracket.lower, bracket.upper);
+        CAPTURE(i, size, lengths, height, exact, coarse.spread);
+        REQUIRE(height <= exact * (1 + 1e-10));
+        REQUIRE(exact <= (height + coarse.spread) * (1 + 1e-10));
+    }
+    CAPTURE(grouped_away);
+    CHECK(grouped_away > 2000);
+}
+
 TEST_CASE("grouped elements: of a uniform chain, short at the free end, and as many as the phase says") {
     const Chain<double> chain = Chain<double>::uniform_rods(20'000, 1.0);
     const auto plain = plain_pencil(chain);

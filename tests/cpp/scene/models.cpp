@@ -124,6 +124,36 @@ TEST_CASE("coarse chains: heights between those proved") {
     CHECK(worst > 0.3);  // no idle bound
 }
 
+TEST_CASE("coarse chains: links far apart in length, weight, centroid and radius of gyration") {
+    Random random(36);
+    int found = 0, asked = 0;
+    double worst = 0;
+    for (int i = 0; i < 400; ++i) {
+        const Index size = static_cast<Index>(random.log_between(24, 1500));
+        const double wide = random.between(0, 12), lengths = random.between(0, 30), rho = random.log_between(1e-6, 1e4);
+        std::vector<Link<double>> links;
+        for (Index m = 0; m < size; ++m) {
+            const double W = std::exp(wide * random.between(-1, 1)), a = std::exp(lengths * random.between(-1, 1));
+            const double h = i % 3 == 0 && m % 5 == 0 ? a * 1e6 : a * random.between(0.01, 1.5);
+            links.push_back(compound_pendulum<double>(
+                {.weight = W, .length = a, .centroid = h, .radius_of_gyration = i % 2 == 0 ? rho : rho * a}));
+        }
+        const Chain<double> chain(links);
+        const Question question{.first = 1 + i % 3, .count = 1 + i % 4, .rtol = random.log_between(1e-5, 0.5)};
+        const ChainKind kind(chain);
+        if (!models::CoarseChain{}.applies(kind, question).applies) continue;
+        ++asked;
+        const Answer answer = models::CoarseChain{}.solve(chain, kind, question);
+        if (!answer.found) continue;
+        ++found;
+        worst = std::max(worst, worst_share(answer, modes(chain, {.count = 12, .shapes = false}), question.first));
+    }
+    CAPTURE(found, asked, worst);
+    CHECK(asked > 100);
+    CHECK(found > 0.5 * asked);
+    CHECK(worst <= 1);
+}
+
 TEST_CASE("single precision: proved as far as it says") {
     Random random(35);
     int found = 0, asked = 0;
@@ -179,6 +209,31 @@ TEST_CASE("any chain, any tolerance: a model that keeps it, or it is said") {
         }
     }
     CHECK(chosen.size() >= 6);
+}
+
+TEST_CASE("bounds found are no larger than those foreseen, of every model") {
+    Random random(37);
+    double least = 1;
+    for (int i = 0; i < 200; ++i) {
+        const Index size = static_cast<Index>(random.log_between(1, 2000));
+        const Chain<double> chain = i % 3 == 0 ? Chain<double>::uniform_plummets(size) : random_chain(random, size);
+        const ChainKind kind(chain);
+        for (const double rtol : {0.0, 1e-14, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 2.0}) {
+            const Question question{.count = std::min<Index>(chain.mode_count(), 1 + i % 12), .rtol = rtol};
+            const auto check = [&](const auto& model) {
+                if (!model.applies(kind, question).applies) return;
+                const Answer answer = model.solve(chain, kind, question);
+                if (!answer.found) return;
+                CAPTURE(model.name, i, size, rtol);
+                const bool most = model.name == models::AllTogether::name || model.name == models::Spectrum::name;
+                const double slack = most ? 30 : 1 + 1e-12;  // foreseen of most chains
+                REQUIRE(answer.worst_bound() <= model.error_bound(kind, question) * slack);
+                if (rtol >= 1e-3) least = std::min(least, answer.worst_bound() / rtol);
+            };
+            std::apply([&](const auto&... models) { (check(models), ...); }, height_models);
+        }
+    }
+    CHECK(least < 1e-9);  // some give more than they are asked for
 }
 
 TEST_CASE("a budget of time, what cannot be had, and wrong questions") {
@@ -269,4 +324,53 @@ TEST_CASE("no shape of the mode leans so far: no heights, and no success") {
         CHECK(!found.answer.found);
         CHECK(found.model.empty());
     }
+}
+
+TEST_CASE("heights below the normal numbers: bounds say what is lost") {
+    const auto unit = Chain<double>::uniform_plummets(64, 64.0), rods = Chain<double>::uniform_rods(64, 64.0);
+    for (const bool plummets : {false, true}) {
+        const auto tiny =
+            plummets ? Chain<double>::uniform_plummets(64, 0x1p-1054) : Chain<double>::uniform_rods(64, 0x1p-1054);
+        const Modes<double> truth = modes(plummets ? unit : rods, {.count = 3, .shapes = false});
+        const auto check = [&](const auto& model) {
+            for (const double rtol : {1e-2, 1e-6, 0.0}) {
+                const Solution found = solve_by(model.name, tiny, {.count = 3, .rtol = rtol});
+                CAPTURE(model.name, plummets, rtol);
+                for (Index j = 0; j < found.answer.conical_height.size(); ++j) {
+                    const double height = std::ldexp(found.answer.conical_height[j], 1060);
+                    REQUIRE(std::abs(height / truth.conical_height[j] - 1) <= found.answer.error_bound[j] + 2e-16);
+                }
+            }
+        };
+        std::apply([&](const auto&... models) { (check(models), ...); }, height_models);
+    }
+}
+
+TEST_CASE("links without inertia at an inclination: no model applies, and it is said") {
+    const Chain<double> chain({plummet(1.0, 1.0), plummet(0.0, 1.0), plummet(1.0, 1.0), plummet(2.0, 1.0)});
+    REQUIRE(chain.mode_count() == 3);
+    for (const std::optional<double> budget : {std::optional<double>{}, std::optional<double>{1e-9}}) {
+        const Question question{.count = 3, .rtol = 1e-3, .inclination = 0.3};
+        const Choice choice = select(chain, question, budget);
+        CHECK(choice.model == choice.estimates.size());
+        CHECK(!choice.meets_tolerance);
+        const Solution found = solve(chain, question, budget);
+        CHECK(found.status == Status::tolerance_not_met);
+        CHECK(found.model.empty());
+        CHECK(found.answer.conical_height.size() == 0);
+    }
+    CHECK(select(chain, {.count = 3}, 1e-12).model < std::tuple_size_v<decltype(height_models)>);
+}
+
+TEST_CASE("errors of a model and of small inclinations: both of the exact height") {
+    const auto rods = Chain<double>::uniform_plummets(20);
+    const Question straight{.first = 2, .rtol = 0.5}, leaning{.first = 2, .rtol = 0.5, .inclination = 1.0};
+    const double off = 1 / std::cos(1.0) - 1;
+    const models::ContinuousChain model;
+    const ChainKind kind(rods);
+    const double bound = model.error_bound(kind, straight);
+    const Solution found = solve_by(model.name, rods, leaning);
+    CHECK(found.answer.error_bound[0] == Approx((1 + bound) * (1 + off) - 1).epsilon(1e-12));
+    const Choice choice = select(std::tuple(model), rods, leaning);
+    CHECK(choice.estimates[0].error_bound == Approx(found.answer.error_bound[0]).epsilon(1e-12));
 }

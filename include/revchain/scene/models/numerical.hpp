@@ -9,21 +9,27 @@
 namespace revchain::models {
 
 namespace detail {
-inline Answer answered(const Modes<double>& modes) { return {modes.conical_height, modes.error_bound}; }
-
-inline ModesOptions<double> options_for(const Question& question, ModesMethod method) {
+inline ModesOptions<double> options_for(const Question& question) {
     ModesOptions<double> options{.first = question.first, .count = question.count};
     if (question.rtol > 2 * std::numeric_limits<double>::epsilon()) options.rtol = question.rtol;
-    options.shapes = false, options.method = method;
+    options.shapes = false;
     return options;
 }
+inline ModeRange range_of(const Question& question) { return {question.first, question.count}; }
 
-/// A way is taken at its word: where it could not, and another did the work, it has no answer.
-inline Answer by(const Chain<double>& chain, const Question& question, ModesMethod method, std::string_view word) {
-    const Modes<double> found = modes(chain, options_for(question, method));
-    Answer answer = answered(found);
-    answer.found = found.method == word;
+/// A way is asked alone, not through `modes`: where it has no heights, no other does the work.
+inline Answer answered(const Chain<double>& chain, const revchain::detail::Heights<double>& found) {
+    const Index count = static_cast<Index>(found.height.size());
+    Answer answer{Vector<double>(count), Vector<double>(count)};
+    for (Index j = 0; j < count; ++j) {
+        const auto& height = found.height[static_cast<std::size_t>(j)];
+        answer.conical_height[j] = std::ldexp(height.value, chain.units().length_exponent);
+        answer.error_bound[j] = height.error_bound;
+    }
     return answer;
+}
+inline Answer answered(const Chain<double>& chain, const std::optional<revchain::detail::Heights<double>>& found) {
+    return found ? answered(chain, *found) : Answer{{}, {}, false};
 }
 
 inline double real(Index x) { return static_cast<double>(x); }
@@ -51,34 +57,38 @@ struct SinglePrecision {
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         const auto found = revchain::detail::loose_heights<float>(
-            chain, {question.first, question.count}, error_bound(kind, question) * (1 - 1e-6), [](Index) {});
-        if (!found) return {{}, {}, false};
-        Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
-        for (Index j = 0; j < question.count; ++j) {
-            const auto& height = found->height[static_cast<std::size_t>(j)];
-            answer.conical_height[j] = std::ldexp(height.value, chain.units().length_exponent);
-            answer.error_bound[j] = height.error_bound;
-        }
-        return answer;
+            chain, detail::range_of(question), error_bound(kind, question) * (1 - 1e-6), [](Index) {});
+        return detail::answered(chain, found);
     }
 };
 
-/// Halving between counts, one mode after the other: any chain, any modes, 2 ulp.
+/// Halving between counts, one mode after the other: any chain, any modes, to the tolerance or 2 ulp.
 struct ElementBisection {
     static constexpr std::string_view name = "element bisection";
     static constexpr double bound = 2 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind&, const Question&) const { return {}; }
-    double error_bound(const ChainKind&, const Question&) const { return bound; }
+    double error_bound(const ChainKind& kind, const Question& question) const {
+        return is_loose(kind, question) ? std::min(question.rtol, 0.5) : bound;
+    }
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count);
-        if (question.rtol > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size))
+        if (is_loose(kind, question))
             return 3e-7 + 2e-7 * count +
                    detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9);
         return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        return detail::by(chain, question, ModesMethod::bisection, "bisection");
+        ModesOptions<double> options = detail::options_for(question);
+        options.method = ModesMethod::bisection;
+        const Modes<double> found = modes(chain, options);
+        return {found.conical_height, found.error_bound};
+    }
+
+   private:
+    /// Where counts in double suffice, no digit more than asked is found.
+    static bool is_loose(const ChainKind& kind, const Question& question) {
+        return std::min(question.rtol, 0.5) > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
     }
 };
 
@@ -102,17 +112,22 @@ struct Blocks {
                2e-5 * std::max(0.0, kind.growth) + 5e-5 * few * count * (1 + count / 20);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        return detail::by(chain, question, ModesMethod::blocks, "blocks");
+        const auto found = revchain::detail::heights_by_compression(chain, detail::range_of(question),
+                                                                    detail::options_for(question), 1.0);
+        return found ? detail::answered(chain, found->found) : Answer{{}, {}, false};
     }
 };
 
-/// All modes of a small chain at once in SIMD lanes: 1e-14 or looser.
+/// All modes of a small chain at once in SIMD lanes. Plummets, or links whose pendulum length is less than their length:
+/// others are found out at once, as those of whom 1e-14 or the tolerance cannot be proved.
+/// Bound foreseen: that of most chains; of looser tolerances up to 3e-11 was found to be proved of links far apart.
 struct AllTogether {
     static constexpr std::string_view name = "all together";
     static constexpr double bound = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question&) const {
         if (kind.size > 100) return Fit::no("more than 100 links");
+        if (!kind.short_pendulums) return Fit::no("pendulums as long as their links or longer, or of two kinds");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
         return {};
     }
@@ -124,11 +139,12 @@ struct AllTogether {
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         Question loose = question;
         loose.rtol = std::max(question.rtol, bound);
-        return detail::by(chain, loose, ModesMethod::together, "together");
+        return detail::answered(chain, revchain::detail::heights_all_together(chain, detail::range_of(question),
+                                                                              detail::options_for(loose)));
     }
 };
 
-/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14.
+/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. Foreseen as that of `AllTogether`.
 struct Spectrum {
     static constexpr std::string_view name = "interpolated spectrum";
     static constexpr double fine = 2 * std::numeric_limits<double>::epsilon(), loose = 1e-14;
@@ -145,8 +161,11 @@ struct Spectrum {
         const double each = question.rtol >= loose ? 2.5e-9 : 5e-9;
         return 2.5e-5 + detail::real(kind.size) * (5e-7 + each * detail::real(question.count));
     }
-    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        return detail::by(chain, question, ModesMethod::spectrum, "spectrum");
+    Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
+        revchain::detail::OnDemand<double> assembled(chain);
+        return detail::answered(
+            chain, revchain::detail::heights_by_spectrum(assembled, detail::range_of(question), kind.mode_count,
+                                                         detail::options_for(question), 1.0));
     }
 };
 
