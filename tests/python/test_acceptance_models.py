@@ -76,7 +76,7 @@ def random_scene(rng, most=120):
     centroid = rng.uniform(-0.4, 1.4, size) * length if kind == 7 else 0.5 * length
     bad = weight * centroid + length * below <= 0.05 * weight * length
     centroid[bad] = 0.5 * length[bad]
-    gyration = np.abs(rng.normal(0, 0.4, size)) * length
+    gyration = np.abs(rng.normal(0, 0.4, size)) * length * (rng.random(size) < rng.choice([0.5, 1.0]))
     chain = rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=gyration)
     return chain, bodies(weight, length, centroid, gyration)
 
@@ -205,6 +205,14 @@ def test_every_model_documented_can_be_named():
         assert solution.status in ("success", "tolerance_not_met")
 
 
+def test_the_documentation_has_a_row_for_every_model():
+    rows = rc.explain(rc.Chain(weight=[1.0, 2.0, 3.0], length=1.0)).rows
+    assert sorted(row.name for row in rows) == sorted(NAMES)
+    page = (REPOSITORY / "docs" / "models.md").read_text()
+    table = [line.split("|")[1].strip() for line in page.split("## The models")[1].splitlines() if line.startswith("|")]
+    assert [name for name in NAMES if name not in table] == []
+
+
 def test_models_by_name_keep_their_bounds_where_they_apply_and_say_nothing_where_not():
     rng = np.random.default_rng(9)
     broken, asked = [], dict.fromkeys(NAMES, 0)
@@ -237,7 +245,7 @@ def test_models_by_name_keep_their_bounds_where_they_apply_and_say_nothing_where
 
 @pytest.mark.parametrize("exponent", [-0.98, -0.5, 0.0, 0.3, 1.0, 2.0, 10.0, 100.0])
 def test_tapered_chains_against_their_own_links_and_the_cord(exponent):
-    broken = []
+    broken, asked, answered = [], 0, 0
     for size in (2, 3, 9, 40, 300):
         chain = rc.Chain.tapered(size, 1.7, exponent=exponent)
         # Radii are given back rounded to double: an error of u in each moves no height by more than 2 u.
@@ -246,14 +254,17 @@ def test_tapered_chains_against_their_own_links_and_the_cord(exponent):
         for first, count in ((1, 1), (1, min(4, size)), (max(1, size // 3), 1)):
             for rtol in (1.0, 1e-2, 1e-4, 1e-7, 1e-10, 1e-13, None):
                 for model in (None, "tapered chain"):
+                    asked += 1
                     solution = rc.solve(chain, count, first=first, rtol=rtol, model=model)
                     if model is None and solution.status != "success":
                         broken.append(told(chain, solution, rtol, solution.status))
                     if len(solution):
+                        answered += solution.model == "tapered chain"
                         wrong = errors(solution, truth)
                         if np.any(wrong > solution.error_bound * (1 + 1e-9) + 2.3e-16):
                             broken.append(told(chain, solution, rtol, f"{wrong} beyond {solution.error_bound}"))
     assert not broken, "\n".join(broken[:10])
+    assert answered > 0.25 * asked or exponent == 0  # which is the continuous chain's
 
 
 def test_equal_plummets_are_laguerre_zeros_and_rods_bessel_zeros():
@@ -643,6 +654,14 @@ def test_rigs():
     assert hopeless.error_bound.max() < 1e-13
 
 
+def test_modes_of_a_rig_that_are_not_there():
+    rig = rc.Rig(rc.Chain(weight=[1.0, 2.0, 3.0], length=1.0), stiffness=3.0)
+    assert len(rc.modes(rig)) == 3
+    for count, first in ((20, 1), (4, 1), (1, 4), (2, 9)):
+        with pytest.raises(ValueError, match="mode|count|first"):
+            rc.solve(rig, count, first=first, rtol=0.1)
+
+
 def test_a_rig_of_one_wheel():
     # W h + n H = n^2 W (h^2 + r^2)/g: one speed forward, one backward.
     chain = rc.Chain(weight=15.0, length=0.3, centroid=0.15, radius_of_gyration=0.205)
@@ -707,6 +726,36 @@ def test_scenes_from_files(tmp_path):
             assert solution.status == "success", (example.name, rtol, solution)
             exact = scene.modes().conical_height[: len(solution)]
             assert np.all(abs(solution.conical_height / exact - 1) <= solution.error_bound + 1e-15), example.name
+
+
+@pytest.mark.parametrize(
+    ("ask", "modes"),
+    [
+        ({}, range(1, 11)),
+        ({"modes": 3}, range(1, 4)),
+        ({"modes": "all"}, range(1, 31)),
+        ({"first": 25}, range(25, 31)),
+        ({"first": 3, "modes": 2}, range(3, 5)),
+        ({"conical_height": [0.5, 5.0]}, None),
+        ({"angular_speed": [1, 4]}, None),
+    ],
+)
+def test_what_a_scene_asks_is_what_is_answered(ask, modes):
+    scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1, "repeat": 30}], "ask": {**ask, "rtol": 1e-3}})
+    expected = scene.modes().conical_height
+    if modes is None:  # a window: the modes in it, or a refusal, but not others
+        assert 0 < len(expected) < 30
+        try:
+            solution = rc.solve(scene)
+        except ValueError:
+            return
+    else:
+        solution = rc.solve(scene)
+        assert solution.first == modes[0]
+        assert len(solution) == len(modes)
+    assert solution.rtol == 1e-3
+    assert len(solution) == len(expected)
+    np.testing.assert_allclose(solution.conical_height, expected, rtol=2e-3)
 
 
 # ---- the command line
@@ -1046,6 +1095,18 @@ def test_two_workers_of_a_dask_cluster_find_the_same(tmp_path):
     )
     assert run.returncode == 0, run.stderr
     assert (tmp_path / "threads.csv").read_bytes() == (tmp_path / "dask.csv").read_bytes()
+
+
+def test_any_executor_finds_the_same():
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    study = {**SLOW, "samples": 200}
+    fresh = rc.sweep(study)
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        found = rc.sweep(study, executor=pool, chunk=30)
+    for name, column in fresh.columns().items():
+        assert np.array_equal(found.columns()[name], column), name
 
 
 def test_sweep_says_what_it_would_compute_and_refuses_nonsense(tmp_path):
