@@ -8,6 +8,7 @@ functions. Errors are relative to the exact height, as the bounds are.
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import os
@@ -25,6 +26,7 @@ import pytest
 from hanging_links import Hanging, bodies, dense_heights, inclined_height, plummets, rods, wide
 
 import revchain as rc
+from revchain.__main__ import main
 
 TOLERANCES = [1.0, 0.3, 0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14, 3e-15, 1e-15]
 NAMES = [
@@ -233,14 +235,25 @@ def test_models_by_name_keep_their_bounds_where_they_apply_and_say_nothing_where
                     what = f"applies, and a reason {row.reason!r}"
                 if solution.model != row.name:
                     what = f"{row.name} was asked"
-                if row.applies and rtol and row.error_bound <= rtol and solution.status != "success":
-                    if row.name not in ("all together", "interpolated spectrum", "compressed blocks", "coarse chain"):
-                        what = f"{row.error_bound} was foreseen, {solution.status}"
                 if what:
                     broken.append(told(chain, solution, rtol, what))
     assert not broken, f"{len(broken)}:\n" + "\n".join(broken[:10])
-    unasked = [name for name, times in asked.items() if not times]
-    assert unasked in (["tapered chain", "finite amplitude"], ["finite amplitude", "tapered chain"])
+    assert {name for name, times in asked.items() if not times} == {"tapered chain", "finite amplitude"}
+
+
+def test_formulas_that_apply_have_an_answer():
+    # Nothing is iterated: what is foreseen is known. Solvers may find that they cannot, and another one is asked.
+    rng = np.random.default_rng(19)
+    formulas, broken = ("closed forms", "Laguerre asymptotics", "continuous chain"), []
+    for _ in range(600):
+        chain, _ = random_scene(rng, most=10)
+        count = int(rng.integers(1, chain.mode_count + 1))
+        for row in rc.explain(chain, count, rtol=0.1).rows:
+            if row.name in formulas and row.applies and row.error_bound <= 0.1:
+                solution = rc.solve(chain, count, rtol=0.1, model=row.name)
+                if solution.status != "success" or solution.error_bound.max() > row.error_bound * (1 + 1e-9):
+                    broken.append(f"{row}: {solution}, {chain.weight}, {chain.length}, {chain.centroid}")
+    assert not broken, f"{len(broken)}:\n" + "\n".join(broken[:3])
 
 
 @pytest.mark.parametrize("exponent", [-0.98, -0.5, 0.0, 0.3, 1.0, 2.0, 10.0, 100.0])
@@ -475,7 +488,7 @@ def speeds(solution):
 
 def test_explain_says_what_solve_does():
     rng = np.random.default_rng(14)
-    other, asked = 0, 0
+    other, asked, weaker = [], 0, {}
     for _ in range(600):
         chain, links = random_scene(rng, most=3000 if rng.random() < 0.05 else 150)
         count = int(min(rng.integers(1, 6), chain.mode_count))
@@ -483,24 +496,29 @@ def test_explain_says_what_solve_does():
         why, solution = rc.explain(chain, count, rtol=rtol), rc.solve(chain, count, rtol=rtol)
         row = why.chosen
         assert sum(r.chosen for r in why.rows) == 1
-        assert row.applies and row.cost > 0 and row.error_bound >= 0
+        assert row.applies
+        assert row.cost > 0
         assert why.meets_tolerance == (row.error_bound <= rtol)
-        admissible = [r for r in why.rows if r.applies and r.error_bound <= rtol]
-        assert row.cost == min(r.cost for r in admissible), (chain, rtol)
+        assert row.cost == min(r.cost for r in why.rows if r.applies and r.error_bound <= rtol), (chain, rtol)
         for r in why.rows:
             assert r.applies == (not r.reason)
-            if not r.applies:
-                assert not r.chosen
-        asked += 1
+        assert solution.status == "success"
         if solution.model != row.name:  # only where the one chosen has no answer that keeps the tolerance
-            other += 1
-            named = rc.solve(chain, count, rtol=rtol, model=row.name)
-            assert named.status == "tolerance_not_met", (chain, count, rtol, row)
-        else:
-            truth = Truth(chain, links)
-            assert np.all(errors(solution, truth) <= row.error_bound * (1 + 1e-9)), (chain, count, rtol, row, solution)
-            assert solution.status == "success"
-    assert other <= 0.1 * asked
+            assert rc.solve(chain, count, rtol=rtol, model=row.name).status == "tolerance_not_met"
+        # Chains as one hangs them up: weights within some decades, centroids in the links.
+        weight = chain.weight[chain.weight > 0]
+        if weight.max() < 1e6 * weight.min() and np.all((chain.centroid > 0) & (chain.centroid <= chain.length)):
+            asked += 1
+            if solution.model != row.name:
+                other.append((chain, count, rtol, row.name, solution.model))
+        if solution.model == row.name:
+            error = errors(solution, Truth(chain, links)).max()
+            if max(error, solution.error_bound.max()) > row.error_bound * (1 + 1e-9):
+                weaker.setdefault(row.name, []).append((rtol, row.error_bound, error, solution.error_bound.max()))
+    assert asked > 200
+    assert len(other) <= 0.02 * asked, other
+    # (tolerance, bound foreseen, error, bound found)
+    assert not weaker, {name: (len(cases), cases[:3]) for name, cases in weaker.items()}
 
 
 def test_a_looser_tolerance_is_never_dearer_and_a_smaller_budget_never_more_accurate():
@@ -564,7 +582,7 @@ def test_a_budget_that_no_model_keeps_is_not_passed_over_in_silence(size):
 def test_inclined_shapes_of_one_two_and_three_links(size):
     rng = np.random.default_rng(20 + size)
     broken = []
-    for case in range(8):
+    for case in range(4):
         weight, length = rng.uniform(0.5, 3, size), rng.uniform(0.5, 2, size)
         if case % 4 == 0:
             chain, links = rc.Chain(weight=weight, length=length), plummets(weight, length)
@@ -578,16 +596,17 @@ def test_inclined_shapes_of_one_two_and_three_links(size):
             centroid, gyration = rng.uniform(0.3, 1.0, size) * length, rng.uniform(0, 0.5, size) * length
             chain = rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=gyration)
             links = bodies(weight, length, centroid, gyration)
-        for mode, inclination in ((1, 1e-8), (1, 0.01), (1, 0.3), (1, 1.0), (1, 1.5), (size, 0.1), (size, 0.7)):
-            if case >= 4 and inclination in (1e-8, 0.01, 1.5):
-                continue
-            exact = [Decimal(mp.nstr(inclined_height(links, mode, inclination), 38))]
+        for mode, inclination in ((1, 1e-8), (1, 0.01), (1, 0.3), (1, 1.0), (1, 1.5), (size, 0.1), (size, 0.3)):
+            exact = [Decimal(mp.nstr(inclined_height(links, mode, inclination, digits=25), 25))]
             for rtol in (1.0, 0.05, 1e-3, 1e-6, 1e-10):
                 for model in (None, *NAMES):
                     solution = rc.solve(chain, 1, first=mode, rtol=rtol, inclination=inclination, model=model)
                     what = keeps_its_word(solution, exact, 1, rtol)
-                    if model is None and solution.status != "success":
+                    # "1e-15 over it" is the accuracy of the exact equations; with a margin of two.
+                    if model is None and solution.status != "success" and rtol * inclination > 2e-15:
                         what = f"{solution.status}, bounds {solution.error_bound}"
+                    if model is None and not len(solution):
+                        what = "no answer at all"
                     if what:
                         broken.append(told(chain, solution, rtol, f"inclination {inclination}, case {case}: {what}"))
     assert not broken, f"{len(broken)}:\n" + "\n".join(broken[:12])
@@ -770,7 +789,22 @@ def command(*words, cwd=None, check=None):
     return done
 
 
-def test_explain_on_the_command_line(tmp_path):
+def within(capsys, monkeypatch, *words, cwd=None):
+    """The command, run in this process: what it says, and its exit code."""
+    monkeypatch.setattr(sys, "argv", ["revchain", *map(str, words)])
+    monkeypatch.setenv("COLUMNS", "200")
+    if cwd is not None:
+        monkeypatch.chdir(cwd)
+    code = 0
+    try:
+        code = main()
+    except SystemExit as end:
+        code = end.code
+    said = capsys.readouterr()
+    return subprocess.CompletedProcess(words, code or 0, said.out, said.err)
+
+
+def test_explain_on_the_command_line(tmp_path, capsys, monkeypatch):
     scene = tmp_path / "three.toml"
     scene.write_text(SCENE)
     broken = tmp_path / "broken.toml"
@@ -792,8 +826,8 @@ def test_explain_on_the_command_line(tmp_path):
         ((tmp_path / "nowhere.toml",), None),
         ((held,), None),
     ]
-    with ThreadPoolExecutor(2) as pool:
-        done = list(pool.map(lambda call: command("explain", *call[0]), calls))
+    done = [within(capsys, monkeypatch, "explain", *words) for words, _ in calls]
+    assert command("explain", *calls[0][0], check=0).stdout.splitlines()[1:] == done[0].stdout.splitlines()[1:]
     for (words, code), run in zip(calls, done, strict=True):
         assert "Traceback" not in run.stderr + run.stdout, (words, run.stderr)
         if code is None:
@@ -897,7 +931,11 @@ def test_files_read_back(tmp_path, ending):
         return
     pandas = pytest.importorskip("pandas")
     if ending == "csv":
-        table = pandas.read_csv(path, float_precision="round_trip")
+        assert len(pandas.read_csv(path)) == 60
+        with path.open(newline="") as lines:
+            rows = list(csv.DictReader(lines))
+        words = {name: [row[name] for row in rows] for name in rows[0]}
+        table = pandas.DataFrame({n: c if n == "status" else list(map(float, c)) for n, c in words.items()})
     else:
         table = pytest.importorskip("pyarrow.parquet").read_table(path).to_pandas()
     assert list(table.columns) == list(fresh.columns())
@@ -1109,7 +1147,7 @@ def test_any_executor_finds_the_same():
         assert np.array_equal(found.columns()[name], column), name
 
 
-def test_sweep_says_what_it_would_compute_and_refuses_nonsense(tmp_path):
+def test_sweep_says_what_it_would_compute_and_refuses_nonsense(tmp_path, capsys, monkeypatch):
     study, wrong = tmp_path / "study.json", tmp_path / "wrong.toml"
     study.write_text(json.dumps(TWO))
     wrong.write_text('scene = "nowhere.toml"\n[vary."links[0].mass"]\nvalues = [1]\n')
@@ -1125,8 +1163,7 @@ def test_sweep_says_what_it_would_compute_and_refuses_nonsense(tmp_path):
         ((study, "--dask", "nonsense"), 2),
         ((study,), 0),
     ]
-    with ThreadPoolExecutor(2) as pool:
-        done = list(pool.map(lambda call: command("sweep", *call[0], cwd=tmp_path), calls))
+    done = [within(capsys, monkeypatch, "sweep", *words, cwd=tmp_path) for words, _ in calls]
     codes = [(str(words[-1]), run.returncode, code) for (words, code), run in zip(calls, done, strict=True)]
     assert [got for _, got, _ in codes] == [want for _, _, want in codes], [
         (c, run.stderr[-300:]) for c, run in zip(codes, done, strict=True) if c[1] != c[2]

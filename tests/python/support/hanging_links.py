@@ -183,7 +183,7 @@ def inclined_height(links: list[Body], mode: int, inclination: float, digits: in
             return residuals
 
         # The mode itself: tilts from the linear moments, link by link upward.
-        tiny, steps = min(mp.mpf("1e-6"), mp.mpf(inclination) / 10), 24
+        tiny, steps = min(mp.mpf("1e-6"), mp.mpf(inclination) / 10), 12
 
         def linear(height):
             tilts, places = [mp.mpf(1)], []
@@ -209,7 +209,7 @@ def inclined_height(links: list[Body], mode: int, inclination: float, digits: in
         first = tiny
         target = mp.mpf(inclination)
         previous, step = None, (target - tiny) / steps
-        solved = list(mp.findroot(lambda *u: moments(first, u), guess, tol=1e-60, maxsteps=40, verify=False))
+        solved = list(mp.findroot(lambda *u: moments(first, u), guess, tol=mp.mpf(10) ** (-2 * digits), maxsteps=40, verify=False))
         while first < target:
             new = min(first + step, target)
             if previous is None:
@@ -217,7 +217,7 @@ def inclined_height(links: list[Body], mode: int, inclination: float, digits: in
             else:
                 ratio = (new - first) / (first - previous[0])
                 guess = [v + (v - p) * ratio for v, p in zip(solved, previous[1], strict=True)]
-            found = list(mp.findroot(lambda *u: moments(new, u), guess, tol=1e-70, maxsteps=60, verify=False))  # noqa: B023
+            found = list(mp.findroot(lambda *u: moments(new, u), guess, tol=mp.mpf(10) ** (-2 * digits), maxsteps=60, verify=False))  # noqa: B023
             if max(abs(r) for r in moments(new, found)) > mp.mpf(10) ** (-digits) * rows[0][0] * rows[0][1] ** 2:
                 raise AssertionError("the reference itself has not converged")
             previous, solved, first = (first, solved), found, new
