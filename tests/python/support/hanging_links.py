@@ -222,3 +222,52 @@ def inclined_height(links: list[Body], mode: int, inclination: float, digits: in
                 raise AssertionError("the reference itself has not converged")
             previous, solved, first = (first, solved), found, new
         return solved[-1]
+
+
+def inclined_chain(links: list[Body], mode: int, inclination: float, digits: int = 25, steps: int = 16) -> mp.mpf:
+    """The same for any number of links: each inclination follows from those below, by Newton's method of one unknown.
+
+    Started with the lowest link's inclination and a height, the support has to come out on the axis.
+    """
+    with mp.workdps(digits + 5):
+        rows = [tuple(mp.mpf(str(number)) for number in link) for link in links]
+
+        def off_axis(height, angle):
+            w, a, h, r2 = rows[0]
+            x = height * mp.tan(angle) - r2 * mp.sin(angle) / h
+            outward, borne = w * x, w
+            x -= h * mp.sin(angle)
+            for w, a, h, r2 in rows[1:]:
+                pull, stiff = a * outward + w * h * x, (w * h + a * borne) * height
+                less = w * h * (a - h) - w * r2
+                tilt = mp.atan(pull / (stiff + less))
+                for _ in range(60):
+                    s, c = mp.sin(tilt), mp.cos(tilt)
+                    change = (s * stiff - c * (pull - less * s)) / (
+                        c * stiff + s * (pull - less * s) + c * c * less
+                    )
+                    tilt -= change
+                    if abs(change) < mp.mpf(10) ** (-digits - 3):
+                        break
+                s = mp.sin(tilt)
+                outward += w * (x - (a - h) * s)
+                borne += w
+                x -= a * s
+            return x / mp.sin(angle)
+
+        height = [mp.mpf(str(Hanging(links).height(mode)))] * 2
+        for step in range(1, steps + 1):
+            angle = mp.mpf(inclination) * step / steps
+            guess = 2 * height[-1] - height[-2]
+            root = mp.findroot(
+                lambda y: off_axis(y, angle),  # noqa: B023
+                (guess, guess * (1 - mp.mpf("1e-6"))),
+                solver="secant",
+                tol=mp.mpf(10) ** (-2 * digits),
+                maxsteps=60,
+                verify=False,
+            )
+            height.append(root)
+        if abs(off_axis(height[-1], angle)) > sum(row[1] for row in rows) * mp.mpf(10) ** (-digits // 2):
+            raise AssertionError("the reference itself has not converged")
+        return height[-1]
