@@ -157,7 +157,8 @@ def inclined_height(links: list[Body], mode: int, inclination: float, digits: in
     """Height at which the lowest link leans so, of the shape that grows out of a mode; a few links.
 
     Moments of a link about its upper pin, P the sum of W x of all that is lower, x from the axis:
-    sin (W h + a S) height = cos (a P + W h x + W r^2 sin). Unknown are the inclinations of the other links and the height,
+    Moments of a link about its upper pin, P the sum of W x of all that is lower, x from the axis to a centroid:
+    sin (W h + a S) height = cos (a P + W h x + W r^2 sin). Unknown are the other inclinations and the height,
     followed from the straight chain in steps of the lowest link's inclination by Newton's method.
     """
     with mp.workdps(digits + 10):
@@ -209,7 +210,8 @@ def inclined_height(links: list[Body], mode: int, inclination: float, digits: in
         first = tiny
         target = mp.mpf(inclination)
         previous, step = None, (target - tiny) / steps
-        solved = list(mp.findroot(lambda *u: moments(first, u), guess, tol=mp.mpf(10) ** (-2 * digits), maxsteps=40, verify=False))
+        tight = {"tol": mp.mpf(10) ** (-2 * digits), "maxsteps": 60, "verify": False}
+        solved = list(mp.findroot(lambda *u: moments(first, u), guess, **tight))
         while first < target:
             new = min(first + step, target)
             if previous is None:
@@ -217,7 +219,7 @@ def inclined_height(links: list[Body], mode: int, inclination: float, digits: in
             else:
                 ratio = (new - first) / (first - previous[0])
                 guess = [v + (v - p) * ratio for v, p in zip(solved, previous[1], strict=True)]
-            found = list(mp.findroot(lambda *u: moments(new, u), guess, tol=mp.mpf(10) ** (-2 * digits), maxsteps=60, verify=False))  # noqa: B023
+            found = list(mp.findroot(lambda *u: moments(new, u), guess, **tight))  # noqa: B023
             if max(abs(r) for r in moments(new, found)) > mp.mpf(10) ** (-digits) * rows[0][0] * rows[0][1] ** 2:
                 raise AssertionError("the reference itself has not converged")
             previous, solved, first = (first, solved), found, new
