@@ -156,7 +156,6 @@ def dense_heights(links: list[Body]) -> list[mp.mpf]:
 def inclined_height(links: list[Body], mode: int, inclination: float, digits: int = 40) -> mp.mpf:
     """Height at which the lowest link leans so, of the shape that grows out of a mode; a few links.
 
-    Moments of a link about its upper pin, P the sum of W x of all that is lower, x from the axis:
     Moments of a link about its upper pin, P the sum of W x of all that is lower, x from the axis to a centroid:
     sin (W h + a S) height = cos (a P + W h x + W r^2 sin). Unknown are the other inclinations and the height,
     followed from the straight chain in steps of the lowest link's inclination by Newton's method.
