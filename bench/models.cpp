@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string>
 
-#include "revchain/scene/models/all.hpp"
+#include "revchain/scene/models/with_dense.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"
 
@@ -56,7 +56,7 @@ int costs() {
                 if (count > chain.mode_count() || (count > 10 && size > 5000)) continue;
                 for (const double rtol : {1e-2, 1e-5, 1e-13, 0.0}) {
                     const Question question{1, count, rtol};
-                    const auto choice = select(all_height_models, chain, question);
+                    const auto choice = select(height_models_with_dense, chain, question);
                     for (const Estimate& estimate : choice.estimates) {
                         if (!estimate.fit.applies || estimate.cost > 0.5) continue;
                         if (kind < 2 && estimate.name == models::ElementBisection::name && size > 1000) continue;
@@ -67,7 +67,7 @@ int costs() {
                         for (int attempt = 0; attempt < 3 && found && !(ratio < 3 && ratio > 1.0 / 3); ++attempt) {
                             for (int round = 0; round < 3; ++round)
                                 times.push_back(bench::seconds_of([&] {
-                                    const Solution s = solve_by(all_height_models, estimate.name, chain, question);
+                                    const Solution s = solve_by(height_models_with_dense, estimate.name, chain, question);
                                     found = s.answer.found;
                                     if (found) sink += s.answer.conical_height[0];
                                 }));
@@ -101,8 +101,8 @@ int choice(int count) {
         const Modes<double> truth = modes(chain, {.first = first, .count = many, .shapes = false});
         for (const double rtol : {1.0, 0.1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15}) {
             const Question question{first, many, rtol};
-            const auto chosen = select(all_height_models, chain, question);
-            const Solution found = solve(all_height_models, chain, question);
+            const auto chosen = select(height_models_with_dense, chain, question);
+            const Solution found = solve(height_models_with_dense, chain, question);
             double share = 0;
             for (Index j = 0; j < many; ++j)
                 share =
@@ -113,11 +113,11 @@ int choice(int count) {
             std::string_view winner;
             for (const Estimate& estimate : chosen.estimates) {
                 if (!estimate.fit.applies || estimate.cost > 20 * chosen.estimates[chosen.model].cost + 1e-6) continue;
-                if (!(solve_by(all_height_models, estimate.name, chain, question).status == Status::success)) continue;
+                if (!(solve_by(height_models_with_dense, estimate.name, chain, question).status == Status::success)) continue;
                 std::vector<double> times;
                 for (int round = 0; round < 3; ++round)
                     times.push_back(bench::seconds_of([&] {
-                        sink += solve_by(all_height_models, estimate.name, chain, question).answer.error_bound[0];
+                        sink += solve_by(height_models_with_dense, estimate.name, chain, question).answer.error_bound[0];
                     }));
                 const double t = bench::median(times);
                 if (t < best) best = t, winner = estimate.name;

@@ -20,7 +20,7 @@
 #include <map>
 #include <random>
 
-#include "revchain/scene/models/all.hpp"
+#include "revchain/scene/models/with_dense.hpp"
 #include "timing.hpp"
 #include "tradeoff/height_truth.hpp"
 #include "tradeoff/inclined_truth.hpp"
@@ -93,7 +93,7 @@ std::vector<Quad> truth_of(const Chain<double>& chain, Index count) {
 /// Whether an answer three bounds off is found out.
 bool finds_a_wrong_answer() {
     const auto chain = Chain<double>::uniform_rods(300);
-    Answer wrong = solve(all_height_models, chain, {.count = 3, .rtol = 1e-15}).answer;
+    Answer wrong = solve(height_models_with_dense, chain, {.count = 3, .rtol = 1e-15}).answer;
     wrong.conical_height[1] *= 1 - 3 * wrong.error_bound[1];
     double share = 0;
     error_of(wrong, truth_of(chain, 3), share);
@@ -124,7 +124,7 @@ class Bench {
         char name[160];
         std::snprintf(name, sizeof name, "%s,%td,%td,%g", scene.c_str(), chain.size(), count, inclination);
         for (const double rtol : tolerances_) {
-            const Solution found = solve(all_height_models, chain, {1, count, rtol, inclination});
+            const Solution found = solve(height_models_with_dense, chain, {1, count, rtol, inclination});
             Row row{found.model, 0, rtol, rtol, {}};
             if (found.status == Status::success || found.answer.conical_height.size() > 0)
                 report(tally.violated, "%.0f heights though there is no such shape: %s, %s, rtol %g",
@@ -137,7 +137,7 @@ class Bench {
    private:
     void ask_all(const char* name, const Chain<double>& chain, const Question& question, const std::vector<Quad>& truth,
                  std::vector<Row>& rows) {
-        const auto choice = select(all_height_models, chain, question);
+        const auto choice = select(height_models_with_dense, chain, question);
         bool kept = false;
         for (std::size_t i = 0; i < choice.estimates.size(); ++i) {
             const Estimate& estimate = choice.estimates[i];
@@ -147,7 +147,7 @@ class Bench {
             Row row{estimate.name, estimate.cost, question.rtol, question.rtol, {{}, {}, false}};
             if (estimate.cost <= patience) {
                 const double start = bench::cpu_seconds();
-                Solution found = solve_by(all_height_models, estimate.name, chain, question);
+                Solution found = solve_by(height_models_with_dense, estimate.name, chain, question);
                 const double took = bench::cpu_seconds() - start;
                 if (took > slow) row.times.push_back(took);
                 row.answer = std::move(found.answer), ++tally.asked;
@@ -162,7 +162,7 @@ class Bench {
             add(std::move(row), choice.model == i, rows);
         }
         if (choice.estimates[choice.model].cost > patience) return;
-        const Solution found = solve(all_height_models, chain, question);
+        const Solution found = solve(height_models_with_dense, chain, question);
         double share = 0;
         error_of(found.answer, truth, share);
         Row row{found.model, 0, question.rtol, question.rtol, {}};
@@ -206,7 +206,7 @@ class Bench {
                 if (round > 2 && row->times[0] > 2e-3) continue;
                 const Question question{1, count, row->tightest, inclination};
                 row->times.push_back(bench::seconds_of(
-                    [&] { sink += solve_by(all_height_models, row->model, chain, question).answer.conical_height[0]; },
+                    [&] { sink += solve_by(height_models_with_dense, row->model, chain, question).answer.conical_height[0]; },
                     1e-4));
             }
         }

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "revchain/scene/models/all.hpp"
+#include "revchain/scene/models/with_dense.hpp"
 
 namespace {
 
@@ -13,7 +13,7 @@ using revchain::Index;
 py::tuple selected(const Chain& chain, Index first, Index count, double rtol, double inclination,
                    std::optional<double> time_budget) {
     const auto choice =
-        revchain::select(revchain::all_height_models, chain, {first, count, rtol, inclination}, time_budget);
+        revchain::select(revchain::height_models_with_dense, chain, {first, count, rtol, inclination}, time_budget);
     py::list rows;
     for (const revchain::Estimate& estimate : choice.estimates)
         rows.append(py::make_tuple(estimate.name,
@@ -35,7 +35,7 @@ py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol,
     revchain::Solution found;
     {
         const py::gil_scoped_release release;
-        found = revchain::solve(revchain::all_height_models, chain, {first, count, rtol, inclination}, time_budget);
+        found = revchain::solve(revchain::height_models_with_dense, chain, {first, count, rtol, inclination}, time_budget);
     }
     return answered(found);
 }
@@ -46,7 +46,7 @@ py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, d
     revchain::Solution found;
     {
         const py::gil_scoped_release release;
-        found = revchain::solve_by(revchain::all_height_models, model, chain, {first, count, rtol, inclination});
+        found = revchain::solve_by(revchain::height_models_with_dense, model, chain, {first, count, rtol, inclination});
     }
     return answered(found);
 }
@@ -56,7 +56,7 @@ py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, d
 void bind_models(py::module_& module) {
     py::list names;
     std::apply([&](const auto&... models) { (names.append(py::str(models.name.data(), models.name.size())), ...); },
-               revchain::all_height_models);
+               revchain::height_models_with_dense);
     module.attr("MODELS") = py::tuple(names);
     module.def("select", &selected, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);
     module.def("solve", &solved_best, "chain"_a, "first"_a, "count"_a, "rtol"_a, "inclination"_a, "time_budget"_a);

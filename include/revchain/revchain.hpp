@@ -3,7 +3,7 @@
 
 // Everything that needs Eigen alone, but for what solves dense eigenproblems, which costs seconds of compile time:
 // revchain/linear/reference.hpp, rig_modes.hpp and revchain/finite/stability.hpp, stability_windows.hpp,
-// held_stability.hpp, revchain/scene/models/all.hpp. What needs GSL is in revchain/analytic.hpp.
+// held_stability.hpp, revchain/scene/models/with_dense.hpp. What needs GSL is in revchain/analytic.hpp.
 
 #include "revchain/chain/attached.hpp"            // IWYU pragma: export
 #include "revchain/chain/chain.hpp"               // IWYU pragma: export

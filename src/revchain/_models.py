@@ -182,7 +182,8 @@ def solve(
     inclination : float, optional
         Of the lowest link, rad, below a right angle: of the shape that grows out of the mode. 0: small.
     time_budget : float, optional
-        In seconds: the most accurate model that is expected to need no more, where none keeps the tolerance.
+        In seconds, positive and finite: the most accurate model that is expected to need no more, where none keeps the
+        tolerance. Where none needs as little the cheapest answers, and ``status`` says so.
     model : str, optional
         Ask this one and no other, by its name as `explain` lists it.
     gravity : float, optional
@@ -224,6 +225,9 @@ def solve(
         if model is not None and model != RIG_MODEL:
             raise ValueError(f"{place}: model must be {RIG_MODEL!r} for a Rig, got {shown(model)}")
         found = modes(hung, modes=range(k, k + n), gravity=g, shapes=False)
+        if len(found.conical_height) < n and (count is not None or first is not None):
+            there = k - 1 + len(found.conical_height)
+            raise ValueError(f"{place}: there are no {n} modes from number {k} on, got {there or 'none'} in all")
         met = tolerance == 0 or bool(np.all(found.error_bound <= tolerance))
         status = found.status if found.status != "success" or met else "tolerance_not_met"
         return Solution(found.conical_height, found.error_bound, None, RIG_MODEL, status, tolerance, k, g)
@@ -325,12 +329,19 @@ def _asked(
     g = STANDARD_GRAVITY
     if scene is not None:
         said = scene.asked(base_chain(hung))
+        for name in ("conical_height", "angular_speed", "certify", "precision", "method"):
+            if name in said:
+                raise ValueError(
+                    f"{place}: ask.{name} of the scene is for revchain.modes: take count and first, got {said[name]}"
+                )
         if count is None and first is None:
             wanted = said.get("modes", range(1, 1 + said.get("count", _available(hung))))
             k, n = wanted.start, min(len(wanted), max(1, _available(hung) - wanted.start + 1))
         if rtol is None:
             tolerance = float(said.get("rtol", 0.0))
         g = scene.gravity_value()
+    if isinstance(hung, Chain) and k - 1 + n > hung.mode_count:
+        raise ValueError(f"{place}: there are {hung.mode_count} modes, got first = {k} and count = {n}")
     if gravity is not None:
         g = float(positive(place, "gravity", real(place, "gravity", gravity)))
     if not tolerance >= 0:

@@ -287,7 +287,7 @@ TEST_CASE("at an inclination: the theory of small ones is off by no more than it
                     const ShapesOnBranch exact = shapes_on_branch(chain, mode, {.tip_inclination = inclination});
                     if (exact.shapes.empty()) continue;
                     const SteadyShape& shape = exact.shapes.front();
-                    if (mode == 1 || 3 * mode <= n)
+                    if (mode == 1 || (3 * mode <= n && mode * mode <= n))
                         steepest = std::max(steepest, shape.inclination.cwiseAbs().maxCoeff() / inclination);
                     CAPTURE(rods, n, mode, inclination);
                     for (const double rtol : {0.5, 1e-2, 1e-5, 1e-10}) {
@@ -307,8 +307,32 @@ TEST_CASE("at an inclination: the theory of small ones is off by no more than it
     Random random(35);
     const Chain<double> unlike = random_chain(random, 5);
     CHECK(solve(unlike, {.rtol = 1e-3, .inclination = 0.01}).model == models::FiniteAmplitude::name);
+    CHECK(solve(unlike, {.rtol = 1e-3, .inclination = 1.5707963}).status == Status::tolerance_not_met);
     CHECK_THROWS_AS(select(unlike, {.inclination = 1.6}), InvalidArgument);
     CHECK_THROWS_AS(select(unlike, {.inclination = -0.1}), InvalidArgument);
+}
+
+TEST_CASE("at an inclination: up to mode sqrt(N) of equal links the lowest leans most, beyond twice that it does not") {
+    bool other = false;
+    for (const bool rods : {false, true})
+        for (const Index n : {18, 30, 60, 100, 300, 1000}) {
+            const auto chain = rods ? Chain<double>::uniform_rods(n, 2.0) : Chain<double>::uniform_plummets(n, 2.0);
+            const auto last = static_cast<Index>(std::sqrt(static_cast<double>(n)));
+            for (const Index mode : {last, last / 2, 2 * last})
+                for (const double inclination : {0.02, 0.3, 0.8, 1.2, 1.4}) {
+                    const ShapesOnBranch exact = shapes_on_branch(chain, mode, {.tip_inclination = inclination});
+                    if (exact.shapes.empty()) continue;
+                    const double steepest = exact.shapes.front().inclination.cwiseAbs().maxCoeff() / inclination;
+                    CAPTURE(rods, n, mode, inclination, steepest);
+                    if (mode <= last) CHECK(steepest <= 1 + 1e-12);
+                    if (mode > last) other = other || steepest > 1.5;
+                    const Solution found = solve(chain, {.first = mode, .rtol = 0.9, .inclination = inclination});
+                    const double error =
+                        std::abs(found.answer.conical_height[0] / exact.shapes.front().conical_height - 1);
+                    CHECK(error <= found.answer.error_bound[0] + 4e-16);
+                }
+        }
+    CHECK(other);
 }
 
 TEST_CASE("no shape of the mode leans so far: no heights, and no success") {

@@ -15,6 +15,7 @@ struct ClosedForms {
     Fit applies(const ChainKind& kind, const Question&) const {
         if (kind.size > 2) return Fit::no("more than two links");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        if (!kind.centroids_below) return Fit::no("a centroid above its pin");
         return {};
     }
     double error_bound(const ChainKind&, const Question&) const { return bound; }

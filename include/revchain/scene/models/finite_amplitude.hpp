@@ -16,6 +16,7 @@ struct FiniteAmplitude {
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (!(question.inclination > 0)) return Fit::no("no inclination given");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        if (question.inclination > std::numbers::pi / 2 - 1e-6) return Fit::no("too near a right angle");
         return {};
     }
     double error_bound(const ChainKind&, const Question& question) const {

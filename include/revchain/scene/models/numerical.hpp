@@ -47,7 +47,10 @@ inline double loose_cost(double rtol, Index count, double pass) {
 struct SinglePrecision {
     static constexpr std::string_view name = "single precision";
 
-    Fit applies(const ChainKind&, const Question&) const { return {}; }
+    Fit applies(const ChainKind& kind, const Question&) const {
+        if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        return {};
+    }
     double error_bound(const ChainKind& kind, const Question& question) const {
         return std::max(std::min(question.rtol, 0.5), 1e-8 * (100 + detail::real(kind.size)));
     }
@@ -65,7 +68,7 @@ struct SinglePrecision {
 /// Halving between counts, one mode after the other: any chain, any modes, to the tolerance or 2 ulp.
 struct ElementBisection {
     static constexpr std::string_view name = "element bisection";
-    static constexpr double bound = 2 * std::numeric_limits<double>::epsilon();
+    static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind&, const Question&) const { return {}; }
     double error_bound(const ChainKind& kind, const Question& question) const {
@@ -96,7 +99,7 @@ struct ElementBisection {
 /// to nothing beside what hangs below them join one by one.
 struct Blocks {
     static constexpr std::string_view name = "compressed blocks";
-    static constexpr double bound = 2 * std::numeric_limits<double>::epsilon();
+    static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (kind.size < 256) return Fit::no("fewer than 256 links");
@@ -147,7 +150,7 @@ struct AllTogether {
 /// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. Foreseen as that of `AllTogether`.
 struct Spectrum {
     static constexpr std::string_view name = "interpolated spectrum";
-    static constexpr double fine = 2 * std::numeric_limits<double>::epsilon(), loose = 1e-14;
+    static constexpr double fine = 2.001 * std::numeric_limits<double>::epsilon(), loose = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (kind.size < 12) return Fit::no("fewer than 12 links");
