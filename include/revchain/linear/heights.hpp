@@ -40,7 +40,7 @@ Height<T> refined(const Pencils<T>& pencils, Index j, const linalg::Bracket<T>& 
         return {start, linalg::bound_of_margin<T>(goal / T(2)), S(start)};
     // One round nearly always, two at most: the quotient's error is the square of the vector's. Where no arithmetic is
     // wider than T, rounding in T limits what two counts can prove: then as many ulp as it takes, within a factor of 2.
-    T margin = T(2) * epsilon<T>();
+    T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // with what goes with it 2 ulp at most
     T height = start;
     S fine(start);
     for (int round = 0; round < (std::is_same_v<S, T> ? 24 : 2); ++round) {

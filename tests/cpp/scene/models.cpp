@@ -101,6 +101,23 @@ TEST_CASE("closed forms: one link and two") {
     CHECK(worst <= 0.5);
 }
 
+TEST_CASE("closed forms: any unit of length") {
+    for (const double unit : {1e-300, 1e-200, 1e-160, 1e-157, 1e-120, 1e-105, 1e-90, 1e90, 1e105, 1e120, 1e160, 1e300})
+        for (const Index n : {1, 2}) {
+            std::vector<Link<double>> links{uniform_rod(1.0, 3 * unit), plummet(2.0, 5 * unit)};
+            links.resize(static_cast<std::size_t>(n));
+            const Chain<double> chain(links);
+            const Answer answer = models::ClosedForms{}.solve(chain, ChainKind(chain), {.count = n});
+            CAPTURE(unit, n);
+            REQUIRE(answer.found);
+            CHECK(worst_share(answer, modes(chain, {.shapes = false})) <= 0.5);
+            if (n > 1) continue;
+            const Solution leaning = solve(chain, {.inclination = 1.2});
+            CHECK(leaning.model == models::ConicalPendulum::name);
+            CHECK(leaning.answer.conical_height[0] == Approx(2 * unit * std::cos(1.2)).epsilon(1e-15));
+        }
+}
+
 TEST_CASE("coarse chains: heights between those proved") {
     Random random(32);
     int found = 0, asked = 0;

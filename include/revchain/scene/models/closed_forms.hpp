@@ -22,15 +22,16 @@ struct ClosedForms {
     double cost(const ChainKind&, const Question&) const { return 1.7e-7; }
 
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
-        const Link<double> lower = chain.link(0);
+        const int exponent = chain.units().length_exponent;  // squares and products of lengths stay in range
+        const Link<double> lower = link_in_unit(chain, 0);
         const double turning = turning_of(lower), l = turning / lower.centroid;
         HeightPair<double> heights{l, 0};
         if (kind.size == 2) {
-            const Link<double> upper = chain.link(1);
+            const Link<double> upper = link_in_unit(chain, 1);
             const double unit = lower.weight + upper.weight, w1 = lower.weight / unit, w2 = upper.weight / unit;
             const double a = upper.length, second = turning_of(upper);
             const double kappa = w2 * upper.centroid + w1 * a;
-            // a sum in which a centroid above its pin cancels, or lengths whose squares leave the range: not for this model
+            // a sum in which a centroid above its pin cancels: not for this model
             if (!(lower.centroid > 0 && upper.centroid >= 0 && kappa > 0)) return {{}, {}, false};
             const double q = (w2 * second + w1 * a * a) / kappa, coupling = w1 * lower.centroid * a * a / kappa;
             const double beyond = turning_ratio(lower) * lower.length * lower.length / lower.centroid;  // l - h
@@ -39,17 +40,47 @@ struct ClosedForms {
         }
         Answer answer{Vector<double>(question.count), Vector<double>::Constant(question.count, bound)};
         for (Index j = 0; j < question.count; ++j) {
-            answer.conical_height[j] = heights[static_cast<std::size_t>(question.first - 1 + j)];
+            answer.conical_height[j] = std::ldexp(heights[static_cast<std::size_t>(question.first - 1 + j)], exponent);
             answer.found = answer.found && std::isnormal(answer.conical_height[j]);
         }
         return answer;
     }
 
-   private:
-    static double turning_ratio(const Link<double>& link) { return static_cast<double>(link.gyration_ratio); }
+    /// With lengths in the unit of the chain, a power of two.
+    static Link<double> link_in_unit(const Chain<double>& chain, Index m) {
+        Link<double> link = chain.link(m);
+        const int to_unit = -chain.units().length_exponent;
+        link.length = std::ldexp(link.length, to_unit), link.centroid = std::ldexp(link.centroid, to_unit);
+        return link;
+    }
     /// h l = h^2 + rho^2
     static double turning_of(const Link<double>& link) {
         return link.centroid * link.centroid + turning_ratio(link) * link.length * link.length;
+    }
+
+   private:
+    static double turning_ratio(const Link<double>& link) { return static_cast<double>(link.gyration_ratio); }
+};
+
+/// One link at any inclination: lambda = l cos delta. Greenhill (1908) §1, §6. Error bound and cost as of `ClosedForms`.
+struct ConicalPendulum {
+    static constexpr std::string_view name = "conical pendulum";
+    static constexpr bool is_linear = false;
+
+    Fit applies(const ChainKind& kind, const Question& question) const {
+        if (kind.size > 1) return Fit::no("more than one link");
+        if (!(question.inclination > 0)) return Fit::no("no inclination given");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question&) const { return ClosedForms::bound; }
+    double cost(const ChainKind&, const Question&) const { return 1.7e-7; }
+
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        const Link<double> link = ClosedForms::link_in_unit(chain, 0);
+        const double height = std::ldexp(ClosedForms::turning_of(link) / link.centroid * std::cos(question.inclination),
+                                         chain.units().length_exponent);
+        return {Vector<double>::Constant(1, height), Vector<double>::Constant(1, ClosedForms::bound),
+                std::isnormal(height)};
     }
 };
 

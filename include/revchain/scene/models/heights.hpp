@@ -14,9 +14,10 @@
 namespace revchain {
 
 /// All models for conical heights, in the order in which they are listed. The last always answers.
-inline constexpr std::tuple<models::ClosedForms, models::EqualPlummets, models::ContinuousChain, models::TaperedChain,
-                            models::CoarseChain, models::SinglePrecision, models::AllTogether, models::Spectrum,
-                            models::Blocks, models::TwoWords, models::FiniteAmplitude, models::ElementBisection>
+inline constexpr std::tuple<models::ClosedForms, models::ConicalPendulum, models::EqualPlummets,
+                            models::ContinuousChain, models::TaperedChain, models::CoarseChain, models::SinglePrecision,
+                            models::AllTogether, models::Spectrum, models::Blocks, models::TwoWords,
+                            models::FiniteAmplitude, models::ElementBisection>
     height_models{};
 
 /// `select` and `solve` among all of them.
