@@ -4,6 +4,8 @@
 //                          (median of interleaved rounds), their ratio; bad: beyond a factor of 3
 //   bench_models choice K  K random questions: who was chosen, measured time over the cheapest that keeps the tolerance,
 //                          error over bound. Last lines: how many within a factor of 2, how many bounds violated.
+//   bench_models select    what choosing costs, in nanoseconds of CPU time: the limit is 2000, but for equal links that are
+//                          stored one by one, which are compared
 // Exit status 1 where a prediction is beyond a factor of 3, a bound is violated, or under 95 % are within 2.
 #include <cstdio>
 #include <cstdlib>
@@ -67,7 +69,8 @@ int costs() {
                         for (int attempt = 0; attempt < 3 && found && !(ratio < 3 && ratio > 1.0 / 3); ++attempt) {
                             for (int round = 0; round < 3; ++round)
                                 times.push_back(bench::seconds_of([&] {
-                                    const Solution s = solve_by(height_models_with_dense, estimate.name, chain, question);
+                                    const Solution s =
+                                        solve_by(height_models_with_dense, estimate.name, chain, question);
                                     found = s.answer.found;
                                     if (found) sink += s.answer.conical_height[0];
                                 }));
@@ -113,11 +116,13 @@ int choice(int count) {
             std::string_view winner;
             for (const Estimate& estimate : chosen.estimates) {
                 if (!estimate.fit.applies || estimate.cost > 20 * chosen.estimates[chosen.model].cost + 1e-6) continue;
-                if (!(solve_by(height_models_with_dense, estimate.name, chain, question).status == Status::success)) continue;
+                if (!(solve_by(height_models_with_dense, estimate.name, chain, question).status == Status::success))
+                    continue;
                 std::vector<double> times;
                 for (int round = 0; round < 3; ++round)
                     times.push_back(bench::seconds_of([&] {
-                        sink += solve_by(height_models_with_dense, estimate.name, chain, question).answer.error_bound[0];
+                        sink +=
+                            solve_by(height_models_with_dense, estimate.name, chain, question).answer.error_bound[0];
                     }));
                 const double t = bench::median(times);
                 if (t < best) best = t, winner = estimate.name;
@@ -134,9 +139,35 @@ int choice(int count) {
     return violated > 0 || good < 0.95 * asked ? 1 : 0;
 }
 
+int choosing() {
+    Random random(9);
+    int bad = 0;
+    std::printf("links,kind,rtol,select_ns\n");
+    const auto print = [&](const Chain<double>& chain, const char* kind, bool limited) {
+        for (const double rtol : {1e-2, 1e-9, 0.0}) {
+            std::vector<double> times;
+            for (int round = 0; round < 5; ++round)
+                times.push_back(bench::seconds_of([&] {
+                    sink += static_cast<double>(select(height_models_with_dense, chain, {.rtol = rtol}).model);
+                }));
+            const double took = bench::median(times);
+            if (limited && took > 2e-6) ++bad;
+            std::printf("%td,%s,%g,%.0f\n", chain.size(), kind, rtol, 1e9 * took);
+        }
+    };
+    for (const Index size : {1, 2, 10, 100, 1000, 100'000}) {
+        const char* const kinds[] = {"equal rods", "equal plummets", "unlike rods", "unlike plummets",
+                                     "tapered",    "light tip",      "heavy tip",   "bodies"};
+        for (int kind = 0; kind < 8; ++kind) print(random_chain(random, size, kind), kinds[kind], true);
+        print(Chain<double>(std::vector(static_cast<std::size_t>(size), plummet(1.0, 2.0))), "equal one by one", false);
+    }
+    return bad > 0 ? 1 : 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (argc > 1 && std::strcmp(argv[1], "select") == 0) return choosing();
     const int status = argc > 2 && std::strcmp(argv[1], "choice") == 0 ? choice(std::atoi(argv[2])) : costs();
     return std::isfinite(sink) ? status : 2;
 }

@@ -59,7 +59,8 @@ struct ChainKind {
 
     void look_at_links(const Chain<double>& chain) {
         bool points = true, shorter = true;
-        for (Index m = 0; m < chain.size() && (points || shorter || centroids_below); ++m) {
+        const Index different = equal ? 1 : chain.size();
+        for (Index m = 0; m < different && (points || shorter || centroids_below); ++m) {
             const double p = chain.centroid()[m] / chain.length()[m], r = chain.gyration_ratio()[m].high;
             points = points && p == 1 && r == 0;
             shorter = shorter && r > 0 && p * (1 - p) > r;
