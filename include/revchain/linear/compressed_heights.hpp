@@ -7,16 +7,16 @@
 
 namespace revchain::detail {
 
-/// Where compressed chains pay: long ones of which few modes are wanted. Below, one mode by bisection costs less than the
-/// blocks of all (flat: within 20 % from 150 to 400 links).
+/// Where compressed chains pay: long ones of which few modes are wanted. Below, one mode by bisection costs less than
+/// the blocks of all (flat: within 20 % from 150 to 400 links).
 template <Real T>
 bool compression_pays(const Chain<T>& chain, const ModeRange& range) {
     return chain.size() >= 256 && range.first - 1 + range.count <= chain.size() / 8;
 }
 
-/// The height of mode `number` of a chain of like lengths, in the unit of its `LinkColumns`: of pieces, each a uniform rod of
-/// what it weighs (some per cent too low; weights as they are), or, of more modes than those have, from the phase
-/// integral sqrt(dW df)  that waves go through (WKB: a few per cent for like links). Cost: 5 microseconds.
+/// The height of mode `number` of a chain of like lengths, in the unit of its `LinkColumns`: of pieces, each a uniform
+/// rod of what it weighs (some per cent too low; weights as they are), or, of more modes than those have, from the
+/// phase integral sqrt(dW df)  that waves go through (WKB: a few per cent for like links). Cost: 5 microseconds.
 template <Real T>
 T estimated_height(const Chain<T>& chain, Index number) {
     using std::sqrt;
@@ -81,8 +81,8 @@ struct CompressedHeights {
     CompressedChain<T> compressed;
 };
 
-/// Stage 1 of `modes` for `compression_pays`; nothing where the bound would miss the tolerance asked or a mode could not
-/// be proved, so that the sure way is left.
+/// Stage 1 of `modes` for `compression_pays`; nothing where the bound would miss the tolerance asked or a mode could
+/// not be proved, so that the sure way is left.
 ///
 /// Blocks, their modes bracketed by counts in T, two Newton steps (the last in `Wide<T>`), two proved counts on the
 /// blocks. The bound adds what condensing has changed, 1.8 ulp: docs/accuracy.md, "Blocks".

@@ -55,7 +55,8 @@ Height<T> refined(const Pencils<T>& pencils, Index j, const linalg::Bracket<T>& 
     return {sure.eigenvalue, sure.error_bound, S(static_cast<M>(sure.eigenvalue))};
 }
 
-/// Heights closer together than their bounds may come out in the wrong order; exchanged, the larger bound holds for both.
+/// Heights closer together than their bounds may come out in the wrong order; exchanged, the larger bound holds for
+/// both.
 template <Real T>
 void restore_order(std::vector<Height<T>>& heights) {
     for (std::size_t j = 1; j < heights.size(); ++j)
@@ -66,9 +67,9 @@ void restore_order(std::vector<Height<T>>& heights) {
         }
 }
 
-/// Heights number `range` to within `goal` (relative) by bisection in P, float or double, on the plain pencil, each proved by
-/// two counts there, in double. Nothing where there is no such pencil or rounding leaves one in doubt: about where `goal`
-/// is below 8 ulp of P for each link.
+/// Heights number `range` to within `goal` (relative) by bisection in P, float or double, on the plain pencil, each
+/// proved by two counts there, in double. Nothing where there is no such pencil or rounding leaves one in doubt: about
+/// where `goal` is below 8 ulp of P for each link.
 /// Cost for each link: 5 ns, 7 ns for each three bits and 8 modes (float: 5), and 24 ns a mode for the proof.
 template <std::floating_point P, class Finished>
 std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,

@@ -8,9 +8,10 @@
 
 namespace revchain {
 
-/// What `assemble` gives, in double alone and at a twentieth of its cost: 5 ns a link. Every entry is within `entry_error`, 3e-14
-/// (less for fewer than 256 links), of the exact function of the chain's stored numbers. For loose tolerances.
-/// None where weights differ too widely for one unit, a centroid lies above its pin, or the chain's units leave the range.
+/// What `assemble` gives, in double alone and at a twentieth of its cost: 5 ns a link. Every entry is within
+/// `entry_error`, 3e-14 (less for fewer than 256 links), of the exact function of the chain's stored numbers. For loose
+/// tolerances. None where weights differ too widely for one unit, a centroid lies above its pin, or the chain's units
+/// leave the range.
 template <std::same_as<double> T>
 std::optional<linalg::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
     const ChainUnits units = chain.units();

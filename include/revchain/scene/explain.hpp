@@ -33,9 +33,9 @@ inline std::string time_text(double seconds) {
 
 }  // namespace detail
 
-/// What `select` chose and why, as a table for people: a line for each model, with a mark at the one chosen, the bound of its
-/// relative error and the time it is expected to take, or the reason why it does not apply. Nothing is solved for it. The
-/// first line says where none keeps the tolerance. Each line ends with a newline. Cost: some microseconds.
+/// What `select` chose and why, as a table for people: a line for each model, with a mark at the one chosen, the bound
+/// of its relative error and the time it is expected to take, or the reason why it does not apply. Nothing is solved
+/// for it. The first line says where none keeps the tolerance. Each line ends with a newline. Cost: some microseconds.
 template <std::size_t N>
 std::string explain(const Choice<N>& choice) {
     using Line = std::array<std::string, 5>;

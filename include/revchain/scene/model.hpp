@@ -11,8 +11,8 @@
 
 namespace revchain {
 
-/// What is asked of a chain: the conical heights of modes number `first`, ..., each to a relative tolerance; 0: as accurate as
-/// there is.
+/// What is asked of a chain: the conical heights of modes number `first`, ..., each to a relative tolerance; 0: as
+/// accurate as there is.
 struct Question {
     Index first = 1;  ///< number of the slowest mode wanted, from 1
     Index count = 1;
@@ -112,8 +112,9 @@ struct Fit {
     static Fit no(std::string_view why) { return {false, why}; }
 };
 
-/// One theory or method: whether it applies to a question, how large its error can be (relative, of every height asked for;
-/// a bound, before anything is computed), what it costs (seconds, predicted), and its answer, with the bounds reached.
+/// One theory or method: whether it applies to a question, how large its error can be (relative, of every height asked
+/// for; a bound, before anything is computed), what it costs (seconds, predicted), and its answer, with the bounds
+/// reached.
 template <class M>
 concept Model = requires(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
     { M::name } -> std::convertible_to<std::string_view>;
@@ -133,10 +134,11 @@ constexpr bool is_linear() {
 }
 
 /// How far the theory of small inclinations is off where the lowest link has one that is not: at most 1/cos - 1, if no
-/// link leans more than the lowest. Offsets of a shape are those of a mode of the straight chain with links as long as they
-/// reach down (`transferred_to_axis`), and no link made longer as a whole lowers a height. Of equal links the lowest leans
-/// most in the slowest modes: up to number 1.15 sqrt(N) of plummets, 1.6 sqrt(N) of rods as the linear theory has it, and no
-/// more than a third of them; here up to sqrt(N), found so up to 80 degrees (tests/cpp/scene/models.cpp). Infinite of others.
+/// link leans more than the lowest. Offsets of a shape are those of a mode of the straight chain with links as long as
+/// they reach down (`transferred_to_axis`), and no link made longer as a whole lowers a height. Of equal links the
+/// lowest leans most in the slowest modes: up to number 1.15 sqrt(N) of plummets, 1.6 sqrt(N) of rods as the linear
+/// theory has it, and no more than a third of them; here up to sqrt(N), found so up to 80 degrees
+/// (tests/cpp/scene/models.cpp). Infinite of others.
 inline double error_of_small_inclinations(const ChainKind& kind, const Question& question) {
     if (!(question.inclination > 0)) return 0;
     const Index last = question.last();

@@ -22,8 +22,8 @@ struct Estimate {
     double cost = std::numeric_limits<double>::infinity();         ///< seconds, predicted
 };
 
-/// What `select` chose: `model` is an index into `estimates`, past the last where none applies. `meets_tolerance` false: none
-/// does (within the budget), and this is the most accurate.
+/// What `select` chose: `model` is an index into `estimates`, past the last where none applies. `meets_tolerance`
+/// false: none does (within the budget), and this is the most accurate.
 template <std::size_t N>
 struct Choice {
     std::array<Estimate, N> estimates;
@@ -114,8 +114,10 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
 }  // namespace detail
 
 /// Which model answers: the cheapest whose bound keeps the tolerance; with a `time_budget` in seconds the most accurate
-/// within it if none does both, and the cheapest, which then does not meet the tolerance, if none is as cheap. Cost: 0.2 microseconds; no link is looked at.
-/// Throws InvalidArgument for modes that are not there, a tolerance that is negative or NaN, a budget that is not positive.
+/// within it if none does both, and the cheapest, which then does not meet the tolerance, if none is as cheap. Cost:
+/// 0.2 microseconds; no link is looked at.
+/// Throws InvalidArgument for modes that are not there, a tolerance that is negative or NaN, a budget that is not
+/// positive.
 template <Model... Models>
 Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chain<double>& chain,
                                  const Question& question, std::optional<double> time_budget = std::nullopt) {
@@ -137,9 +139,10 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
 }
 
 /// The heights asked for, by the model chosen. One that finds that it has no answer after all, or a worse bound than it
-/// foresaw and than is asked for, is left out and the next one asked. Status `tolerance_not_met` where nothing keeps the
-/// tolerance (within the budget); the bounds are then the best there are. Without any answer there are no heights: of unlike
-/// links without inertia at an inclination, where no model applies, or of a model list without one that always has one.
+/// foresaw and than is asked for, is left out and the next one asked. Status `tolerance_not_met` where nothing keeps
+/// the tolerance (within the budget); the bounds are then the best there are. Without any answer there are no heights:
+/// of unlike links without inertia at an inclination, where no model applies, or of a model list without one that
+/// always has one.
 template <Model... Models>
 Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, const Question& question,
                std::optional<double> time_budget = std::nullopt) {
@@ -163,8 +166,8 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
     return best;
 }
 
-/// By the model of that name, whatever others would cost. No heights, and `tolerance_not_met`, where it does not apply or
-/// finds no answer; that status, too, where its bound is larger than the tolerance.
+/// By the model of that name, whatever others would cost. No heights, and `tolerance_not_met`, where it does not apply
+/// or finds no answer; that status, too, where its bound is larger than the tolerance.
 /// Throws InvalidArgument as `select`, and for a name that no model has.
 template <Model... Models>
 Solution solve_by(const std::tuple<Models...>& models, std::string_view model, const Chain<double>& chain,

@@ -62,7 +62,8 @@ struct ClosedForms {
     static double turning_ratio(const Link<double>& link) { return static_cast<double>(link.gyration_ratio); }
 };
 
-/// One link at any inclination: lambda = l cos delta. Greenhill (1908) §1, §6. Error bound and cost as of `ClosedForms`.
+/// One link at any inclination: lambda = l cos delta. Greenhill (1908) §1, §6. Error bound and cost as of
+/// `ClosedForms`.
 struct ConicalPendulum {
     static constexpr std::string_view name = "conical pendulum";
     static constexpr bool is_linear = false;

@@ -9,11 +9,11 @@
 
 namespace revchain::models {
 
-/// Groups of neighbouring links, each merged into one equivalent link that hangs between its two pins as the links would
-/// without inertia. That lowers every conical height, and by no more than the largest height that a group has between held
-/// pins (linalg/grouped_pencil.hpp): all heights are proved to lie between the coarse ones and those with that added.
-/// Groups are as long as the tolerance lets them be: short at the free end, long above. Heights of the coarse chain by
-/// bisection and two proved counts. Cost: 17 ns a link, and the coarse chain.
+/// Groups of neighbouring links, each merged into one equivalent link that hangs between its two pins as the links
+/// would without inertia. That lowers every conical height, and by no more than the largest height that a group has
+/// between held pins (linalg/grouped_pencil.hpp): all heights are proved to lie between the coarse ones and those with
+/// that added. Groups are as long as the tolerance lets them be: short at the free end, long above. Heights of the
+/// coarse chain by bisection and two proved counts. Cost: 17 ns a link, and the coarse chain.
 struct CoarseChain {
     static constexpr std::string_view name = "coarse chain";
 

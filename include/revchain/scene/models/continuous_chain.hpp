@@ -10,10 +10,10 @@
 
 namespace revchain::models {
 
-/// The limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4 (9), (10).
-/// From how chains of N links tend to it, with J = J_1(j): the error bound of plummets, (1/2)/N and the terms of order 1/N^2;
-/// of rods what is taken off, (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4, and the bound of what that leaves, of the order
-/// log N/N^4 (straight_links.hpp). Measured: tests/cpp/scene/models.cpp, tapered.cpp. Cost: 5 ns a mode, of rods 30.
+/// The limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4 (9), (10). From how chains of N
+/// links tend to it, with J = J_1(j): the error bound of plummets, (1/2)/N and the terms of order 1/N^2; of rods what
+/// is taken off, (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4, and the bound of what that leaves, of the order log N/N^4
+/// (straight_links.hpp). Measured: tests/cpp/scene/models.cpp, tapered.cpp. Cost: 5 ns a mode, of rods 30.
 struct ContinuousChain {
     static constexpr std::string_view name = "continuous chain";
 

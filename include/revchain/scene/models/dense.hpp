@@ -8,10 +8,10 @@
 
 namespace revchain::models {
 
-/// What a textbook does: both matrices assembled, Cholesky and the symmetric QR algorithm for all modes. Assembling adds
-/// neighbouring stiffnesses up, which loses the slowest modes of long or unlike chains; how much is lost is proved by counts
-/// on the chain's elements, as for every other way. For comparison: it is never the cheapest.
-/// A header of its own: it takes seconds to compile. Cost: 1.4 ns N^3 or so.
+/// What a textbook does: both matrices assembled, Cholesky and the symmetric QR algorithm for all modes. Assembling
+/// adds neighbouring stiffnesses up, which loses the slowest modes of long or unlike chains; how much is lost is proved
+/// by counts on the chain's elements, as for every other way. For comparison: it is never the cheapest. A header of its
+/// own: it takes seconds to compile. Cost: 1.4 ns N^3 or so.
 struct Dense {
     static constexpr std::string_view name = "dense";
     static constexpr Index most_links = 300;

@@ -6,8 +6,8 @@
 
 namespace revchain::models {
 
-/// N equal plummets at distances a: a/lambda are the zeros of the Laguerre polynomial L_N, and of these, with j = j_{0,k}
-/// and nu = 4 N + 2, Tricomi's expansion (DLMF 18.16(v)) is taken four terms farther,
+/// N equal plummets at distances a: a/lambda are the zeros of the Laguerre polynomial L_N, and of these, with j =
+/// j_{0,k} and nu = 4 N + 2, Tricomi's expansion (DLMF 18.16(v)) is taken four terms farther,
 ///
 ///     (j^2/nu) (1 + (j^2 - 2)/(3 nu^2) + (11 j^4 - 57 j^2 + 94)/(45 nu^4) + ...),
 ///

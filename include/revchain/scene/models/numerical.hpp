@@ -4,8 +4,8 @@
 #include "revchain/linear/modes.hpp"
 #include "revchain/scene/model.hpp"
 
-/// The four ways of `modes` to the heights of any chain (docs/design.md), each as a model. All bounds are proved. Costs:
-/// fitted to `bench_models` (x86-64, AVX2, 2 cores, GCC 12), flat within a factor of 2.
+/// The four ways of `modes` to the heights of any chain (docs/design.md), each as a model. All bounds are proved.
+/// Costs: fitted to `bench_models` (x86-64, AVX2, 2 cores, GCC 12), flat within a factor of 2.
 namespace revchain::models {
 
 namespace detail {
@@ -121,9 +121,9 @@ struct Blocks {
     }
 };
 
-/// All modes of a small chain at once in SIMD lanes. Plummets, or links whose pendulum length is less than their length:
-/// others are found out at once, as those of whom 1e-14 or the tolerance cannot be proved.
-/// Bound foreseen: that of most chains; of looser tolerances up to 3e-11 was found to be proved of links far apart.
+/// All modes of a small chain at once in SIMD lanes. Plummets, or links whose pendulum length is less than their
+/// length: others are found out at once, as those of whom 1e-14 or the tolerance cannot be proved. Bound foreseen: that
+/// of most chains; of looser tolerances up to 3e-11 was found to be proved of links far apart.
 struct AllTogether {
     static constexpr std::string_view name = "all together";
     static constexpr double bound = 1e-14;
@@ -147,7 +147,8 @@ struct AllTogether {
     }
 };
 
-/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. Foreseen as that of `AllTogether`.
+/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. Foreseen as that of
+/// `AllTogether`.
 struct Spectrum {
     static constexpr std::string_view name = "interpolated spectrum";
     static constexpr double fine = 2.001 * std::numeric_limits<double>::epsilon(), loose = 1e-14;

@@ -9,10 +9,10 @@
 
 namespace revchain::models {
 
-/// Chains made by `Chain::tapered`: the cord that they are cut from, lambda = 4 (p+1) L/j^2, j = j_{p,k}, Greenhill (1908) §4,
-/// and what its links being straight takes away, to the order 1/N^2 (straight_links.hpp). Error bound: half of how much the
-/// next order can be, and roundings. Measured: tests/cpp/scene/tapered.cpp. Cost: 1 to 5 microseconds a mode
-/// at first, less far out.
+/// Chains made by `Chain::tapered`: the cord that they are cut from, lambda = 4 (p+1) L/j^2, j = j_{p,k}, Greenhill
+/// (1908) §4, and what its links being straight takes away, to the order 1/N^2 (straight_links.hpp). Error bound: half
+/// of how much the next order can be, and roundings. Measured: tests/cpp/scene/tapered.cpp. Cost: 1 to 5 microseconds a
+/// mode at first, less far out.
 struct TaperedChain {
     static constexpr std::string_view name = "tapered chain";
 
@@ -60,8 +60,8 @@ struct TaperedChain {
     static double share(const ChainKind& kind, double p, double j) {
         return j * j / (4 * (p + 1) * static_cast<double>(kind.size));
     }
-    /// Of the zero, of this, and of the links: three roundings in each stiffness and mass; where almost all weight is in the
-    /// lowest link its radius of gyration is the small difference of two lengths.
+    /// Of the zero, of this, and of the links: three roundings in each stiffness and mass; where almost all weight is
+    /// in the lowest link its radius of gyration is the small difference of two lengths.
     static double rounding(double p) { return epsilon<double>() * (6 + (p < 0 ? 1 / std::sqrt(p + 1) : 1)); }
 
     /// The bound before the zero is known: from above, with no Bessel function.
@@ -76,8 +76,8 @@ struct TaperedChain {
         const double t = 3 * std::numbers::pi / 8 * (4 * static_cast<double>(k) - 1);
         return std::cbrt(t * t) * (1 + 5.0 / 48 / (t * t));
     }
-    /// McMahon's leading term, from above for |p| > 1/2, with the next for smaller ones (DLMF 10.21.19); j^2 <= 4 (p+1)(p+2),
-    /// of Rayleigh's sums, near -1; Qu and Wong's bound (doi:10.1090/S0002-9947-99-02165-0) for large p.
+    /// McMahon's leading term, from above for |p| > 1/2, with the next for smaller ones (DLMF 10.21.19); j^2 <= 4
+    /// (p+1)(p+2), of Rayleigh's sums, near -1; Qu and Wong's bound (doi:10.1090/S0002-9947-99-02165-0) for large p.
     static double zero_at_most(double p, Index k) {
         const double beta = std::numbers::pi * (static_cast<double>(k) + p / 2 - 0.25);
         double j = std::abs(p) <= 0.5 ? beta + (1 - 4 * p * p) / (8 * beta) : beta;
@@ -88,9 +88,10 @@ struct TaperedChain {
         }
         return j * (1 + 4 * epsilon<double>());
     }
-    /// c with 1/J^2 < (pi j/2)/sqrt(1 - p^2/j^2), without the root for |p| < 1/2 (Watson, §13.74: z (J^2 + Y^2)), and
-    /// I <= arccos(p/j)/(pi (p + 2)), I <= 1/(2 (p + 2)) for p < 0; and c <= 0.09 (p + 1)^2 of the first mode. The last two of
-    /// p > 0 are measured, to be 1.06 to 2.2 of c (bounds so foreseen: up to twice those found, tests/cpp/scene/tapered.cpp).
+    /// c with 1/J^2 < (pi j/2)/sqrt(1 - p^2/j^2), without the root for |p| < 1/2 (Watson, §13.74: z (J^2 + Y^2)), and I
+    /// <= arccos(p/j)/(pi (p + 2)), I <= 1/(2 (p + 2)) for p < 0; and c <= 0.09 (p + 1)^2 of the first mode. The last
+    /// two of p > 0 are measured, to be 1.06 to 2.2 of c (bounds so foreseen: up to twice those found,
+    /// tests/cpp/scene/tapered.cpp).
     static double second_order_at_most(double p, Index k, double j) {
         const double first = 0.09 * (p + 1) * (p + 1);
         if (p < 0 && k == 1) return first;

@@ -8,8 +8,8 @@
 
 namespace revchain::models {
 
-/// Bisection in two doubles, for tolerances below what one can hold: `Answer::conical_height_low` is what the heights rounded
-/// to double leave. Bounds are proved, 1e-28 and more: they grow with N.
+/// Bisection in two doubles, for tolerances below what one can hold: `Answer::conical_height_low` is what the heights
+/// rounded to double leave. Bounds are proved, 1e-28 and more: they grow with N.
 struct TwoWords {
     static constexpr std::string_view name = "double-double";
 
