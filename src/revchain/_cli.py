@@ -21,7 +21,7 @@ from ._exit_codes import ExitCode
 from ._files import written_aside
 from ._modes import Modes
 from ._progress import watched
-from ._report import csv_text, json_of, json_text, table
+from ._report import answer_table, csv_text, json_of, json_text, table
 from ._response import Response
 from ._rig import base_chain
 from ._rig_modes import RigModes
@@ -152,21 +152,36 @@ def explain(
     time_budget: Annotated[
         float | None, typer.Option(metavar="S", help="The most time it may take, in seconds.")
     ] = None,
+    count: Annotated[int | None, typer.Option(metavar="K", help="So many modes, instead of the scene's.")] = None,
+    first: Annotated[int | None, typer.Option(metavar="N", help="From this number on.")] = None,
+    model: Annotated[str | None, typer.Option(metavar="NAME", help="With --solve: by this one.")] = None,
+    solve: Annotated[bool, typer.Option("--solve", help="Also the heights, by the model chosen.")] = False,
     json: Annotated[bool, typer.Option("--json", help="As JSON, on stdout.")] = False,
 ) -> None:
     """Say which model finds the scene's heights cheapest for a tolerance, and what others would cost."""
     from ._models import explain as explain_models
+    from ._models import solve as solve_cheapest
 
     given = load_scene(scene)
+    found = None
     with told_of(scene):
-        why = explain_models(given, rtol=rtol, inclination=inclination, time_budget=time_budget)
+        asked: dict[str, Any] = {"rtol": rtol, "inclination": inclination, "time_budget": time_budget, "first": first}
+        why = explain_models(given, count, **asked)
+        if solve or model is not None:
+            found = solve_cheapest(given, count, model=model, **asked)
     title = given.title or scene.stem
     if json:
-        sys.stdout.write(json_of({"title": title, **why.to_dict()}))
+        answer = {} if found is None else {"answer": found.to_dict()}
+        sys.stdout.write(json_of({"title": title, **why.to_dict(), **answer}))
     else:
         print(title)
         print(why)
-    if not why.meets_tolerance:
+        if found is not None:
+            print(found)
+            Console().print(answer_table(found))
+    if found is not None and found.status != "success":
+        raise Stop("no model keeps the tolerance", ExitCode.TOLERANCE_NOT_MET)
+    if found is None and not why.meets_tolerance:
         best = f"keeps the tolerance; the best bound is {why.chosen.error_bound:.1e}" if why.chosen else "applies"
         raise Stop(f"no model {best}", ExitCode.TOLERANCE_NOT_MET)
 

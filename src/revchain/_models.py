@@ -61,6 +61,33 @@ class Solution(Record):
         """Of each mode, rad/s; relative error half that of the height, and an ulp."""
         return np.sqrt(self.gravity / self.conical_height)
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return everything as plain Python data.
+
+        Returns
+        -------
+        dict
+            The attributes, and ``"angular_speed"``; arrays as lists.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.solve(rc.Chain.uniform_rods(2, length=3.0)).to_dict()["model"]
+        'closed forms'
+        """
+        low = self.conical_height_low
+        return {
+            "model": self.model,
+            "status": self.status,
+            "rtol": self.rtol,
+            "first": self.first,
+            "gravity": self.gravity,
+            "conical_height": self.conical_height.tolist(),
+            "conical_height_low": None if low is None else low.tolist(),
+            "error_bound": self.error_bound.tolist(),
+            "angular_speed": self.angular_speed.tolist(),
+        }
+
     def __len__(self) -> int:
         return int(self.conical_height.size)
 

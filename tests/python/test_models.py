@@ -164,3 +164,18 @@ def test_the_command(capsys, tmp_path):
     assert _cli.run(["explain", str(path), "--rtol", "1e-15", "--time-budget", "1e-6"]) == 1
     assert "no model keeps the tolerance" in capsys.readouterr().err
     assert _cli.run(["explain", str(path), "--rtol", "-1"]) == 2
+    capsys.readouterr()
+    exact = rc.modes(rc.load_scene(path).chain(), modes=range(3, 5), shapes=False)
+    asked = ["explain", str(path), "--rtol", "1e-4", "--count", "2", "--first", "3"]
+    assert _cli.run([*asked, "--solve"]) == 0
+    out = capsys.readouterr().out
+    assert "2 heights by continuous chain" in out and f"{exact.conical_height[0]:.6g}"[:7] in out
+    assert _cli.run([*asked, "--model", "coarse chain", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)["answer"]
+    assert answer["model"] == "coarse chain" and answer["first"] == 3 and max(answer["error_bound"]) <= 1e-4
+    assert answer["conical_height"] == pytest.approx(exact.conical_height, rel=1e-4)
+    assert answer["angular_speed"] == pytest.approx(exact.angular_speed(), rel=1e-4)
+    assert _cli.run([*asked, "--model", "dense"]) == 1
+    assert "no model keeps" in capsys.readouterr().err
+    assert _cli.run([*asked, "--model", "magic"]) == 2 and "model must be one of" in capsys.readouterr().err
+    assert _cli.run(["explain", str(path), "--first", "9999"]) == 2
