@@ -72,7 +72,7 @@ class Solution(Record):
         Examples
         --------
         >>> import revchain as rc
-        >>> rc.solve(rc.Chain.uniform_rods(2, length=3.0)).to_dict()["model"]
+        >>> rc.solve(rc.Chain.uniform_rods(2, length=3.0), rtol=1e-9).to_dict()["model"]
         'closed forms'
         """
         low = self.conical_height_low
