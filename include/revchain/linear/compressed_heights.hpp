@@ -99,7 +99,7 @@ std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain
         return std::nullopt;
 
     const Index first = range.first - 1, last = first + range.count;
-    T least = T(0.9) * estimated_height(chain, last);
+    T least = T(0.95) * estimated_height(chain, last);
     CompressedChain<T> compressed;
     for (int attempt = 0;; ++attempt) {
         compressed = compress(chain, least);
