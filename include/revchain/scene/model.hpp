@@ -48,7 +48,9 @@ struct ChainKind {
     bool centroids_below = true;   ///< of at most 100 links: none lies above its pin
     bool short_pendulums = false;  ///< of at most 100 links: all plummets, or all pendulum lengths below the links'
     double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
-    Index light = 0;    ///< links at the top that weigh less than 2e-14 of what hangs below them, about
+    double long_pendulums =
+        0;            ///< share of links whose pendulum length exceeds their length, or whose centroid is above
+    Index light = 0;  ///< links at the top that weigh less than 2e-14 of what hangs below them, about
 
    private:
     template <class V>
@@ -67,6 +69,18 @@ struct ChainKind {
             centroids_below = centroids_below && p >= 0;
         }
         short_pendulums = points || shorter;
+    }
+    /// Of so many at most, spread over the chain.
+    static double share_of_long_pendulums(const Chain<double>& chain) {
+        constexpr Index most = 32;
+        const Index looked_at = std::min(most, chain.size());
+        Index longer = 0;
+        for (Index i = 0; i < looked_at; ++i) {
+            const Index m = i * chain.size() / looked_at;
+            const double p = chain.centroid()[m] / chain.length()[m];
+            longer += p >= 0 && p * (1 - p) >= chain.gyration_ratio()[m].high ? 0 : 1;
+        }
+        return static_cast<double>(longer) / static_cast<double>(looked_at);
     }
     /// As if they grew lighter upwards: a search among the sums at hand.
     static Index light_links(const Chain<double>& chain) {
@@ -96,6 +110,7 @@ struct ChainKind {
                 growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
             }
             light = light_links(chain);
+            long_pendulums = share_of_long_pendulums(chain);
             return;
         }
         const Link<double> link = chain.link(0);
