@@ -109,10 +109,10 @@ struct Blocks {
     double error_bound(const ChainKind&, const Question&) const { return bound; }
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count);
-        // long pendulums are not condensed; light above: little to condense; light below: waves as short as there, and many blocks
+        // long pendulums are not condensed; light above: little to condense; light below: short waves, many blocks
         const double few = kind.growth < -5 && kind.size < 2000 ? 0.35 : 1;
         return 3e-5 + 1.7e-9 * detail::real(kind.size) +
-               detail::real(kind.size) * (1.5e-6 + 2e-7 * count) * kind.long_pendulums +
+               detail::real(kind.size) * (1.2e-6 + 2e-7 * count) * kind.long_pendulums +
                3e-7 * detail::real(kind.light) + 2e-5 * std::max(0.0, kind.growth) +
                5e-5 * few * count * (1 + count / 20);
     }
