@@ -30,13 +30,14 @@ struct Answer {
     bool found = true;
     Vector<double> conical_height_low{};  ///< what a double cannot hold of the heights; empty where it is not known
 
+    static Answer none() { return {{}, {}, false}; }
     double worst_bound() const {
         return error_bound.size() > 0 && found ? error_bound.maxCoeff() : std::numeric_limits<double>::infinity();
     }
 };
 
-/// What the models have to know of a chain at once. Cost O(log N), but of equal links stored one by one,
-/// and of at most 100 links, which are looked at.
+/// What the models have to know of a chain at once. Cost O(log N), but of equal links stored one by one, which
+/// are compared.
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
@@ -45,11 +46,12 @@ struct ChainKind {
     bool rods = false;             ///< equal uniform rods
     double length = 0;             ///< of the whole chain
     std::optional<double> taper;   ///< `Chain::taper`
-    bool centroids_below = true;   ///< of at most 100 links: none lies above its pin
-    bool short_pendulums = false;  ///< of at most 100 links: all plummets, or all pendulum lengths below the links'
+    // of the links looked at
+    bool centroids_below = true;    ///< none lies above its pin
+    bool short_pendulums = false;   ///< all are plummets, or all pendulum lengths below the links'
+    double long_pendulums = 0;      ///< share of links whose pendulum is longer than they, or whose centroid is above
+    // of unlike links
     double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
-    double long_pendulums =
-        0;            ///< share of links whose pendulum length exceeds their length, or whose centroid is above
     Index light = 0;  ///< links at the top that weigh less than 2e-14 of what hangs below them, about
 
    private:
@@ -59,28 +61,21 @@ struct ChainKind {
         return std::all_of(numbers, numbers + column.stored(), [&](const V& x) { return x == numbers[0]; });
     }
 
+    /// All of at most 100 links, of more a sample spread over the chain; of equal ones the first.
     void look_at_links(const Chain<double>& chain) {
+        const Index looked_at = equal ? 1 : size <= 100 ? size : 32;
         bool points = true, shorter = true;
-        const Index different = equal ? 1 : chain.size();
-        for (Index m = 0; m < different && (points || shorter || centroids_below); ++m) {
+        Index longer = 0;
+        for (Index i = 0; i < looked_at; ++i) {
+            const Index m = i * size / looked_at;
             const double p = chain.centroid()[m] / chain.length()[m], r = chain.gyration_ratio()[m].high;
             points = points && p == 1 && r == 0;
             shorter = shorter && r > 0 && p * (1 - p) > r;
             centroids_below = centroids_below && p >= 0;
+            longer += p >= 0 && p * (1 - p) >= r ? 0 : 1;
         }
         short_pendulums = points || shorter;
-    }
-    /// Of so many at most, spread over the chain.
-    static double share_of_long_pendulums(const Chain<double>& chain) {
-        constexpr Index most = 32;
-        const Index looked_at = std::min(most, chain.size());
-        Index longer = 0;
-        for (Index i = 0; i < looked_at; ++i) {
-            const Index m = i * chain.size() / looked_at;
-            const double p = chain.centroid()[m] / chain.length()[m];
-            longer += p >= 0 && p * (1 - p) >= chain.gyration_ratio()[m].high ? 0 : 1;
-        }
-        return static_cast<double>(longer) / static_cast<double>(looked_at);
+        long_pendulums = static_cast<double>(longer) / static_cast<double>(looked_at);
     }
     /// As if they grew lighter upwards: a search among the sums at hand.
     static Index light_links(const Chain<double>& chain) {
@@ -103,14 +98,13 @@ struct ChainKind {
         : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()), taper(chain.taper()) {
         equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
                 is_one(chain.gyration_ratio());
-        if (size <= 100) look_at_links(chain);
+        look_at_links(chain);
         if (!equal) {
             if (size >= segment_size) {
                 const double half = static_cast<double>(chain.weight_below(size / 2));
                 growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
             }
             light = light_links(chain);
-            long_pendulums = share_of_long_pendulums(chain);
             return;
         }
         const Link<double> link = chain.link(0);
@@ -118,6 +112,22 @@ struct ChainKind {
         rods = link == uniform_rod(link.weight, link.length);
     }
 };
+
+/// A height and what bounds its relative error.
+struct Enclosed {
+    double height, error_bound;
+};
+
+/// Whatever `enclosed(number)` says of every mode asked for.
+template <class F>
+Answer answer_of_each(const Question& question, const F& enclosed) {
+    Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
+    for (Index i = 0; i < question.count; ++i) {
+        const Enclosed one = enclosed(question.first + i);
+        answer.conical_height[i] = one.height, answer.error_bound[i] = one.error_bound;
+    }
+    return answer;
+}
 
 /// Whether a model can answer, and if not why: a sentence that lives for ever.
 struct Fit {

@@ -56,21 +56,26 @@ inline void check(const ChainKind& kind, const Question& question) {
 /// The tolerance to be kept; where none is said, what any chain's heights can be had to in double: 2 ulp.
 inline double goal(const Question& question) { return question.rtol > 0 ? question.rtol : 2.001 * epsilon<double>(); }
 
+template <Model M>
+Estimate estimate(const M& model, const ChainKind& kind, const Question& question) {
+    Estimate estimate{model.name, model.applies(kind, question)};
+    const double off = is_linear<M>() ? error_of_small_inclinations(kind, question) : 0;
+    if (estimate.fit.applies && !(off < 1))
+        estimate.fit = Fit::no("of small inclinations; how far that is off is not known here");
+    if (!estimate.fit.applies) return estimate;
+    estimate.error_bound = model.error_bound(kind, question), estimate.cost = model.cost(kind, question);
+    estimate.error_bound += off * (1 + estimate.error_bound);
+    return estimate;
+}
+
 template <Model... Models>
 std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& models, const ChainKind& kind,
                                                   const Question& question) {
-    const double off = error_of_small_inclinations(kind, question);
-    const auto of = [&]<class M>(const M& model) {
-        Estimate estimate{model.name, model.applies(kind, question)};
-        if (estimate.fit.applies && is_linear<M>() && !(off < 1))
-            estimate.fit = Fit::no("of small inclinations; how far that is off is not known here");
-        if (!estimate.fit.applies) return estimate;
-        estimate.error_bound = model.error_bound(kind, question), estimate.cost = model.cost(kind, question);
-        if (is_linear<M>()) estimate.error_bound += off * (1 + estimate.error_bound);
-        return estimate;
-    };
-    return std::apply([&](const Models&... each) { return std::array<Estimate, sizeof...(Models)>{of(each)...}; },
-                      models);
+    return std::apply(
+        [&](const Models&... each) {
+            return std::array<Estimate, sizeof...(Models)>{estimate(each, kind, question)...};
+        },
+        models);
 }
 
 /// Of those left: the cheapest that keeps the tolerance, else the most accurate, the cheaper of equals.
@@ -150,7 +155,7 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
     const auto choice = select(models, chain, question, time_budget);
     const double rtol = detail::goal(question), budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     std::array<bool, sizeof...(Models)> out{};
-    Solution best{{{}, {}, false}, {}, Status::tolerance_not_met};
+    Solution best{Answer::none(), {}, Status::tolerance_not_met};
     if (choice.model == sizeof...(Models)) return best;
     for (std::optional<std::size_t> model = choice.model; model;) {
         const std::string_view name = choice.estimates[*model].name;
@@ -177,7 +182,7 @@ Solution solve_by(const std::tuple<Models...>& models, std::string_view model, c
     const auto estimates = detail::estimates(models, kind, question);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         if (estimates[i].name != model) continue;
-        Solution found{{{}, {}, false}, estimates[i].name, Status::tolerance_not_met};
+        Solution found{Answer::none(), estimates[i].name, Status::tolerance_not_met};
         if (!estimates[i].fit.applies) return found;
         found.answer = detail::asked(models, i, chain, kind, question);
         if (found.answer.worst_bound() <= detail::goal(question)) found.status = Status::success;

@@ -15,7 +15,7 @@ struct ClosedForms {
     Fit applies(const ChainKind& kind, const Question&) const {
         if (kind.size > 2) return Fit::no("more than two links");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
-        if (!kind.centroids_below) return Fit::no("a centroid above its pin");
+        if (!kind.centroids_below) return Fit::no("a centroid above its pin");  // a sum would cancel
         return {};
     }
     double error_bound(const ChainKind&, const Question&) const { return bound; }
@@ -31,8 +31,6 @@ struct ClosedForms {
             const double unit = lower.weight + upper.weight, w1 = lower.weight / unit, w2 = upper.weight / unit;
             const double a = upper.length, second = turning_of(upper);
             const double kappa = w2 * upper.centroid + w1 * a;
-            // a sum in which a centroid above its pin cancels: not for this model
-            if (!(lower.centroid > 0 && upper.centroid >= 0 && kappa > 0)) return {{}, {}, false};
             const double q = (w2 * second + w1 * a * a) / kappa, coupling = w1 * lower.centroid * a * a / kappa;
             const double beyond = turning_ratio(lower) * lower.length * lower.length / lower.centroid;  // l - h
             const double rest = (l * w2 * second + w1 * a * a * beyond) / kappa;

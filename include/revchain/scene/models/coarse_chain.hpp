@@ -27,46 +27,45 @@ struct CoarseChain {
         return {};
     }
     /// As asked: unlike links may need groups of one.
-    double error_bound(const ChainKind&, const Question& question) const { return goal(question); }
+    double error_bound(const ChainKind&, const Question& question) const { return detail::goal(question); }
     double cost(const ChainKind& kind, const Question& question) const {
         // the first guess is that of like links
         const double attempts = 1 + std::clamp(kind.growth / 30, 0.0, 0.5);
         return 6e-7 + attempts * 1.5e-8 * detail::real(kind.size) +
-               groups(question) * detail::loose_cost(0.2 * goal(question), question.count, 7e-9);
+               groups(question) * detail::loose_cost(0.2 * detail::goal(question), question.count, 7e-9);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         const auto plain = plain_pencil(chain);
-        if (!plain) return {{}, {}, false};
+        if (!plain) return Answer::none();
         const double per_length = std::ldexp(1.0, -chain.units().length_exponent);
         const double half = zero_of_j0(question.last()) / 2;
         double last = chain.total_length() * per_length / (half * half);  // of equal links, many; others: once more
         for (int attempt = 0; attempt < 3; ++attempt) {
-            const auto coarse = linalg::grouped(*plain, last / 2, 1.2 * goal(question) * last);
+            const auto coarse = linalg::grouped(*plain, last / 2, 1.2 * detail::goal(question) * last);
             if (2 * coarse.pencil.size() > chain.size() || coarse.pencil.size() < question.last())
-                return {{}, {}, false};
+                return Answer::none();
             const auto brackets = linalg::bisect(coarse.pencil, question.first - 1, question.count,
-                                                 0.2 * goal(question), last, [](Index) {});
+                                                 0.2 * detail::goal(question), last, [](Index) {});
             Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
             for (Index i = 0; i < question.count && answer.found; ++i) {
                 const auto& bracket = brackets[static_cast<std::size_t>(i)];
-                const double start = linalg::between(bracket.lower, bracket.upper), margin = 0.15 * goal(question);
+                const double start = linalg::between(bracket.lower, bracket.upper), margin = 0.15 * detail::goal(question);
                 answer.found = start > last / 2 &&
                                linalg::lies_within<double>(coarse.pencil, question.first - 1 + i, start, margin);
                 const double low = start * (1 - margin), high = start * (1 + margin) + coarse.spread;
                 answer.conical_height[i] = (low + (high - low) / 2) / per_length;
                 answer.error_bound[i] = (high - low) / (2 * low) * (1 + 1e-14);
             }
-            if (answer.found && answer.worst_bound() <= goal(question)) return answer;
+            if (answer.found && answer.worst_bound() <= detail::goal(question)) return answer;
             last = brackets.back().lower;
         }
-        return {{}, {}, false};
+        return Answer::none();
     }
 
    private:
-    static double goal(const Question& question) { return std::min(question.rtol, 0.5); }
     /// Of like links: each holds 1/(6 M^2) of the length between held ends, at most 1.2 rtol of 4/j^2 of it.
     static double groups(const Question& question) {
-        return 4 + zero_of_j0(question.last()) / std::sqrt(6 * 1.2 * std::max(goal(question), 1e-30));
+        return 4 + zero_of_j0(question.last()) / std::sqrt(6 * 1.2 * std::max(detail::goal(question), 1e-30));
     }
 };
 

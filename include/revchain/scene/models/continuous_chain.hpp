@@ -31,16 +31,11 @@ struct ContinuousChain {
                          : 1.2e-7 + 1.2e-8 * static_cast<double>(question.count);
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
-        Answer all{Vector<double>(question.count), Vector<double>(question.count)};
-        for (Index i = 0; i < question.count; ++i) {
-            const detail::Enclosed one = answer(kind, question.first + i);
-            all.conical_height[i] = one.height, all.error_bound[i] = one.error_bound;
-        }
-        return all;
+        return answer_of_each(question, [&](Index k) { return answer(kind, k); });
     }
 
    private:
-    static detail::Enclosed answer(const ChainKind& kind, Index k) {
+    static Enclosed answer(const ChainKind& kind, Index k) {
         const double n = static_cast<double>(kind.size), j = zero_of_j0(k), half = j / 2;
         const double cord = kind.length / (half * half), rounding = 4 * epsilon<double>();
         if (kind.plummets) {

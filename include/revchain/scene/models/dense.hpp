@@ -38,10 +38,10 @@ struct Dense {
         for (Index i = 0; i < question.count; ++i) {
             const Index j = question.first - 1 + i;
             double margin = 2 * std::numeric_limits<double>::epsilon();
-            if (!(heights[j] > 0)) return {{}, {}, false};
+            if (!(heights[j] > 0)) return Answer::none();
             for (; margin < 0.5; margin = std::max(16 * margin, error_bound(kind, question)))
                 if (linalg::lies_within(pencils.wide(), j, heights[j], margin)) break;
-            if (!(margin < 0.5)) return {{}, {}, false};
+            if (!(margin < 0.5)) return Answer::none();
             answer.conical_height[i] = std::ldexp(heights[j], pencils.length_exponent());
             answer.error_bound[i] = linalg::bound_of_margin<Wide<double>>(margin);
         }

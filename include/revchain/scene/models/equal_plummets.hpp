@@ -19,7 +19,7 @@ struct EqualPlummets {
 
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (!kind.plummets) return Fit::no("not equal plummets");
-        if (!(2 * zero(question.last()) < nu(kind))) return Fit::no("too fast a mode of too few links");
+        if (!(2 * zero_of_j0(question.last()) < nu(kind))) return Fit::no("too fast a mode of too few links");
         return {};
     }
     double error_bound(const ChainKind& kind, const Question& question) const {
@@ -29,27 +29,22 @@ struct EqualPlummets {
         return 1.1e-7 + 2e-8 * static_cast<double>(question.count);
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
-        Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
-        for (Index i = 0; i < question.count; ++i) {
-            const Index k = question.first + i;
+        return answer_of_each(question, [&](Index k) {
             const Terms t = terms(kind, k);
-            const double half = zero(k) / 2;
-            answer.conical_height[i] =
-                chain.length()[0] * (static_cast<double>(kind.size) + 0.5) / (half * half) / t.sum;
-            answer.error_bound[i] = bound(t);
-        }
-        return answer;
+            const double half = zero_of_j0(k) / 2;
+            return Enclosed{chain.length()[0] * (static_cast<double>(kind.size) + 0.5) / (half * half) / t.sum,
+                            bound(t)};
+        });
     }
 
    private:
     struct Terms {
         double sum, last;
     };
-    static double zero(Index k) { return zero_of_j0(k); }
     static double nu(const ChainKind& kind) { return 4 * static_cast<double>(kind.size) + 2; }
     static double bound(const Terms& terms) { return 2 * std::abs(terms.last) + 4 * epsilon<double>(); }
     static Terms terms(const ChainKind& kind, Index k) {
-        const double j = zero(k), p = j * j, e = 1 / (nu(kind) * nu(kind));
+        const double j = zero_of_j0(k), p = j * j, e = 1 / (nu(kind) * nu(kind));
         const double first = e * (p - 2) / 3, second = e * e * ((11 * p - 57) * p + 94) / 45;
         const double third = e * e * e * (((657 * p - 6516) * p + 28102) * p - 48308) / 2835;
         const double fourth =

@@ -31,7 +31,7 @@ struct FiniteAmplitude {
         for (Index j = 0; j < question.count; ++j) {
             const ShapesOnBranch found =
                 shapes_on_branch(chain, question.first + j, {.tip_inclination = question.inclination});
-            if (found.shapes.empty()) return {{}, {}, false};
+            if (found.shapes.empty()) return Answer::none();
             answer.conical_height[j] = found.shapes.front().conical_height;
             answer.error_bound[j] =
                 std::max(error_bound(kind, question), 2 * found.shapes.front().error_bound / question.inclination);

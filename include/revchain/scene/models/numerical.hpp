@@ -29,10 +29,13 @@ inline Answer answered(const Chain<double>& chain, const revchain::detail::Heigh
     return answer;
 }
 inline Answer answered(const Chain<double>& chain, const std::optional<revchain::detail::Heights<double>>& found) {
-    return found ? answered(chain, *found) : Answer{{}, {}, false};
+    return found ? answered(chain, *found) : Answer::none();
 }
 
 inline double real(Index x) { return static_cast<double>(x); }
+
+/// Heights are proved to a half at least.
+inline double goal(const Question& question) { return std::min(question.rtol, 0.5); }
 
 /// Of bisection without double words, for each link: passes over all links for each digit, and a proof a mode.
 inline double loose_cost(double rtol, Index count, double pass) {
@@ -52,7 +55,7 @@ struct SinglePrecision {
         return {};
     }
     double error_bound(const ChainKind& kind, const Question& question) const {
-        return std::max(std::min(question.rtol, 0.5), 1e-8 * (100 + detail::real(kind.size)));
+        return std::max(detail::goal(question), 1e-8 * (100 + detail::real(kind.size)));
     }
     double cost(const ChainKind& kind, const Question& question) const {
         return 2.5e-7 + 2e-7 * detail::real(question.count) +
@@ -72,7 +75,7 @@ struct ElementBisection {
 
     Fit applies(const ChainKind&, const Question&) const { return {}; }
     double error_bound(const ChainKind& kind, const Question& question) const {
-        return is_loose(kind, question) ? std::min(question.rtol, 0.5) : bound;
+        return is_loose(kind, question) ? detail::goal(question) : bound;
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count);
@@ -91,7 +94,7 @@ struct ElementBisection {
    private:
     /// Where counts in double suffice, no digit more than asked is found.
     static bool is_loose(const ChainKind& kind, const Question& question) {
-        return std::min(question.rtol, 0.5) > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
+        return detail::goal(question) > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
     }
 };
 
@@ -119,7 +122,7 @@ struct Blocks {
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         const auto found = revchain::detail::heights_by_compression(chain, detail::range_of(question),
                                                                     detail::options_for(question), 1.0);
-        return found ? detail::answered(chain, found->found) : Answer{{}, {}, false};
+        return found ? detail::answered(chain, found->found) : Answer::none();
     }
 };
 

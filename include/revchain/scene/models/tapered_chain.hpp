@@ -42,17 +42,13 @@ struct TaperedChain {
                (count - near) * (1.5e-7 + 2.2e-9 * steps(first + near + (count - near) / 2));
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
-        Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
         const double p = *kind.taper, n = static_cast<double>(kind.size);
         const ZerosOfJ zeros(p);
-        for (Index i = 0; i < question.count; ++i) {
-            const Index k = question.first + i;
+        return answer_of_each(question, [&](Index k) {
             const double j = zeros(k), half = j / 2, cord = (p + 1) * (kind.length / half / half);
-            const auto found = detail::enclosed(cord, detail::second_order(p, j) / (n * n),
-                                                detail::next_order(p, k, share(kind, p, j)), rounding(p));
-            answer.conical_height[i] = found.height, answer.error_bound[i] = found.error_bound;
-        }
-        return answer;
+            return detail::enclosed(cord, detail::second_order(p, j) / (n * n),
+                                    detail::next_order(p, k, share(kind, p, j)), rounding(p));
+        });
     }
 
    private:
