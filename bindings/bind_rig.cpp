@@ -35,7 +35,7 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
         const revchain::Link<double> link = chain.link(m);
         if (standing) with.posture.push_back(standing->data()[m] ? Posture::stands : Posture::hangs);
         if (momentum || axial_moment) with.flywheels.push_back({at(momentum, m, 0), at(axial_moment, m, 0)});
-        if (!displaced_weight && !added_weight) continue;
+        if (!displaced_weight && !displaced_centroid && !displaced_radius_of_gyration && !added_weight) continue;
         Displaced fluid = displaced_by(link, at(displaced_weight, m, 0), at(added_weight, m, 0));
         fluid.centroid = at(displaced_centroid, m, link.centroid);
         if (displaced_radius_of_gyration)

@@ -47,8 +47,11 @@ class Rig {
     Flywheel flywheel(Index m) const {
         return with_.flywheels.empty() ? Flywheel{} : with_.flywheels[static_cast<std::size_t>(m)];
     }
+    /// What link m displaces. Without an entry, or with one left at its default: nothing, centred as the link itself is,
+    /// since that is where the first of it would be displaced.
     Displaced displaced(Index m) const {
-        return with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
+        const Displaced given = with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
+        return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;
     }
     /// Whether what link m displaces, if anything, is spread as the link itself.
     bool fills_its_link(Index m) const {

@@ -41,17 +41,41 @@ struct DoubleWord {
     friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
 };
 
+namespace detail {
+
+/// x itself. The compiler must not fuse the operation that computed x with the one that uses it. Error-free
+/// transformations need this: GCC fuses a product with every sum that uses it, also across functions that it inlines
+/// into one compiled for a processor with fused operations. Clang fuses within one expression, and under
+/// -ffp-contract=fast only a product that is used once: the transformations use each argument more than once.
+template <Word T>
+[[gnu::always_inline]] constexpr T rounded(const T& x) {
+#if defined(__clang__)
+    return x;
+#elif __has_builtin(__builtin_assoc_barrier)
+    if constexpr (IsPack<T>)
+        return x.rounded();
+    else
+        return __builtin_assoc_barrier(x);
+#else
+#error "revchain needs GCC 12 or Clang 14, or later versions"
+#endif
+}
+
+}  // namespace detail
+
 /// x + y = high + low exactly (Knuth).
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> two_sum(const T& x, const T& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> two_sum(const T& x_given, const T& y_given) {
+    const T x = detail::rounded(x_given), y = detail::rounded(y_given);
     const T s = x + y;
     const T v = s - x;
     return {s, (x - (s - v)) + (y - v)};
 }
 
-/// The same where |x| >= |y| or x = 0 (Dekker).
+/// The same for |x| >= |y| or x = 0 (Dekker).
 template <Word T>
-[[gnu::always_inline]] constexpr DoubleWord<T> fast_two_sum(const T& x, const T& y) {
+[[gnu::always_inline]] constexpr DoubleWord<T> fast_two_sum(const T& x_given, const T& y_given) {
+    const T x = detail::rounded(x_given), y = detail::rounded(y_given);
     const T s = x + y;
     return {s, y - (s - x)};
 }
@@ -66,31 +90,23 @@ inline constexpr bool has_fast_fma =
 #endif
 }  // namespace detail
 
-/// x y = high + low exactly: one fused multiply-add, else Veltkamp's split and Dekker's product (a library call of fma
-/// costs more, and on old machines is emulated). Code that is compiled for several processors says which.
+/// x y = high + low exactly, while x y 2^-digits is normal and |x|, |y| are below half the largest number.
+/// With `fused` by one fused multiply-add, which must be fast where this is compiled; else by Dekker's product. (A library
+/// call of fma costs more.) Without `fused` the result is right on every target: the halves of float and double are cut
+/// from the bits, so all their products are exact, and fusing them with sums changes nothing. Veltkamp's split, which
+/// would not survive fusing, serves long double alone.
 template <bool fused, Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
-    const T p = x * y;
+    const T p = detail::rounded(T(x * y));
     if constexpr (fused && IsPack<T>) {
         T rest;
         for (std::size_t i = 0; i < T::size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
         return {p, rest};
     } else if constexpr (fused) {
         return {p, std::fma(x, y, -p)};
-    } else if constexpr (IsPack<T>) {
-        // Halves by cutting bits off: their products are exact, so that compilers may fuse them with the sums;
-        // Veltkamp's split would not survive that. xl yl may be rounded, by 4 u^2 of x y.
+    } else {
         const T xh = upper_half(x), yh = upper_half(y);
         const T xl = x - xh, yl = y - yh;
-        return {p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl};
-    } else {
-        constexpr T splitter = static_cast<T>((1ULL << ((std::numeric_limits<T>::digits + 1) / 2)) + 1);
-        const T cx = splitter * x;
-        const T cy = splitter * y;
-        const T xh = cx - (cx - x);
-        const T yh = cy - (cy - y);
-        const T xl = x - xh;
-        const T yl = y - yh;
         return {p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl};
     }
 }

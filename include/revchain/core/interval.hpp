@@ -54,6 +54,12 @@ T up(const T& x) {
     return x + (abs(x) * (T(3) * operation_error<T>()) + std::numeric_limits<T>::denorm_min());
 }
 
+/// A number in two words and how far it may be off.
+inline Interval<Wide<double>> around(const Wide<double>& x, double error) {
+    using S = Wide<double>;
+    return {x - S(error), x + S(error)};
+}
+
 }  // namespace detail
 
 template <Real T>

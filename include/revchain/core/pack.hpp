@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +34,8 @@ struct Pack {
     typedef T Register __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     typedef T InMemory __attribute__((vector_size(Width * sizeof(T)), aligned(sizeof(T)), may_alias));
     typedef Integer Integers __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
-    typedef std::make_unsigned_t<Integer> Naturals
+    using Natural = std::make_unsigned_t<Integer>;
+    typedef Natural Naturals
         __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     // NOLINTEND(modernize-use-using)
     static_assert(alignof(Register) == Width * sizeof(T));
@@ -76,6 +78,14 @@ struct Pack {
         each([&](auto&, std::size_t i)
                  __attribute__((always_inline)) { reinterpret_cast<InMemory*>(to)[i] = part[i]; });
     }
+
+#if !defined(__clang__)
+    /// The numbers themselves, kept from being fused: `detail::rounded`.
+    [[gnu::always_inline]] Pack rounded() const {
+        return each([&](auto& r, std::size_t i)
+                        __attribute__((always_inline)) { r = __builtin_assoc_barrier(part[i]); });
+    }
+#endif
 
     [[gnu::always_inline]] T operator[](std::size_t lane) const { return part[lane / Width][lane % Width]; }
     [[gnu::always_inline]] void set(std::size_t lane, const T& x) { part[lane / Width][lane % Width] = x; }
@@ -162,11 +172,13 @@ struct Pack {
             r = reinterpret_cast<Register>(reinterpret_cast<Integers>(x.part[i]) & std::numeric_limits<Integer>::max());
         });
     }
-    /// Its leading bits, towards 0: half of them.
+    /// The nearest number with the leading half of the digits; the rest has no more digits than that. Adding to the bits
+    /// carries into the exponent, as rounding up to a power of two needs.
     [[gnu::always_inline]] friend Pack upper_half(const Pack& x) {
         return each([&](auto& r, std::size_t i) __attribute__((always_inline)) {
-            constexpr Integer keep = ~Integer(0) << ((std::numeric_limits<T>::digits + 1) / 2);
-            r = reinterpret_cast<Register>(reinterpret_cast<Integers>(x.part[i]) & keep);
+            constexpr int cut = (std::numeric_limits<T>::digits + 1) / 2;
+            const auto half_up = reinterpret_cast<Naturals>(x.part[i]) + (Naturals{} + (Natural(1) << (cut - 1)));
+            r = reinterpret_cast<Register>(half_up & (Naturals{} + (~Natural(0) << cut)));
         });
     }
     /// 1 where the signs differ (a zero has one), else 0.
@@ -240,6 +252,19 @@ concept IsPack = !std::same_as<V, Lane<V>>;
 /// What rounds as IEEE 754 says: a number, or a pack of such.
 template <class V>
 concept Word = std::floating_point<V> || IsPack<V>;
+
+/// The same of one number.
+template <std::floating_point T>
+[[gnu::always_inline]] inline T upper_half(const T& x) {
+    constexpr int cut = (std::numeric_limits<T>::digits + 1) / 2;
+    if constexpr (sizeof(T) <= 8) {
+        using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+        return std::bit_cast<T>((std::bit_cast<Bits>(x) + (Bits(1) << (cut - 1))) & (~Bits(0) << cut));
+    } else {  // Veltkamp. Processors with a long double of their own do not fuse its operations.
+        const T c = static_cast<T>((1ULL << cut) + 1) * x;
+        return c - (c - x);
+    }
+}
 
 }  // namespace revchain
 

@@ -37,11 +37,7 @@ struct Driven {
 
 namespace detail {
 
-/// A number in two words and what it may be off.
-inline Interval<Wide<double>> around(const Wide<double>& x, double error) {
-    using S = Wide<double>;
-    return {x - S(error), x + S(error)};
-}
+using revchain::detail::around;
 
 inline Interval<Wide<double>> rescaled(const Interval<Wide<double>>& x, int step) {
     return {ldexp(x.low, step), ldexp(x.high, step)};

@@ -68,11 +68,12 @@ inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& 
     return mode;
 }
 
-/// Heights below 0, all of them, by counts: base + sign (negative eigenvalues of Q(-x)) of them exceed x in size.
+/// Heights below 0, all of them, by counts: base + sign (negative eigenvalues of Q(-x)) of them exceed x in size. `known`:
+/// how many there are.
 inline bool negative_heights(RigModes& result, const Rig& rig, const RigPencil& pencil, Index base, Index sign,
-                             Index& count) {
+                             const std::optional<Index>& known, Index& count) {
     const CountedRoots roots(pencil.pencil, pencil.pace, base, sign, -1);
-    const auto available = roots.available();
+    const auto available = known ? CountedRoots::Available{*known, true} : roots.available();
     count = available.count;
     if (count <= 0) return available.proved;
     const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
@@ -94,16 +95,21 @@ inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const R
     // are these and besides as many as K has.
     const Index before = pencil.stiffness_positive ? 0 : pencil.not_positive;
     const CountedRoots roots(pencil.pencil, pencil.pace, -before, 1, 1);
-    CountedRoots::Available available{pencil.pencil.size() - pencil.inertialess, true};
-    if (!pencil.stiffness_positive || !pencil.mass_not_negative) available = roots.available();
+    // Just above h = 0 the form hK - M is negative where there is inertia; elsewhere it has the signs of K.
+    const MasslessForm& form = pencil.massless_stiffness;
+    const bool ranked = pencil.mass_not_negative && form.certain && form.zero == 0;
+    const Index size = pencil.pencil.size();
+    const auto available = ranked ? CountedRoots::Available{size - form.size + form.negative - before, true}
+                                  : roots.available();
     const bool modes_proved = count_modes_of(result.forward, rig, pencil, roots, available.count, options, 0, 0.9);
     Index negative = 0;
     bool others_proved = true;
-    const Index size = pencil.pencil.size();
     if (options.other && pencil.stiffness_positive && !pencil.mass_not_negative)
-        others_proved = negative_heights(result, rig, pencil, size, -1, negative);
+        others_proved = negative_heights(result, rig, pencil, size, -1, std::nullopt, negative);
     else if (options.other && !pencil.stiffness_positive)
-        others_proved = negative_heights(result, rig, pencil, before - pencil.neutral - size, 1, negative);
+        others_proved =
+            negative_heights(result, rig, pencil, before - pencil.neutral - size, 1,
+                             ranked ? std::optional(before - pencil.neutral - form.negative) : std::nullopt, negative);
     result.complete = available.proved && others_proved && (pencil.stiffness_positive || pencil.stiffness_certain);
     if (!modes_proved || !result.complete) result.status = Status::tolerance_not_met;
     return result;
@@ -115,10 +121,12 @@ inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const Ri
     result.has_momentum = true, result.method = "counts", result.complete = true;
     for (const bool forward : {true, false}) {
         const CountedRoots roots(forward ? pencil.pencil : pencil.pencil.reversed(), pencil.pace, 0, 1, 1);
-        // Where G reaches no coordinate without inertia, the rank of M says how many there are.
-        const auto available = pencil.spins_held
-                                   ? CountedRoots::Available{pencil.pencil.size() - pencil.inertialess, true}
-                                   : roots.available();
+        // Just above x = 0 the form Q is negative where there is inertia; elsewhere it has the signs of G, and where that
+        // is 0, too, those of K > 0 and of a square.
+        const MasslessForm& form = pencil.massless_spin;
+        const Index negative = forward ? form.negative : form.size - form.zero - form.negative;
+        const auto available = form.certain ? CountedRoots::Available{pencil.pencil.size() - form.size + negative, true}
+                                            : roots.available();
         const bool proved = count_modes_of(forward ? result.forward : result.backward, rig, pencil, roots,
                                            available.count, options, forward ? 0 : 0.5, forward ? 0.5 : 1);
         result.complete = result.complete && available.proved;
@@ -137,16 +145,17 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Ri
                pencil.pencil.size());
     RigModes result;
     result.has_momentum = pencil.pencil.quadratic, result.method = "discs";
-    const bool twice = pencil.pencil.quadratic && pencil.spins_held;  // x^2 is what a massless coordinate has at least
-    const linalg::ComplexSpectrum spectrum =
-        linalg::complex_spectrum(pencil.pencil, (twice ? 2 : 1) * pencil.inertialess,
-                                 [&](double share) { advance(options.progress, 0.9 * share); });
+    // A massless coordinate has a root x = 0, and two where no momentum acts on it.
+    const Index zeros = pencil.massless_spin.size + (pencil.pencil.quadratic ? pencil.massless_spin.zero : 0);
+    const linalg::ComplexSpectrum spectrum = linalg::complex_spectrum(
+        pencil.pencil, zeros, [&](double share) { advance(options.progress, 0.9 * share); });
     result.complete = spectrum.proved;
     if (!spectrum.proved) result.status = Status::tolerance_not_met;
     std::vector<FoundRoot> forward, backward;
     for (const linalg::EnclosedRoot& root : spectrum.roots) {
         const double size = std::abs(root.value),
                      bound = spectrum.proved ? root.radius / size : std::numeric_limits<double>::infinity();
+        if (!(size > 0x1p-200)) continue;  // not proved, and no speed if it is 0
         if (root.is_real && (root.value.real() > 0 || result.has_momentum)) {
             const bool ahead = root.value.real() > 0;
             // What is given out is rounded from x, and may be half an ulp from the disc's centre.

@@ -3,9 +3,18 @@
 
 #include <array>
 
+#include "revchain/core/interval.hpp"
 #include "revchain/linear/rig_elements.hpp"
 
 namespace revchain {
+
+/// Signs of a quadratic form on the motions that carry no inertia.
+struct MasslessForm {
+    Index size = 0;      ///< independent motions: M has so many zeros, at least
+    Index negative = 0;  ///< negative eigenvalues of the form
+    Index zero = 0;      ///< eigenvalues that are 0
+    bool certain = true; ///< whether rounding leaves no doubt of any sign
+};
 
 /// The small theory of a rig as elements: for each link stiffness sign (tension + n spin)/length, sign -1 where it
 /// stands, and mass [lower cross; cross upper]; on top a support that yields, a massless element of its stiffness with
@@ -25,8 +34,7 @@ struct RigPencil {
     Index not_positive;       ///< elements whose stiffness at rest is not
     Index neutral = 0;        ///< of these, elements that have none, for certain: each lets the rest lean at no speed
     bool mass_not_negative;   ///< every element's mass is positive or 0 for certain, so that M >= 0
-    bool spins_held;          ///< each link with momentum has inertia at both its pins
-    Index inertialess;        ///< coordinates that carry no inertia: M has so many zeros, at least
+    MasslessForm massless_stiffness, massless_spin;  ///< K, and G, on the motions that carry no inertia
     Index idle = 0;           ///< lowest links left out: nothing on them bears, spins or moves
 };
 
@@ -51,26 +59,47 @@ inline Held held_by(const Rig& rig, Index m) {
     return h == 0 ? Held::upper : h == link.length ? Held::lower : Held::one;
 }
 
-/// As `Chain::mode_count` counts them, from the support down: `free` says whether the pin reached so far can move with
-/// no inertia noticing.
-inline Index inertialess_coordinates(const Rig& rig) {
-    bool free = !rig.support().is_firm() && !(rig.support().carriage_weight > 0);
-    Index nullity = 0;
-    for (Index m = rig.size() - 1; m >= 0; --m) {
-        const Held held = held_by(rig, m);
-        if (held == Held::nothing) {
-            nullity += free ? 1 : 0;
-            free = true;
-        } else if (held == Held::both) {
-            free = false;
-        } else if (held == Held::upper) {
-            free = true;
-        } else if (held == Held::lower) {
-            nullity += free ? 1 : 0;
-            free = false;
+/// The form sum of c (y_m - y_{m+1})^2 over the elements, on the motions that no inertia notices: from the free end up,
+/// one coordinate after another is eliminated by intervals. `coefficient(element)` is c.
+template <class Coefficient>
+MasslessForm massless_form(const linalg::SignedPencil<Wide<double>>& pencil, const std::vector<Held>& held,
+                           const Coefficient& coefficient) {
+    using S = Wide<double>;
+    using I = Interval<S>;
+    const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
+    const auto sum = [&](const I& x, const I& y) { return is_zero(x) ? y : is_zero(y) ? x : x + y; };
+    const auto product = [&](const I& x, const I& y) { return is_zero(x) || is_zero(y) ? I() : x * y; };
+    MasslessForm form;
+    const auto eliminate = [&](const I& pivot) {
+        ++form.size;
+        if (is_zero(pivot))
+            ++form.zero;
+        else if (pivot.negative())
+            ++form.negative;
+        else
+            form.certain = form.certain && pivot.positive();
+    };
+    I below;           // the form of all pins passed, carried to this one
+    bool free = true;  // whether this pin moves unnoticed
+    for (std::size_t m = 0; m < held.size(); ++m) {
+        const auto& e = pencil.elements[m];
+        const auto& off = pencil.errors[m];
+        const I c = coefficient(e, off);
+        if (held[m] == Held::one) {  // lower pin = -cross/lower times the upper pin
+            const I ratio = -around(e.cross, off.cross) / around(e.lower, off.lower);
+            below = sum(product(below, square(ratio)), product(c, square(ratio - I(S(1.0)))));
+            continue;
         }
+        const I pivot = sum(below, c);
+        const bool ends = free && (held[m] == Held::nothing || held[m] == Held::upper);
+        if (ends) {
+            eliminate(pivot);
+            form.certain = form.certain && (!is_zero(pivot) || is_zero(c));
+        }
+        below = !free || held[m] == Held::lower ? c : is_zero(pivot) ? I() : product(c, below) / pivot;
+        free = held[m] == Held::nothing || held[m] == Held::lower;
     }
-    return nullity + (free ? 1 : 0);
+    return form;
 }
 
 /// Whether a mass whose numbers have these errors is positive or 0 for certain.
@@ -97,8 +126,9 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
     result.units = rig.chain().units();
     result.pencil.quadratic = rig.has_momentum();
     result.pace = sqrt(S(std::ldexp(gravity, -result.units.length_exponent)));
-    result.stiffness_positive = result.stiffness_certain = result.mass_not_negative = result.spins_held = true;
+    result.stiffness_positive = result.stiffness_certain = result.mass_not_negative = true;
     result.not_positive = 0;
+    std::vector<detail::Held> held;
     const auto add = [&](const RigElement& e, bool mass_not_negative) {
         result.pencil.elements.push_back(e.numbers);
         result.pencil.errors.push_back(e.off);
@@ -115,15 +145,23 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
             ++result.idle;
             continue;
         }
-        const bool spins = !(e.numbers.spin == S(0.0));
         e.numbers.spin = e.numbers.spin * result.pace, e.off.spin *= result.pace.high;
         const bool plain =
             rig.flywheel(m).axial_moment == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
         add(e, plain || detail::is_not_negative(e.numbers, e.off));
-        result.spins_held = result.spins_held && (!spins || detail::held_by(rig, m) == detail::Held::both);
+        held.push_back(detail::held_by(rig, m));
     }
-    if (const auto support = support_element(rig)) add(*support, true);
-    result.inertialess = detail::inertialess_coordinates(rig) - result.idle;
+    if (const auto support = support_element(rig)) {
+        add(*support, true);
+        held.push_back(rig.support().carriage_weight > 0 ? detail::Held::lower : detail::Held::nothing);
+    }
+    using E = linalg::SignedElement<S>;
+    using Off = linalg::SignedElementError<double>;
+    result.massless_stiffness = detail::massless_form(result.pencil, held, [](const E& e, const Off& off) {
+        return detail::around(e.stiffness, off.stiffness);
+    });
+    result.massless_spin = detail::massless_form(
+        result.pencil, held, [](const E& e, const Off& off) { return detail::around(e.spin, off.spin); });
     return result;
 }
 

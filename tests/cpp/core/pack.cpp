@@ -78,7 +78,7 @@ template <class V>
                     (back[i] < 0) != (std::bit_cast<typename V::Integer>(q) < std::bit_cast<typename V::Integer>(p));
             if (std::isfinite(p)) {
                 const T rest = p - half[i];  // as many bits as are cut off, so that products of halves are exact
-                wrong += !(abs(half[i]) <= abs(p)) + !(abs(rest) * 2 <= abs(p)) + half[i] + rest != p;
+                wrong += !same(half[i], revchain::upper_half(p)) + !(abs(rest) * 2 <= abs(p)) + (half[i] + rest != p);
                 wrong += std::isnormal(p) && half[i] * half[i] != 0 && std::isfinite(p * p) &&
                          std::fma(half[i], half[i], -(half[i] * half[i])) != 0;
             }

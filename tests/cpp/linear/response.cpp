@@ -269,6 +269,48 @@ TEST_CASE("response: some pins only, any radius, speeds for heights", "[linear]"
     CHECK(revchain::response(chain, {}).offset.rows() == 0);
 }
 
+TEST_CASE("response: 100,000 random drives keep their bound, any radius", "[linear]") {
+    support::Random random(77);
+    double worst = 0;
+    int drives = 0, beyond = 0;
+    while (drives < 100'000) {
+        const Index n = 1 + static_cast<Index>(6 * random() * random());
+        const double length = random.log_between(1e-3, 1e3), spread = random.log_between(1.0, 1e4);
+        const auto chain = support::chain_of(n, [&](Index) {
+            const double a = length * random.log_between(1.0, spread), h = a * random.between(0.05, 1.0);
+            if (random() < 0.3) return revchain::plummet<double>(random.log_between(1.0, spread), a);
+            return revchain::compound_pendulum<double>({.weight = random.log_between(1.0, spread),
+                                                        .length = a,
+                                                        .centroid = h,
+                                                        .radius_of_gyration = a * random.between(0.0, 0.5)});
+        });
+        const double radius = random.log_between(1e-6, 1e6), gravity = random.between(1.0, 25.0);
+        const bool speeds = random() < 0.5;
+        std::vector<double> given(100);
+        for (double& x : given) {
+            const double height = random.log_between(1e-3, 1e2) * chain.total_length();
+            x = speeds ? std::sqrt(gravity / height) : height;
+        }
+        const revchain::ResponseOptions options{.support_radius = radius, .gravity = gravity};
+        const Response found =
+            speeds ? revchain::response_at_speed(chain, given, options) : revchain::response(chain, given, options);
+        for (std::size_t i = 0; i < given.size(); ++i, ++drives) {
+            const auto row = static_cast<Index>(i);
+            if (found.resonant[i] != 0) continue;
+            const Quad height = speeds ? Quad(gravity) / Quad(given[i]) / Quad(given[i]) : Quad(given[i]);
+            const auto exact = truth(chain, height);
+            const double ratio = error_over_bound(found, row, exact, radius);
+            const Quad force = exact.force * Quad(radius) / height;
+            beyond += ratio > 1;
+            beyond += static_cast<double>(fabsq(Quad(found.support_force[row]) - force)) > found.support_force_error[row];
+            worst = std::max(worst, ratio);
+        }
+    }
+    CAPTURE(worst);
+    CHECK(beyond == 0);
+    CHECK(worst > 0.9);
+}
+
 TEST_CASE("response: weights beyond one unit, and extremes of scale", "[linear]") {
     for (const double ratio : {1e100, 1e160}) {
         const auto chain =

@@ -509,6 +509,35 @@ TEST_CASE("massless links and what was asked", "[linear]") {
     CHECK_THROWS_AS(rig_modes(rig, {.progress = &progress}), Cancelled);
 }
 
+// Point masses on rigid links and springs without carriages leave coordinates without inertia.
+TEST_CASE("coordinates without inertia: speeds as many as there are, each proved", "[linear]") {
+    const auto link = [](double weight, double length, double centroid, double radius) {
+        return compound_pendulum<double>(
+            {.weight = weight, .length = length, .centroid = centroid, .radius_of_gyration = radius});
+    };
+    const Rig three(Chain<double>({link(31, 3.4, 0.94, 0), link(0.016, 2, 1.6, 0.24), link(63, 0.18, 0.18, 0)}),
+                    {.support = horizontal_spring(420, 0), .flywheels = {{3.3, 0}, {0, 0.0015}, {0, 0}}});
+    const auto m = rig_modes(three);
+    CHECK(m.forward.size() == 3);
+    CHECK(m.backward.size() == 3);
+    CHECK(m.other.empty());
+    CHECK(m.status == Status::success);
+    CHECK(m.complete);
+    CHECK(worst_error(RigTruth(three), m) <= 1.5);
+    const Rig spun(Chain<double>({link(1, 1, 0.1, 0)}),
+                   {.support = horizontal_spring(5, 0), .flywheels = {{0.3, 0}}});
+    const auto s = rig_modes(spun);
+    CHECK(s.forward.size() == 1);
+    CHECK(s.backward.size() == 2);
+    CHECK(s.status == Status::success);
+    CHECK(worst_error(RigTruth(spun), s) <= 1);
+    const auto upright = rig_modes(Rig(Chain<double>({link(1, 1, 0.5, 0)}),
+                                       {.support = horizontal_spring(5, 0), .posture = {Posture::stands}}));
+    CHECK(upright.forward.size() == 0);
+    CHECK(upright.other.size() == 1);
+    CHECK(upright.status == Status::success);
+}
+
 TEST_CASE("links that weigh nothing in the fluid around them", "[linear]") {
     const Link<double> one = plummet(1.0, 1.0), two = plummet(2.0, 1.0);
     const auto like = [](const Link<double>& link, double weight) {

@@ -4,6 +4,7 @@
 #include "revchain/linear/rig_modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
+#include "support/rig_truth.hpp"
 #include "support/truth.hpp"
 
 using revchain::Chain;
@@ -153,6 +154,131 @@ TEST_CASE("what links and rigging do to whirl speeds is what central differences
     CAPTURE(worst);
     CHECK(worst > 0);
     CHECK(worst < 1e-14);
+}
+
+namespace {
+
+/// A rig's data, each a number of few bits, so that a small change of it is exact.
+struct Data {
+    std::vector<double> weight, length, centroid, radius, momentum, displaced, buoyancy_centre, buoyancy_radius, added;
+    double stiffness = 0, carriage = 0;
+    bool firm = true, turning = false, fluid = false;
+
+    Data(support::Random& random, std::size_t n) {
+        const auto number = [&](double low, double high) { return std::ldexp(std::rint(random.log_between(low, high) * 1024), -10); };
+        firm = random() < 0.5, fluid = random() < 0.5, turning = random() < 0.5;
+        const bool spins = random() < 0.6;
+        stiffness = number(1, 100), carriage = number(0.1, 2);
+        for (std::size_t m = 0; m < n; ++m) {
+            weight.push_back(number(0.5, 8)), length.push_back(number(0.25, 2));
+            centroid.push_back(length.back() * std::ldexp(std::rint(random.between(3, 30)), -5));
+            radius.push_back(number(0.05, 0.5));
+            momentum.push_back(spins ? number(0.1, 2) * (random() < 0.5 ? -1 : 1) : 0);
+            displaced.push_back(fluid ? number(0.01, 0.3) : 0);
+            added.push_back(fluid && !turning ? number(0.01, 0.3) : 0);
+            buoyancy_centre.push_back(fluid ? length.back() / 2 : centroid.back());
+            buoyancy_radius.push_back(fluid ? 0.125 : radius.back());
+        }
+    }
+    /// With `in_default_fluid` the entries of links that displace nothing are left at their defaults.
+    revchain::Rig rig(bool in_default_fluid) const {
+        std::vector<revchain::Link<double>> links;
+        revchain::Rigging with{.fluid = turning ? revchain::Fluid::turning : revchain::Fluid::still};
+        if (!firm) with.support = revchain::horizontal_spring(stiffness, carriage);
+        for (std::size_t m = 0; m < weight.size(); ++m) {
+            links.push_back(revchain::compound_pendulum<double>({.weight = weight[m],
+                                                                 .length = length[m],
+                                                                 .centroid = centroid[m],
+                                                                 .radius_of_gyration = radius[m]}));
+            with.flywheels.push_back({momentum[m], 0});
+            const revchain::Wide<double> ratio =
+                revchain::detail::gyration_from_radius<double>("test", length[m], buoyancy_radius[m]);
+            if (!in_default_fluid) with.displaced.push_back({displaced[m], buoyancy_centre[m], ratio, added[m]});
+        }
+        return {Chain<double>(links), with};
+    }
+    /// det(K + n G - n^2 M/g) in quadruple precision, by pivots.
+    static Quad determinant(const revchain::Rig& rig, Quad n) {
+        const support::RigTruth truth(rig);
+        const Quad c = n * n / Quad(revchain::conical_pendulum::standard_gravity);
+        Quad d = 1, pivot = 1;
+        for (std::size_t m = 0; m < truth.size; ++m) {
+            const auto at = [&](const std::vector<Quad> support::RigTruth::Band::*part, std::size_t i) {
+                return (truth.K.*part)[i] + n * (truth.G.*part)[i] - c * (truth.M.*part)[i];
+            };
+            const Quad off = m == 0 ? Quad(0) : at(&support::RigTruth::Band::e, m - 1);
+            pivot = at(&support::RigTruth::Band::d, m) - (m == 0 ? Quad(0) : off * off / pivot);
+            d *= pivot;
+        }
+        return d;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("derivatives of 10,000 random rigs, with and without fluid, against differences in quadruple precision",
+          "[linear]") {
+    support::Random random(16);
+    double worst = 0;
+    int compared = 0;
+    for (int round = 0; round < 10'000; ++round) {
+        const std::size_t n = 1 + static_cast<std::size_t>(random() * 3);
+        Data data(random, n);
+        const revchain::Rig rig = data.rig(!data.fluid && random() < 0.5);
+        const auto modes = revchain::rig_modes(rig);
+        const auto& some = modes.backward.size() > 0 && random() < 0.5 ? modes.backward : modes.forward;
+        if (some.size() == 0) continue;
+        const Index j = static_cast<Index>(random() * static_cast<double>(some.size()));
+        const double speed = some.angular_speed[j] * (&some == &modes.backward ? -1 : 1);
+        const auto found = revchain::rig_sensitivity(rig, speed, some.shape.row(j).transpose());
+        // dn/dx = -(d det/dx) / (d det/dn) at the exact speed, by differences of the fourth order
+        const auto fourth = [](const auto& f, Quad step) {
+            return (8 * (f(step) - f(-step)) - (f(2 * step) - f(-2 * step))) / (12 * step);
+        };
+        Quad exact = speed;
+        const auto by_speed = [&] {
+            return fourth([&](Quad x) { return Data::determinant(data.rig(false), exact + x); }, exact * Quad(0x1p-20));
+        };
+        for (int step = 0; step < 3; ++step) exact -= Data::determinant(data.rig(false), exact) / by_speed();
+        const Quad slope = by_speed();
+        std::vector<std::pair<double, double>> pairs;  // found and exact, per relative change of the datum
+        const auto compare = [&](double value, double& datum, double size) {
+            const double was = datum, unit = std::exp2(std::floor(std::log2(size)) - 20);
+            const Quad change = fourth(
+                [&](Quad x) {
+                    datum = was + static_cast<double>(x);
+                    return Data::determinant(data.rig(false), exact);
+                },
+                unit);
+            datum = was;
+            pairs.emplace_back(value * size, static_cast<double>(-change / slope * size));
+        };
+        for (std::size_t m = 0; m < n; ++m) {
+            const Index i = static_cast<Index>(m);
+            compare(found.weight[i], data.weight[m], data.weight[m]);
+            compare(found.length[i], data.length[m], data.length[m]);
+            compare(found.centroid[i], data.centroid[m], data.length[m]);
+            compare(found.radius_of_gyration[i], data.radius[m], data.radius[m]);
+            compare(found.momentum[i], data.momentum[m], 1);
+            compare(found.displaced_weight[i], data.displaced[m], data.weight[m]);
+            if (data.fluid ? !data.turning : rig.fluid() == revchain::Fluid::still)
+                compare(found.added_weight[i], data.added[m], data.weight[m]);
+        }
+        if (!data.firm) {
+            compare(found.stiffness, data.stiffness, data.stiffness);
+            compare(found.carriage_weight, data.carriage, data.carriage);
+        }
+        double largest = std::abs(speed), off = 0;
+        for (const auto& [value, truth] : pairs)
+            largest = std::max(largest, std::abs(truth)), off = std::max(off, std::abs(value - truth));
+        CAPTURE(round, n, speed, data.fluid, data.turning, data.firm, off / largest);
+        CHECK(off <= 1e-12 * largest);
+        worst = std::max(worst, off / largest);
+        ++compared;
+    }
+    CAPTURE(worst);
+    CHECK(compared > 9000);
+    CHECK(worst > 0);
 }
 
 TEST_CASE("a firm support has no stiffness to change, and units are units", "[linear]") {
