@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <concepts>
 #include <limits>
 #include <optional>
@@ -49,10 +51,22 @@ struct ChainKind {
     // of the links looked at
     bool centroids_below = true;    ///< none lies above its pin
     bool short_pendulums = false;   ///< all are plummets, or all pendulum lengths below the links'
+    bool point_masses = true;       ///< all are plummets
     double long_pendulums = 0;      ///< share of links whose pendulum is longer than they, or whose centroid is above
     // of unlike links
-    double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
+    bool negative_pins = false;  ///< of two neighbours looked at, so much weight lies beyond their pin that less than
+                                 ///< nothing is left on it
+    double growth = 0;           ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
     Index light = 0;  ///< links at the top that weigh less than 2e-14 of what hangs below them, about
+    /// Up to 32 stretches of the chain, lowest first: the phase that a wave of conical height 1 passes through in each,
+    /// the integral of sqrt(dW ds / S), S the weight below.
+    std::array<double, 32> phase{};
+    Index stretches = 0;
+    double links_per_stretch = 0;
+    double tip_share = 0;     ///< weight of the lowest link over that of the chain
+    double greatest_pull = 0; ///< largest S / W of a link, of means over stretches
+    double range = 0;         ///< mean of log2 of greatest_pull W / S
+    double tilt = 0;          ///< conical height of the chain turning as if it were one rigid link: less than the largest
 
    private:
     template <class V>
@@ -73,9 +87,41 @@ struct ChainKind {
             shorter = shorter && r > 0 && p * (1 - p) > r;
             centroids_below = centroids_below && p >= 0;
             longer += p >= 0 && p * (1 - p) >= r ? 0 : 1;
+            if (p <= 1 || m + 1 == size) continue;
+            const double above = chain.centroid()[m + 1] / chain.length()[m + 1];
+            negative_pins = negative_pins || chain.weight()[m] * (1 - p) + chain.weight()[m + 1] * above <= 0;
         }
-        short_pendulums = points || shorter;
+        short_pendulums = points || shorter, point_masses = points;
         long_pendulums = static_cast<double>(longer) / static_cast<double>(looked_at);
+    }
+    /// Of at most 256 links all, else sums at hand: weights exact, lengths as if spread evenly.
+    void look_at_stretches(const Chain<double>& chain) {
+        const bool few = size < segment_size;
+        const Index pieces = few ? size : (size - 1) / segment_size + 1, most = static_cast<Index>(phase.size());
+        const Index step = ((pieces - 1) / most + 1) * (few ? 1 : segment_size);
+        const double tip = chain.weight()[0], total = static_cast<double>(chain.total_weight());
+        links_per_stretch = static_cast<double>(step), tip_share = tip / total;
+        double below = 0, at = 0, inertia = 0, stiffness = 0, exponents = 0;
+        for (Index first = 0; first < size; first += step, ++stretches) {
+            const Index end = std::min(first + step, size);
+            double above = 0, run = length * static_cast<double>(end - first) / static_cast<double>(size);
+            if (few) {
+                above = below, run = 0;
+                for (Index m = first; m < end; ++m) above += chain.weight()[m], run += chain.length()[m];
+            } else {
+                above = static_cast<double>(chain.weight_below(end));
+            }
+            // the lowest link is a weight at the tip
+            const double least = std::max(below, tip), weight = above - least, links = static_cast<double>(end - first);
+            phase[static_cast<std::size_t>(stretches)] = 2 * std::sqrt(run * weight) / (std::sqrt(above) + std::sqrt(least));
+            const double outside = 1 - (at + run / 2) / length, pull = links * above / (above - below);
+            inertia += (above - below) * outside * outside, stiffness += (above + below) / 2 * run;
+            greatest_pull = std::max(greatest_pull, pull);
+            exponents += std::log2(pull);
+            below = above, at += run;
+        }
+        range = std::log2(greatest_pull) - exponents / static_cast<double>(stretches);
+        tilt = inertia / stiffness * length * length;
     }
     /// As if they grew lighter upwards: a search among the sums at hand.
     static Index light_links(const Chain<double>& chain) {
@@ -105,6 +151,7 @@ struct ChainKind {
                 growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
             }
             light = light_links(chain);
+            look_at_stretches(chain);
             return;
         }
         const Link<double> link = chain.link(0);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <numbers>
+#include <numeric>
+
 #include "revchain/core/zero_of_j0.hpp"
 #include "revchain/linalg/certificate.hpp"
 #include "revchain/linalg/grouped_pencil.hpp"
@@ -22,28 +25,29 @@ struct CoarseChain {
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
         if (!kind.centroids_below) return Fit::no("a centroid above its pin");
         if (question.rtol <= 0) return Fit::no("no tolerance to spend");
-        if (!(2 * groups(question) <= detail::real(kind.size)))
+        if (!(2 * groups(kind, question) <= detail::real(kind.size)))
             return Fit::no("as many groups as links, for that tolerance");
         return {};
     }
     /// As asked: unlike links may need groups of one.
     double error_bound(const ChainKind&, const Question& question) const { return detail::goal(question); }
     double cost(const ChainKind& kind, const Question& question) const {
-        // the first guess is that of like links
         const double attempts = 1 + std::clamp(kind.growth / 30, 0.0, 0.5);
         return 6e-7 + attempts * 1.5e-8 * detail::real(kind.size) +
-               groups(question) * detail::loose_cost(0.2 * detail::goal(question), question.count, 7e-9);
+               groups(kind, question) * detail::loose_cost(0.2 * detail::goal(question), question.count, 7e-9);
     }
-    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+    Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         const auto plain = plain_pencil(chain);
         if (!plain) return Answer::none();
         const double per_length = std::ldexp(1.0, -chain.units().length_exponent);
-        const double half = zero_of_j0(question.last()) / 2;
-        double last = chain.total_length() * per_length / (half * half);  // of equal links, many; others: once more
+        double last = last_height(kind, question) * per_length;
         for (int attempt = 0; attempt < 3; ++attempt) {
             const auto coarse = linalg::grouped(*plain, last / 2, 1.2 * detail::goal(question) * last);
-            if (2 * coarse.pencil.size() > chain.size() || coarse.pencil.size() < question.last())
-                return Answer::none();
+            if (2 * coarse.pencil.size() > chain.size()) return Answer::none();
+            if (coarse.pencil.size() < question.last()) {
+                last /= 4;
+                continue;
+            }
             const auto brackets = linalg::bisect(coarse.pencil, question.first - 1, question.count,
                                                  0.2 * detail::goal(question), last, [](Index) {});
             Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
@@ -63,9 +67,24 @@ struct CoarseChain {
     }
 
    private:
-    /// Of like links: each holds 1/(6 M^2) of the length between held ends, at most 1.2 rtol of 4/j^2 of it.
-    static double groups(const Question& question) {
-        return 4 + zero_of_j0(question.last()) / std::sqrt(6 * 1.2 * std::max(detail::goal(question), 1e-30));
+    /// About the least height asked for: a wave's phase from end to end. Under a heavy tip the first mode has none.
+    static double last_height(const ChainKind& kind, const Question& question) {
+        const Index last = question.last();
+        const bool heavy_tip = kind.tip_share > 0.5;
+        double phase = 2 * std::sqrt(kind.length);
+        if (!kind.equal) phase = std::accumulate(kind.phase.begin(), kind.phase.end(), 0.0);
+        const double wave = phase / (heavy_tip && last > 1 ? std::numbers::pi * detail::real(last - 1) : zero_of_j0(last));
+        return last == 1 ? std::max(kind.tilt, wave * wave) : wave * wave;
+    }
+    /// A group of phase x has a height of x^2/6 between held ends at most, which may be 1.2 rtol of the least height.
+    static double groups(const ChainKind& kind, const Question& question) {
+        const double spread = 1.2 * std::max(detail::goal(question), 1e-30) * last_height(kind, question);
+        const double each = std::sqrt(6 * spread);
+        if (kind.equal) return 4 + 2 * std::sqrt(kind.length) / each;
+        double sum = 4;
+        for (Index i = 0; i < kind.stretches; ++i)
+            sum += std::min(kind.links_per_stretch, kind.phase[static_cast<std::size_t>(i)] / each);
+        return sum;
     }
 };
 

@@ -137,6 +137,11 @@ struct AllTogether {
         if (kind.size > 100) return Fit::no("more than 100 links");
         if (!kind.short_pendulums) return Fit::no("pendulums as long as their links or longer, or of two kinds");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        // measured, one heavy tip and weights graded from the tip up: numbers then leave the range of double
+        const double n = detail::real(kind.size);
+        const bool far_apart = kind.point_masses ? kind.range > 19.5 || n * kind.range > 790
+                                                           : kind.greatest_pull * std::pow(n, 1.5) > 3e8;
+        if (!kind.equal && far_apart) return Fit::no("links that weigh too little beside what hangs below them");
         return {};
     }
     double error_bound(const ChainKind&, const Question&) const { return bound; }
@@ -161,6 +166,7 @@ struct Spectrum {
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (kind.size < 12) return Fit::no("fewer than 12 links");
         if (question.count < 8) return Fit::no("fewer than 8 modes asked for");
+        if (kind.negative_pins) return Fit::no("centroids too far below their links");
         return {};
     }
     double error_bound(const ChainKind&, const Question& question) const {
