@@ -18,6 +18,7 @@ needs_table='
    pkgconf   pkg-config                pkgconf   pkgconf-pkg-config  pkg-config
    lapack    libopenblas-dev           openblas  openblas-devel      openblas
    spectra   libspectra-dev            spectra   spectra-devel       spectralib
+   clang     clang                     llvm      clang               clangxx
 '
 
 # package_names COLUMN NEED...
@@ -58,6 +59,7 @@ sys.exit(sys.version_info < (3, 11) or not os.path.exists(sysconfig.get_path("in
     pkgconf) command -v pkg-config ;;
     lapack) printf 'extern "C" void dsterf_(); int main() { dsterf_(); }' |
       ${CXX:-c++} -x c++ - -llapack -o /dev/null 2>/dev/null || [ -n "${OPENBLAS_HOME-}" ] ;;
+    clang) command -v clang++ || command -v clang++-14 || command -v clang++-19 ;;
     spectra) compiles '#if !__has_include(<Spectra/SymEigsSolver.h>)\n#error\n#endif' ;;
   esac >/dev/null
 }
