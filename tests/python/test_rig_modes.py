@@ -79,6 +79,76 @@ def test_chain_of_wheels_against_a_dense_linearisation() -> None:
             assert np.abs((K + n * S - n * n / G * M) @ y).max() <= 4e-15 * terms.max()
 
 
+def test_rigs_with_coordinates_without_inertia_have_every_finite_speed() -> None:
+    """The degree of det(K + n S - n^2 M/g), read off at huge n with 300 digits, is the number of finite speeds."""
+    rng = np.random.default_rng(1908)
+    methods = set()
+    for _ in range(400):
+        n = int(rng.integers(1, 5))
+        kind = rng.integers(0, 5, n)  # bodies, point masses within the link, at either pin, links without mass
+        length = rng.uniform(0.2, 3, n)
+        centroid = length * np.select([kind == 2, kind == 3], [1.0, 0.0], rng.uniform(0.1, 1.2, n))
+        weight = np.where(kind == 4, 0, 10 ** rng.uniform(-1, 1.5, n))
+        if weight[0] * centroid[0] == 0:
+            weight[0], centroid[0] = 1.0, 0.6 * length[0]
+        chain = rc.Chain(
+            weight=weight,
+            length=length,
+            centroid=centroid,
+            radius_of_gyration=np.where(kind == 0, 0.2 * length, 0),
+        )
+        rig = rc.Rig(
+            chain,
+            stiffness=10 ** rng.uniform(0, 2.5) if rng.random() < 0.7 else np.inf,
+            carriage_weight=0.5 if rng.random() < 0.3 else 0,
+            momentum=np.where(rng.random(n) < 0.4, rng.normal(0, 1, n), 0),
+            standing=rng.random(n) < 0.25,
+        )
+        m = rc.modes(rig)
+        with mpmath.workdps(300):
+            K, S, M = (mpmath.matrix(X) for X in exact_matrices(rig))
+            huge = mpmath.mpf(10) ** 60
+
+            def size(x: mpmath.mpf, K: mpmath.matrix = K, S: mpmath.matrix = S, M: mpmath.matrix = M) -> mpmath.mpf:
+                return mpmath.log(abs(mpmath.det(K + x * S - x * x * M / mpmath.mpf(G))))
+
+            degree = round(float((size(2 * huge) - size(huge)) / mpmath.log(2)))
+            if not m.has_momentum:
+                degree //= 2
+        neutral = sum(1 for height in m.other.conical_height if np.isinf(height))
+        assert m.complete and m.status == "success", rig
+        assert len(m) + len(m.other) - neutral == degree, rig
+        assert np.all(np.isfinite(m.angular_speed()))
+        methods.add(m.method)
+    assert methods >= {"counts", "discs"}
+
+
+def exact_matrices(rig: rc.Rig) -> list[list[list[mpmath.mpf]]]:
+    """As `matrices`, in the precision of mpmath."""
+    mp, chain, n = mpmath.mpf, rig.chain, rig.size
+    result = [[[mp(0)] * (n + 1) for _ in range(n + 1)] for _ in range(3)]
+
+    def add(which: int, m: int, by: mpmath.mpf, lower: mpmath.mpf, upper: mpmath.mpf) -> None:
+        for i, x in ((m, lower), (m + 1, upper)):
+            for j, y in ((m, lower), (m + 1, upper)):
+                result[which][i][j] += by * x * y
+
+    hung = mp(0)
+    for m in range(n):
+        W, a, h, k = (mp(float(x[m])) for x in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration))
+        sign = -1 if rig.standing[m] else 1
+        add(0, m, sign * (W * h + a * hung), 1 / a, -1 / a)
+        add(1, m, sign * mp(float(rig.momentum[m])), 1 / a, -1 / a)
+        add(2, m, W, h / a, 1 - h / a)
+        add(2, m, W * k**2 - mp(float(rig.axial_moment[m])), 1 / a, -1 / a)
+        hung += W
+    if np.isfinite(rig.stiffness):
+        result[0][n][n] += mp(rig.stiffness)
+        result[2][n][n] += mp(rig.carriage_weight)
+        return result
+    return [[row[:n] for row in X[:n]] for X in result]
+
+
 def test_sleeping_top() -> None:
     chain = rc.Chain(weight=1.0, length=1.0, centroid=0.5, radius_of_gyration=0.3)
     asleep = rc.modes(rc.Rig(chain, standing=True, momentum=2.0))
