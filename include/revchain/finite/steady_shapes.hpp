@@ -41,10 +41,8 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
-    using std::max;
-    const T least = either_posture ? T(-max(T(-turning.low), turning.high)) : turning.low;
-    const Interval<T> far = (reach + Interval<T>(max(T(0), T(-least)))) / height;
-    return far.high;
+    const Interval<T> beyond = hull(Interval<T>(T(0)), either_posture ? hull(turning, -turning) : -turning);
+    return ((reach + Interval<T>(beyond.high)) / height).high;
 }
 
 /// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
@@ -61,13 +59,13 @@ inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Int
 
 /// Isolated in double, where that leaves cells open in two words; what the proof leaves open is scanned.
 template <class AnyLinks>
-Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, long links_to_look_at) {
+Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, double last,
+                                 long links_to_look_at) {
     using Far = DoubleDouble;
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
     const auto support = enclosed<double>(support_of(chain));
-    const double last = farthest_tangent(narrow, lambda, false, support);
     const auto sign_at = [&](double t) { return detail::sign_at(narrow, lambda, t, support); };
     const int first_sign = support.is_symmetric() ? 0 : sign_at(0);
     const Isolation<double> first =
@@ -167,11 +165,44 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
     }
 }
 
+/// The same where links are too near the horizontal for that: from the tangents of all links, in the bracket made narrow.
+template <class AnyLinks>
+std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
+                                            const Bracket<DoubleDouble>& bracket) {
+    using Far = DoubleDouble;
+    const auto links = swept_links<Far>(chain);
+    const auto lambda = enclosed<Far>(height);
+    const auto support = enclosed<Far>(support_of(chain));
+    Interval<Far> lowest(bracket.low, bracket.high);
+    const int low_sign = detail::sign_at(links, lambda, lowest.low, support);
+    for (int round = 0; round < 200; ++round) {
+        const Far middle = lowest.middle();
+        const int sign = detail::sign_at(links, lambda, middle, support);
+        if (sign == 0 || !(lowest.low < middle && middle < lowest.high)) break;
+        (sign == low_sign ? lowest.low : lowest.high) = middle;
+    }
+    Box<Far> near;
+    detail::support_offset(links, lambda, lowest, &near, support);
+    const WholeBalance balance(links, lambda, posture_of(chain), support);
+    auto found = detail::settled(chain, height, balance, near);
+    if (!found) return std::nullopt;
+    const Far tangent = abs(Far(detail::tangent_in(found->shape, chain.links, 0)));
+    const bool inside = abs(bracket.low) <= tangent && tangent <= abs(bracket.high);
+    return inside ? std::move(found) : std::nullopt;
+}
+
+template <class AnyLinks>
+void add(const AnyLinks& links, const Wide<double>& height, const Settled& settled, SteadyShapes& result) {
+    result.shapes.push_back(described(links, height, settled.shape));
+    result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
+}
+
 /// Of the lists made one link at a time, where each hangs at one inclination.
 template <class AnyLinks>
-void add_single_valued(const AnyLinks& links, const Wide<double>& height, long budget, SteadyShapes& result) {
+void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget,
+                       SteadyShapes& result) {
     const auto narrow = swept_links<DoubleDouble>(links);
-    const auto isolation = isolated(links, height, budget);
+    const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
     const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
         const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
@@ -181,7 +212,10 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, long b
     for (const auto& bracket : isolation.shapes) {
         auto found = finished(links, height, bracket);
         if (!found) {
-            leave_open(bracket);
+            if (const auto settled = finished_by_tangents(links, height, bracket))
+                add(links, height, *settled, result);
+            else
+                leave_open(bracket);
             continue;
         }
         SteadyShape& shape = result.shapes.emplace_back(
@@ -201,17 +235,12 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, long b
 
 /// And of the others.
 template <class AnyLinks>
-void add_several_valued(const AnyLinks& links, const Wide<double>& height, const SteadyShapesOptions& options,
-                        SteadyShapes& result) {
-    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(height), !options.hanging_only,
-                                         enclosed<double>(support_of(links)));
+void add_several_valued(const AnyLinks& links, const Wide<double>& height, double last,
+                        const SteadyShapesOptions& options, SteadyShapes& result) {
     const auto found = several_inclinations(links, height, last, options.hanging_only,
                                             options.budget / static_cast<long>(links.links.size()));
     result.cells = found.cells;
-    for (const Settled& settled : found.shapes) {
-        result.shapes.push_back(described(links, height, settled.shape));
-        result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
-    }
+    for (const Settled& settled : found.shapes) add(links, height, settled, result);
     for (const auto& part : found.open) {
         const double low = std::atan(part.low), high = std::atan(part.high);
         if (part.lowest == Posture::hangs)
@@ -232,14 +261,18 @@ inline void sort(SteadyShapes& found) {
 template <class AnyLinks>
 SteadyShapes listed(const AnyLinks& links, const Wide<double>& scaled, const SteadyShapesOptions& options) {
     SteadyShapes result;
-    if (!(static_cast<double>(scaled) > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
+    // A little beyond: a link all but horizontal is at the end itself, to rounding.
+    const double last =
+        1.0625 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled), !options.hanging_only,
+                                  enclosed<double>(support_of(links)));
+    if (!(static_cast<double>(scaled) > 0x1p-960 && last < 0x1p960)) {  // two words lose digits, or overflow
         result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;
     }
     if (options.hanging_only && hangs_at_one_inclination(links, enclosed<double>(scaled)))
-        add_single_valued(links, scaled, options.budget, result);
+        add_single_valued(links, scaled, last, options.budget, result);
     else
-        add_several_valued(links, scaled, options, result);
+        add_several_valued(links, scaled, last, options, result);
     sort(result);
     return result;
 }
@@ -263,7 +296,8 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 /// box about the tangents of all links that is proved to hold no zero or one (Krawczyk).
 /// Accuracy: every inclination within `error_bound`, proved: mostly 2.3e-16 (4.4e-16 of links that stand), and 2 ulp of
 /// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at exactly
-/// a critical speed or a fold, and where the budget ends, as it does for chains of 20 links and more at heights of some
+/// a critical speed or a fold, at heights below 2^-960 (1e-289) of the longest link, where quotients of two words lose their
+/// last digits and tangents overflow, and where the budget ends, as it does for chains of 20 links and more at heights of some
 /// 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one inclination).
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
 /// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of
