@@ -4,6 +4,7 @@
 #include <optional>
 #include <random>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/jet.hpp"
 
 namespace revchain::finite {
@@ -108,6 +109,7 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
     std::vector<Part<T>> stack{whole};
     Cutting<T> cutting;
     while (!stack.empty()) {
+        revchain::detail::look();
         const Part<T> part = stack.back();
         stack.pop_back();
         if (found.cells++ >= budget) {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/path_series.hpp"
 
 namespace revchain::finite {
@@ -49,6 +50,7 @@ class Path {
         }
         PathSeries series;
         while (!ended(options, state)) {
+            revchain::detail::look();
             series.start(kind, state, options.with_change ? &change : nullptr);
             double duration = within_piece(series, series.reach(options.tolerance));
             PathSeries::Reached next = series.reached(duration);

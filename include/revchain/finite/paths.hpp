@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/isolation.hpp"
 #include "revchain/finite/zeros.hpp"
 
@@ -79,6 +80,7 @@ class PathSearch {
         detail::Cutting<T> cutting;
         long cells = 0;
         while (!stack.empty()) {
+            revchain::detail::look();
             const auto [low, high] = stack.back();
             stack.pop_back();
             if (cells >= budget) {

@@ -145,11 +145,14 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
     using Far = DoubleDouble;
     const Interval<Far> lambda = enclosed<Far>(height);
     const Far tangent(found.tangent);
-    for (Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);; reach = reach * Far(16)) {
-        const Far low = std::max(bracket.low, tangent - reach), high = std::min(bracket.high, tangent + reach);
+    Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
+    for (int round = 0;; ++round, reach = reach * Far(16)) {
+        const bool far = round == 300;  // 16^300 overflows
+        const Far low = far ? bracket.low : std::max(bracket.low, tangent - reach);
+        const Far high = far ? bracket.high : std::min(bracket.high, tangent + reach);
         const bool whole = low == bracket.low && high == bracket.high;
         const auto sign_at = [&](const Far& t) { return detail::sign_at(links, lambda, t, support); };
-        if (!whole && sign_at(low) * sign_at(high) != -1) continue;
+        if (!far && !whole && sign_at(low) * sign_at(high) != -1) continue;
         std::vector<Interval<Far>> tangents;
         detail::support_offset(links, lambda, Interval<Far>(low, high), &tangents);
         double worst = 0;
@@ -210,17 +213,12 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
     };
     for (const auto& bracket : isolation.undecided) leave_open(bracket);
     for (const auto& bracket : isolation.shapes) {
-        auto found = finished(links, height, bracket);
-        if (!found) {
-            if (const auto settled = finished_by_tangents(links, height, bracket))
-                add(links, height, *settled, result);
-            else
-                leave_open(bracket);
-            continue;
-        }
-        SteadyShape& shape = result.shapes.emplace_back(
-            verified_shape(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
-        if (shape.error_bound > 0x1.8p-52) {  // all but horizontal, or all but critical: the sweep may say more
+        const std::size_t before = result.shapes.size();
+        if (auto found = finished(links, height, bracket)) {
+            SteadyShape& shape = result.shapes.emplace_back(
+                verified_shape(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
+            if (shape.error_bound <= 0x1.8p-52) continue;
+            // all but horizontal, or all but critical: the sweep may say more
             const auto support = enclosed<DoubleDouble>(support_of(links));
             const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
             if (error < shape.error_bound) {
@@ -229,6 +227,14 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
                 shape = described(links, height, found->shape);
                 shape.error_bound = error, shape.condition = condition;
             }
+            if (shape.error_bound < 0x1p-48) continue;
+        }
+        // or the tangents
+        if (const auto settled = finished_by_tangents(links, height, bracket)) {
+            result.shapes.resize(before);
+            add(links, height, *settled, result);
+        } else if (result.shapes.size() == before) {
+            leave_open(bracket);
         }
     }
 }
@@ -265,7 +271,7 @@ SteadyShapes listed(const AnyLinks& links, const Wide<double>& scaled, const Ste
     const double last =
         1.0625 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled), !options.hanging_only,
                                   enclosed<double>(support_of(links)));
-    if (!(static_cast<double>(scaled) > 0x1p-960 && last < 0x1p960)) {  // two words lose digits, or overflow
+    if (!(static_cast<double>(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;
     }
@@ -296,9 +302,10 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 /// box about the tangents of all links that is proved to hold no zero or one (Krawczyk).
 /// Accuracy: every inclination within `error_bound`, proved: mostly 2.3e-16 (4.4e-16 of links that stand), and 2 ulp of
 /// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at exactly
-/// a critical speed or a fold, at heights below 2^-960 (1e-289) of the longest link, where quotients of two words lose their
-/// last digits and tangents overflow, and where the budget ends, as it does for chains of 20 links and more at heights of some
+/// a critical speed or a fold, where the budget ends, as it does for chains of 20 links and more at heights of some
 /// 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one inclination).
+/// Below 2^-50 (9e-16) of the longest link's length nothing is listed or proved: a sideways pull is an offset over the height,
+/// and two words hold offsets to 2^-104 of that length, which would leave tensions no digit.
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
 /// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of
 /// equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <thread>
+
+#include "bindings.hpp"
+#include "revchain/core/progress.hpp"
+
+// Python notes Ctrl-C but hears it only when asked. The library calls `interrupt` from all its long loops, whichever
+// function was bound: it asks there. See bind_core.cpp.
+
+/// What ends a computation that `aside` started; none in other threads.
+inline thread_local const std::atomic<bool>* abandoned = nullptr;
+
+/// solve() in a thread of its own, for solvers of Eigen, which cannot be interrupted; here where `links` are so few that they
+/// take no tenth of a second. After Ctrl-C, or where `progress` is cancelled, the caller goes on at once; the thread ends at
+/// its next look or with the solver's result, which nobody reads. `solve` owns all it uses.
+template <class Solve>
+auto aside(revchain::Index links, const revchain::Progress* progress, Solve solve) {
+    if (links <= 40) return without_lock(solve);
+    const auto stop = std::make_shared<std::atomic<bool>>(false);
+    std::packaged_task<decltype(solve())()> task([stop, solve = std::move(solve)] {
+        abandoned = stop.get();
+        return solve();
+    });
+    auto result = task.get_future();
+    const py::gil_scoped_release release;
+    std::thread(std::move(task)).detach();
+    try {
+        while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+            revchain::detail::look();
+            if (progress != nullptr && progress->cancelled()) throw revchain::Cancelled("revchain: cancelled");
+        }
+    } catch (...) {
+        *stop = true;
+        throw;
+    }
+    return result.get();
+}
