@@ -34,7 +34,8 @@ py::tuple answered(const revchain::Solution& found) {
 py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol, double inclination,
                       std::optional<double> time_budget) {
     return answered(aside(chain.size(), nullptr, [=] {
-        return revchain::solve(revchain::height_models_with_dense, chain, {first, count, rtol, inclination}, time_budget);
+        const revchain::Question question{first, count, rtol, inclination};
+        return revchain::solve(revchain::height_models_with_dense, chain, question, time_budget);
     }));
 }
 

@@ -15,9 +15,9 @@
 /// What ends a computation that `aside` started; none in other threads.
 inline thread_local const std::atomic<bool>* abandoned = nullptr;
 
-/// solve() in a thread of its own, for solvers of Eigen, which cannot be interrupted; here where `links` are so few that they
-/// take no tenth of a second. After Ctrl-C, or where `progress` is cancelled, the caller goes on at once; the thread ends at
-/// its next look or with the solver's result, which nobody reads. `solve` owns all it uses.
+/// solve() in a thread of its own, for solvers of Eigen, which cannot be interrupted; on this thread where `links` are so
+/// few that they take less than 0.1 s. After Ctrl-C, or where `progress` is cancelled, the caller goes on at once. The
+/// thread ends at its next look or with the solver's result, which nobody reads. `solve` owns all it uses.
 template <class Solve>
 auto aside(revchain::Index links, const revchain::Progress* progress, Solve solve) {
     if (links <= 40) return without_lock(solve);

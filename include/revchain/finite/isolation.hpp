@@ -91,8 +91,8 @@ class Cutting {
     /// None where the range is narrower than `narrowest` of its upper end, or next to 0 of `last` and of 1.
     std::optional<T> between(const T& low, const T& high, const T& narrowest, const T& last) {
         const T cut = between(low, high);
-        const bool narrow =
-            low == T(0) ? high < narrowest * std::min(last, T(1)) : high - low < narrowest * high || !(low < cut && cut < high);
+        const bool narrow = low == T(0) ? high < narrowest * std::min(last, T(1))
+                                        : high - low < narrowest * high || !(low < cut && cut < high);
         return narrow ? std::nullopt : std::optional<T>(cut);
     }
 

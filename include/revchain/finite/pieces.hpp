@@ -59,7 +59,7 @@ class Response {
     Interval<T> at(const T& t) const { return load(Interval<T>(t)); }
     Interval<T> growth(const T& t) const { return stiffness_ + turning_ * detail::Sine<T>(Interval<T>(t)).slope; }
 
-    /// The first of the numbers t, t + step, t + 5 step, ... that passes a test; NaN where none does before they overflow.
+    /// The first of the numbers t, t + step, t + 5 step, ... that passes a test; NaN if none does before they overflow.
     template <class Test>
     static T first(T t, T step, const Test& passes) {
         for (int round = 0; round < std::numeric_limits<T>::max_exponent; ++round, step = step * T(4)) {

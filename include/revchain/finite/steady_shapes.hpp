@@ -168,7 +168,7 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
     }
 }
 
-/// The same where links are too near the horizontal for that: from the tangents of all links, in the bracket made narrow.
+/// The same where links are too near the horizontal for that: from the tangents of all links, in a narrower bracket.
 template <class AnyLinks>
 std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
                                             const Bracket<DoubleDouble>& bracket) {
@@ -304,8 +304,9 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 /// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at exactly
 /// a critical speed or a fold, where the budget ends, as it does for chains of 20 links and more at heights of some
 /// 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one inclination).
-/// Below 2^-50 (9e-16) of the longest link's length nothing is listed or proved: a sideways pull is an offset over the height,
-/// and two words hold offsets to 2^-104 of that length, which would leave tensions no digit.
+/// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and `complete` is
+/// false: a sideways pull is an offset over the height, and two words hold offsets to 2^-104 of that length. Below, tensions
+/// would lose digits, and soon all of them.
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
 /// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of
 /// equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.

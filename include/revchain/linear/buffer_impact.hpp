@@ -35,8 +35,8 @@ struct Blow {
 /// of about one mass deal one to three, a heavy one behind a light one hundreds), 0.1 for a state.
 class BufferImpact {
    public:
-    /// Throws InvalidArgument unless all numbers are positive and finite, and their quotients, or for over 100,000 blows or
-    /// ten million steps to find their times.
+    /// Throws InvalidArgument unless all numbers are positive and finite, and their quotients, or for over 100,000 blows
+    /// or ten million steps to find their times.
     explicit BufferImpact(const Carriages& given);
 
     const std::vector<Blow>& blows() const { return blows_; }
@@ -82,8 +82,10 @@ inline double BufferImpact::Phase::first_zero(double sign, double end, long& ste
     while (t <= end) {
         if (++steps % 1024 == 0) detail::look();
         if (steps > most_steps)
-            detail::refuse("BufferImpact", "masses or stiffnesses are too unlike: the times of all blows take too many steps",
-                           static_cast<double>(steps));
+            detail::refuse("BufferImpact",
+                           "masses or stiffnesses are too unlike: take ratios nearer to 1; the times of the blows need "
+                           "more steps than are allowed",
+                           steps);
         const CarriageState s = at(t);
         const double offset = t == 0 ? 0 : std::max(0.0, sign * s.front), speed = sign * s.front_speed;
         const double root = std::sqrt(speed * speed + 2 * largest * offset);
