@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include <random>
 
+#include "revchain/finite/stability_windows.hpp"
 #include "revchain/finite/steady_shapes.hpp"
 #include "support/catch.hpp"
 
@@ -91,6 +92,20 @@ TEST_CASE("lists of shapes end at every height", "[steady]") {
             const auto found = steady_shapes(chain, height, {.hanging_only = false});
             CHECK(found.complete >= (height > 1));
         }
+}
+
+TEST_CASE("windows of stability down to heights of 1e-11 have heights", "[steady][stability]") {
+    for (const Index links : {1, 2, 3}) {
+        const auto chain = Chain<double>::uniform_plummets(links);
+        for (Index mode = 1; mode <= links; ++mode) {
+            const Branch followed = branch(chain, mode, conical_pendulum::height(1e6));
+            for (const StabilityWindow& window :
+                 stability_windows(chain, followed, {.frame = StabilityFrame::driven, .samples = 2})) {
+                CHECK(window.height_from >= window.height_to);
+                CHECK(window.height_to >= followed.conical_height.back() * (1 - 1e-12));
+            }
+        }
+    }
 }
 
 }  // namespace
