@@ -103,8 +103,9 @@ void bind_branches(py::module_& module) {
             using revchain::StabilityFrame;
             const revchain::StabilityWindowsOptions options{
                 driven ? StabilityFrame::driven : StabilityFrame::free, tolerance, samples};
-            const auto found = aside(chain.size(), nullptr,
-                                     [=] { return revchain::stability_windows(chain, branch, options); });
+            const auto found = aside(chain, nullptr, [branch, options](const Chain& own) {
+                return revchain::stability_windows(own, branch, options);
+            });
             std::vector<std::tuple<double, double, double, double, std::string>> result;
             for (const auto& w : found)
                 result.emplace_back(w.arc_from, w.arc_to, w.height_from, w.height_to,

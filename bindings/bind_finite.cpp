@@ -61,7 +61,7 @@ void bind_finite(py::module_& module) {
         "stability",
         [](const Chain& chain, const SteadyShape& shape, bool driven) {
             const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
-            return aside(chain.size(), nullptr, [=] { return revchain::stability(chain, shape, frame); });
+            return aside(chain, nullptr, [=](const Chain& own) { return revchain::stability(own, shape, frame); });
         },
         "chain"_a, "shape"_a, "driven"_a);
     module.def(

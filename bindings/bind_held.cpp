@@ -109,7 +109,7 @@ void bind_held(py::module_& module) {
         "held_stability",
         [](const Chain& chain, const HeldShape& shape, bool driven) {
             const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
-            return aside(chain.size(), nullptr, [=] { return revchain::stability(chain, shape, frame); });
+            return aside(chain, nullptr, [=](const Chain& own) { return revchain::stability(own, shape, frame); });
         },
         "chain"_a, "shape"_a, "driven"_a);
     using revchain::TautModes;

@@ -101,7 +101,8 @@ py::tuple solved(const Chain& chain, const Asked& asked, const std::string& meth
     const auto found = [&] {
         if constexpr (std::is_same_v<T, double>) {
             if (method == "dense")
-                return aside(chain.size(), progress, [=] { return solve(chain, asked.options<double>(nullptr)); });
+                return aside(chain, progress,
+                             [=](const Chain& own) { return solve(own, asked.options<double>(nullptr)); });
             return without_lock([&] { return solve(chain, asked.options<double>(progress)); });
         } else {
             return without_lock([&] { return solve(revchain::converted<T>(chain), asked.options<T>(progress)); });

@@ -33,17 +33,17 @@ py::tuple answered(const revchain::Solution& found) {
 
 py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol, double inclination,
                       std::optional<double> time_budget) {
-    return answered(aside(chain.size(), nullptr, [=] {
+    return answered(aside(chain, nullptr, [=](const Chain& own) {
         const revchain::Question question{first, count, rtol, inclination};
-        return revchain::solve(revchain::height_models_with_dense, chain, question, time_budget);
+        return revchain::solve(revchain::height_models_with_dense, own, question, time_budget);
     }));
 }
 
 /// By the model of that name, which need not be the cheapest; the name is known.
 py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, double inclination,
                     const std::string& model) {
-    return answered(aside(chain.size(), nullptr, [=] {
-        return revchain::solve_by(revchain::height_models_with_dense, model, chain, {first, count, rtol, inclination});
+    return answered(aside(chain, nullptr, [=](const Chain& own) {
+        return revchain::solve_by(revchain::height_models_with_dense, model, own, {first, count, rtol, inclination});
     }));
 }
 
