@@ -60,7 +60,8 @@ void fuzz::analytic(Random& random) {
             break;
         }
         case 4:
-            (void)library::heavy_chain::conical_heights(count, length), (void)library::heavy_chain::nodes(count, length);
+            (void)library::heavy_chain::conical_heights(count, length);
+            (void)library::heavy_chain::nodes(count, length);
             (void)library::heavy_chain::shape(x, count, length), (void)library::heavy_chain::slope(x, count, length);
             (void)library::heavy_chain::vertical_points(count, length);
             (void)library::heavy_chain::kinetic_energy(count, random.number());

@@ -32,7 +32,8 @@ int main(int count, char** words) {
     const std::uint64_t most = count > 3 ? std::strtoull(words[3], nullptr, 10) : ~std::uint64_t(0);
     const bool one = most == 1;
     revchain::detail::interrupt = &end_hung_calls;
-    void (*const cases[])(fuzz::Random&) = {fuzz::linear, fuzz::rigs, fuzz::shapes, fuzz::branches, fuzz::held, fuzz::analytic};
+    void (*const cases[])(fuzz::Random&) = {fuzz::linear,   fuzz::rigs, fuzz::shapes,
+                                            fuzz::branches, fuzz::held, fuzz::analytic};
     const Clock::time_point begin = Clock::now();
     std::uint64_t seed = first, refused = 0;
     int failures = 0;

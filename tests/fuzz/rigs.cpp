@@ -13,11 +13,12 @@ void fuzz::rigs(Random& random) {
         (void)found;
     } else if (kind == 1) {
         (void)revchain::response(rig, random.numbers(4));
-        const auto offset = random.numbers(std::size_t(rig.size()) + 1);
-        (void)revchain::rig_sensitivity(
-            rig, random.number(), Eigen::Map<const revchain::Vector<double>>(offset.data(), rig.size() + 1), random.number());
+        const auto numbers = random.numbers(std::size_t(rig.size()) + 1);
+        const Eigen::Map<const revchain::Vector<double>> offset(numbers.data(), rig.size() + 1);
+        (void)revchain::rig_sensitivity(rig, random.number(), offset, random.number());
     } else {
+        const int sense = random.one_in(2) ? 1 : -1;
         (void)revchain::steady_shapes(rig, random.number() * rig.chain().total_length(),
-                                      {.budget = 3000, .hanging_only = random.one_in(2), .sense = random.one_in(2) ? 1 : -1});
+                                      {.budget = 3000, .hanging_only = random.one_in(2), .sense = sense});
     }
 }

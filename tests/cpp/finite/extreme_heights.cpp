@@ -15,8 +15,8 @@ bool is_sound(const SteadyShape& shape) {
            shape.tension.allFinite() && shape.error_bound == shape.error_bound;
 }
 
-/// Shapes of two plummets with both links hanging as the height tends to 0: each link is horizontal, or what draws it
-/// sideways vanishes. Both outwards; then, where the lower or the upper may be the one that is not drawn; and opposite ones.
+/// How many shapes two plummets have with both links hanging as the height tends to 0. Each link is horizontal, or what
+/// draws it sideways vanishes: both outwards; where the lower or the upper may be the one not drawn; and opposite ones.
 std::size_t limit_count(const Link<double>& lower, const Link<double>& upper) {
     const bool lower_undrawn = upper.length < lower.length,
                upper_undrawn = lower.length * lower.weight < (lower.weight + upper.weight) * upper.length;
