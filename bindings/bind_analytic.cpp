@@ -86,7 +86,7 @@ void bind_analytic(py::module_& module) {
         },
         "count"_a, "length"_a);
     module.def("heavy_chain_shape",
-               py::vectorize([](double x, Index mode, double length) { return heavy_chain::shape(x, mode, length); }),
+               vectorized([](double x, Index mode, double length) { return heavy_chain::shape(x, mode, length); }),
                "x"_a, "mode"_a, "length"_a);
     module.def(
         "heavy_chain_nodes", [](Index mode, double length) { return to_numpy(heavy_chain::nodes(mode, length)); },
@@ -96,9 +96,9 @@ void bind_analytic(py::module_& module) {
         [](Index mode, double length) { return to_numpy(heavy_chain::vertical_points(mode, length)); }, "mode"_a,
         "length"_a);
     module.def("heavy_chain_slope",
-               py::vectorize([](double x, Index mode, double length) { return heavy_chain::slope(x, mode, length); }),
+               vectorized([](double x, Index mode, double length) { return heavy_chain::slope(x, mode, length); }),
                "x"_a, "mode"_a, "length"_a);
-    module.def("heavy_chain_energy", py::vectorize(heavy_chain::kinetic_energy), "mode"_a, "amplitude"_a);
+    module.def("heavy_chain_energy", vectorized(heavy_chain::kinetic_energy), "mode"_a, "amplitude"_a);
     bind_tip_mass(module);
     bind_tapered_chain(module);
 }

@@ -5,7 +5,6 @@
 
 #include "bindings.hpp"
 #include "revchain/linear/batch.hpp"
-#include "watched.hpp"
 
 namespace {
 
@@ -23,14 +22,8 @@ Column column(const Array& table, Index chains, Index size, const char* name) {
     return {table.data(), table.shape(0) == 1 ? 0 : table.shape(1), table.shape(1) == 1 ? 0 : 1};
 }
 
-Heights solve(const Batch& batch, BatchOptions options) {
-    constexpr double a_moment = 1e6;  // links times modes, at worst
-    const double work = static_cast<double>(batch.chains) * static_cast<double>(batch.size) *
-                        static_cast<double>(options.count.value_or(batch.size));
-    return watched<Heights>(work / a_moment, nullptr, [&](revchain::Progress* progress) {
-        options.progress = progress;
-        return revchain::conical_heights(batch, options);
-    });
+Heights solve(const Batch& batch, const BatchOptions& options) {
+    return without_lock([&] { return revchain::conical_heights(batch, options); });
 }
 
 /// (*shape, count) heights; `size` is the number of links. The tables as `column` takes them.

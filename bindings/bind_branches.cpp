@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/finite/branches.hpp"
 #include "revchain/finite/shape_on_branch.hpp"
 #include "revchain/finite/stability_windows.hpp"
@@ -100,14 +101,11 @@ void bind_branches(py::module_& module) {
         "stability_windows",
         [](const Chain& chain, const Branch& branch, bool driven, double tolerance, int samples) {
             using revchain::StabilityFrame;
-            std::vector<revchain::StabilityWindow> found;
-            {
-                const py::gil_scoped_release release;
-                found = revchain::stability_windows(chain, branch,
-                                                    {.frame = driven ? StabilityFrame::driven : StabilityFrame::free,
-                                                     .tolerance = tolerance,
-                                                     .samples = samples});
-            }
+            const revchain::StabilityWindowsOptions options{
+                driven ? StabilityFrame::driven : StabilityFrame::free, tolerance, samples};
+            const auto found = aside(chain, nullptr, [branch, options](const Chain& own) {
+                return revchain::stability_windows(own, branch, options);
+            });
             std::vector<std::tuple<double, double, double, double, std::string>> result;
             for (const auto& w : found)
                 result.emplace_back(w.arc_from, w.arc_to, w.height_from, w.height_to,

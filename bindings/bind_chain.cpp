@@ -47,7 +47,10 @@ auto combined(Index size, Make make, const Column<V>&... columns) {
     if ((columns.is_scalar() && ...)) return Column<Made>(make("Chain", columns[0]...));
     std::vector<Made> values;
     values.reserve(static_cast<std::size_t>(size));
-    for (Index m = 0; m < size; ++m) values.push_back(make("Chain: link " + std::to_string(m + 1), columns[m]...));
+    for (Index m = 0; m < size; ++m) {
+        if (m % 1024 == 0) revchain::detail::look();
+        values.push_back(make("Chain: link " + std::to_string(m + 1), columns[m]...));
+    }
     return Column<Made>(std::move(values));
 }
 
@@ -79,7 +82,11 @@ Chain make_chain(const Array& weight, const Array& length, const std::optional<A
 
 py::array to_numpy(bool is_scalar, Index size, auto value) {
     py::array_t<double> array(is_scalar ? std::vector<py::ssize_t>{} : std::vector<py::ssize_t>{size});
-    for (Index m = 0; m < (is_scalar ? 1 : size); ++m) array.mutable_data()[m] = value(m);
+    double* const to = array.mutable_data();
+    for (Index m = 0; m < (is_scalar ? 1 : size); ++m) {
+        if (m % 1024 == 0) revchain::detail::look();
+        to[m] = value(m);
+    }
     return frozen(std::move(array));
 }
 

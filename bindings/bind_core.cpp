@@ -1,12 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/core/carried_support.hpp"
 #include "revchain/core/conical_pendulum.hpp"
 #include "revchain/core/hoop.hpp"
 #include "revchain/core/inclined_pendulum.hpp"
-#include "revchain/core/progress.hpp"
+
+namespace {
+
+/// The identifier of the only thread in which Python handles signals.
+unsigned long main_thread = 0;
+
+/// Every 50 ms in the main thread: raises KeyboardInterrupt if Ctrl-C was pressed.
+void interrupt() {
+    if (abandoned != nullptr && *abandoned) throw revchain::Cancelled("revchain: cancelled");
+    if (PyThread_get_thread_ident() != main_thread) return;
+    using Clock = std::chrono::steady_clock;
+    static Clock::time_point last;
+    const Clock::time_point now = Clock::now();
+    if (now - last < std::chrono::milliseconds(50)) return;
+    last = now;
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+}  // namespace
 
 void bind_core(py::module_& module) {
+    main_thread = py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
+    revchain::detail::interrupt = &interrupt;
+
     namespace pendulum = revchain::conical_pendulum;
 
     py::register_exception<revchain::Cancelled>(module, "Cancelled", PyExc_RuntimeError);
@@ -17,35 +42,35 @@ void bind_core(py::module_& module) {
         .def("cancel", &revchain::Progress::cancel, "Make the running modes() raise Cancelled.");
 
     module.def("conical_pendulum_angular_speed",
-               py::vectorize([](double height, double gravity) { return pendulum::angular_speed(height, gravity); }),
+               vectorized([](double height, double gravity) { return pendulum::angular_speed(height, gravity); }),
                "height"_a, "gravity"_a);
     module.def("conical_pendulum_height",
-               py::vectorize([](double speed, double gravity) { return pendulum::height(speed, gravity); }),
+               vectorized([](double speed, double gravity) { return pendulum::height(speed, gravity); }),
                "angular_speed"_a, "gravity"_a);
     module.def("conical_pendulum_period",
-               py::vectorize([](double height, double gravity) { return pendulum::period(height, gravity); }),
+               vectorized([](double height, double gravity) { return pendulum::period(height, gravity); }),
                "height"_a, "gravity"_a);
-    module.def("conical_pendulum_height_from_period", py::vectorize([](double period, double gravity) {
+    module.def("conical_pendulum_height_from_period", vectorized([](double period, double gravity) {
                    return pendulum::height_from_period(period, gravity);
                }),
                "period"_a, "gravity"_a);
-    module.def("conical_pendulum_revolutions_per_second", py::vectorize([](double height, double gravity) {
+    module.def("conical_pendulum_revolutions_per_second", vectorized([](double height, double gravity) {
                    return pendulum::revolutions_per_second(height, gravity);
                }),
                "height"_a, "gravity"_a);
     module.def("conical_pendulum_height_from_revolutions_per_second",
-               py::vectorize([](double revolutions, double gravity) {
+               vectorized([](double revolutions, double gravity) {
                    return pendulum::height_from_revolutions_per_second(revolutions, gravity);
                }),
                "revolutions_per_second"_a, "gravity"_a);
     module.def("conical_pendulum_gravity",
-               py::vectorize([](double length, double period) { return pendulum::gravity(length, period); }),
+               vectorized([](double length, double period) { return pendulum::gravity(length, period); }),
                "length"_a, "period"_a);
     module.def("conical_pendulum_gravity_from_seconds_pendulum",
-               py::vectorize([](double length) { return pendulum::gravity_from_seconds_pendulum(length); }),
+               vectorized([](double length) { return pendulum::gravity_from_seconds_pendulum(length); }),
                "length"_a);
     module.def("conical_pendulum_height_from_seconds_pendulum",
-               py::vectorize([](double seconds_pendulum, double period) {
+               vectorized([](double seconds_pendulum, double period) {
                    return pendulum::height_from_seconds_pendulum(seconds_pendulum, period);
                }),
                "seconds_pendulum"_a, "period"_a);
@@ -73,14 +98,14 @@ void bind_core(py::module_& module) {
         },
         "upper_thread"_a, "lower_thread"_a, "distance"_a, "height"_a);
     module.def("air_resistance",
-               py::vectorize([](double arm, double height) { return revchain::air_resistance(arm, height); }), "arm"_a,
+               vectorized([](double arm, double height) { return revchain::air_resistance(arm, height); }), "arm"_a,
                "height"_a);
-    module.def("whirling_thread", py::vectorize([](double arm, double height, double radius) {
+    module.def("whirling_thread", vectorized([](double arm, double height, double radius) {
                    return revchain::whirling_thread(arm, height, radius);
                }),
                "arm"_a, "height"_a, "radius"_a);
     module.def("carried_response",
-               py::vectorize([](double length, double height) { return revchain::carried_response(length, height); }),
+               vectorized([](double length, double height) { return revchain::carried_response(length, height); }),
                "length"_a, "height"_a);
     module.def(
         "carried_inclinations",
@@ -98,10 +123,10 @@ void bind_core(py::module_& module) {
 
     namespace hoop = revchain::hoop;
     module.def("hoop_tension",
-               py::vectorize([](double speed, double gravity) { return hoop::tension(speed, gravity); }), "speed"_a,
+               vectorized([](double speed, double gravity) { return hoop::tension(speed, gravity); }), "speed"_a,
                "gravity"_a);
     module.def("hoop_speed",
-               py::vectorize([](double tension, double gravity) { return hoop::speed(tension, gravity); }), "tension"_a,
+               vectorized([](double tension, double gravity) { return hoop::speed(tension, gravity); }), "tension"_a,
                "gravity"_a);
     module.def(
         "hoop_wave_speeds",
@@ -114,7 +139,7 @@ void bind_core(py::module_& module) {
                 speed);
         },
         "speed"_a);
-    module.def("hoop_string_revolutions_per_second", py::vectorize([](double span, double tension, double gravity) {
+    module.def("hoop_string_revolutions_per_second", vectorized([](double span, double tension, double gravity) {
                    return hoop::string_revolutions_per_second(span, tension, gravity);
                }),
                "span"_a, "tension"_a, "gravity"_a);

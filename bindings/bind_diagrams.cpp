@@ -75,7 +75,7 @@ void bind_diagrams(py::module_& module) {
         "lower_weight"_a, "lower_centroid"_a, "lower_radius_of_gyration"_a, "upper_weight"_a, "upper_length"_a,
         "upper_centroid"_a, "upper_radius_of_gyration"_a, "height"_a);
     module.def("pin_of_silent_clapper",
-               py::vectorize([](double bell_weight, double bell_centroid, double bell_radius, double clapper_weight,
+               vectorized([](double bell_weight, double bell_centroid, double bell_radius, double clapper_weight,
                                 double clapper_centroid, double clapper_radius) {
                    return revchain::pin_of_silent_clapper<double>(bell_weight, {bell_centroid, bell_radius},
                                                                   clapper_weight, {clapper_centroid, clapper_radius});
@@ -83,6 +83,6 @@ void bind_diagrams(py::module_& module) {
                "bell_weight"_a, "bell_centroid"_a, "bell_radius_of_gyration"_a, "clapper_weight"_a,
                "clapper_centroid"_a, "clapper_radius_of_gyration"_a);
     module.def("joint_without_bending",
-               py::vectorize([](double length, double pin) { return revchain::joint_without_bending(length, pin); }),
+               vectorized([](double length, double pin) { return revchain::joint_without_bending(length, pin); }),
                "length"_a, "pin"_a);
 }

@@ -50,9 +50,9 @@ void bind_functions(py::module_& module) {
         },
         "amplitude"_a, "modulus"_a, "complementary_modulus"_a);
     module.def("elliptic_complete_pi",
-               py::vectorize([](double n, double k, double c) { return analytic::complete_pi(n, modulus_of(k, c)); }),
+               vectorized([](double n, double k, double c) { return analytic::complete_pi(n, modulus_of(k, c)); }),
                "characteristic"_a, "modulus"_a, "complementary_modulus"_a);
-    module.def("elliptic_incomplete_pi", py::vectorize([](double n, double angle, double k, double c) {
+    module.def("elliptic_incomplete_pi", vectorized([](double n, double angle, double k, double c) {
                    return analytic::incomplete_pi(n, angle, modulus_of(k, c));
                }),
                "characteristic"_a, "amplitude"_a, "modulus"_a, "complementary_modulus"_a);

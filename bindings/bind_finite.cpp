@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/finite/rig_shapes.hpp"
 #include "revchain/finite/stability.hpp"
 #include "revchain/finite/steady_shapes.hpp"
@@ -59,8 +60,8 @@ void bind_finite(py::module_& module) {
     module.def(
         "stability",
         [](const Chain& chain, const SteadyShape& shape, bool driven) {
-            return revchain::stability(chain, shape,
-                                       driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free);
+            const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
+            return aside(chain, nullptr, [=](const Chain& own) { return revchain::stability(own, shape, frame); });
         },
         "chain"_a, "shape"_a, "driven"_a);
     module.def(

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/finite/held_chain.hpp"
 #include "revchain/finite/held_cord.hpp"
 #include "revchain/finite/held_stability.hpp"
@@ -107,8 +108,8 @@ void bind_held(py::module_& module) {
     module.def(
         "held_stability",
         [](const Chain& chain, const HeldShape& shape, bool driven) {
-            return revchain::stability(chain, shape,
-                                       driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free);
+            const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
+            return aside(chain, nullptr, [=](const Chain& own) { return revchain::stability(own, shape, frame); });
         },
         "chain"_a, "shape"_a, "driven"_a);
     using revchain::TautModes;

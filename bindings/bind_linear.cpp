@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/linear/count.hpp"
 #include "revchain/linear/modes.hpp"
 #include "revchain/linear/reference.hpp"
 #include "scalars.hpp"
-#include "watched.hpp"
 
 namespace {
 
@@ -96,19 +96,18 @@ py::tuple as_tuple(const revchain::Modes<T>& m, bool shapes, bool certified) {
 }
 
 template <class T>
-py::tuple solved(const Chain& chain, const Asked& asked, const std::string& method, double cost,
-                 revchain::Progress* progress) {
+py::tuple solved(const Chain& chain, const Asked& asked, const std::string& method, revchain::Progress* progress) {
     const Solver<T> solve = solver<T>(method);
-    const double work =
-        static_cast<double>(chain.size()) * static_cast<double>(asked.count.value_or(chain.mode_count()));
-    constexpr double a_moment = 2e5;  // links times modes in double
-    const auto found = watched<revchain::Modes<T>>(cost * work / a_moment, progress, [&](revchain::Progress* seen) {
+    const auto found = [&] {
         if constexpr (std::is_same_v<T, double>) {
-            return solve(chain, asked.options<double>(seen));
+            if (method == "dense")
+                return aside(chain, progress,
+                             [=](const Chain& own) { return solve(own, asked.options<double>(nullptr)); });
+            return without_lock([&] { return solve(chain, asked.options<double>(progress)); });
         } else {
-            return solve(revchain::converted<T>(chain), asked.options<T>(seen));
+            return without_lock([&] { return solve(revchain::converted<T>(chain), asked.options<T>(progress)); });
         }
-    });
+    }();
     return as_tuple(found, asked.shapes, asked.certify);
 }
 
@@ -123,10 +122,10 @@ py::tuple modes(const Chain& chain, Index first, std::optional<Index> count, std
                      : method == "spectrum" ? revchain::ModesMethod::spectrum
                                             : revchain::ModesMethod::automatic;
     const Asked asked{first, count, conical_height, angular_speed, rtol, shapes, certify, way};
-    if (precision == "single") return solved<float>(chain, asked, method, 1, progress);
-    if (precision == "extended") return solved<long double>(chain, asked, method, 4, progress);
-    if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, 50, progress);
-    return solved<double>(chain, asked, method, 1, progress);
+    if (precision == "single") return solved<float>(chain, asked, method, progress);
+    if (precision == "extended") return solved<long double>(chain, asked, method, progress);
+    if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, progress);
+    return solved<double>(chain, asked, method, progress);
 }
 
 template <std::size_t N>
@@ -144,7 +143,10 @@ py::array_t<std::int64_t> counts(const Chain& chain, const Array& like,
     const py::ssize_t size = like.size();
     const py::gil_scoped_release release;
     const revchain::ModeCounter<double> counter(chain);
-    for (py::ssize_t i = 0; i < size; ++i) out[i] = count(counter, i);
+    for (py::ssize_t i = 0; i < size; ++i) {
+        revchain::detail::look();
+        out[i] = count(counter, i);
+    }
     return result;
 }
 

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "bindings.hpp"
+#include "interrupt.hpp"
 #include "revchain/scene/models/with_dense.hpp"
 
 namespace {
@@ -32,23 +33,18 @@ py::tuple answered(const revchain::Solution& found) {
 
 py::tuple solved_best(const Chain& chain, Index first, Index count, double rtol, double inclination,
                       std::optional<double> time_budget) {
-    revchain::Solution found;
-    {
-        const py::gil_scoped_release release;
-        found = revchain::solve(revchain::height_models_with_dense, chain, {first, count, rtol, inclination}, time_budget);
-    }
-    return answered(found);
+    return answered(aside(chain, nullptr, [=](const Chain& own) {
+        const revchain::Question question{first, count, rtol, inclination};
+        return revchain::solve(revchain::height_models_with_dense, own, question, time_budget);
+    }));
 }
 
 /// By the model of that name, which need not be the cheapest; the name is known.
 py::tuple solved_by(const Chain& chain, Index first, Index count, double rtol, double inclination,
                     const std::string& model) {
-    revchain::Solution found;
-    {
-        const py::gil_scoped_release release;
-        found = revchain::solve_by(revchain::height_models_with_dense, model, chain, {first, count, rtol, inclination});
-    }
-    return answered(found);
+    return answered(aside(chain, nullptr, [=](const Chain& own) {
+        return revchain::solve_by(revchain::height_models_with_dense, model, own, {first, count, rtol, inclination});
+    }));
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "bindings.hpp"
 #include "revchain/linear/response.hpp"
 #include "revchain/linear/small_oscillation.hpp"
-#include "watched.hpp"
 
 namespace {
 
@@ -34,15 +33,9 @@ py::tuple response(const Carried& carried, const Array& given, bool speeds, doub
     revchain::ResponseOptions options{.support_radius = support_radius, .gravity = gravity};
     if (pins) options.pins = std::vector<Index>(pins->data(), pins->data() + pins->size());
     const std::vector<double> at = as_vector(given);
-    constexpr double a_moment = 2e6;  // links times speeds
-    const auto found =
-        watched<revchain::Response>(static_cast<double>(carried.size()) * static_cast<double>(at.size()) / a_moment,
-                                    nullptr, [&](revchain::Progress* seen) {
-                                        revchain::ResponseOptions watching = options;
-                                        watching.progress = seen;
-                                        return speeds ? revchain::response_at_speed(carried, at, watching)
-                                                      : revchain::response(carried, at, watching);
-                                    });
+    const auto found = without_lock([&] {
+        return speeds ? revchain::response_at_speed(carried, at, options) : revchain::response(carried, at, options);
+    });
     return py::make_tuple(to_numpy(found.offset), to_numpy(found.error_bound), whole(found.modes_below),
                           flags(found.reversed), flags(found.resonant), to_numpy(found.support_force),
                           to_numpy(found.support_force_error));
@@ -55,13 +48,8 @@ py::tuple small_oscillation(const Chain<double>& chain, const Array& offsets, co
     };
     const auto from = column(offsets), speed = column(velocities);
     const std::vector<double> at = as_vector(time);
-    const double kept = static_cast<double>(modes.value_or(chain.mode_count())),
-                 links = static_cast<double>(chain.size());
-    const auto found = watched<revchain::SmallOscillation>(
-        kept * links * (1e-5 + 1e-8 * static_cast<double>(at.size())), nullptr, [&](revchain::Progress* seen) {
-            return revchain::small_oscillation(chain, from, speed, at,
-                                               {.modes = modes, .gravity = gravity, .progress = seen});
-        });
+    const auto found = without_lock(
+        [&] { return revchain::small_oscillation(chain, from, speed, at, {.modes = modes, .gravity = gravity}); });
     return py::make_tuple(to_numpy(found.offset), to_numpy(found.velocity), to_numpy(found.angular_frequency),
                           to_numpy(found.energy), to_numpy(found.shape), to_numpy(found.cosine), to_numpy(found.sine),
                           to_numpy(found.start), found.projected, found.energy_left_out,

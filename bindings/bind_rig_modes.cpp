@@ -4,7 +4,6 @@
 
 #include "bindings.hpp"
 #include "revchain/linear/rig_modes.hpp"
-#include "watched.hpp"
 
 namespace {
 
@@ -32,12 +31,9 @@ py::array column(const Items& items, const Number& number) {
 py::tuple solve(const Rig& rig, Index first, std::optional<Index> count, double gravity, bool shapes,
                 revchain::Progress* progress) {
     // 1 microsecond per link and mode, both senses; the dense way is 200 (2N)^3 nanoseconds and more.
-    const double links = static_cast<double>(rig.size());
-    const double moments = std::max(links * static_cast<double>(count.value_or(rig.size())) * 2e-5,
-                                    rig.size() <= revchain::dense_rig_limit ? links / 50 : 0.0);
-    const RigModes m = watched<RigModes>(moments, progress, [&](revchain::Progress* seen) {
+    const RigModes m = without_lock([&] {
         return revchain::rig_modes(
-            rig, {.first = first, .count = count, .gravity = gravity, .shapes = shapes, .progress = seen});
+            rig, {.first = first, .count = count, .gravity = gravity, .shapes = shapes, .progress = progress});
     });
     using Other = revchain::OtherMode;
     using Slack = revchain::SlackLink;

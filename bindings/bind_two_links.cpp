@@ -15,11 +15,11 @@ py::array pair(const std::array<double, 2>& values) { return frozen(py::array_t<
 }  // namespace
 
 void bind_two_links(py::module_& module) {
-    module.def("pendulum_length", py::vectorize([](double h, double k) {
+    module.def("pendulum_length", vectorized([](double h, double k) {
                    return Link{h, k}.pendulum_length();
                }),
                "centroid"_a, "radius_of_gyration"_a);
-    module.def("share_at_centre_of_oscillation", py::vectorize([](double h, double k) {
+    module.def("share_at_centre_of_oscillation", vectorized([](double h, double k) {
                    return Link{h, k}.share_at_centre_of_oscillation();
                }),
                "centroid"_a, "radius_of_gyration"_a);
@@ -60,22 +60,22 @@ void bind_two_links(py::module_& module) {
                 thread, centroid, radius_of_gyration);
         },
         "thread"_a, "centroid"_a, "radius_of_gyration"_a);
-    module.def("standing_link", py::vectorize([](double a, double h, double k) {
+    module.def("standing_link", vectorized([](double a, double h, double k) {
                    return revchain::standing_link(a, Link{h, k});
                }),
                "thread"_a, "centroid"_a, "radius_of_gyration"_a);
-    module.def("thread_of_standing_link", py::vectorize([](double lambda, double h, double k) {
+    module.def("thread_of_standing_link", vectorized([](double lambda, double h, double k) {
                    return revchain::thread_of_standing_link(lambda, Link{h, k});
                }),
                "height"_a, "centroid"_a, "radius_of_gyration"_a);
-    module.def("standing_plummet", py::vectorize([](double w1, double l1, double w2, double l2) {
+    module.def("standing_plummet", vectorized([](double w1, double l1, double w2, double l2) {
                    return revchain::standing_plummet(w1, l1, w2, l2);
                }),
                "standing_weight"_a, "rod"_a, "hung_weight"_a, "thread"_a);
     module.def("spring_deflection",
-               py::vectorize([](double weight, double e) { return revchain::spring_deflection(weight, e); }),
+               vectorized([](double weight, double e) { return revchain::spring_deflection(weight, e); }),
                "weight"_a, "stiffness"_a);
-    module.def("seconds_lost_per_day", py::vectorize([](double c, double h, double k) {
+    module.def("seconds_lost_per_day", vectorized([](double c, double h, double k) {
                    return revchain::seconds_lost_per_day(c, Link{h, k});
                }),
                "deflection"_a, "centroid"_a, "radius_of_gyration"_a);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/core/scalar.hpp"
 
 namespace py = pybind11;
@@ -41,12 +42,32 @@ py::tuple columns(const Function& function, const Array& first, const Arrays&...
     std::array<double*, count> to{};
     for (std::size_t j = 0; j < count; ++j) out[j] = py::array_t<double>(shape), to[j] = out[j].mutable_data();
     for (py::ssize_t i = 0; i < first.size(); ++i) {
+        if (i % 64 == 0) revchain::detail::look();
         const std::array<double, count> row = function(first.data()[i], rest.data()[i]...);
         for (std::size_t j = 0; j < count; ++j) to[j][i] = row[j];
     }
     py::tuple result(count);
     for (std::size_t j = 0; j < count; ++j) result[j] = std::move(out[j]);
     return result;
+}
+
+/// Function pointers for py::vectorize whose calls look for Ctrl-C now and then.
+template <class Function>
+auto vectorized(Function function) {
+    return [&]<class Result, class... Numbers>(Result (*call)(Numbers...)) {
+        return py::vectorize([call](Numbers... numbers) -> Result {
+            static thread_local unsigned calls = 0;
+            if (++calls % 64 == 0) revchain::detail::look();
+            return call(numbers...);
+        });
+    }(static_cast<py::detail::function_signature_t<Function>*>(function));
+}
+
+/// solve() while other threads of Python may run.
+template <class Solve>
+auto without_lock(Solve&& solve) {
+    const py::gil_scoped_release release;
+    return solve();
 }
 
 // Each in bind_<name>.cpp.

@@ -318,6 +318,10 @@ class _Speed(NamedTuple):
     given: tuple[float, float] | None
 
 
+LEAST, MOST = 1e-150, 1e150
+"""Conical heights, and squared speeds without gravity, whose products with tensions stay in the range of doubles."""
+
+
 def _speed(place: str, conical_height: float | None, angular_speed: float | None, gravity: float) -> _Speed:
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give exactly one of conical_height and angular_speed")
@@ -327,13 +331,22 @@ def _speed(place: str, conical_height: float | None, angular_speed: float | None
         if g == 0:
             raise ValueError(f"{place}: without gravity there is no conical height, give angular_speed; got {height:g}")
         positive(place, "gravity", g)
-        return _Speed(height, 1 / height, None)
+        return _Speed(_in_range(place, "conical_height", height, height), 1 / height, None)
     speed = float(positive(place, "angular_speed", real(place, "angular_speed", angular_speed)))
     if g == 0:
-        return _Speed(0.0, speed**2, (speed, 0.0))
+        return _Speed(0.0, _in_range(place, "angular_speed", speed * speed, speed), (speed, 0.0))
     g = float(positive(place, "gravity", g))
-    height = g / speed / speed
+    height = _in_range(place, "angular_speed", g / speed / speed, speed)
     return _Speed(height, 1 / height, (speed, g))
+
+
+def _in_range(place: str, name: str, height: float, given: float) -> float:
+    if not LEAST <= height <= MOST:
+        raise ValueError(
+            f"{place}: {name} must give a conical height (without gravity a squared speed) "
+            f"from {LEAST:g} to {MOST:g}, got {given:g}"
+        )
+    return height
 
 
 def _half_waves(place: str, most_half_waves: int) -> int:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 import matplotlib
 import numpy as np
@@ -77,6 +78,13 @@ def test_a_slow_chain_folds_and_says_so() -> None:
     assert repr(slow) == "HeldShapes: 0; nothing with 1, 2 half waves"
 
 
+def test_a_folded_cord_is_given_up_soon() -> None:
+    begin = time.process_time()
+    cord = rc.held_cord_shapes(0.678, top_tension=0.861, angular_speed=0.693)
+    assert len(cord) == 0 and cord.missing == (1,)
+    assert time.process_time() - begin < 2  # 0.1 s; 7 s where it is followed into rounding
+
+
 def test_bounds_without_proof_are_estimates() -> None:
     sure = rc.held_shapes(BLADE, span=1.2, conical_height=0.1)[0]
     quick = rc.held_shapes(BLADE, span=1.2, conical_height=0.1, prove=False)[0]
@@ -96,6 +104,10 @@ def test_bounds_without_proof_are_estimates() -> None:
         ({"span": -1.0, "conical_height": 0.1}, "span must be positive and finite"),
         ({"span": 1.0, "conical_height": 0.0}, "conical_height must be positive and finite"),
         ({"span": 1.0, "angular_speed": 1.0, "gravity": -1.0}, "gravity must be positive and finite"),
+        ({"span": 1.0, "angular_speed": 1e170}, "angular_speed must give a conical height .* got 1e"),
+        ({"span": 1.0, "angular_speed": 1e-170}, "angular_speed must give a conical height .* got 1e"),
+        ({"top_tension": 1.0, "angular_speed": 1e170, "gravity": 0.0}, "angular_speed must give a conical height"),
+        ({"span": 1.0, "conical_height": 1e-320}, "conical_height must give a conical height"),
         ({"span": 1.0, "conical_height": 0.1, "most_half_waves": 0}, "most_half_waves must be at least 1"),
         ({"span": 1.0, "conical_height": 0.1, "most_half_waves": 10**6}, "most_half_waves must be at most"),
     ],

@@ -4,6 +4,7 @@
 #include "revchain/analytic/bessel_zero.hpp"
 #include "revchain/analytic/detail/chain_arguments.hpp"
 #include "revchain/core/conical_pendulum.hpp"
+#include "revchain/core/progress.hpp"
 
 /// The uniform flexible chain hung from one end, at small amplitude: the limit of many links. Greenhill (1908) §4.
 /// x is the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length or
@@ -27,6 +28,7 @@ inline Vector<double> conical_heights(Index count, double length) {
     detail::check("conical_heights", "count", count, length);
     Vector<double> heights(count);
     for (Index k = 1; k <= count; ++k) {
+        revchain::detail::look();
         const double half = 0.5 * zero_of_j0(k);
         heights[k - 1] = length / (half * half);
     }
@@ -79,6 +81,7 @@ inline Vector<double> nodes(Index mode, double length) {
     const double end = zero_of_j0(mode);
     Vector<double> points(mode - 1);
     for (Index i = 1; i < mode; ++i) {
+        revchain::detail::look();
         const double ratio = zero_of_j0(i) / end;
         points[i - 1] = length * (ratio * ratio);
     }
@@ -92,6 +95,7 @@ inline Vector<double> vertical_points(Index mode, double length) {
     const double end = zero_of_j0(mode);
     Vector<double> points(mode - 1);
     for (Index i = 1; i < mode; ++i) {
+        revchain::detail::look();
         const double ratio = zero_of_j1(i) / end;
         points[i - 1] = length * (ratio * ratio);
     }

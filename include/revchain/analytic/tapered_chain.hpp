@@ -3,6 +3,7 @@
 
 #include "revchain/analytic/bessel_zero.hpp"
 #include "revchain/analytic/detail/chain_arguments.hpp"
+#include "revchain/core/progress.hpp"
 
 /// The chain of Greenhill (1908) §4 with line density proportional to x^exponent, x the distance from the free end, at
 /// small amplitude: (x^(p+1) y')' + (p+1) x^p y/lambda = 0, solved by z^-p J_p(z), z = 2 sqrt((p+1) x/lambda). Exponent
@@ -30,7 +31,10 @@ inline Vector<double> conical_heights(Index count, double length, double exponen
     detail::check("conical_heights", "count", count, length, exponent);
     const ZerosOfJ zeros(exponent);
     Vector<double> heights(count);
-    for (Index k = 1; k <= count; ++k) heights[k - 1] = detail::height(zeros(k), length, exponent);
+    for (Index k = 1; k <= count; ++k) {
+        revchain::detail::look();
+        heights[k - 1] = detail::height(zeros(k), length, exponent);
+    }
     return heights;
 }
 
@@ -60,6 +64,7 @@ class Mode {
     Vector<double> nodes() const {
         Vector<double> points(mode_ - 1);
         for (Index i = 1; i < mode_; ++i) {
+            revchain::detail::look();
             const double ratio = zeros_(i) / end_;
             points[i - 1] = length_ * (ratio * ratio);
         }

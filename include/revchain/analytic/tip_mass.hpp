@@ -7,6 +7,7 @@
 
 #include "revchain/analytic/bessel_zero.hpp"
 #include "revchain/analytic/detail/chain_arguments.hpp"
+#include "revchain/core/progress.hpp"
 
 /// The uniform chain of Greenhill (1908) §4 with a particle at its free end, at small amplitude. `tip` is the length of
 /// chain that weighs as much as the particle, x the distance from the free end, the tension that of tip + x of chain.
@@ -145,7 +146,10 @@ inline Vector<double> conical_heights(Index count, double length, double tip) {
     detail::check("conical_heights", "count", count, length, tip);
     const detail::Ends ends(length, tip);
     Vector<double> heights(count);
-    for (Index k = 1; k <= count; ++k) heights[k - 1] = ends.height(ends.apart(k), length);
+    for (Index k = 1; k <= count; ++k) {
+        revchain::detail::look();
+        heights[k - 1] = ends.height(ends.apart(k), length);
+    }
     return heights;
 }
 
@@ -207,6 +211,7 @@ class Mode {
         Vector<double> points(mode_ - 1);
         double high = apart_.high;
         for (Index i = mode_ - 1; i >= 1; --i) {
+            revchain::detail::look();
             double low = 0, w = std::max(high - std::numbers::pi, 0.5 * high);
             if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // next to a heavy particle
             for (int round = 0; round < 60; ++round) {

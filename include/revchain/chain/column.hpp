@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "revchain/core/double_word.hpp"
+#include "revchain/core/progress.hpp"
 
 namespace revchain {
 
@@ -157,6 +158,7 @@ Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* be
     detail::RunningSum<S> sum;
     if (below != nullptr) below->reserve(static_cast<std::size_t>(size / segment_size + 2));
     for (Index m = 0; m < size; m += segment_size) {
+        detail::look();
         if (below != nullptr) below->push_back(sum.value());
         const Summary<T> segment = summary(column.data() + m, std::min(segment_size, size - m));
         sum.add(segment.sum);

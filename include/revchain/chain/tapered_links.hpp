@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "revchain/core/double_word.hpp"
+#include "revchain/core/progress.hpp"
 #include "revchain/core/status.hpp"
 
 namespace revchain::detail {
@@ -70,6 +71,7 @@ TaperedLinks<T> tapered_links(Index count, const T& link, double exponent, const
     const S q = S(exponent) + S(1);
     S hung(weight);
     for (std::size_t m = n - 1; m > 0; --m) {
+        if (m % 64 == 0) look();
         const S u = S(1) / S(2 * static_cast<double>(m) + 1), u2 = u * u;
         S power = u, area = u;  // artanh u
         for (double odd = 3; odd < 200 && !is_lost(power, area); odd += 2) area = area + (power = power * u2) / S(odd);

@@ -29,10 +29,11 @@ struct Interval {
     bool contains(const T& x) const { return low <= x && x <= high; }
     /// 1 or -1, or 0 where it may vanish.
     int sign() const { return positive() ? 1 : negative() ? -1 : 0; }
-    /// The largest of its numbers in size.
+    /// The largest of its numbers in size; NaN where an end is.
     T size() const {
         using std::abs;
-        return std::max(abs(low), abs(high));
+        const T a = abs(low), b = abs(high);
+        return !(a == a) || a > b ? a : b;
     }
     T width() const { return high - low; }
     T middle() const { return low + (high - low) / T(2); }
@@ -42,16 +43,33 @@ struct Interval {
 
 namespace detail {
 
+/// What products of two words lose where their second words underflow, and more: five roundings of the least number.
+template <Real T>
+inline constexpr auto underflow = 16 * std::numeric_limits<T>::denorm_min();
+
 /// Not above, and not below, what was rounded to x.
 template <Real T>
 T down(const T& x) {
     using std::abs;
-    return x - (abs(x) * (T(3) * operation_error<T>()) + std::numeric_limits<T>::denorm_min());
+    return x - (abs(x) * (T(3) * operation_error<T>()) + underflow<T>);
 }
 template <Real T>
 T up(const T& x) {
     using std::abs;
-    return x + (abs(x) * (T(3) * operation_error<T>()) + std::numeric_limits<T>::denorm_min());
+    return x + (abs(x) * (T(3) * operation_error<T>()) + underflow<T>);
+}
+
+/// Quotients and roots of two words lose digits where the number they divide or take the root of is below 2^-960: an
+/// interval that holds x, its ends 0 or not so small. Other scalars are rounded correctly.
+template <Real T>
+Interval<T> without_faint_ends(const Interval<T>& x) {
+    if constexpr (std::numeric_limits<T>::is_iec559) {
+        return x;
+    } else {
+        const T least(0x1p-960), zero(0);
+        return {-least < x.low && x.low < least ? (x.low < zero ? T(-least) : zero) : x.low,
+                -least < x.high && x.high < least ? (x.high > zero ? least : zero) : x.high};
+    }
 }
 
 /// A number in two words and how far it may be off.
@@ -85,8 +103,9 @@ Interval<T> operator*(const Interval<T>& x, const Interval<T>& y) {
 }
 /// NaN unless y keeps away from 0.
 template <Real T>
-Interval<T> operator/(const Interval<T>& x, const Interval<T>& y) {
-    if (y.negative()) return -x / -y;
+Interval<T> operator/(const Interval<T>& dividend, const Interval<T>& y) {
+    if (y.negative()) return -dividend / -y;
+    const Interval<T> x = detail::without_faint_ends(dividend);
     if (!y.positive()) return {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::quiet_NaN()};
     const T low = x.low < T(0) ? x.low / y.low : x.low / y.high;
     const T high = x.high < T(0) ? x.high / y.high : x.high / y.low;
@@ -95,14 +114,15 @@ Interval<T> operator/(const Interval<T>& x, const Interval<T>& y) {
 template <Real T>
 Interval<T> square(const Interval<T>& x) {
     using std::abs;
-    const T a = abs(x.low), b = abs(x.high), high = std::max(a, b);
+    const T a = abs(x.low), b = abs(x.high), high = x.size();
     const T low = x.may_vanish() ? T(0) : std::min(a, b);
     return {std::max(T(0), detail::down(T(low * low))), detail::up(T(high * high))};
 }
 /// Of what is not negative.
 template <Real T>
-Interval<T> sqrt(const Interval<T>& x) {
+Interval<T> sqrt(const Interval<T>& radicand) {
     using std::sqrt;
+    const Interval<T> x = detail::without_faint_ends(radicand);
     return {std::max(T(0), detail::down(T(sqrt(std::max(T(0), x.low))))), detail::up(T(sqrt(x.high)))};
 }
 
@@ -112,9 +132,11 @@ Interval<T> common(const Interval<T>& x, const Interval<T>& y) {
     return {x.low > y.low || !(y.low == y.low) ? x.low : y.low,
             x.high < y.high || !(y.high == y.high) ? x.high : y.high};
 }
+/// What holds both; NaN where an end of either is.
 template <Real T>
 Interval<T> hull(const Interval<T>& x, const Interval<T>& y) {
-    return {std::min(x.low, y.low), std::max(x.high, y.high)};
+    return {!(x.low == x.low) || x.low < y.low ? x.low : y.low,
+            !(x.high == x.high) || x.high > y.high ? x.high : y.high};
 }
 
 }  // namespace revchain

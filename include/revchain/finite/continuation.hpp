@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/corrector.hpp"
 
 namespace revchain::finite {
@@ -32,6 +33,7 @@ class BranchWalk {
 
     /// One step on; false if none down to 1e-9 of arc passes.
     bool advance() {
+        revchain::detail::look();
         for (; step_ > least; step_ /= 2) {
             const double reach = std::min({step_, longest, longest_rise / (largest_rise(here_.tangent) + 1e-300)});
             step_ = reach;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/branch.hpp"
 #include "revchain/finite/isolation.hpp"
 #include "revchain/finite/surface.hpp"
@@ -59,6 +60,7 @@ class DiagramProver {
                          low = i + 1 == slabs ? lowest : highest * std::pow(lowest / highest, (i + 1) * share);
             stack_.push_back({0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)});
             while (!stack_.empty()) {
+                revchain::detail::look();
                 const Rectangle<double> part = stack_.back();
                 stack_.pop_back();
                 if (proof.rectangles >= budget_) {

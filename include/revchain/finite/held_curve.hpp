@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/held_sweep.hpp"
 
 namespace revchain::finite {
@@ -27,6 +28,7 @@ class HeldCurve {
 
     /// Newton's method at span and height of `state`, as far as double goes.
     std::optional<HeldState> corrected(HeldState state) {
+        revchain::detail::look();
         double last = std::numeric_limits<double>::infinity();
         for (int round = 0; round < 25; ++round) {
             const HeldEnd<double> end = (*shooter_)(state.forces, false);
@@ -182,6 +184,7 @@ class HeldCurve {
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<spans>(state);
         for (int count = 0; count < most_steps && step > 1e-9; ++count) {
+            revchain::detail::look();
             const auto [over_y, over_z] = gradients<spans>(end, scale);
             Triple tangent = normalised(over_y, over_z);
             if (!(dot(tangent, tangent) > 0.5)) return;

@@ -32,7 +32,9 @@ class HeldBox {
             if (!settled(link, R, V, found[m], way, growth)) return;
             const Direction<Span> there{Span(found[m].sine), Span(found[m].cosine)};
             const Span off = way.sine * there.cosine - way.cosine * there.sine;
-            turned = std::max(turned, largest(off));
+            const double turn_here = largest(off);
+            if (!(turn_here < 1)) return;
+            turned = std::max(turned, turn_here);
             y = y - link.length * way.sine, rise = rise + link.length * way.cosine;
             for (std::size_t i = 0; i < 2; ++i) {
                 const Span R_change = H_change[i] + link.moment * y_change[i];

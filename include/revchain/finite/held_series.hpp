@@ -122,7 +122,8 @@ struct CordPath {
         CordChange change{};
         change[0].across = -1, change[1].along = 1;
         for (int step = 0; step < most_steps; ++step) {
-            if (!(std::hypot(place.across, place.along) > 0)) return {};
+            // Sharper turns leave no digit of the inclination: the cord is folded along the axis.
+            if (!(std::hypot(place.across, place.along) > epsilon<double>() * forces.height)) return {};
             const CordSeries series(place, forces.height, &change);
             double duration = series.reach(tolerance);
             const bool last = CordSeries::at(series.arc, duration) >= 1;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <random>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/jet.hpp"
 
 namespace revchain::finite {
@@ -87,11 +88,11 @@ class Cutting {
         if (high > T(2) * low) return sqrt(low) * sqrt(high) * (T(1) + (at - T(0.5)) / T(4));
         return low + at * (high - low);
     }
-    /// None where the range is narrower than `narrowest` of its upper end, or of `last` next to 0.
+    /// None where the range is narrower than `narrowest` of its upper end, or next to 0 of `last` and of 1.
     std::optional<T> between(const T& low, const T& high, const T& narrowest, const T& last) {
         const T cut = between(low, high);
-        const bool narrow =
-            low == T(0) ? high < narrowest * last : high - low < narrowest * high || !(low < cut && cut < high);
+        const bool narrow = low == T(0) ? high < narrowest * std::min(last, T(1))
+                                        : high - low < narrowest * high || !(low < cut && cut < high);
         return narrow ? std::nullopt : std::optional<T>(cut);
     }
 
@@ -100,7 +101,7 @@ class Cutting {
 };
 
 /// Splits 0 ... `last` until each cell is seen to hold no shape or one, or is narrower than `narrowest` of its upper end,
-/// or of `last` next to 0. The straight chain, at 0, is left out.
+/// or next to 0 of `last` and of 1. The straight chain, at 0, is left out.
 template <Real T, class End = OnAxis>
 Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Part<T>& whole,
                      const T& narrowest, long budget, const End& support = {}) {
@@ -108,6 +109,7 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
     std::vector<Part<T>> stack{whole};
     Cutting<T> cutting;
     while (!stack.empty()) {
+        revchain::detail::look();
         const Part<T> part = stack.back();
         stack.pop_back();
         if (found.cells++ >= budget) {

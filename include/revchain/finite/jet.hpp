@@ -62,19 +62,23 @@ struct Sine {
     Interval<T> value, slope, half_bend;  // s, (1+t^2)^-3/2, t (1+t^2)^-5/2 = -s''/3
 
     explicit Sine(const Interval<T>& t) {
-        const auto at = [](const T& x) {
-            const Interval<T> tangent(x);
-            const Interval<T> secant = sqrt(Interval<T>(T(1)) + square(tangent));
-            return std::pair<Interval<T>, Interval<T>>(tangent / secant, secant);
+        using std::abs;
+        const Interval<T> one(T(1));
+        const auto at = [&](const T& x) {  // sine and cosine
+            if (is_horizontal(x)) {        // 1 to the last digit of T; its square might overflow
+                const Interval<T> sine(down(T(1)), T(1));
+                return std::pair(x < T(0) ? -sine : sine, one / Interval<T>(abs(x)));
+            }
+            const Interval<T> tangent(x), secant = sqrt(one + square(tangent));
+            return std::pair(tangent / secant, one / secant);
         };
         if (!(t.low <= t.high)) {
             value = slope = half_bend = Interval<T>(std::numeric_limits<T>::quiet_NaN());
             return;
         }
-        const auto [low, low_secant] = at(t.low);
-        const auto [high, high_secant] = t.low == t.high ? std::pair(low, low_secant) : at(t.high);
+        const auto [low, c0] = at(t.low);
+        const auto [high, c1] = t.low == t.high ? std::pair(low, c0) : at(t.high);
         value = {low.low, high.high};
-        const Interval<T> one(T(1)), c0 = one / low_secant, c1 = one / high_secant;
         const Interval<T> g0 = c0 * square(c0), g1 = c1 * square(c1);
         slope = hull(g0, g1);
         if (t.low < T(0) && t.high > T(0)) slope.high = T(1);
@@ -92,13 +96,12 @@ struct Sine {
 template <Real T>
 Interval<T> tangent(const Interval<T>& stiffness, const Interval<T>& turning, const Interval<T>& R) {
     using std::abs;
-    using std::sqrt;
     const auto f = [&](const T& t) { return stiffness * Interval<T>(t) + turning * Sine<T>(Interval<T>(t)).value; };
     const auto near = [&](const T& wanted) {  // Newton's method from the side where it cannot overshoot
         const T k = stiffness.middle(), c = turning.middle();
         T t = wanted / (c > T(0) ? k + c : k);
         for (int round = 0; round < 60; ++round) {
-            const T cosine = T(1) / sqrt(T(1) + t * t);
+            const T cosine = cosine_at(t);
             const T step = (wanted - k * t - c * t * cosine) / (k + c * cosine * cosine * cosine);
             t = t + step;
             if (!(abs(step) > T(4) * epsilon<T>() * abs(t))) break;

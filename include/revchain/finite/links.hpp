@@ -96,4 +96,23 @@ std::vector<Link<Interval<T>>> enclosed(const std::vector<Link<S>>& links) {
     return result;
 }
 
+namespace detail {
+
+/// Whether the sine of the inclination of this tangent is 1 and its cosine 1/|tangent| to every digit.
+template <class S>
+bool is_horizontal(const S& tangent) {
+    using std::abs;
+    return abs(tangent) > S(1e100);
+}
+
+/// Cosine of the inclination of a tangent, where its square overflows too.
+template <class S>
+S cosine_at(const S& tangent) {
+    using std::abs;
+    using std::sqrt;
+    return S(1) / (is_horizontal(tangent) ? S(abs(tangent)) : S(sqrt(S(1) + tangent * tangent)));
+}
+
+}  // namespace detail
+
 }  // namespace revchain::finite

@@ -11,6 +11,7 @@ struct Balanced {
     std::vector<S> offset;
     std::vector<Posture> posture;  ///< of each link; empty where all hang
     bool converged = false;        ///< Newton's method, to the last digits of S
+    std::vector<S> tangent;        ///< of the links, where they are too near the horizontal for offsets; else empty
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
 };
@@ -25,9 +26,17 @@ S cosine_of(const S& length, const S& difference, bool stands = false) {
     return stands ? -size : size;
 }
 
-/// tan d of link m.
+/// cos d and tan d of link m.
+template <class S>
+S cosine_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::size_t m) {
+    if (shape.tangent.empty())
+        return cosine_of(links[m].length, shape.offset[m] - shape.offset[m + 1], shape.stands(m));
+    const S size = cosine_at(shape.tangent[m]);
+    return shape.stands(m) ? -size : size;
+}
 template <class S>
 S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::size_t m) {
+    if (!shape.tangent.empty()) return shape.tangent[m];
     const S d = shape.offset[m] - shape.offset[m + 1];
     return d / (links[m].length * cosine_of(links[m].length, d, shape.stands(m)));
 }

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/path_series.hpp"
 
 namespace revchain::finite {
@@ -49,6 +50,7 @@ class Path {
         }
         PathSeries series;
         while (!ended(options, state)) {
+            revchain::detail::look();
             series.start(kind, state, options.with_change ? &change : nullptr);
             double duration = within_piece(series, series.reach(options.tolerance));
             PathSeries::Reached next = series.reached(duration);
@@ -62,7 +64,8 @@ class Path {
             }
             if (crossings_in(state, passed) == 1) note_crossing(series, duration, options.with_change);
             steps_.push_back({state, duration});
-            visit(series, ended(options, state) ? crossings_.back().time : duration);
+            const bool all_crossed = static_cast<int>(crossings_.size()) >= options.crossings;
+            visit(series, all_crossed ? crossings_.back().time : duration);
             const double tension = kind.tension(next.state.pull, kind.weight_below(next.state.arc));
             largest_tension_ = std::max(largest_tension_, tension);
             discrepancy_ = std::max(discrepancy_, std::abs(next.tension - tension));

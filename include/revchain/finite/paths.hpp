@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/isolation.hpp"
 #include "revchain/finite/zeros.hpp"
 
@@ -68,8 +69,8 @@ class PathSearch {
         return false;
     }
 
-    /// Settles low ... high of a path, but parts narrower than `narrowest` of their upper end (of `last` next to 0), those
-    /// in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts looked at, and
+    /// Settles low ... high of a path, but parts narrower than `narrowest` of their upper end (next to 0 of `last` and of
+    /// 1), those in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts looked at, and
     /// N^3/256 for each test of the whole chain.
     long search(const OpenPart<T>& whole, const T& last, const T& narrowest, long budget) {
         const bool straight =
@@ -79,6 +80,7 @@ class PathSearch {
         detail::Cutting<T> cutting;
         long cells = 0;
         while (!stack.empty()) {
+            revchain::detail::look();
             const auto [low, high] = stack.back();
             stack.pop_back();
             if (cells >= budget) {

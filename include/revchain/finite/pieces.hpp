@@ -59,6 +59,16 @@ class Response {
     Interval<T> at(const T& t) const { return load(Interval<T>(t)); }
     Interval<T> growth(const T& t) const { return stiffness_ + turning_ * detail::Sine<T>(Interval<T>(t)).slope; }
 
+    /// The first of the numbers t, t + step, t + 5 step, ... that passes a test; NaN if none does before they overflow.
+    template <class Test>
+    static T first(T t, T step, const Test& passes) {
+        for (int round = 0; round < std::numeric_limits<T>::max_exponent; ++round, step = step * T(4)) {
+            if (passes(t)) return t;
+            t = t + step;
+        }
+        return std::numeric_limits<T>::quiet_NaN();
+    }
+
     void find_joint() {
         using std::cbrt;
         using std::sqrt;
@@ -66,32 +76,24 @@ class Response {
         const double root = cbrt(ratio);
         T near(sqrt(std::max(0.0, root * root - 1)));
         for (int round = 0; round < 3 && near > T(0); ++round) {  // to the digits of T
-            const T secant_squared = T(1) + near * near, cosine = T(1) / sqrt(secant_squared);
-            const T slope = stiffness_.low + turning_.low * cosine / secant_squared;
-            near = near + slope * sqrt(secant_squared) * secant_squared * secant_squared / (T(3) * turning_.low * near);
+            const T secant_squared = T(1) + near * near, secant = sqrt(secant_squared);
+            const T slope = stiffness_.low + turning_.low / (secant * secant_squared);
+            near = near + slope * secant * secant_squared * secant_squared / (T(3) * turning_.low * near);
             if (!(near > T(0))) near = T(0);
         }
-        joint_ = Interval<T>(near);
-        T step = T(4) * epsilon<T>() * near + std::numeric_limits<T>::min();
-        for (int round = 0; !growth(joint_.high).positive(); ++round, step = step * T(4)) {
-            joint_.high = joint_.high + step;
-            if (round == 1000) joint_.high = std::numeric_limits<T>::quiet_NaN();
-        }
-        step = T(4) * epsilon<T>() * near + std::numeric_limits<T>::min();
-        for (int round = 0; joint_.low > T(0) && !growth(joint_.low).negative(); ++round, step = step * T(4)) {
-            joint_.low = joint_.low - step;
-            if (!(joint_.low > T(0)) || round == 1000) joint_.low = T(0);
-        }
+        const T step = T(4) * epsilon<T>() * near + std::numeric_limits<T>::min();
+        joint_.high = first(near, step, [&](const T& t) { return growth(t).positive(); });
+        joint_.low = first(near, T(-step), [&](const T& t) { return !(t > T(0)) || growth(t).negative(); });
+        if (!(joint_.low > T(0))) joint_.low = T(0);
         least_ = load(joint_);
     }
 
     /// Where R(t) = wanted, by Newton's method from a side from which it does not overshoot: R bends upwards for t > 0.
     T near(T t, const T& wanted) const {
         using std::abs;
-        using std::sqrt;
         const T k = stiffness_.middle(), c = turning_.middle();
         for (int round = 0; round < 100; ++round) {
-            const T cosine = T(1) / sqrt(T(1) + t * t);
+            const T cosine = detail::cosine_at(t);
             const T slope = k + c * cosine * cosine * cosine;
             const T step = (wanted - k * t - c * t * cosine) / slope;
             if (!(abs(step) > T(4) * epsilon<T>() * abs(t)) || !(abs(step) <= std::numeric_limits<T>::max())) break;

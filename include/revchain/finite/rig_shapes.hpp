@@ -58,7 +58,6 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
     const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !asked.hanging_only,
                                          enclosed<double>(links.support));
-    if (!(last <= std::numeric_limits<double>::max())) return leave_all();
     result = listed(links, lambda, options);
     const bool unbounded = !links.support.firm &&
                            left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support)).may_vanish();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/isolation.hpp"
 
 namespace revchain::finite {
@@ -27,15 +28,16 @@ std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double la
         next = std::upper_bound(next, tangents.end(), static_cast<double>(range.low));
         T seen_at{};
         int seen = 0;
-        const auto look = [&](const T& t) {
+        const auto note = [&](const T& t) {
+            revchain::detail::look();
             const int here = t > T(0) ? sign(t) : 0;
             if (here == 0) return;
             if (here == -seen) found.push_back({seen_at, t});
             seen = here, seen_at = t;
         };
-        look(range.low);
-        for (; next != tangents.end() && T(*next) < range.high; ++next) look(T(*next));
-        look(range.high);
+        note(range.low);
+        for (; next != tangents.end() && T(*next) < range.high; ++next) note(T(*next));
+        note(range.high);
     }
     return found;
 }

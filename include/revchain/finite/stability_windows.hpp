@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/branch.hpp"
 #include "revchain/finite/stability.hpp"
 
@@ -33,13 +34,16 @@ class BranchJudge {
 
     /// At an arc beyond point `index` and not beyond the next.
     Judged at(std::size_t index, double arc) {
+        revchain::detail::look();
         const BranchPoint& from = branch_->points[index];
         std::optional<BranchPoint> point;
         if (arc > from.arc)
             point = corrector_.corrected(moved(from.state, arc - from.arc, from.tangent), from.tangent, 1.0);
         const BranchPoint& here = point ? *point : from;
         const auto shape = shape_at(*branch_->links, here.state, GivenPlace<Wide<double>>(here));
-        if (!shape) return {arc, std::numeric_limits<double>::quiet_NaN(), Verdict::undecided};
+        if (!shape)
+            return {arc, std::ldexp(std::exp(here.state.log_height), branch_->links->units.length_exponent),
+                    Verdict::undecided};
         return {arc, shape->conical_height, stability(*chain_, *shape, frame_).verdict};
     }
 

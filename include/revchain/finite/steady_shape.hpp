@@ -75,9 +75,7 @@ SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& heig
     shape.offset.resize(size + 1), shape.height.resize(size + 1);
     std::vector<S> up(n + 1);
     for (std::size_t m = n; m-- > 0;)
-        up[m] = up[m + 1] -
-                detail::cosine_of(chain.links[m].length, found.offset[m] - found.offset[m + 1], found.stands(m)) *
-                    chain.links[m].length;
+        up[m] = up[m + 1] - detail::cosine_in(found, chain.links, m) * chain.links[m].length;
     S sideways(0), energy(0), inertia(0);  // sideways: lambda times the pull at the upper pin
     double hung = 0, last_sign = 0, reach = 0, worst_moment = 0;
     for (std::size_t m = 0; m <= n; ++m) {
@@ -90,12 +88,13 @@ SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& heig
             if (y * last_sign < 0) ++shape.half_waves;
             last_sign = y > 0 ? 1 : -1;
         }
-        const S d = lower - upper, cosine = detail::cosine_of(link.length, d, found.stands(m));
-        const double inclination = std::atan(static_cast<double>(detail::tangent_in(found, chain.links, m)));
+        const S d = lower - upper, cosine = detail::cosine_in(found, chain.links, m),
+                tangent = detail::tangent_in(found, chain.links, m);
+        const double inclination = std::atan(static_cast<double>(tangent));
         shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
         // the moment about the upper pin of all that hangs there, over the length, times lambda
         const S left =
-            height * link.pull * d / (link.length * cosine) + link.cross * d - sideways - link.moment * lower;
+            height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
         worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));
         reach += static_cast<double>(link.length);
         sideways = sideways + link.moment * lower + link.rest * upper;

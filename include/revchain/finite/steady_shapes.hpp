@@ -41,10 +41,8 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
-    using std::max;
-    const T least = either_posture ? T(-max(T(-turning.low), turning.high)) : turning.low;
-    const Interval<T> far = (reach + Interval<T>(max(T(0), T(-least)))) / height;
-    return far.high;
+    const Interval<T> beyond = hull(Interval<T>(T(0)), either_posture ? hull(turning, -turning) : -turning);
+    return ((reach + Interval<T>(beyond.high)) / height).high;
 }
 
 /// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
@@ -61,13 +59,13 @@ inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Int
 
 /// Isolated in double, where that leaves cells open in two words; what the proof leaves open is scanned.
 template <class AnyLinks>
-Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, long links_to_look_at) {
+Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, double last,
+                                 long links_to_look_at) {
     using Far = DoubleDouble;
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
     const auto support = enclosed<double>(support_of(chain));
-    const double last = farthest_tangent(narrow, lambda, false, support);
     const auto sign_at = [&](double t) { return detail::sign_at(narrow, lambda, t, support); };
     const int first_sign = support.is_symmetric() ? 0 : sign_at(0);
     const Isolation<double> first =
@@ -147,11 +145,14 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
     using Far = DoubleDouble;
     const Interval<Far> lambda = enclosed<Far>(height);
     const Far tangent(found.tangent);
-    for (Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);; reach = reach * Far(16)) {
-        const Far low = std::max(bracket.low, tangent - reach), high = std::min(bracket.high, tangent + reach);
+    Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
+    for (int round = 0;; ++round, reach = reach * Far(16)) {
+        const bool far = round == 300;  // 16^300 overflows
+        const Far low = far ? bracket.low : std::max(bracket.low, tangent - reach);
+        const Far high = far ? bracket.high : std::min(bracket.high, tangent + reach);
         const bool whole = low == bracket.low && high == bracket.high;
         const auto sign_at = [&](const Far& t) { return detail::sign_at(links, lambda, t, support); };
-        if (!whole && sign_at(low) * sign_at(high) != -1) continue;
+        if (!far && !whole && sign_at(low) * sign_at(high) != -1) continue;
         std::vector<Interval<Far>> tangents;
         detail::support_offset(links, lambda, Interval<Far>(low, high), &tangents);
         double worst = 0;
@@ -167,11 +168,44 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
     }
 }
 
+/// The same where links are too near the horizontal for that: from the tangents of all links, in a narrower bracket.
+template <class AnyLinks>
+std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
+                                            const Bracket<DoubleDouble>& bracket) {
+    using Far = DoubleDouble;
+    const auto links = swept_links<Far>(chain);
+    const auto lambda = enclosed<Far>(height);
+    const auto support = enclosed<Far>(support_of(chain));
+    Interval<Far> lowest(bracket.low, bracket.high);
+    const int low_sign = detail::sign_at(links, lambda, lowest.low, support);
+    for (int round = 0; round < 200; ++round) {
+        const Far middle = lowest.middle();
+        const int sign = detail::sign_at(links, lambda, middle, support);
+        if (sign == 0 || !(lowest.low < middle && middle < lowest.high)) break;
+        (sign == low_sign ? lowest.low : lowest.high) = middle;
+    }
+    Box<Far> near;
+    detail::support_offset(links, lambda, lowest, &near, support);
+    const WholeBalance balance(links, lambda, posture_of(chain), support);
+    auto found = detail::settled(chain, height, balance, near);
+    if (!found) return std::nullopt;
+    const Far tangent = abs(Far(detail::tangent_in(found->shape, chain.links, 0)));
+    const bool inside = abs(bracket.low) <= tangent && tangent <= abs(bracket.high);
+    return inside ? std::move(found) : std::nullopt;
+}
+
+template <class AnyLinks>
+void add(const AnyLinks& links, const Wide<double>& height, const Settled& settled, SteadyShapes& result) {
+    result.shapes.push_back(described(links, height, settled.shape));
+    result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
+}
+
 /// Of the lists made one link at a time, where each hangs at one inclination.
 template <class AnyLinks>
-void add_single_valued(const AnyLinks& links, const Wide<double>& height, long budget, SteadyShapes& result) {
+void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget,
+                       SteadyShapes& result) {
     const auto narrow = swept_links<DoubleDouble>(links);
-    const auto isolation = isolated(links, height, budget);
+    const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
     const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
         const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
@@ -179,14 +213,12 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, long b
     };
     for (const auto& bracket : isolation.undecided) leave_open(bracket);
     for (const auto& bracket : isolation.shapes) {
-        auto found = finished(links, height, bracket);
-        if (!found) {
-            leave_open(bracket);
-            continue;
-        }
-        SteadyShape& shape = result.shapes.emplace_back(
-            verified_shape(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
-        if (shape.error_bound > 0x1.8p-52) {  // all but horizontal, or all but critical: the sweep may say more
+        const std::size_t before = result.shapes.size();
+        if (auto found = finished(links, height, bracket)) {
+            SteadyShape& shape = result.shapes.emplace_back(
+                verified_shape(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
+            if (shape.error_bound <= 0x1.8p-52) continue;
+            // all but horizontal, or all but critical: the sweep may say more
             const auto support = enclosed<DoubleDouble>(support_of(links));
             const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
             if (error < shape.error_bound) {
@@ -195,23 +227,26 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, long b
                 shape = described(links, height, found->shape);
                 shape.error_bound = error, shape.condition = condition;
             }
+            if (shape.error_bound < 0x1p-48) continue;
+        }
+        // or the tangents
+        if (const auto settled = finished_by_tangents(links, height, bracket)) {
+            result.shapes.resize(before);
+            add(links, height, *settled, result);
+        } else if (result.shapes.size() == before) {
+            leave_open(bracket);
         }
     }
 }
 
 /// And of the others.
 template <class AnyLinks>
-void add_several_valued(const AnyLinks& links, const Wide<double>& height, const SteadyShapesOptions& options,
-                        SteadyShapes& result) {
-    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(height), !options.hanging_only,
-                                         enclosed<double>(support_of(links)));
+void add_several_valued(const AnyLinks& links, const Wide<double>& height, double last,
+                        const SteadyShapesOptions& options, SteadyShapes& result) {
     const auto found = several_inclinations(links, height, last, options.hanging_only,
                                             options.budget / static_cast<long>(links.links.size()));
     result.cells = found.cells;
-    for (const Settled& settled : found.shapes) {
-        result.shapes.push_back(described(links, height, settled.shape));
-        result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
-    }
+    for (const Settled& settled : found.shapes) add(links, height, settled, result);
     for (const auto& part : found.open) {
         const double low = std::atan(part.low), high = std::atan(part.high);
         if (part.lowest == Posture::hangs)
@@ -232,14 +267,18 @@ inline void sort(SteadyShapes& found) {
 template <class AnyLinks>
 SteadyShapes listed(const AnyLinks& links, const Wide<double>& scaled, const SteadyShapesOptions& options) {
     SteadyShapes result;
-    if (!(static_cast<double>(scaled) > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
+    // A little beyond: a link all but horizontal is at the end itself, to rounding.
+    const double last =
+        1.0625 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled), !options.hanging_only,
+                                  enclosed<double>(support_of(links)));
+    if (!(static_cast<double>(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;
     }
     if (options.hanging_only && hangs_at_one_inclination(links, enclosed<double>(scaled)))
-        add_single_valued(links, scaled, options.budget, result);
+        add_single_valued(links, scaled, last, options.budget, result);
     else
-        add_several_valued(links, scaled, options, result);
+        add_several_valued(links, scaled, last, options, result);
     sort(result);
     return result;
 }
@@ -263,8 +302,11 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 /// box about the tangents of all links that is proved to hold no zero or one (Krawczyk).
 /// Accuracy: every inclination within `error_bound`, proved: mostly 2.3e-16 (4.4e-16 of links that stand), and 2 ulp of
 /// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at exactly
-/// a critical speed or a fold, and where the budget ends, as it does for chains of 20 links and more at heights of some
+/// a critical speed or a fold, where the budget ends, as it does for chains of 20 links and more at heights of some
 /// 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one inclination).
+/// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and `complete` is
+/// false: a sideways pull is an offset over the height, and two words hold offsets to 2^-104 of that length. Below, tensions
+/// would lose digits, and soon all of them.
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
 /// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of
 /// equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.

@@ -12,11 +12,10 @@ namespace detail {
 template <class S>
 S tangent_of(const S& stiffness, const S& turning, const S& R) {
     using std::abs;
-    using std::sqrt;
     if (turning == S(0)) return R / stiffness;
     S t = R / (turning > S(0) ? stiffness + turning : stiffness);
     for (int round = 0; round < 100; ++round) {
-        const S cosine = S(1) / sqrt(S(1) + t * t);
+        const S cosine = cosine_at(t);
         const S step = (R - stiffness * t - turning * t * cosine) / (stiffness + turning * cosine * cosine * cosine);
         t = t + step;
         if (!(abs(step) > S(4) * operation_error<S>() * abs(t))) break;
@@ -30,7 +29,6 @@ S tangent_of(const S& stiffness, const S& turning, const S& R) {
 /// every link is in balance: Greenhill (1908) §8 (4), (12). The last is that of the support: 0 for a steady shape.
 template <class S>
 std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S& lowest_tangent) {
-    using std::sqrt;
     std::vector<S> y;
     y.reserve(links.size() + 1);
     S sum(0), t = lowest_tangent;
@@ -42,7 +40,7 @@ std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S
             R = sum + link.moment * y.back();
             t = detail::tangent_of(stiffness, turning, R);
         }
-        const S s = t / sqrt(S(1) + t * t);
+        const S s = t * detail::cosine_at(t);
         if (m == 0) {
             R = stiffness * t + turning * s;
             y.push_back(R / link.moment);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/core/progress.hpp"
 #include "revchain/finite/links.hpp"
 
 namespace revchain {
@@ -47,6 +48,7 @@ class TautLinks {
     template <class Visit>
     void sweep(const S& height, const S& along, Visit&& visit, bool rescale = true) const {
         using std::abs;
+        revchain::detail::look();
         S y(0), H(-1);
         for (std::size_t m = 0; m < links_->size(); ++m) {
             const Link<S>& link = (*links_)[m];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/linalg/sturm.hpp"
 
 namespace revchain::linalg {
@@ -47,7 +48,8 @@ Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
             } else {
                 all.lower = shifts[i];
             }
-        if (all.upper > ldexp(T(1), std::numeric_limits<T>::max_exponent - 10)) return all;  // nothing in this scalar
+        // nothing in this scalar, or a guess that was no positive number
+        if (!(all.upper > T(0) && all.upper <= ldexp(T(1), std::numeric_limits<T>::max_exponent - 10))) return all;
     }
     all.lower = std::min(all.lower, all.upper / T(4));
     T ratio(4);  // downwards, squaring the stride: the modes asked for may lie far below
@@ -122,6 +124,7 @@ std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T
         }
     };
     while (!work.empty()) {
+        revchain::detail::look();
         const std::size_t taken = std::min(lanes, work.size());
         now.assign(work.end() - static_cast<std::ptrdiff_t>(taken), work.end());
         work.resize(work.size() - taken);

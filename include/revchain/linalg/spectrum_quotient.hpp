@@ -3,6 +3,7 @@
 
 #include "revchain/core/compensated_sum.hpp"
 #include "revchain/core/pack.hpp"
+#include "revchain/core/progress.hpp"
 #include "revchain/linalg/spectrum_pins.hpp"
 
 namespace revchain::linalg::spectrum {
@@ -214,6 +215,7 @@ std::vector<Result> in_packs(const PinnedChain& chain, const std::vector<double>
         Result found[together];
         double padded[together];
         for (std::size_t i = 0; i < shifts.size(); i += together) {
+            revchain::detail::look();
             const std::size_t taken = std::min(together, shifts.size() - i);
             for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
             const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "revchain/core/pack.hpp"
+#include "revchain/core/progress.hpp"
 #include "revchain/linalg/spectrum_pins.hpp"
 
 namespace revchain::linalg::spectrum {
@@ -103,6 +104,7 @@ inline std::vector<Sample> sample_all(const PinnedChain& chain, const std::vecto
         Sample found[together];
         std::vector<std::uint64_t> signs(history == nullptr ? 0 : together * words);
         for (std::size_t i = 0; i < shifts.size(); i += together) {
+            revchain::detail::look();
             const std::size_t taken = std::min(together, shifts.size() - i);
             for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[i + (j < taken ? j : 0)];
             if (history == nullptr && chain.swings) sample<V, true, true>(chain, padded, found, nullptr);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <vector>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/linear/batch_workers.hpp"
 
 namespace revchain {
@@ -35,8 +37,16 @@ bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptio
     };
     std::vector<std::future<void>> others;
     for (Index t = 1; t < threads; ++t) others.push_back(std::async(std::launch::async, part, t));
-    part(0);
-    for (auto& other : others) other.get();
+    try {
+        part(0);
+        for (auto& other : others) {
+            while (other.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) look();
+            other.get();
+        }
+    } catch (...) {
+        unusual = true;  // the others end at their next look
+        throw;
+    }
     return !unusual;
 }
 

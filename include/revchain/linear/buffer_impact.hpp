@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/linear/two_links.hpp"
 
 /// Two railway carriages, coupled by a spring, that run against a buffer stop: in contact they swing as two plummets do,
@@ -34,7 +35,8 @@ struct Blow {
 /// of about one mass deal one to three, a heavy one behind a light one hundreds), 0.1 for a state.
 class BufferImpact {
    public:
-    /// Throws InvalidArgument unless all numbers are positive and finite, and their quotients, or for over 100,000 blows.
+    /// Throws InvalidArgument unless all numbers are positive and finite, and their quotients, or for over 100,000 blows
+    /// or ten million steps to find their times.
     explicit BufferImpact(const Carriages& given);
 
     const std::vector<Blow>& blows() const { return blows_; }
@@ -42,13 +44,14 @@ class BufferImpact {
     CarriageState operator()(double time) const;
 
    private:
+    static constexpr long most_steps = 10'000'000;
     /// Offset of the front carriage c + v t + sum of a cos(w t) + b sin(w t), of the rear one with `ratio` a and b for a, b.
     struct Phase {
         double start, centre = 0, drift = 0;
         std::array<double, 2> cosine{}, sine{}, frequency{}, ratio{};
 
         CarriageState at(double t) const;
-        double first_zero(double sign, double end) const;
+        double first_zero(double sign, double end, long& steps) const;
     };
     Phase contact(double start, const CarriageState& from) const;
     Phase freedom(double start, const CarriageState& from) const;
@@ -72,11 +75,17 @@ inline CarriageState BufferImpact::Phase::at(double t) const {
 
 /// The first time after 0, at most `end`, at which the front carriage, first on the side `sign` of 0, is at 0 again;
 /// infinity if there is none. Steps shorter than the largest acceleration would need to bring it there miss nothing.
-inline double BufferImpact::Phase::first_zero(double sign, double end) const {
+inline double BufferImpact::Phase::first_zero(double sign, double end, long& steps) const {
     double largest = 0, t = 0;
     for (std::size_t k = 0; k < 2; ++k) largest += std::hypot(cosine[k], sine[k]) * frequency[k] * frequency[k];
     largest *= 1 + 1e-12;
     while (t <= end) {
+        if (++steps % 1024 == 0) detail::look();
+        if (steps > most_steps)
+            detail::refuse("BufferImpact",
+                           "masses or stiffnesses are too unlike: take ratios nearer to 1; the times of the blows need "
+                           "more steps than are allowed",
+                           steps);
         const CarriageState s = at(t);
         const double offset = t == 0 ? 0 : std::max(0.0, sign * s.front), speed = sign * s.front_speed;
         const double root = std::sqrt(speed * speed + 2 * largest * offset);
@@ -130,10 +139,11 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CarriageState state{0, 0, 1, 1, 0};  // in units of the speed: times do not depend on it
     double time = 0;
+    long steps = 0;
     while (blows_.size() < most) {
         phases_.push_back(contact(time, state));
         const double inwards = given.front_mass * state.front_speed + given.rear_mass * state.rear_speed;
-        const double lasts = phases_.back().first_zero(1, infinity);
+        const double lasts = phases_.back().first_zero(1, infinity, steps);
         state = phases_.back().at(lasts);
         blows_.push_back(
             {time, time + lasts,
@@ -144,7 +154,7 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
         // It comes back while it swings farther than it has drifted, or within a period if it does not drift away.
         const double reach = std::hypot(free.cosine[0], free.sine[0]) + free.centre;
         const double until = free.drift < 0 ? std::max(0.0, reach / -free.drift) : 7 / free.frequency[0];
-        const double away = free.first_zero(-1, free.drift > 0 ? infinity : until);
+        const double away = free.first_zero(-1, free.drift > 0 ? infinity : until, steps);
         if (!(away < infinity)) return;
         state = free.at(away);
         time += away;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/linalg/block_builder.hpp"
 #include "revchain/linear/condensation.hpp"
 
@@ -127,6 +128,7 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
     };
     Index length = 1;
     for (Index m = 0; m < chain.size();) {
+        look();
         const Index left = chain.size() - m;
         if (left < runs_at_once) {
             add_singles(m, chain.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/chain/converted.hpp"
+#include "revchain/core/progress.hpp"
 #include "revchain/linear/compressed_shapes.hpp"
 #include "revchain/linear/heights.hpp"
 #include "revchain/linear/small_heights.hpp"
@@ -146,8 +147,10 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
         result.status = Status::success;
         take(std::optional(detail::heights_by_bisection(chain, assembled, range, options, to_heights)));
     }
-    for (Index j = 0; options.certify && j < range.count; ++j)
+    for (Index j = 0; options.certify && j < range.count; ++j) {
+        detail::look();
         detail::certify(result, j, assembled.pencils(), chain.mode_count());
+    }
     return result;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/linear/mode_shape.hpp"
 #include "revchain/linear/mode_table.hpp"
 
@@ -179,6 +180,7 @@ Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
     const detail::Pencils<T> pencils(chain);
     const auto links = detail::scaled_links(chain);
     for (Index j = 0; j < modes.size(); ++j) {
+        detail::look();
         const T height = modes.conical_height[j];
         M guess(0.5);  // where the neighbours are known, nearer than they
         for (const Index i : {j - 1, j + 1})

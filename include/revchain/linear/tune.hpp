@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "revchain/core/progress.hpp"
 #include "revchain/linear/modes.hpp"
 #include "revchain/linear/sensitivity.hpp"
 #include "revchain/linear/tune_candidates.hpp"
@@ -159,6 +160,7 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
     const double direction = to > from ? 1 : -1;
     double at = from;
     for (int round = 0; round < longest; ++round) {
+        look();
         const double height = tuning.height(at), away = std::log(height / tuning.wanted());
         seen.lowest_height = std::min(seen.lowest_height, height);
         seen.highest_height = std::max(seen.highest_height, height);
@@ -181,7 +183,7 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
         if (height > 0) {
             const double whole = std::abs(std::log(to / at));
             for (double step = whole;; step *= 0.75) {
-                if (step < whole && !(step > 1e-15)) return {};
+                if (!(whole < std::numeric_limits<double>::infinity()) || (step < whole && !(step > 1e-15))) return {};
                 next = step < whole ? at * std::exp(direction * step) : to;
                 const double c = weight_influence(tuning.chain(), tuning.asked().link, std::min(at, next),
                                                   std::max(at, next), least);

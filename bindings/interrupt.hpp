@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <atomic>
+#include <future>
+#include <memory>
+#include <thread>
+
+#include "bindings.hpp"
+#include "revchain/chain/chain.hpp"
+
+// Python notes Ctrl-C but hears it only when asked. The library calls `interrupt` from all its long loops, whichever
+// function was bound: it asks there. See bind_core.cpp.
+
+/// What ends a computation that `aside` started; none in other threads.
+inline thread_local const std::atomic<bool>* abandoned = nullptr;
+
+/// solve(chain) in a thread of its own, for solvers of Eigen, which cannot be interrupted; on this thread where links are
+/// so few that they take less than 0.1 s, or too many for a dense matrix. After Ctrl-C, or where `progress` is cancelled,
+/// the caller goes on at once. The thread ends at its next look or with the solver's result, which nobody reads. It has a
+/// copy of the chain; `solve` owns all else it uses.
+template <class Solve>
+auto aside(const revchain::Chain<double>& chain, const revchain::Progress* progress, Solve solve) {
+    if (chain.size() <= 40 || chain.size() > 20'000) return without_lock([&] { return solve(chain); });
+    const auto stop = std::make_shared<std::atomic<bool>>(false);
+    std::packaged_task<decltype(solve(chain))()> task([stop, chain, solve = std::move(solve)] {
+        abandoned = stop.get();
+        return solve(chain);
+    });
+    auto result = task.get_future();
+    const py::gil_scoped_release release;
+    std::thread(std::move(task)).detach();
+    try {
+        while (result.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+            revchain::detail::look();
+            if (progress != nullptr && progress->cancelled()) throw revchain::Cancelled("revchain: cancelled");
+        }
+    } catch (...) {
+        *stop = true;
+        throw;
+    }
+    return result.get();
+}

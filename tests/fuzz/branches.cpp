@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fuzz.hpp"
+#include "revchain/finite/branches.hpp"
+#include "revchain/finite/shape_on_branch.hpp"
+#include "revchain/finite/stability_windows.hpp"
+
+void fuzz::branches(Random& random) {
+    const Chain<double> hung = random.chain(5);
+    const Index mode = random.count(hung.mode_count());
+    const double height = random.number() * (random.one_in(2) ? 0.1 : 1) * hung.total_length();
+    const std::uint64_t kind = random.below(3);
+    if (kind == 0) {
+        (void)revchain::branches(hung, height, {.lists = 2, .budget = 3000, .proof_budget = 3000});
+    } else if (kind == 1) {
+        const auto found = revchain::branch(hung, mode, height, {.most_points = 40});
+        for (const auto& window : revchain::stability_windows(hung, found, {.tolerance = 1e-3, .samples = 1}))
+            fuzz::expect_number(window.height_from + window.height_to);
+    } else {
+        revchain::ShapeGiven given;
+        std::optional<double> revchain::ShapeGiven::*const what =
+            random.pick({&revchain::ShapeGiven::conical_height, &revchain::ShapeGiven::tip_inclination,
+                         &revchain::ShapeGiven::tip_radius, &revchain::ShapeGiven::top_tension});
+        given.*what = random.number();
+        (void)revchain::steady_shape(hung, mode, given);
+    }
+}

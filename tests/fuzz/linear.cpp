@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fuzz.hpp"
+#include "revchain/linear/batch.hpp"
+#include "revchain/linear/buffer_impact.hpp"
+#include "revchain/linear/count.hpp"
+#include "revchain/linear/modes.hpp"
+#include "revchain/linear/response.hpp"
+#include "revchain/linear/sensitivity.hpp"
+#include "revchain/linear/small_oscillation.hpp"
+#include "revchain/linear/tune.hpp"
+
+namespace {
+
+void modes(fuzz::Random& random, const revchain::Chain<double>& chain) {
+    revchain::ModesOptions<double> options;
+    if (random.one_in(2)) options.first = random.count(3), options.count = random.count(4);
+    if (random.one_in(4)) options = {.conical_height = {{random.number(), random.number()}}};
+    if (random.one_in(4)) options.rtol = random.power(12) * 1e-8;
+    options.shapes = random.one_in(2), options.certify = random.one_in(3);
+    using revchain::ModesMethod;
+    options.method = random.pick({ModesMethod::automatic, ModesMethod::bisection, ModesMethod::blocks,
+                                  ModesMethod::together, ModesMethod::spectrum});
+    const auto found = revchain::modes(chain, options);
+    for (revchain::Index j = 0; j < found.size(); ++j)
+        fuzz::expect_number(found.conical_height[j] + found.error_bound[j]);
+    if (random.one_in(3)) (void)revchain::sensitivity(chain, found);
+}
+
+}  // namespace
+
+void fuzz::linear(Random& random) {
+    const std::uint64_t kind = random.below(6);
+    if (kind == 0) {
+        const revchain::BufferImpact impact(
+            {random.number(), random.number(), random.number(), random.number(), random.number()});
+        (void)impact(random.number());
+        return;
+    }
+    const Chain<double> hung = random.chain(random.one_in(10) ? 3000 : 12);
+    if (kind == 1) {
+        const revchain::ModeCounter<double> counter(hung);
+        (void)counter.above_height(random.number()), (void)counter.below_speed(random.number(), random.number());
+    } else if (kind == 2) {
+        (void)revchain::response(hung, random.numbers(5), {.support_radius = random.number()});
+    } else if (kind == 3) {
+        const auto datum = static_cast<revchain::Datum>(random.below(revchain::datum_names.size()));
+        (void)revchain::tune(hung, {.mode = random.count(3), .link = random.count(hung.size()), .datum = datum,
+                                    .conical_height = random.number()});
+    } else if (kind == 4 && hung.size() < 20) {
+        const auto column = [&] {
+            const std::vector<double> x = random.numbers(std::size_t(hung.size()));
+            return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(x.data(), hung.size()));
+        };
+        (void)revchain::small_oscillation(hung, column(), column(), random.numbers(3), {});
+    } else {
+        modes(random, hung);
+    }
+}

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ctrl-C is heard soon, in every call that can take long."""
+
+import signal
+import subprocess
+import sys
+import time
+
+CALLS = {
+    "held_cord_shapes": "rc.held_cord_shapes(0.678, top_tension=0.861, angular_speed=0.693, most_half_waves=1000)",
+    "held_shapes": "rc.held_shapes(rods, span=2.0, conical_height=0.1, most_half_waves=1000)",
+    "taut_modes": "rc.taut_modes(rods, tension=1e3, count=2000)",
+    "BufferImpact.state": "rc.BufferImpact(1.0, 50.0, buffer_stiffness=1.0, coupling_stiffness=2.0, speed=1.0).state(many)",
+    "steady_shapes": "rc.steady_shapes(rc.Chain.uniform_plummets(12), conical_height=1e-3, hanging_only=False)",
+    "stability": "shape.stability()",
+    "stability of a held shape": "held.stability()",
+    "stability_windows": "branch.stability_windows()",
+    "branch": "rc.branch(rods, 1, conical_height=1e-9, longest_step=1e-3, most_points=1_000_000)",
+    "branches": "rc.branches(rc.Chain.uniform_plummets(8), conical_height=0.01)",
+    "continuous_shapes": "rc.continuous_shapes(1.0, conical_height=1e-4)",
+    "dense": "rc.modes(large, method='dense')",
+    "recurrence": "rc.modes(rc.Chain.uniform_rods(60_000), modes=range(1, 30_000), shapes=False)",
+    "conical_heights": "rc.conical_heights(weight=np.ones((400_000, 60)), length=1.0)",
+    "count_modes": "rc.count_modes(rods, conical_height=np.linspace(0.01, 1, 10_000_000))",
+    "response": "rc.response(rods, conical_height=np.linspace(0.01, 1, 1_000_000), pins=[0])",
+    "sensitivity": "rc.modes(large, shapes=False).sensitivity",
+    "tune": "rc.tune(rc.Chain.uniform_rods(20_000), mode=1, link=19_999, quantity='weight', conical_height=0.2)",
+    "Chain": "rc.Chain(weight=1.0, length=np.ones(30_000_000), centroid=0.5, radius_of_gyration=0.3)",
+    "tapered": "rc.Chain.tapered(20_000_000, 1.0, 1.5)",
+    "GovernorMotion": "rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).angle(many)",
+    "elliptic.jacobi": "rc.elliptic.jacobi(many, modulus=0.5)",
+    "elliptic.incomplete_pi": "rc.elliptic.incomplete_pi(0.3, many, modulus=0.5)",
+    "heavy_chain.shape": "rc.heavy_chain.shape(many / many[-1], 30)",
+    "heavy_chain.conical_heights": "rc.heavy_chain.conical_heights(5, many)",
+    "tip_mass.conical_heights": "rc.tip_mass.conical_heights(30_000_000, tip=0.1)",
+    "tip_mass.shape": "rc.tip_mass.shape(many / many[-1], 30, tip=0.1)",
+    "tapered_chain.conical_heights": "rc.tapered_chain.conical_heights(30_000_000, exponent=0.7)",
+}
+SCRIPT = """
+import numpy as np
+import revchain as rc
+rods, large, many = rc.Chain.uniform_rods(2000, length=3.0), rc.Chain.uniform_rods(3000), np.linspace(0.01, 50, 20_000_000)
+loop = rc.Chain.uniform_rods(300, length=1.0)
+shape = rc.steady_shapes(loop, conical_height=0.5)[0]
+held = rc.held_shapes(loop, span=0.5, conical_height=0.1, prove=False)[0]
+branch = rc.branch(rc.Chain.uniform_rods(60, length=1.0), 1, conical_height=0.2)
+for call in {calls!r}:
+    print("call", flush=True)
+    try:
+        eval(call)
+        print("finished", flush=True)
+    except KeyboardInterrupt:
+        print("interrupted", flush=True)
+print(rc.modes(rc.Chain.uniform_rods(1)).conical_height.size)
+"""
+
+
+def test_ctrl_c_is_heard_in_every_long_call(start):
+    process = start(sys.executable, "-c", SCRIPT.format(calls=list(CALLS.values())), stdout=subprocess.PIPE)
+    heard = {}
+    for name in CALLS:
+        assert process.stdout.readline() == "call\n", name
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        sent = time.monotonic()
+        heard[name] = (process.stdout.readline().strip(), time.monotonic() - sent)
+    assert {name: answer for name, (answer, _) in heard.items() if answer != "interrupted"} == {}
+    assert {name: late for name, (_, late) in heard.items() if late > 2} == {}
+    assert process.stdout.read() == "1\n"
