@@ -76,7 +76,12 @@ inline double BufferImpact::Phase::first_zero(double sign, double end) const {
     double largest = 0, t = 0;
     for (std::size_t k = 0; k < 2; ++k) largest += std::hypot(cosine[k], sine[k]) * frequency[k] * frequency[k];
     largest *= 1 + 1e-12;
-    while (t <= end) {
+    constexpr int most = 1'000'000;  // a step is a quarter of a swing, or is halved towards a zero
+    for (int round = 0; t <= end; ++round) {
+        if (round == most)
+            detail::refuse("BufferImpact", "masses and stiffnesses must be so near each other that the carriages swing less "
+                           "than 100,000 times between two blows; angular frequency of the swing",
+                           *std::max_element(frequency.begin(), frequency.end()));
         const CarriageState s = at(t);
         const double offset = t == 0 ? 0 : std::max(0.0, sign * s.front), speed = sign * s.front_speed;
         const double root = std::sqrt(speed * speed + 2 * largest * offset);
@@ -120,10 +125,11 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
     const double l2 = (given.front_mass + given.rear_mass) / given.buffer_stiffness;
     check("rear mass over coupling stiffness", l1), check("masses over buffer stiffness", l2);
     const HeightPair<double> height = two_plummets(given.rear_mass, l1, given.front_mass, l2);
-    const double half = (l2 - l1) / 2, coupling = given.rear_mass / (given.front_mass + given.rear_mass) * l1 * l2;
-    const double root = std::sqrt(half * half + coupling);
-    const double above = half > 0 ? half + root : coupling / (root - half);  // first height over l1
-    ratio_ = {height[0] / above, -height[1] / (coupling / above)};           // l / (l - l1)
+    const double half = (l2 - l1) / 2, share = given.rear_mass / (given.front_mass + given.rear_mass);
+    const double coupling = std::sqrt(share) * std::sqrt(l1) * std::sqrt(l2), root = std::hypot(half, coupling);
+    const double above = half > 0 ? half + root : coupling * (coupling / (root - half));  // first height over l1
+    const double ratio = height[0] / above;                         // l / (l - l1)
+    ratio_ = {ratio, -(given.front_mass / given.rear_mass) / ratio};  // modes are orthogonal in the masses
     frequency_ = {1 / std::sqrt(height[0]), 1 / std::sqrt(height[1])};
 
     constexpr std::size_t most = 100'000;
@@ -138,6 +144,9 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
         blows_.push_back(
             {time, time + lasts,
              given.speed * (inwards - given.front_mass * state.front_speed - given.rear_mass * state.rear_speed)});
+        if (!std::isfinite(blows_.back().impulse) || !std::isfinite(blows_.back().end))
+            detail::refuse("BufferImpact", "speed, masses and stiffnesses must be so near 1 that impulses and times do not "
+                           "overflow; speed", given.speed);
         time += lasts;
         phases_.push_back(freedom(time, state));
         const Phase& free = phases_.back();
@@ -149,7 +158,8 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
         state = free.at(away);
         time += away;
     }
-    detail::refuse("BufferImpact", "more blows than can be followed", static_cast<double>(most));
+    detail::refuse("BufferImpact", "masses must be so near each other that there are at most 100,000 blows; rear over front "
+                   "mass", given.rear_mass / given.front_mass);
 }
 
 inline CarriageState BufferImpact::operator()(double time) const {
@@ -161,6 +171,9 @@ inline CarriageState BufferImpact::operator()(double time) const {
     CarriageState state = phase->at(time - phase->start);
     for (double* each : {&state.front, &state.rear, &state.front_speed, &state.rear_speed}) *each *= given_.speed;
     if ((phase - phases_.begin()) % 2 == 0) state.buffer_force = given_.buffer_stiffness * std::max(0.0, state.front);
+    if (!std::isfinite(state.front + state.rear) || !std::isfinite(state.front_speed + state.rear_speed) ||
+        !std::isfinite(state.buffer_force))
+        detail::refuse("BufferImpact", "time must be so small that places and speeds do not overflow", time);
     return state;
 }
 

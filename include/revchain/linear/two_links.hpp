@@ -46,7 +46,7 @@ HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, cons
     using std::abs;
     using std::hypot;
     using std::max;
-    const T half_difference = abs(p - q) / T(2), root = coupling.root();
+    const T half_difference = abs(p - q) / T(2), root = coupling.root().value();
     const T larger = max(p, q) + root * (root / (half_difference + hypot(half_difference, root)));
     require_positive(place, "the larger height", larger);
     return {larger, rest.over(larger).value()};
@@ -56,7 +56,7 @@ HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, cons
 template <Real T>
 T standing_root(const T& p_less_q, const Product<T>& rest) {
     using std::hypot;
-    const T b = p_less_q / T(2), root = hypot(b, rest.root());
+    const T b = p_less_q / T(2), root = hypot(b, rest.root().value());
     return b > T(0) ? rest.over(b + root).value() : root - b;
 }
 
