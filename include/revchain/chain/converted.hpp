@@ -33,11 +33,17 @@ Column<To> converted(const Column<From>& column) {
 }  // namespace detail
 
 /// The chain whose numbers are those of `chain` in another scalar: the same where it is wider, else rounded. Cost O(N).
-/// Throws InvalidArgument where rounding leaves no chain.
+/// Throws InvalidArgument where rounding leaves no chain, or one with fewer modes.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
-    return Chain<To>(chain.size(), detail::converted<To>(chain.weight()), detail::converted<To>(chain.length()),
+    Chain<To> result(chain.size(), detail::converted<To>(chain.weight()), detail::converted<To>(chain.length()),
                      detail::converted<To>(chain.centroid()), detail::converted<Wide<To>>(chain.gyration_ratio()));
+    if (result.mode_count() != chain.mode_count())
+        detail::refuse("Chain",
+                       "weights underflow in this precision and leave fewer modes than " +
+                           std::to_string(chain.mode_count()) + "; use a wider precision or a smaller unit of weight",
+                       result.mode_count());
+    return result;
 }
 
 }  // namespace revchain
