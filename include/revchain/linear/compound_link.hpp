@@ -27,7 +27,7 @@ struct CompoundLink {
     T square_over_centroid() const { return static_cast<T>(squares_over_centroid().value()); }
     detail::Product<Wide<T>> squares_over_centroid() const {
         const Wide<T> k(radius_of_gyration);
-        return detail::Product<Wide<T>>{}.times(k).times(k).over(Wide<T>(centroid));
+        return detail::Product<Wide<T>>{}.times(k).times(k).over(centroid);
     }
     /// Of Maxwell's two particles that move as the link does, the share of its weight at the centre of oscillation, h/l;
     /// the rest is at the pin. §6.
@@ -111,7 +111,7 @@ SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
     detail::require_positive("swung_link", "height", height);
     const T h = link.centroid, length = link.pendulum_length();
     const T longer = height <= h
-                         ? static_cast<T>(link.squares_over_centroid().plus(S(h - height)).over(S(length)).root().value())
+                         ? static_cast<T>(link.squares_over_centroid().plus(h - height).over(length).root().value())
                          : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
     if (!(longer > T(0))) return {T(0), T(1), T(0), T(0)};
     const T inclination = T(2) * asin(longer / sqrt(T(2)));

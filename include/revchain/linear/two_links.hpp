@@ -50,7 +50,7 @@ HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, cons
     const Wide<T> divisor(half_difference + hypot(half_difference, root));
     const T larger = max(p, q) + static_cast<T>(coupling.over(divisor).value());
     require_positive(place, "the larger height", larger);
-    return {larger, static_cast<T>(rest.over(Wide<T>(larger)).value())};
+    return {larger, static_cast<T>(rest.over(larger).value())};
 }
 
 /// The positive root of (p + lambda)(q - lambda) = coupling,  rest = p q - coupling > 0.
@@ -58,7 +58,7 @@ template <Real T>
 T standing_root(const T& p_less_q, const Product<Wide<T>>& rest) {
     using std::hypot;
     const T b = p_less_q / T(2), root = hypot(b, static_cast<T>(rest.root().value()));
-    return b > T(0) ? static_cast<T>(rest.over(Wide<T>(b + root)).value()) : root - b;
+    return b > T(0) ? static_cast<T>(rest.over(b + root).value()) : root - b;
 }
 
 /// The upper one's share of both weights, times both threads.
@@ -67,8 +67,8 @@ Product<Wide<T>> upper_share(const T& lower_weight, const T& lower_thread, const
                              const T& upper_thread) {
     using S = Wide<T>;
     using P = Product<S>;
-    const P both = P::of(S(lower_weight)).plus(S(upper_weight));
-    return P::of(S(upper_weight)).times(S(lower_thread)).times(S(upper_thread)).over(both);
+    const P both = P::of(S(lower_weight)).plus(upper_weight);
+    return P::of(S(upper_weight)).times(lower_thread).times(upper_thread).over(both);
 }
 
 /// Refuses two plummets as they are asked with: `names` are of the lower weight and thread, then the upper ones.
@@ -133,8 +133,8 @@ template <Real T>
 HeightPair<T> hung_link(std::string_view place, std::string_view name, const T& thread, const CompoundLink<T>& link) {
     require_positive(place, name, thread);
     check(place, link);
-    return coupled_roots(place, link.pendulum_length(), thread, Product<Wide<T>>::of(Wide<T>(thread)).times(Wide<T>(link.centroid)),
-                         link.squares_over_centroid().times(Wide<T>(thread)));
+    const auto coupling = Product<Wide<T>>{}.times(thread).times(link.centroid);
+    return coupled_roots(place, link.pendulum_length(), thread, coupling, link.squares_over_centroid().times(thread));
 }
 }  // namespace detail
 
@@ -152,7 +152,7 @@ T standing_link(const T& thread, const CompoundLink<T>& link) {
     detail::require_positive("standing_link", "thread", thread);
     detail::check("standing_link", link);
     return detail::standing_root(T((link.centroid - thread) + link.square_over_centroid()),
-                                 link.squares_over_centroid().times(Wide<T>(thread)));
+                                 link.squares_over_centroid().times(thread));
 }
 
 /// The thread on which a link stands at a given height lambda: a = lambda (l + lambda) / (l + lambda - h), §6 (13).
@@ -161,7 +161,8 @@ T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
     detail::require_positive("thread_of_standing_link", "height", height);
     detail::check("thread_of_standing_link", link);
     const Wide<T> rest = link.squares_over_centroid().value() + Wide<T>(height);
-    return height * static_cast<T>((rest + Wide<T>(link.centroid)) / rest);
+    using P = detail::Product<Wide<T>>;
+    return static_cast<T>(P::of(rest + Wide<T>(link.centroid)).over(rest).times(height).value());
 }
 
 /// Height of a plummet that stands above another on a stiff weightless rod, the lower one hung by a thread:
