@@ -21,7 +21,9 @@ struct CompoundLink {
 
     /// l = h + k^2/h, of the equivalent simple pendulum; also the distance of the centre of oscillation from the pin.
     T pendulum_length() const {
-        return static_cast<T>(Wide<T>(centroid) + squares_over_centroid().value());
+        using std::isfinite;
+        const T length = static_cast<T>(Wide<T>(centroid) + squares_over_centroid().value());
+        return isfinite(length) ? length : centroid + square_over_centroid();  // infinite where it overflows
     }
     /// k^2/h: the centroid from the centre of oscillation; hung from there the two change places, §6.
     T square_over_centroid() const { return static_cast<T>(squares_over_centroid().value()); }
@@ -106,7 +108,6 @@ SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
     using std::hypot;
     using std::sqrt;
     using std::tan;
-    using S = Wide<T>;
     detail::check("swung_link", link);
     detail::require_positive("swung_link", "height", height);
     const T h = link.centroid, length = link.pendulum_length();
