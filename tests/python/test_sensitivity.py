@@ -154,7 +154,7 @@ def test_tuning_two_plummets_against_lagrange():
 def test_tuning_says_where_no_value_does():
     chain = Chain(weight=[1.0, 3.0], length=1.0)
     none = rc.tune(chain, link=1, quantity="weight", conical_height=2.5)
-    assert none.status == "no_value" and none.chain is None and math.isnan(none.value)
+    assert none.status == "no_value" and none.chain is None and none.value is None
     assert none.reachable[1] < 2 < none.reachable[1] + 0.01
     assert none.between == (0.001, 1000.0)
     narrow = rc.tune(chain, link=1, quantity="length_in_proportion", conical_height=2.5, between=(0.9, 1.1))
@@ -246,6 +246,17 @@ def test_what_a_flywheel_does_to_a_speed():
         rc.rig_sensitivity(rig.chain, 5.0, [1.0, 0.0])
     with pytest.raises(ValueError, match="2 offsets"):
         rc.rig_sensitivity(rig, 5.0, [1.0, 0.0, 0.0])
+    for still in ([0.0, 0.0], [math.nan, 0.0], [math.inf, 0.0]):
+        with pytest.raises(ValueError, match="offsets must be finite and move a weight .*, got 5"):
+            rc.rig_sensitivity(rig, 5.0, still)
+
+
+def test_no_momentum_serves_at_the_speed_of_the_thread_above():
+    """n^2 / g = 1 / a of the massless thread: what holds the upper pin of the plummet is then no spring at all."""
+    rig = rc.Rig(Chain(weight=[1.0, 0.0], length=1.0))
+    with pytest.raises(ValueError, match="no finite momentum of link 1 makes this a whirl speed; .*, got 2"):
+        rc.momentum_for_speed(rig, 2.0, link=1, gravity=4.0)
+    assert math.isfinite(rc.momentum_for_speed(rig, 2.001, link=1, gravity=4.0))
 
 
 @pytest.mark.parametrize("fluid", ["still", "turning"])

@@ -134,7 +134,14 @@ inline GovernorMotion::GovernorMotion(const Governor& given) : angle_(given.angl
     if (w == 0 && (s == 0 || c == 0 || R == 0)) return;
 
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto refuse_apart = [&] {
+        revchain::detail::refuse("analytic::GovernorMotion",
+                                 "angular speed, sqrt(gravity / pendulum length), angle rate and angle must be within "
+                                 "a factor of 1e150 of each other or 0; angle rate",
+                                 given.angle_rate);
+    };
     const auto set_functions = [&](double kappa, double complement) {
+        if (!(kappa >= 0 && complement >= 0 && kappa + complement > 0)) refuse_apart();
         functions_ = JacobiFunctions(EllipticModulus::of_ratio(std::sqrt(kappa), std::sqrt(complement)));
         return functions_.complete().K;
     };
@@ -181,6 +188,7 @@ inline GovernorMotion::GovernorMotion(const Governor& given) : angle_(given.angl
         rate_ = 0.25 * w / (s * c);
     }
     rate_ *= pace;
+    if (!std::isfinite(phase_) || !std::isfinite(rate_) || !std::isfinite((*this)(0).angle_rate)) refuse_apart();
     turns_ = std::nearbyint((angle_ - unfolded(half_at(phase_))) / (2 * std::numbers::pi));
     if (regime_ == GovernorRegime::rest) return;
     const auto at = [&](double opposite, double adjacent) { return unfolded({opposite, adjacent, 0, 0}); };
@@ -219,11 +227,15 @@ inline GovernorMotion::Half GovernorMotion::half_at(double u) const {
 inline GovernorState GovernorMotion::operator()(double time) const {
     if (!std::isfinite(time)) revchain::detail::refuse("analytic::GovernorMotion", "time must be finite", time);
     if (form_ == Form::constant) return {angle_, 0};
-    const Half half = half_at(phase_ + rate_ * time);
+    const double u = phase_ + rate_ * time;
+    const Half half = half_at(std::isfinite(u) ? u : 0);
     const double scale = form_ == Form::growing ? half.opposite * half.adjacent : opposite_ * adjacent_;
     const double whole = std::hypot(half.opposite, half.adjacent);
     const double rate = 2 * half.rate * (scale / whole / whole);
-    return {unfolded(half), upside_down_ ? -rate : rate};
+    const GovernorState state{unfolded(half), upside_down_ ? -rate : rate};
+    if (!std::isfinite(u) || !std::isfinite(state.angle))
+        revchain::detail::refuse("analytic::GovernorMotion", "time must be so small that the angle does not overflow", time);
+    return state;
 }
 
 }  // namespace revchain::analytic

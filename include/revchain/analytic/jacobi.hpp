@@ -16,7 +16,8 @@ struct JacobiValues {
 ///
 /// Method: theta series of the nome or, for kappa > kappa', of the complementary one in hyperbolic functions, so that
 /// q <= exp(-pi) and four terms do; the argument brought within half a quarter period. DLMF 20.2, 20.7(viii), 22.2.
-/// Accuracy: 1e-15 (|f| + |u df/du|) each, kappa' from 1e-150 to 1. Cost: 0.3 microseconds for the modulus and 0.1 for
+/// Accuracy: 1e-15 (|f| + |u df/du|) each, kappa' from 1e-150 to 1: where |u| exceeds 1e15 no digit of sn, cn and dn is
+/// known, and they are those of some argument. Cost: 0.3 microseconds for the modulus and 0.1 for
 /// each argument.
 class JacobiFunctions {
    public:
@@ -41,14 +42,16 @@ class JacobiFunctions {
     /// Throws InvalidArgument unless u is finite.
     JacobiValues operator()(double u) const {
         if (!std::isfinite(u)) revchain::detail::refuse("analytic::JacobiFunctions", "u must be finite", u);
-        const double half_turns = std::isfinite(complete_.K) ? std::nearbyint(u / (2 * complete_.K)) : 0.0;
-        const double within = half_turns == 0 ? u : std::fma(-half_turns, 2 * complete_.K, u);
+        double within = u;
+        int half_periods = 0;  // to the last bits, however many there are
+        if (std::abs(u) > complete_.K) within = std::remquo(u, 2 * complete_.K, &half_periods);
+        const double half_turns = std::nearbyint((u - within) / (2 * complete_.K));
         JacobiValues f = hyperbolic_ ? hyperbolic(std::abs(within)) : circular(std::abs(within));
         f.amplitude = std::atan2(f.sn, f.cn);
         if (within < 0) f.amplitude = -f.amplitude, f.sn = -f.sn, f.epsilon = -f.epsilon;
         f.amplitude += half_turns * std::numbers::pi;
         f.epsilon += half_turns * (2 * complete_.E);
-        if (std::fmod(half_turns, 2.0) != 0) f.sn = -f.sn, f.cn = -f.cn;
+        if (half_periods % 2 != 0) f.sn = -f.sn, f.cn = -f.cn;
         return f;
     }
 

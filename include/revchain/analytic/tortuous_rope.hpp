@@ -55,7 +55,7 @@ class TortuousRope {
 
    private:
     /// Least and greatest radius so far apart that the angle is that of the plane rope to the last digit.
-    bool is_plane() const { return first_ <= 1e-100 * second_; }
+    bool is_plane() const { return first_ <= 1e-20 * second_; }
 
     double first_, second_, third_;  // square roots of R1, R2, R3
     double height_, strength2_;      // lambda, c^2
@@ -98,7 +98,9 @@ inline double TortuousRope::half_wave_angle() const {
 }
 
 inline TortuousPoint TortuousRope::at(double x) const {
-    if (!std::isfinite(x)) revchain::detail::refuse("analytic::TortuousRope::at", "x must be finite", x);
+    if (!std::isfinite(x / scale_))
+        revchain::detail::refuse("analytic::TortuousRope::at",
+                                 "x must be finite, and so small that the number of half waves does not overflow", x);
     const JacobiValues f = functions_(x / scale_);
     TortuousPoint point{
         x, d_ * f.epsilon - root_ / d_ * (x / scale_), std::hypot(first_ * f.cn, second_ * f.sn), 0, 0, 0, 0};
@@ -107,13 +109,19 @@ inline TortuousPoint TortuousRope::at(double x) const {
         const double half_turns = std::nearbyint(f.amplitude / std::numbers::pi);
         const double sign = std::fmod(half_turns, 2.0) == 0 ? 1 : -1;
         point.angle = half_turns * std::numbers::pi + std::atan2(sign * second_ * f.sn, sign * first_ * f.cn);
-        point.radius_slope = std::copysign(second_ * f.cn * bend, f.sn * f.cn * bend);
     } else {
         const double ratio = second_ / first_;
         point.angle = ratio * (third_ / d_) * incomplete_pi((1 - ratio) * (1 + ratio), f, modulus());
-        point.radius_slope = (second_ - first_) * ((second_ + first_) / point.radius) * f.sn * f.cn * bend;
+    }
+    if (first_ == 0) {
+        point.radius_slope = std::copysign(second_ * f.cn * bend, f.sn * f.cn * bend);
+    } else {
+        point.radius_slope = (second_ - first_) * ((second_ + first_) * f.sn / point.radius) * f.cn * bend;
         point.angle_slope = first_ / point.radius * (second_ / point.radius) * (third_ / (2 * strength2_));
     }
+    if (!std::isfinite(point.arc))
+        revchain::detail::refuse("analytic::TortuousRope::at", "x must be so small that the rope up to it does not overflow",
+                                 x);
     // (R1 + R2 + r - R) / 2 c^2
     point.tension_ratio = (std::pow(std::hypot(first_ * f.sn, second_ * f.cn), 2) + root_) / (2 * strength2_);
     return point;

@@ -12,7 +12,7 @@ namespace revchain {
 /// three to both sides where it lies below the second; no more exist, whatever l2 and a2 are.
 /// By half waves, then inclination of the lower link. offset[0] is that of the lower link's centre of oscillation; tension
 /// the size of the reaction at each upper pin over the whole weight.
-/// Accuracy: 8 ulp of every inclination where figures are not about to meet (measured; tests/cpp/finite/jointed_links.cpp).
+/// Accuracy: 8 ulp of every inclination (measured; tests/cpp/finite/jointed_links.cpp).
 /// Throws InvalidArgument as `jointed_links` does, and where lengths are more than a third of the range above the height.
 template <Real T>
 std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, const T& height) {
@@ -23,8 +23,10 @@ std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, con
     constexpr std::string_view place = "jointed_links_shapes";
     const auto n = detail::jointed_numbers(place, links);
     detail::require_positive(place, "height", height);
-    auto pair = detail::pair_of(place, T(n.l1 / n.unit), T(n.p / n.unit), n.share, n.other, height);
-    pair.upper = links.upper_length / height;
+    using S = Wide<T>;
+    const S scale(T(1) / n.unit);
+    auto pair = detail::pair_of<T>(place, n.l1 * scale, n.p * scale, n.share, n.other, height);
+    pair.upper = detail::over_height(S(links.upper_length), height);
     auto shapes = detail::pair_shapes(pair, height);
     const T whole = links.lower_weight + links.upper_weight;
     const T w1 = links.lower_weight / whole, w2 = links.upper_weight / whole;

@@ -92,87 +92,89 @@ Place<T> zero_within(const T& width, const Place<T>& low, const Place<T>& high, 
     return {x, T(width - x)};
 }
 
-template <Real T>
-PairShape<T> pair_shape(const Pair<T>& pair, int side, const T& arm, const T& versed, const T& rest, const T& height) {
+template <Real T, class S>
+PairShape<T> pair_shape(const Pair<S>& pair, int side, const S& arm, const S& versed, const S& rest, const T& height) {
     using std::atan;
     using std::sqrt;
-    const T excess = rest / arm, secant2 = T(1) + excess;
-    const T tangent1 = sqrt(versed) * sqrt(T(2) + versed), tangent2 = T(side) * sqrt(excess) * sqrt(T(2) + excess);
+    const S excess = rest / arm, secant2 = S(1) + excess;
+    const S square1 = versed * (S(2) + versed), square2 = excess * (S(2) + excess);
+    const T tangent1 = sqrt(static_cast<T>(square1)), tangent2 = T(side) * sqrt(static_cast<T>(square2));
     return {{atan(tangent1), atan(tangent2)},
-            {height * tangent1, height * (pair.upper * (tangent2 / secant2))},
-            {pair.share * (T(1) + versed), secant2}};
+            {height * tangent1, height * (static_cast<T>(pair.upper / secant2) * tangent2)},
+            {static_cast<T>(pair.share * (S(1) + versed)), static_cast<T>(secant2)}};
 }
 
 /// Figures leaning to one side: one, if any.
-template <Real T>
-void add_same_side(const Pair<T>& pair, const T& height, std::vector<PairShape<T>>& shapes) {
-    const T chi = pair.characteristic();
-    if (!(chi < T(0)) && !(pair.l1 > T(1) && pair.l2 > T(1))) return;
+template <Real S, Real T>
+void add_same_side(const Pair<S>& pair, const T& height, std::vector<PairShape<T>>& shapes) {
+    const S chi = pair.characteristic();
+    if (!(chi < S(0)) && !(pair.l1 > S(1) && pair.l2 > S(1))) return;
     // From A = 0 or d1 = 0; rest = (l2 - 1) A + s l1 l2, which is -chi where d1 = 0.
-    const T arm0 = std::max(T(0), T(1) - pair.l1), versed0 = std::max(T(0), pair.l1 - T(1));
-    const T rest0 = pair.l1 < T(1) ? -chi : pair.share * pair.l1 * pair.l2;
-    const auto add = [&](const T& x, const T& rest) {
-        shapes.push_back(pair_shape(pair, 1, T(arm0 + x), T(versed0 + x), rest, height));
+    const S arm0 = std::max(S(0), S(1) - pair.l1), versed0 = std::max(S(0), pair.l1 - S(1));
+    const S rest0 = pair.l1 < S(1) ? -chi : pair.share * pair.l1 * pair.l2;
+    const auto add = [&](const S& x, const S& rest) {
+        shapes.push_back(pair_shape(pair, 1, S(arm0 + x), S(versed0 + x), rest, height));
     };
-    const auto at = [&](const T& x, const T& rest) {
-        return balance(pair, 1, T(pair.share * pair.l1), T(arm0 + x), T(versed0 + x), rest);
+    const auto at = [&](const S& x, const S& rest) {
+        return balance(pair, 1, S(pair.share * pair.l1), S(arm0 + x), S(versed0 + x), rest);
     };
-    if (pair.l2 < T(1)) {  // up to where d2 = 0
-        const T falls = T(1) - pair.l2, width = rest0 / falls;
+    if (pair.l2 < S(1)) {  // up to where d2 = 0
+        const S falls = S(1) - pair.l2, width = rest0 / falls;
         const auto [x, left] =
-            zero_within(width, {T(0), width}, {width, T(0)}, T(1),
-                        [&](const T& from_low, const T& from_high) { return at(from_low, T(falls * from_high)); });
-        add(x, T(falls * left));
+            zero_within(width, {S(0), width}, {width, S(0)}, S(1),
+                        [&](const S& from_low, const S& from_high) { return at(from_low, S(falls * from_high)); });
+        add(x, S(falls * left));
     } else {
-        const auto rest = [&](const T& x) { return rest0 + (pair.l2 - T(1)) * x; };
-        const T x =
-            zero_between(T(0), T(pair.l1 + pair.upper + T(1)), [&](const T& from) { return at(from, rest(from)); });
+        const auto rest = [&](const S& x) { return rest0 + (pair.l2 - S(1)) * x; };
+        const S x =
+            zero_between(S(0), S(pair.l1 + pair.upper + S(1)), [&](const S& from) { return at(from, rest(from)); });
         add(x, rest(x));
     }
 }
 
 /// Figures leaning to both sides: one or three, if any.
-template <Real T>
-void add_opposite_sides(const Pair<T>& pair, const T& height, std::vector<PairShape<T>>& shapes) {
+template <Real S, Real T>
+void add_opposite_sides(const Pair<S>& pair, const T& height, std::vector<PairShape<T>>& shapes) {
     using std::sqrt;
-    const T chi = pair.characteristic();
-    if (!(chi > T(0) && pair.l1 > T(1) && pair.l2 > T(1))) return;
+    const S chi = pair.characteristic();
+    if (!(chi > S(0) && pair.l1 > S(1) && pair.l2 > S(1))) return;
     // B from s l1 l2/(l2 - 1), where d2 = 0, over a width of chi/(l2 - 1) to l1 - 1, where d1 = 0.
-    const T rises = pair.l2 - T(1), first = pair.share * pair.l1 * (pair.l2 / rises), width = chi / rises;
-    const auto at = [&](const T& x, const T& versed) {
-        return balance(pair, -1, T(-pair.share * pair.l1), T(first + x), versed, T(rises * x));
+    const S rises = pair.l2 - S(1), first = pair.share * pair.l1 * (pair.l2 / rises), width = chi / rises;
+    const auto at = [&](const S& x, const S& versed) {
+        return balance(pair, -1, S(-pair.share * pair.l1), S(first + x), versed, S(rises * x));
     };
-    const Place<T> start{T(0), width}, end{width, T(0)};
-    const auto add_between = [&](const Place<T>& low, const Place<T>& high, int sign) {
-        const auto [x, versed] = zero_within(width, low, high, T(sign), at);
-        shapes.push_back(pair_shape(pair, -1, T(first + x), versed, T(rises * x), height));
+    const Place<S> start{S(0), width}, end{width, S(0)};
+    const auto add_between = [&](const Place<S>& low, const Place<S>& high, int sign) {
+        const auto [x, versed] = zero_within(width, low, high, S(sign), at);
+        shapes.push_back(pair_shape(pair, -1, S(first + x), versed, S(rises * x), height));
     };
     // F turns where  1 - l1/P^3 - r^2 s l1/Q^3 = 0,  r = a2/l2, P = l1 - B = 1 + versed and Q = B - s l1 = x + s l1/(l2 - 1):
     // the bracket has its maximum at Q : P = (r^2 s)^(1/4), and a zero on either side.
-    const T both = pair.other * pair.l1, lower = pair.share * pair.l1, ratio = pair.upper / pair.l2;
-    const T root = sqrt(sqrt(pair.share) * ratio), pull = ratio * lower * ratio;
-    const T top_p = both / (T(1) + root), top_q = root * top_p;
-    const auto turning = [&](const T& p, const T& q) { return T(1) - pair.l1 / (p * p * p) - pull / (q * q * q); };
-    Place<T> low = start, high = start;  // F grows between
-    if (turning(top_p, top_q) > T(0)) {
-        const auto slope = [&](const T& p, const T& q) {  // along Q
-            return T(3) * (pull / (q * q * q) / q - pair.l1 / (p * p * p) / p);
+    const S both = pair.other * pair.l1, lower = pair.share * pair.l1, ratio = pair.upper / pair.l2;
+    const S root = sqrt(sqrt(pair.share) * ratio), top_p = both / (S(1) + root), top_q = root * top_p;
+    const auto first_part = [&](const S& p) { return pair.l1 / p / p / p; };  // cubes may leave the range
+    const auto second_part = [&](const S& q) { return lower / q * (ratio / q) * (ratio / q); };
+    const auto turning = [&](const S& p, const S& q) { return S(1) - first_part(p) - second_part(q); };
+    Place<S> low = start, high = start;  // F grows between
+    if (turning(top_p, top_q) > S(0)) {
+        const auto slope = [&](const S& p, const S& q) {  // along Q
+            return S(3) * (second_part(q) / q - first_part(p) / p);
         };
-        const T q = zero_between(T(0), top_q, [&](const T& at_q) {
-            return std::pair<T, T>(turning(T(both - at_q), at_q), slope(T(both - at_q), at_q));
+        const S q = zero_between(S(0), top_q, [&](const S& at_q) {
+            return std::pair<S, S>(turning(S(both - at_q), at_q), slope(S(both - at_q), at_q));
         });
-        const T p = zero_between(T(0), top_p, [&](const T& at_p) {
-            return std::pair<T, T>(turning(at_p, T(both - at_p)), -slope(at_p, T(both - at_p)));
+        const S p = zero_between(S(0), top_p, [&](const S& at_p) {
+            return std::pair<S, S>(turning(at_p, S(both - at_p)), -slope(at_p, S(both - at_p)));
         });
-        const T x = std::clamp(T(q - lower / rises), T(0), width), versed = std::clamp(T(p - T(1)), T(0), width);
-        low = {x, T(width - x)}, high = {T(width - versed), versed};
+        const S x = std::clamp(S(q - lower / rises), S(0), width), versed = std::clamp(S(p - S(1)), S(0), width);
+        low = {x, S(width - x)}, high = {S(width - versed), versed};
     }
-    const auto value = [&](const Place<T>& place) { return at(place.x, place.left).first; };
+    const auto value = [&](const Place<S>& place) { return at(place.x, place.left).first; };
     if (!(low.x < high.x)) {
         add_between(start, end, -1);
-    } else if (!(value(low) < T(0))) {
+    } else if (!(value(low) < S(0))) {
         add_between(high, end, -1);
-    } else if (!(value(high) > T(0))) {
+    } else if (!(value(high) > S(0))) {
         add_between(start, low, -1);
     } else {
         add_between(high, end, -1);
@@ -182,40 +184,64 @@ void add_opposite_sides(const Pair<T>& pair, const T& height, std::vector<PairSh
 }
 
 /// The lower link upside down: l1 + sec d1 for A, and d1 from the upward vertical. F grows from sec d1 = 1.
-template <Real T>
-std::optional<PairShape<T>> standing_shape(const Pair<T>& pair, const T& height) {
-    const T arm0 = T(1) + pair.l1, rest0 = (pair.l2 - T(1)) * arm0 - pair.share * pair.l1 * pair.l2;
-    if (!(rest0 > T(0))) return std::nullopt;
-    const auto function = [&](const T& x) {
-        return balance(pair, 1, T(-pair.share * pair.l1), T(arm0 + x), x, T(rest0 + (pair.l2 - T(1)) * x));
+template <Real S, Real T>
+std::optional<PairShape<T>> standing_shape(const Pair<S>& pair, const T& height) {
+    const S arm0 = S(1) + pair.l1, rest0 = (pair.l2 - S(1)) * arm0 - pair.share * pair.l1 * pair.l2;
+    if (!(rest0 > S(0))) return std::nullopt;
+    const auto function = [&](const S& x) {
+        return balance(pair, 1, S(-pair.share * pair.l1), S(arm0 + x), x, S(rest0 + (pair.l2 - S(1)) * x));
     };
-    const T x = detail::zero_between(T(0), pair.l2, function);
-    auto shape = pair_shape(pair, 1, T(arm0 + x), x, T(rest0 + (pair.l2 - T(1)) * x), height);
+    const S x = detail::zero_between(S(0), pair.l2, function);
+    auto shape = pair_shape(pair, 1, S(arm0 + x), x, S(rest0 + (pair.l2 - S(1)) * x), height);
     shape.tension[0] = -shape.tension[0];
     return shape;
 }
 
-/// Lengths over the height. Throws where cubes of them would leave the range.
 template <Real T>
-Pair<T> pair_of(std::string_view place, const T& lower, const T& upper, const T& share, const T& other,
-                const T& height) {
+Wide<T> over_height(const Wide<T>& length, const T& height) {
+    using std::frexp;
     using std::ldexp;
-    const Pair<T> pair{lower / height, upper / height, share, other};
+    int power = 0;
+    const T digits = frexp(height, &power);
+    return ldexp(length, -power) / Wide<T>(digits);
+}
+
+/// Lengths over the height, in two words: next to a fold and to the vertical inclinations are ill-conditioned. Throws where
+/// cubes of them would leave the range.
+template <Real T>
+Pair<Wide<T>> pair_of(std::string_view place, const Wide<T>& lower, const Wide<T>& upper, const Wide<T>& share,
+                      const Wide<T>& other, const T& height) {
+    using std::ldexp;
+    const Pair<Wide<T>> pair{over_height(lower, height), over_height(upper, height), share, other};
     const T limit = ldexp(T(1), std::numeric_limits<T>::max_exponent / 3 - 2);
-    if (!(pair.l1 <= limit && pair.l2 <= limit))
+    if (!(static_cast<T>(pair.l1) <= limit && static_cast<T>(pair.l2) <= limit))
         refuse(place, "height must not be smaller than the lengths by more than a third of the range", height);
     return pair;
 }
 
 template <Real T>
-Pair<T> pair_of(std::string_view place, const CompoundLink<T>& link, const T& thread, const T& height) {
-    const T length = link.pendulum_length();
-    return pair_of(place, length, thread, link.share_at_centre_of_oscillation(),
-                   T(link.square_over_centroid() / length), height);
+auto pair_of(std::string_view place, const CompoundLink<T>& link, const T& thread, const T& height) {
+    using S = Wide<T>;
+    const CompoundLink<S> body{S(link.centroid), S(link.radius_of_gyration)};
+    const S length = body.pendulum_length();
+    return pair_of(place, length, S(thread), body.share_at_centre_of_oscillation(),
+                   S(body.square_over_centroid() / length), height);
 }
 
+/// Two plummets as they are asked with, checked.
 template <Real T>
-std::vector<PairShape<T>> pair_shapes(const Pair<T>& pair, const T& height) {
+auto pair_of(std::string_view place, const std::array<std::string_view, 4>& names, const T& lower_weight,
+             const T& lower_thread, const T& upper_weight, const T& upper_thread, const T& height) {
+    using S = Wide<T>;
+    check_plummets(place, names, lower_weight, lower_thread, upper_weight, upper_thread);
+    require_positive(place, "height", height);
+    const T unit = inverse_power_near(std::max(lower_weight, upper_weight));
+    const S w1(lower_weight * unit), w2(upper_weight * unit), both = w1 + w2;
+    return pair_of(place, S(lower_thread), S(upper_thread), S(w1 / both), S(w2 / both), height);
+}
+
+template <Real S, Real T>
+std::vector<PairShape<T>> pair_shapes(const Pair<S>& pair, const T& height) {
     std::vector<PairShape<T>> shapes;
     add_same_side(pair, height, shapes);
     add_opposite_sides(pair, height, shapes);
@@ -226,16 +252,15 @@ std::vector<PairShape<T>> pair_shapes(const Pair<T>& pair, const T& height) {
 
 /// All hanging figures of two plummets at the speed of conical height `height`, by sign changes, then inclination of the
 /// lower thread: §2 (4). Empty above the first of `two_plummets`; at most four.
-/// Accuracy: tangents to 1e-15 height_k / (height_k - height) where the figure leaves the vertical at height_k, and as
-/// the square root of that next to a fold. Cost: a microsecond. Throws InvalidArgument unless all are positive and finite.
+/// Accuracy: inclinations 4 ulp for the data as given, next to a fold and next to the vertical too; computed in two words.
+/// Rounded data change tangents by up to height_k / (height_k - height) times as much, where the figure leaves the vertical
+/// at height_k, and by the square root of their error where two figures meet. Cost: 10 microseconds a figure.
+/// Throws InvalidArgument unless all are positive and finite.
 template <Real T>
 std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lower_thread, const T& upper_weight,
                                               const T& upper_thread, const T& height) {
-    constexpr std::string_view place = "two_plummets_shapes";
-    const auto share =
-        detail::shares_of(place, detail::plummet_names, lower_weight, lower_thread, upper_weight, upper_thread);
-    detail::require_positive(place, "height", height);
-    return detail::pair_shapes(detail::pair_of(place, lower_thread, upper_thread, share.lower, share.upper, height),
+    return detail::pair_shapes(detail::pair_of("two_plummets_shapes", detail::plummet_names, lower_weight, lower_thread,
+                                               upper_weight, upper_thread, height),
                                height);
 }
 
@@ -257,10 +282,9 @@ std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundL
 template <Real T>
 std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, const T& rod, const T& hung_weight,
                                                    const T& thread, const T& height) {
-    constexpr std::string_view place = "standing_plummet_shape";
-    const auto share = detail::shares_of(place, detail::standing_names, standing_weight, rod, hung_weight, thread);
-    detail::require_positive(place, "height", height);
-    return detail::standing_shape(detail::pair_of(place, rod, thread, share.lower, share.upper, height), height);
+    return detail::standing_shape(detail::pair_of("standing_plummet_shape", detail::standing_names, standing_weight, rod,
+                                                  hung_weight, thread, height),
+                                  height);
 }
 
 /// The same of a compound link that stands on its lowest point, §6 (12) with the secants of (10): both tensions are that

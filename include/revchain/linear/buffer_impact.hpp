@@ -83,9 +83,9 @@ inline double BufferImpact::Phase::first_zero(double sign, double end, long& ste
         if (++steps % 1024 == 0) detail::look();
         if (steps > most_steps)
             detail::refuse("BufferImpact",
-                           "masses or stiffnesses are too unlike: take ratios nearer to 1; the times of the blows need "
-                           "more steps than are allowed",
-                           steps);
+                           "masses and stiffnesses must be nearer each other: the times of the blows take too many steps; "
+                           "angular frequency of the faster swing",
+                           *std::max_element(frequency.begin(), frequency.end()));
         const CarriageState s = at(t);
         const double offset = t == 0 ? 0 : std::max(0.0, sign * s.front), speed = sign * s.front_speed;
         const double root = std::sqrt(speed * speed + 2 * largest * offset);
@@ -129,10 +129,11 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
     const double l2 = (given.front_mass + given.rear_mass) / given.buffer_stiffness;
     check("rear mass over coupling stiffness", l1), check("masses over buffer stiffness", l2);
     const HeightPair<double> height = two_plummets(given.rear_mass, l1, given.front_mass, l2);
-    const double half = (l2 - l1) / 2, coupling = given.rear_mass / (given.front_mass + given.rear_mass) * l1 * l2;
-    const double root = std::sqrt(half * half + coupling);
-    const double above = half > 0 ? half + root : coupling / (root - half);  // first height over l1
-    ratio_ = {height[0] / above, -height[1] / (coupling / above)};           // l / (l - l1)
+    const double half = (l2 - l1) / 2, share = given.rear_mass / (given.front_mass + given.rear_mass);
+    const double coupling = std::sqrt(share) * std::sqrt(l1) * std::sqrt(l2), root = std::hypot(half, coupling);
+    const double above = half > 0 ? half + root : coupling * (coupling / (root - half));  // first height over l1
+    const double ratio = height[0] / above;                         // l / (l - l1)
+    ratio_ = {ratio, -(given.front_mass / given.rear_mass) / ratio};  // modes are orthogonal in the masses
     frequency_ = {1 / std::sqrt(height[0]), 1 / std::sqrt(height[1])};
 
     constexpr std::size_t most = 100'000;
@@ -148,6 +149,9 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
         blows_.push_back(
             {time, time + lasts,
              given.speed * (inwards - given.front_mass * state.front_speed - given.rear_mass * state.rear_speed)});
+        if (!std::isfinite(blows_.back().impulse) || !std::isfinite(blows_.back().end))
+            detail::refuse("BufferImpact", "speed, masses and stiffnesses must be so near 1 that impulses and times do not "
+                           "overflow; speed", given.speed);
         time += lasts;
         phases_.push_back(freedom(time, state));
         const Phase& free = phases_.back();
@@ -159,7 +163,8 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
         state = free.at(away);
         time += away;
     }
-    detail::refuse("BufferImpact", "more blows than can be followed", static_cast<double>(most));
+    detail::refuse("BufferImpact", "masses must be so near each other that there are at most 100,000 blows; rear over front "
+                   "mass", given.rear_mass / given.front_mass);
 }
 
 inline CarriageState BufferImpact::operator()(double time) const {
@@ -171,6 +176,9 @@ inline CarriageState BufferImpact::operator()(double time) const {
     CarriageState state = phase->at(time - phase->start);
     for (double* each : {&state.front, &state.rear, &state.front_speed, &state.rear_speed}) *each *= given_.speed;
     if ((phase - phases_.begin()) % 2 == 0) state.buffer_force = given_.buffer_stiffness * std::max(0.0, state.front);
+    if (!std::isfinite(state.front + state.rear) || !std::isfinite(state.front_speed + state.rear_speed) ||
+        !std::isfinite(state.buffer_force))
+        detail::refuse("BufferImpact", "time must be so small that places and speeds do not overflow", time);
     return state;
 }
 

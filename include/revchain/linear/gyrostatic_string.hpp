@@ -4,6 +4,7 @@
 #include <array>
 
 #include "revchain/core/conical_pendulum.hpp"
+#include "revchain/core/product.hpp"
 
 namespace revchain {
 
@@ -34,6 +35,13 @@ struct LinkPhase {
 
 namespace detail {
 
+/// X/W.
+template <Real T>
+T share_across(const GyrostaticString<T>& s) {
+    const T p = s.centroid / s.length, r = s.radius_of_gyration / s.length;
+    return p * (T(1) - p) - r * r;
+}
+
 template <Real T>
 void check(std::string_view place, const GyrostaticString<T>& s) {
     using std::isfinite;
@@ -43,21 +51,25 @@ void check(std::string_view place, const GyrostaticString<T>& s) {
     if (!isfinite(s.centroid)) refuse(place, "centroid must be finite", s.centroid);
     if (!isfinite(s.radius_of_gyration) || s.radius_of_gyration < T(0))
         refuse(place, "radius of gyration must be finite and not negative", s.radius_of_gyration);
+    if (!isfinite(share_across(s)))
+        refuse(place, "length must not be so small that centroid or radius of gyration over it, squared, overflow",
+               s.length);
 }
 
-/// X/W.
+/// n H/a^2 over the inertia W n^2/g.
 template <Real T>
-T share_across(const GyrostaticString<T>& s) {
-    const T p = s.centroid / s.length, r = s.radius_of_gyration / s.length;
-    return p * (T(1) - p) - r * r;
+Product<T> spin_ratio(const GyrostaticString<T>& s, const T& n) {
+    return Product<T>::of(s.momentum).over(s.length).over(s.length).over(s.weight).times(s.gravity).over(n);
 }
 
 /// sin^2 and cos^2 of half the phase; of any sign where the wave does not pass.
 template <Real T>
-std::array<T, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
-    const T inertia = n * n / s.gravity * s.weight;
-    const T stiffness = (s.tension + n * s.momentum / s.length) / s.length + inertia * share_across(s);
-    return {inertia / (T(4) * stiffness), (stiffness - inertia / T(4)) / stiffness};
+std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
+    using P = Product<T>;
+    if (n == T(0)) return {P{T(0)}, P{T(1)}};
+    const P pull = P::of(s.tension).over(s.length).over(s.weight).times(s.gravity).over(n).over(n);
+    const P stiffness = pull.plus(spin_ratio(s, n)).plus(share_across(s));  // over the inertia
+    return {P{T(1)}.over(stiffness).over(T(4)), stiffness.plus(T(-0.25)).over(stiffness)};
 }
 
 }  // namespace detail
@@ -71,13 +83,12 @@ LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_spee
     using std::asinh;
     using std::atan2;
     using std::isfinite;
-    using std::sqrt;
     detail::check("link_phase", string);
     if (!isfinite(angular_speed)) detail::refuse("link_phase", "angular speed must be finite", angular_speed);
     const auto [sine, cosine] = detail::half_phase(string, angular_speed);
-    if (sine < T(0)) return {T(0), T(2) * asinh(sqrt(-sine))};
-    if (cosine < T(0)) return {T(4) * atan2(T(1), T(1)), T(2) * asinh(sqrt(-cosine))};
-    return {T(2) * atan2(sqrt(sine), sqrt(cosine)), T(0)};
+    if (sine.fraction < T(0)) return {T(0), T(2) * asinh(sine.times(T(-1)).root().value())};
+    if (cosine.fraction < T(0)) return {std::numbers::pi_v<T>, T(2) * asinh(cosine.times(T(-1)).root().value())};
+    return {T(2) * atan2(sine.root().value(), cosine.root().value()), T(0)};
 }
 
 /// The two speeds of a circular wave with a phase: forward (positive) and backward. Accuracy: 4 ulp, with one more for
@@ -85,17 +96,20 @@ LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_spee
 template <Real T>
 std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) {
     using std::abs;
-    using std::hypot;
     using std::sin;
-    using std::sqrt;
     detail::check("wave_speeds", string);
     if (!(phase > T(0)) || !(phase <= std::numbers::pi_v<T>))
         detail::refuse("wave_speeds", "phase must lie above 0 and not above pi", phase);
-    const T half = sin(phase / T(2)), sine = T(4) * half * half;
-    const T A = string.weight / string.gravity * (T(1) - sine * detail::share_across(string));
-    const T B = sine * string.momentum / string.length / string.length, C = sine * string.tension / string.length;
-    const T q = (abs(B) + hypot(B, T(2) * sqrt(A) * sqrt(C))) / T(2);
-    return B < T(0) ? std::array<T, 2>{C / q, -(q / A)} : std::array<T, 2>{q / A, -(C / q)};
+    using P = detail::Product<T>;
+    const T chord = phase < epsilon<T>() ? phase : T(2) * sin(phase / T(2));
+    // A n^2 - B n - C = 0, over chord^2 but for A
+    const P A = P::of(string.weight).over(string.gravity).times(T(1) - chord * chord * detail::share_across(string));
+    const P B = P::of(abs(string.momentum)).over(string.length).over(string.length).times(chord);
+    const P C = P::of(string.tension).over(string.length);
+    const P q = B.plus(B.times(B).plus(A.times(C).times(T(4))).root()).over(T(2));
+    const T slower = C.over(q).times(chord).value();
+    const T faster = B.fraction > T(0) ? q.over(A).times(chord).value() : slower;
+    return string.momentum < T(0) ? std::array<T, 2>{slower, -faster} : std::array<T, 2>{faster, -slower};
 }
 
 /// By how much the plane of a to-and-fro vibration turns from link to link, rad, in the sense of a positive momentum: half
@@ -105,18 +119,17 @@ std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) 
 template <Real T>
 T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asin;
-    using std::sqrt;
     detail::check("plane_rotation", string);
     detail::require_positive("plane_rotation", "angular speed", angular_speed);
     const auto [ahead, ahead_rest] = detail::half_phase(string, angular_speed);
     const auto [back, back_rest] = detail::half_phase(string, T(-angular_speed));
-    if (ahead < T(0) || ahead_rest < T(0) || back < T(0) || back_rest < T(0))
-        return std::numeric_limits<T>::quiet_NaN();
+    for (const auto& square : {ahead, ahead_rest, back, back_rest})
+        if (square.fraction < T(0)) return std::numeric_limits<T>::quiet_NaN();
+    if (string.momentum == T(0)) return T(0);
     // sin^2 - sin^2 of the halves, in which the tension cancels
-    const T turn = angular_speed * string.momentum / string.length / string.length;
-    const T inertia = angular_speed * angular_speed / string.gravity * string.weight;
-    const T difference = T(8) * turn * (ahead / inertia) * back;
-    return asin(difference / (sqrt(back) * sqrt(ahead_rest) + sqrt(ahead) * sqrt(back_rest)));
+    const auto difference = detail::spin_ratio(string, angular_speed).times(T(8)).times(ahead).times(back);
+    const auto sum = back.times(ahead_rest).root().plus(ahead.times(back_rest).root());
+    return asin(difference.over(sum).value());
 }
 
 }  // namespace revchain

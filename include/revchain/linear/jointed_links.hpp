@@ -21,11 +21,12 @@ struct JointedLinks {
 namespace detail {
 
 /// With m = W2 h2/(W1 a2), (14) is  (lambda sec d1 - l1)(lambda sec d2 - p) = c,  p = (m l2 + a2)/(m + 1),
-/// c = a2 h1/(m + 1). Lengths times `unit`, a power of two.
+/// c = a2 h1/(m + 1). Lengths times `unit`, a power of two. In two words.
 template <Real T>
 struct JointedNumbers {
-    T unit, l1, p;
-    T share, other;  ///< c/(l1 p) and 1 - c/(l1 p), without a difference
+    T unit;
+    Wide<T> l1, p;
+    Wide<T> share, other;  ///< c/(l1 p) and 1 - c/(l1 p), without a difference
 };
 
 template <Real T>
@@ -50,45 +51,43 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
     const T by = inverse_power_near(max(links.lower_weight, links.upper_weight));
     if (links.lower_weight * by * length_span<T>() < T(1) || links.upper_weight * by * length_span<T>() < T(1))
         refuse(place, "weights must not be more than 1e77 apart; lower weight", links.lower_weight);
-    const T w1 = links.lower_weight * by, w2 = links.upper_weight * by;
-    const T a2 = links.upper_length * unit, h2 = links.upper_centroid * unit,
-            k2 = links.upper_radius_of_gyration * unit;
     using S = Wide<T>;  // of a bell hung below its centroid the moment is a difference
-    const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
-    const T hung = static_cast<T>(S(wide(w1) * wide(a2) + wide(w2) * wide(h2)));  // W1 a2 (m + 1)
-    if (!(hung > T(0)))
+    const S w1(links.lower_weight * by), w2(links.upper_weight * by);
+    const S a2(links.upper_length * unit), h2(links.upper_centroid * unit), k2(links.upper_radius_of_gyration * unit);
+    const S hung = w1 * a2 + w2 * h2;  // W1 a2 (m + 1)
+    if (!(hung > S(T(0))))
         refuse(place,
                "the upper link would stand, not hang: upper weight x upper centroid + upper length x lower weight "
                "must be positive, with an upper centroid of",
                links.upper_centroid);
-    const T l1 = links.lower.pendulum_length() * unit, turn = w2 * (h2 * h2 + k2 * k2), pull = w1 * a2 * a2;
-    const T behind = links.lower.square_over_centroid() * unit;  // l1 - h1
-    return {unit, l1, (turn + pull) / hung, pull / (turn + pull) * links.lower.share_at_centre_of_oscillation(),
-            (turn + pull * (behind / l1)) / (turn + pull)};
+    const CompoundLink<S> lower{S(links.lower.centroid * unit), S(links.lower.radius_of_gyration * unit)};
+    const S l1 = lower.pendulum_length(), turn = w2 * (h2 * h2 + k2 * k2), pull = w1 * a2 * a2;
+    return {unit, l1, (turn + pull) / hung, pull / (turn + pull) * lower.share_at_centre_of_oscillation(),
+            (turn + pull * (lower.square_over_centroid() / l1)) / (turn + pull)};
 }
 
 }  // namespace detail
 
 /// Both conical heights of two jointed links: of a2 h1/(lambda - l1) = (m + 1)(lambda - l2) + l2 - a2, §8 (14), and where
 /// l2 = a2, of (lambda - l1)(lambda - l2) = l2 h1/(m + 1), (15). The lower is 0 where neither link has a radius of gyration
-/// and the upper one's centroid is at its support. Accuracy: 3 ulp for every root, measured
+/// and the upper one's centroid is at its support. Accuracy: 1 ulp for every root, measured
 /// (tests/cpp/finite/jointed_links.cpp).
 /// Throws InvalidArgument for numbers out of range, lengths or weights more than 1e77 apart (in double), and where
 /// W2 h2 + W1 a2 is not positive.
 template <Real T>
 HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     const auto n = detail::jointed_numbers("jointed_links", links);
-    const T product = n.l1 * n.p;
-    auto roots = detail::coupled_roots(n.l1, n.p, T(n.share * product), T(n.other * product));
-    for (T& root : roots) root = root / n.unit;
-    return roots;
+    const Wide<T> product = n.l1 * n.p;
+    const auto roots = detail::coupled_roots<Wide<T>>(n.l1, n.p, n.share * product, n.other * product);
+    return {static_cast<T>(roots[0]) / n.unit, static_cast<T>(roots[1]) / n.unit};
 }
 
 /// How far below its support a bell must carry its clapper's pin so that both swing, or whirl at any inclination, in one
 /// line as if clamped, and the bell never rings:  h1 = (m + 1) l1 + m (a2 - l2), §8 (16), is
 /// a2 = w (l2 - l1)/(w + l1 - h1),  w = W2 h2/W1. The height of that motion is l1 + a2.
-/// Accuracy: 2 ulp, times (l1 + l2)/(l2 - l1). Throws InvalidArgument for numbers out of range, and where the clapper's
-/// pendulum length is not the shorter: then every pin lets it ring.
+/// Accuracy: 4 ulp, for the data as given, however near l1 and l2 are; the pin changes by up to
+/// 4 (l1 + l2)/(l2 - l1) times as much as the data, in ratio. Throws InvalidArgument for numbers out of range, and where the
+/// clapper's pendulum length is not the shorter: then every pin lets it ring.
 template <Real T>
 T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const T& clapper_weight,
                         const CompoundLink<T>& clapper) {
@@ -98,7 +97,7 @@ T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const
     detail::require_positive(place, "clapper weight", clapper_weight);
     detail::check(place, clapper);
     using std::max;
-    const T longer = bell.pendulum_length() - clapper.pendulum_length();
+    const T longer = detail::pendulum_difference(bell, clapper);
     if (!(longer > T(0)))
         detail::refuse(place, "the clapper's pendulum length must be less than the bell's", clapper.pendulum_length());
     const T heavy = max(bell_weight, clapper_weight), w1 = clapper_weight / heavy, w2 = bell_weight / heavy;

@@ -8,8 +8,8 @@
 #include "revchain/linear/compound_link.hpp"
 
 /// Two links, or one with something that yields: every case is a quadratic  lambda^2 - sum lambda + product = 0  in the
-/// conical height, its roots taken without a difference of like numbers. Greenhill (1908) §2 and §6. No square of a
-/// length leaves the range: lengths are counted in powers of two near the largest.
+/// conical height, its roots taken without a difference of like numbers. Greenhill (1908) §2 and §6. No product leaves the
+/// range: a height is 0 only where it is below the range itself.
 /// Accuracy: 3 ulp for every root, measured (tests/cpp/paper/section_2.cpp). All throw InvalidArgument for lengths and
 /// weights that are not positive and finite, unless said otherwise.
 namespace revchain {
@@ -20,6 +20,16 @@ using HeightPair = std::array<T, 2>;
 
 namespace detail {
 
+/// 2^-e with 2^e near x: what lengths are multiplied by before they are squared.
+template <Real T>
+T inverse_power_near(const T& x) {
+    using std::frexp;
+    using std::ldexp;
+    int exponent = 0;
+    frexp(x, &exponent);
+    return ldexp(T(1), std::min(-exponent, std::numeric_limits<T>::max_exponent - 1));
+}
+
 /// Roots of (lambda - p)(lambda - q) = coupling, p, q, coupling > 0 and coupling < p q given as  rest = p q - coupling.
 template <Real T>
 HeightPair<T> coupled_roots(const T& p, const T& q, const T& coupling, const T& rest) {
@@ -29,45 +39,51 @@ HeightPair<T> coupled_roots(const T& p, const T& q, const T& coupling, const T& 
     return {larger, rest / larger};
 }
 
-/// The positive root of (p + lambda)(q - lambda) = coupling,  rest = p q - coupling > 0.
+/// The same of numbers whose products may leave the range.
 template <Real T>
-T standing_root(const T& p_less_q, const T& rest) {
-    using std::sqrt;
-    const T b = p_less_q / T(2), root = sqrt(b * b + rest);
-    return b > T(0) ? rest / (b + root) : root - b;
+HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, const Product<Wide<T>>& coupling,
+                            const Product<Wide<T>>& rest) {
+    using std::abs;
+    using std::hypot;
+    using std::max;
+    const T half_difference = abs(p - q) / T(2), root = static_cast<T>(coupling.root().value());
+    const T divisor = half_difference + hypot(half_difference, root);  // 0 where all is next to nothing
+    const T larger = max(p, q) + (divisor > T(0) ? static_cast<T>(coupling.over(divisor).value()) : root);
+    require_positive(place, "the larger height", larger);
+    return {larger, static_cast<T>(rest.over(larger).value())};
 }
 
-/// Of two weights, what share of both each is.
+/// The positive root of (p + lambda)(q - lambda) = coupling,  rest = p q - coupling > 0.
 template <Real T>
-struct Shares {
-    T lower, upper;
-};
+T standing_root(const T& p_less_q, const Product<Wide<T>>& rest) {
+    using std::hypot;
+    const T b = p_less_q / T(2), root = hypot(b, static_cast<T>(rest.root().value()));
+    return b > T(0) ? static_cast<T>(rest.over(b + root).value()) : root - b;
+}
 
-/// Two plummets as they are asked with, checked: `lower` and `upper` say what weight and thread are called.
+/// The upper one's share of both weights, times both threads.
 template <Real T>
-Shares<T> shares_of(std::string_view place, const std::array<std::string_view, 4>& names, const T& lower_weight,
+Product<Wide<T>> upper_share(const T& lower_weight, const T& lower_thread, const T& upper_weight,
+                             const T& upper_thread) {
+    using S = Wide<T>;
+    using P = Product<S>;
+    const P both = P::of(S(lower_weight)).plus(upper_weight);
+    return P::of(S(upper_weight)).times(lower_thread).times(upper_thread).over(both);
+}
+
+/// Refuses two plummets as they are asked with: `names` are of the lower weight and thread, then the upper ones.
+template <Real T>
+void check_plummets(std::string_view place, const std::array<std::string_view, 4>& names, const T& lower_weight,
                     const T& lower_thread, const T& upper_weight, const T& upper_thread) {
     require_positive(place, names[0], lower_weight);
     require_positive(place, names[1], lower_thread);
     require_positive(place, names[2], upper_weight);
     require_positive(place, names[3], upper_thread);
-    using std::max;
-    const T heavy = max(lower_weight, upper_weight), w1 = lower_weight / heavy, w2 = upper_weight / heavy;
-    return {w1 / (w1 + w2), w2 / (w1 + w2)};
 }
 inline constexpr std::array<std::string_view, 4> plummet_names{"lower weight", "lower thread", "upper weight",
                                                                "upper thread"};
 inline constexpr std::array<std::string_view, 4> standing_names{"standing weight", "rod", "hung weight", "thread"};
 
-/// 2^-e with 2^e near x: what lengths are multiplied by before they are squared.
-template <Real T>
-T inverse_power_near(const T& x) {
-    using std::frexp;
-    using std::ldexp;
-    int exponent = 0;
-    frexp(x, &exponent);
-    return ldexp(T(1), -exponent);
-}
 
 }  // namespace detail
 
@@ -75,14 +91,11 @@ T inverse_power_near(const T& x) {
 /// W1 l1 l2 / (W1 + W2), §2 (5).
 template <Real T>
 HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread, const T& upper_weight, const T& upper_thread) {
-    const auto share = detail::shares_of("two_plummets", detail::plummet_names, lower_weight, lower_thread,
-                                         upper_weight, upper_thread);
-    using std::max;
-    const T unit = detail::inverse_power_near(max(lower_thread, upper_thread));
-    const T l1 = lower_thread * unit, l2 = upper_thread * unit;
-    auto roots = detail::coupled_roots(l1, l2, T(share.lower * l1 * l2), T(share.upper * l1 * l2));
-    for (T& root : roots) root = root / unit;
-    return roots;
+    constexpr std::string_view place = "two_plummets";
+    detail::check_plummets(place, detail::plummet_names, lower_weight, lower_thread, upper_weight, upper_thread);
+    const auto coupling = detail::upper_share(upper_weight, upper_thread, lower_weight, lower_thread);
+    return detail::coupled_roots(place, lower_thread, upper_thread, coupling,
+                              detail::upper_share(lower_weight, lower_thread, upper_weight, upper_thread));
 }
 
 /// The same from the total length of thread 2 a, the distance x of the upper plummet from its middle (either side) and
@@ -120,12 +133,8 @@ template <Real T>
 HeightPair<T> hung_link(std::string_view place, std::string_view name, const T& thread, const CompoundLink<T>& link) {
     require_positive(place, name, thread);
     check(place, link);
-    using std::max;
-    const T l = link.pendulum_length(), unit = inverse_power_near(max(thread, l));
-    const T a = thread * unit, h = link.centroid * unit;
-    auto roots = coupled_roots(T(l * unit), a, T(a * h), T(a * (link.square_over_centroid() * unit)));
-    for (T& root : roots) root = root / unit;
-    return roots;
+    const auto coupling = Product<Wide<T>>{}.times(thread).times(link.centroid);
+    return coupled_roots(place, link.pendulum_length(), thread, coupling, link.squares_over_centroid().times(thread));
 }
 }  // namespace detail
 
@@ -142,10 +151,8 @@ template <Real T>
 T standing_link(const T& thread, const CompoundLink<T>& link) {
     detail::require_positive("standing_link", "thread", thread);
     detail::check("standing_link", link);
-    using std::max;
-    const T l = link.pendulum_length(), unit = detail::inverse_power_near(max(thread, l)), a = thread * unit;
-    const T k2_over_h = link.square_over_centroid() * unit;
-    return detail::standing_root(T((link.centroid * unit - a) + k2_over_h), T(a * k2_over_h)) / unit;
+    return detail::standing_root(T((link.centroid - thread) + link.square_over_centroid()),
+                                 link.squares_over_centroid().times(thread));
 }
 
 /// The thread on which a link stands at a given height lambda: a = lambda (l + lambda) / (l + lambda - h), §6 (13).
@@ -153,19 +160,17 @@ template <Real T>
 T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
     detail::require_positive("thread_of_standing_link", "height", height);
     detail::check("thread_of_standing_link", link);
-    const T rest = link.square_over_centroid() + height;
-    return height * ((rest + link.centroid) / rest);
+    const Wide<T> rest = link.squares_over_centroid().value() + Wide<T>(height);
+    using P = detail::Product<Wide<T>>;
+    return static_cast<T>(P::of(rest + Wide<T>(link.centroid)).over(rest).times(height).value());
 }
 
 /// Height of a plummet that stands above another on a stiff weightless rod, the lower one hung by a thread:
 /// (l1 + lambda)(l2 - lambda) = W1 l1 l2 / (W1 + W2), §2 (8). For small inclinations there always is one.
 template <Real T>
 T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight, const T& thread) {
-    const auto share =
-        detail::shares_of("standing_plummet", detail::standing_names, standing_weight, rod, hung_weight, thread);
-    using std::max;
-    const T unit = detail::inverse_power_near(max(rod, thread)), l1 = rod * unit, l2 = thread * unit;
-    return detail::standing_root(T(l1 - l2), T(share.upper * l1 * l2)) / unit;
+    detail::check_plummets("standing_plummet", detail::standing_names, standing_weight, rod, hung_weight, thread);
+    return detail::standing_root(T(rod - thread), detail::upper_share(standing_weight, rod, hung_weight, thread));
 }
 
 /// What a spring of stiffness E yields to the weight hung from it, W/E: it moves as a thread of that length does, §2 (7).
@@ -184,8 +189,8 @@ HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
 }
 
 /// By how much a clock is slow, seconds a day, whose pendulum hangs from a support that yields by `deflection` to its
-/// weight: 86400 (1 - sqrt(l / lambda)) for a clock right on a firm one. Accuracy: 8 ulp however small,
-/// and where deflection c and pendulum length l nearly agree as many times 1 + sqrt(l/h): that is how well l says it.
+/// weight: 86400 (1 - sqrt(l / lambda)) for a clock right on a firm one. Accuracy: 8 ulp however small, and however near
+/// deflection and pendulum length l are.
 template <Real T>
 T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     using std::max;
@@ -193,7 +198,8 @@ T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     detail::require_positive("seconds_lost_per_day", "deflection", deflection);
     detail::check("seconds_lost_per_day", link);
     const T unit = detail::inverse_power_near(max(deflection, link.pendulum_length()));
-    const T l = link.pendulum_length() * unit, c = deflection * unit, half = (c - l) / T(2);
+    const T l = link.pendulum_length() * unit, c = deflection * unit;
+    const T half = detail::pendulum_difference(CompoundLink<T>{deflection, T(0)}, link) * unit / T(2);
     const T coupling = c * (link.centroid * unit), root = sqrt(half * half + coupling);
     const T whole_square = l + (half < T(0) ? coupling / (root - half) : half + root),
             whole = sqrt(whole_square);  // lambda
