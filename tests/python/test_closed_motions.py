@@ -34,6 +34,10 @@ def exactly(*numbers):
     return [mp.mpf(float(number)) for number in numbers]
 
 
+def random(count, low, high):
+    return np.random.default_rng(count).uniform(low, high, count)
+
+
 def close(found, exact, relative):
     return abs(mp.mpf(float(found)) - exact) <= relative * abs(exact)
 
@@ -131,6 +135,10 @@ IMPACTS = [
     dict(front_mass=1, rear_mass=50, buffer_stiffness=1000, coupling_stiffness=2, speed=1),
     dict(front_mass=1e4, rear_mass=3e4, buffer_stiffness=1e6, coupling_stiffness=1e8, speed=0.4),
     dict(front_mass=30, rear_mass=1, buffer_stiffness=1, coupling_stiffness=7, speed=1),
+]
+IMPACTS += [
+    dict(front_mass=10.0**m, rear_mass=1.0, buffer_stiffness=10.0**b, coupling_stiffness=10.0**c, speed=10.0**v)
+    for m, b, c, v in random(32, -1, 1).reshape(8, 4) * [1, 2, 2, 9]
 ]
 many = pytest.mark.parametrize("numbers", IMPACTS)
 
@@ -529,6 +537,7 @@ def rope_of(span, complementary):
 QUANTITIES = ("span", "length", "slack", "sag", "height_times_tension")
 PAIRS = list(itertools.combinations(QUANTITIES, 2))
 FORMS = [1 - 1e-15, 1 - 1e-8, 0.999, 0.8, 0.3, 1e-2, 1e-5]
+FORMS += [1 - 10.0**e for e in random(2, -15, -1)] + [10.0**e for e in random(4, -6, 0)]
 
 
 def logarithms(u, v):
@@ -800,7 +809,9 @@ class Tortuous:
 
 
 RADII = [(0.5, 1.0), (0.0, 1.0), (1.0, 1.0), (1e-6, 1.0), (1e-150, 1.0), (0.999999, 1.0), (1e-9, 1e-8), (3.0, 40.0)]
-SPEEDS = [(5.0, 2.0), (0.1, 2.0), (50.0, 1e-3)]
+RADII += [(10.0**e, 10.0**f) for e, f in zip(random(12, -30, -1), random(12, 0, 3), strict=True)]
+RADII += [(1 - 10.0**e, 1.0) for e in random(6, -15, 0)]
+SPEEDS = [(5.0, 2.0), (0.1, 2.0), (50.0, 1e-3), *((10.0**e, 10.0**f) for e, f in random(24, -6, 6).reshape(12, 2))]
 
 
 @pytest.mark.parametrize("radii", RADII)

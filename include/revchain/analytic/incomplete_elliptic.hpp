@@ -65,17 +65,24 @@ struct Amplitude {
     double sine, cosine, delta, half_turns;
 
     Amplitude(double angle, const EllipticModulus& modulus) : half_turns(std::nearbyint(angle / std::numbers::pi)) {
-        constexpr double rest_of_pi = std::numbers::pi_v<DoubleDouble>.low();
-        const double within = std::fma(-half_turns, std::numbers::pi, angle) - half_turns * rest_of_pi;
-        sine = std::sin(within), cosine = std::cos(within);
+        // In two words: next to an odd number of quarter turns the cosine is a difference of the two.
+        const DoubleDouble within = DoubleDouble(angle) - DoubleDouble(half_turns) * std::numbers::pi_v<DoubleDouble>;
+        const double s = std::sin(within.high()), c = std::cos(within.high());
+        sine = s + within.low() * c, cosine = c - within.low() * s;
         delta = std::hypot(cosine, modulus.complementary_modulus() * sine);
+        keep_within();
     }
     /// Next to a quarter turn the amplitude, rounded, does not say on which side of it: cn does.
-    explicit Amplitude(const JacobiValues& f) : half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
+    explicit Amplitude(const JacobiValues& f) : delta(f.dn), half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
         const bool odd = std::fmod(half_turns, 2.0) != 0;
-        sine = odd ? -f.sn : f.sn, cosine = odd ? -f.cn : f.cn, delta = f.dn;
+        sine = odd ? -f.sn : f.sn, cosine = odd ? -f.cn : f.cn;
+        keep_within();
+    }
+
+   private:
+    void keep_within() {
         if (cosine >= 0) return;
-        half_turns += f.amplitude / std::numbers::pi > half_turns ? 1 : -1;
+        half_turns += sine > 0 ? 1 : -1;
         sine = -sine, cosine = -cosine;
     }
 };

@@ -1,0 +1,846 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Claims of accuracy with a number, each against mpmath over the domain that its docstring states, edges included.
+
+The list of all claims and of their tests is in docs/accuracy.md, "Claims and their tests".
+"""
+
+import math
+import re
+from pathlib import Path
+
+import mpmath as mp
+import numpy as np
+import pytest
+from exact import heights_of, stored_links
+
+import revchain as rc
+from revchain import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
+
+ULP = 2.0**-52
+TINY, HUGE = mp.mpf(2) ** -1021, mp.mpf(2) ** 1023
+SAMPLES = 150
+
+pytestmark = pytest.mark.usefixtures("digits")
+
+
+@pytest.fixture
+def digits():
+    with mp.workdps(60):
+        yield
+
+
+# Random data ---------------------------------------------------------------------------------------------------------
+
+
+class Draw:
+    """Random numbers of one test: the seed is the name of the claim."""
+
+    def __init__(self, name):
+        self.rng = np.random.default_rng(list(name.encode()))
+
+    def uniform(self, low, high):
+        return float(self.rng.uniform(low, high))
+
+    def power(self, low, high):
+        """Ten to a power between the two."""
+        return 10.0 ** self.uniform(low, high)
+
+    def near_one(self):
+        """Next to 1 on either side: by 1/2 down to a rounding."""
+        return 1 + float(self.rng.choice([-1, 1])) * 2.0 ** -self.uniform(1, 52)
+
+    def lengths(self, count, spread=(0.3, 6, 40)):
+        """Positive numbers about one scale from 1e-150 to 1e150; in one draw of three two of them nearly agree."""
+        scale, decades = self.power(-150, 150), float(self.rng.choice(spread))
+        numbers = [scale * self.power(-decades, decades) for _ in range(count)]
+        if count > 1 and self.rng.random() < 1 / 3:
+            one, other = self.rng.permutation(count)[:2]
+            numbers[one] = numbers[other] * self.near_one()
+        return numbers
+
+    def anything(self, count):
+        """Positive numbers from 1e-150 to 1e150, each by itself."""
+        return [self.power(-150, 150) for _ in range(count)]
+
+    def link(self, centroid):
+        """A radius of gyration for a centroid: none, any."""
+        return 0.0 if self.rng.random() < 0.2 else centroid * self.power(-8, 3)
+
+
+def exactly(*numbers):
+    return [mp.mpf(float(number)) for number in numbers]
+
+
+def ulps(found, exact):
+    """Error in ulp of the exact number; 0 where that is beyond the normal numbers."""
+    if exact == 0:
+        return 0.0 if found == 0 else math.inf
+    return float(abs(mp.mpf(float(found)) - exact) / abs(exact) / ULP) if TINY < abs(exact) < HUGE else 0.0
+
+
+def worst_of(name, draw, found, exact, samples=SAMPLES):
+    """The largest error over what is allowed. `exact` gives pairs of a number and the error allowed, in ulp."""
+    given, worst = Draw(name), (0.0, None)
+    for _ in range(samples):
+        arguments = draw(given)
+        results = np.ravel(found(*arguments)).tolist()
+        for result, (truth, allowed) in zip(results, exact(*exactly(*arguments)), strict=True):
+            worst = max(worst, (ulps(result, truth) / float(allowed), arguments), key=lambda each: each[0])
+    return worst
+
+
+# Closed forms --------------------------------------------------------------------------------------------------------
+
+
+def roots_of(total, product):
+    """Roots of x^2 - total x + product, the larger first."""
+    root = mp.sqrt(total**2 / 4 - product)
+    larger = abs(total) / 2 + root
+    return [larger, product / larger] if total > 0 else [product / -larger, -larger]
+
+
+def within(allowed, *numbers):
+    return [(number, allowed) for number in numbers]
+
+
+def pendulum(h, k):
+    return h + k**2 / h
+
+
+def inclined(l, x):  # noqa: E741
+    if x >= l:
+        return within(3, mp.mpf(0), mp.mpf(0), l, mp.mpf(1))
+    r = mp.sqrt((l - x) * (l + x))
+    return within(3, mp.atan2(r, x), r, x, l / x)
+
+
+def a_plummet(d):
+    length, height = d.lengths(2)
+    return (length, length / (1 + d.power(-15, 15))) if d.rng.random() < 0.6 else (length, height)
+
+
+def a_link_on_a_thread(d):
+    thread, centroid = d.lengths(2, (0.3, 6, 12))
+    return thread, centroid, d.link(centroid)
+
+
+def two_weights_and_lengths(d):
+    (w1, w2), (l1, l2) = d.lengths(2, (0.3, 6)), d.lengths(2, (0.3, 6, 12))
+    return w1, l1, w2, l2
+
+
+def from_the_middle(d):
+    half, share = d.power(-150, 150), d.uniform(-1, 1) * (1 if d.rng.random() < 0.5 else d.power(-12, 0))
+    if d.rng.random() < 0.5:
+        return half, half * share, d.power(-12, 12)
+    ratio = -d.uniform(0, 1) * (1 if d.rng.random() < 0.5 else d.power(-12, 0))
+    edge = math.sqrt(-ratio)
+    return half, half * (edge + (1 - edge) * d.power(-12, 0) * 0.999 + 1e-15), ratio
+
+
+def middle(a, x, mu):
+    return within(4, *roots_of(2 * a, (a - x) * (a + x) / (1 + mu)))
+
+
+def clock(c, h, k):
+    l = pendulum(h, k)  # noqa: E741
+    with mp.workdps(400):
+        lost = 86400 * (1 - mp.sqrt(l / roots_of(c + l, c * k**2 / h)[0]))
+    return within(8 * (1 + mp.sqrt(l / h) if abs(c / l - 1) < 0.1 else 1), lost)
+
+
+def two_jointed(d):
+    h1, a2, h2, k2 = d.lengths(4, (0.3, 3, 8))
+    if d.rng.random() < 0.5:
+        h2 = -h2
+    w1, w2 = d.lengths(2, (0.3, 4))
+    if h2 < 0 and w1 * a2 + w2 * h2 <= 0:
+        w2 = -w1 * a2 / h2 * d.uniform(0.001, 0.999)
+    return w1, h1, d.link(h1), w2, a2, h2, k2 if d.rng.random() < 0.8 else 0.0
+
+
+def jointed(w1, h1, k1, w2, a2, h2, k2):
+    l1, hung = pendulum(h1, k1), w1 * a2 + w2 * h2
+    p = (w2 * (h2**2 + k2**2) + w1 * a2**2) / hung
+    return within(3, *roots_of(l1 + p, l1 * p - a2 * h1 * w1 * a2 / hung))
+
+
+def bell_and_clapper(d):
+    h2, h1 = d.lengths(2, (0.3, 3))
+    k2, k1 = d.link(h2), d.link(h1)
+    w2, w1 = d.lengths(2, (0.3, 6))
+    bell, clapper = h2 + k2 / h2 * k2, h1 + k1 / h1 * k1
+    if bell <= clapper:
+        factor = bell / clapper * d.uniform(0, 1) if d.rng.random() < 0.5 else bell / clapper * (1 - d.power(-9, -1))
+        h1, k1 = h1 * factor, k1 * factor
+    return w2, h2, k2, w1, h1, k1
+
+
+def silent_pin(w2, h2, k2, w1, h1, k1):
+    l1, l2 = pendulum(h1, k1), pendulum(h2, k2)
+    w = w2 * h2 / w1
+    return within(2 * (l1 + l2) / (l2 - l1), w * (l2 - l1) / (w + l1 - h1))
+
+
+def jointed_rod(d):
+    length = d.power(-150, 150)
+    pin = d.uniform(1 / 6, 0.5) if d.rng.random() < 0.5 else 0.5 - d.power(-15, -0.5)
+    return length, length * min(max(pin, 1 / 6 * (1 + 1e-14)), 0.5 * (1 - 1e-15))
+
+
+pi2 = lambda: mp.pi**2  # noqa: E731
+CLOSED_FORMS = {
+    "conical_pendulum.angular_speed": (
+        lambda d: d.anything(2),
+        conical_pendulum.angular_speed,
+        lambda x, g: within(2.1, mp.sqrt(g / x)),
+    ),
+    "conical_pendulum.period": (
+        lambda d: d.anything(2),
+        conical_pendulum.period,
+        lambda x, g: within(2.1, 2 * mp.pi * mp.sqrt(x / g)),
+    ),
+    "conical_pendulum.revolutions_per_second": (
+        lambda d: d.anything(2),
+        conical_pendulum.revolutions_per_second,
+        lambda x, g: within(2.1, mp.sqrt(g / x) / (2 * mp.pi)),
+    ),
+    "conical_pendulum.height": (
+        lambda d: d.anything(2),
+        conical_pendulum.height,
+        lambda n, g: within(2.1, g / n**2),
+    ),
+    "conical_pendulum.height_from_period": (
+        lambda d: d.anything(2),
+        conical_pendulum.height_from_period,
+        lambda t, g: within(2.1, g * t**2 / (4 * pi2())),
+    ),
+    "conical_pendulum.height_from_revolutions_per_second": (
+        lambda d: d.anything(2),
+        conical_pendulum.height_from_revolutions_per_second,
+        lambda r, g: within(3, g / (4 * pi2() * r**2)),
+    ),
+    "conical_pendulum.height_from_seconds_pendulum": (
+        lambda d: d.anything(2),
+        conical_pendulum.height_from_seconds_pendulum,
+        lambda x, t: within(2.1, x * t**2 / 4),
+    ),
+    "conical_pendulum.gravity": (
+        lambda d: d.anything(2),
+        conical_pendulum.gravity,
+        lambda x, t: within(2.1, 4 * pi2() * x / t**2),
+    ),
+    "conical_pendulum.gravity_from_seconds_pendulum": (
+        lambda d: d.anything(1),
+        conical_pendulum.gravity_from_seconds_pendulum,
+        lambda x: within(2.1, pi2() * x),
+    ),
+    "hoop.tension": (lambda d: d.anything(2), hoop.tension, lambda v, g: within(3, v**2 / g)),
+    "hoop.speed": (lambda d: d.anything(2), hoop.speed, lambda t, g: within(3, mp.sqrt(g * t))),
+    "hoop.string_revolutions_per_second": (
+        lambda d: d.anything(3),
+        hoop.string_revolutions_per_second,
+        lambda a, t, g: within(3, mp.sqrt(g * t) / (2 * a)),
+    ),
+    "plummet.inclined_pendulum": (a_plummet, plummet.inclined_pendulum, inclined),
+    "plummet.air_resistance": (
+        lambda d: d.anything(2),
+        plummet.air_resistance,
+        lambda a, x: within(0.5 * (1 + 1e-15), a / x),
+    ),
+    "plummet.whirling_thread": (
+        lambda d: d.lengths(3),
+        plummet.whirling_thread,
+        lambda *sides: within(2, mp.sqrt(sum(side**2 for side in sides))),
+    ),
+    "plummet.carried_response": (
+        lambda d: d.lengths(2),
+        plummet.carried_response,
+        lambda l, x: within(1.1, x / (x - l)) if x != l else within(1.1, mp.inf),  # noqa: E741
+    ),
+    "two_links.two_plummets": (
+        two_weights_and_lengths,
+        lambda w1, l1, w2, l2: two_links.two_plummets(
+            lower_weight=w1, lower_thread=l1, upper_weight=w2, upper_thread=l2
+        ),
+        lambda w1, l1, w2, l2: within(3, *roots_of(l1 + l2, l1 * l2 * w2 / (w1 + w2))),
+    ),
+    "two_links.two_plummets_from_the_middle": (from_the_middle, two_links.two_plummets_from_the_middle, middle),
+    "two_links.pendulum_length": (
+        lambda d: a_link_on_a_thread(d)[1:],
+        two_links.pendulum_length,
+        lambda h, k: within(1.5, pendulum(h, k)),
+    ),
+    "two_links.share_at_centre_of_oscillation": (
+        lambda d: a_link_on_a_thread(d)[1:],
+        two_links.share_at_centre_of_oscillation,
+        lambda h, k: within(2, h / pendulum(h, k)),
+    ),
+    "two_links.link_on_thread": (
+        a_link_on_a_thread,
+        two_links.link_on_thread,
+        lambda a, h, k: within(4, *roots_of(a + pendulum(h, k), a * k**2 / h)),
+    ),
+    "two_links.link_on_spring": (
+        a_link_on_a_thread,
+        two_links.link_on_spring,
+        lambda a, h, k: within(4, *roots_of(a + pendulum(h, k), a * k**2 / h)),
+    ),
+    "two_links.standing_link": (
+        a_link_on_a_thread,
+        two_links.standing_link,
+        lambda a, h, k: within(5, max(roots_of(a - pendulum(h, k), -a * k**2 / h))),
+    ),
+    "two_links.thread_of_standing_link": (
+        a_link_on_a_thread,
+        two_links.thread_of_standing_link,
+        lambda x, h, k: within(3, x * (pendulum(h, k) + x) / (k**2 / h + x)),
+    ),
+    "two_links.standing_plummet": (
+        two_weights_and_lengths,
+        lambda w1, l1, w2, l2: two_links.standing_plummet(standing_weight=w1, rod=l1, hung_weight=w2, thread=l2),
+        lambda w1, l1, w2, l2: within(4, max(roots_of(l2 - l1, -l1 * l2 * w2 / (w1 + w2)))),
+    ),
+    "two_links.seconds_lost_per_day": (a_link_on_a_thread, two_links.seconds_lost_per_day, clock),
+    "two_links.jointed_links": (
+        two_jointed,
+        lambda w1, h1, k1, w2, a2, h2, k2: two_links.jointed_links(
+            lower_weight=w1,
+            lower_centroid=h1,
+            lower_radius_of_gyration=k1,
+            upper_weight=w2,
+            upper_length=a2,
+            upper_centroid=h2,
+            upper_radius_of_gyration=k2,
+        ),
+        jointed,
+    ),
+    "two_links.pin_of_silent_clapper": (
+        bell_and_clapper,
+        lambda w2, h2, k2, w1, h1, k1: two_links.pin_of_silent_clapper(
+            bell_weight=w2,
+            bell_centroid=h2,
+            bell_radius_of_gyration=k2,
+            clapper_weight=w1,
+            clapper_centroid=h1,
+            clapper_radius_of_gyration=k1,
+        ),
+        silent_pin,
+    ),
+    "two_links.joint_without_bending": (
+        jointed_rod,
+        two_links.joint_without_bending,
+        lambda l, p: within(2.5, (l / 2 - p) ** 2 / p),  # noqa: E741
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CLOSED_FORMS)
+def test_closed_forms(name):
+    draw, found, exact = CLOSED_FORMS[name]
+    worst, arguments = worst_of(name, draw, found, exact)
+    assert worst <= 1, arguments
+
+
+@pytest.mark.parametrize("samples", [SAMPLES])
+def test_forces_on_a_held_plummet(samples):
+    """Radius, depth and the balance of forces of threads that make a triangle, thin ones too."""
+    d, worst = Draw("held_plummet"), (0.0, None)
+    for _ in range(samples):
+        scale, base = d.power(-100, 100), d.power(-6, 6)
+        a, b = base, base * (d.power(-3, 3) if d.rng.random() < 0.6 else d.near_one())
+        low, high = abs(a - b), a + b
+        c = low + (high - low) * (d.uniform(0, 1) if d.rng.random() < 0.5 else d.power(-12, 0))
+        upper, lower, distance, height = a * scale, b * scale, min(c, high * (1 - 1e-15)) * scale, base * scale * d.power(-3, 3)
+        U, L, D, H = exactly(upper, lower, distance, height)
+        if not abs(U - L) < D < U + L:
+            continue
+        found = plummet.held_plummet(upper, lower, distance, height)
+        z = (U**2 - L**2 + D**2) / (2 * D)
+        r = mp.sqrt((U + L + D) * (U + L - D) * (U - L + D) * (L - U + D)) / (2 * D)
+        fr, fz, fu, fl = exactly(*found[:4])
+        outward, upward = [fu * fr / U, fl * fr / L, -fr / H], [fu * fz / U, fl * (fz - D) / L, mp.mpf(-1)]
+        errors = [
+            ulps(found.radius, r) / 3,
+            abs(fz - z) / max(U, L) / ULP / 3,
+            *(abs(mp.fsum(forces)) / max(map(abs, forces)) / ULP / 4 for forces in (outward, upward)),
+        ]
+        worst = max(worst, (float(max(errors)), (upper, lower, distance, height, [float(e) for e in errors])), key=lambda w: w[0])
+    assert worst[0] <= 1, worst
+
+
+def carried(l, x, b):  # noqa: E741
+    """Every root of x tan d = b + l sin d, by bisection of t (x - l cos d) - b between its extremes."""
+    value = lambda t: x * t - b - l * t / mp.sqrt(1 + t * t)  # noqa: E731
+    def root(low, high):
+        rising = value(high) > value(low)
+        for _ in range(330):
+            middle = (low + high) / 2
+            low, high = (middle, high) if (value(middle) < 0) == rising else (low, middle)
+        return low
+
+    far = 2 * (l + b) / x
+    turn = mp.sqrt((l / x) ** (mp.mpf(2) / 3) - 1) if x < l else mp.mpf(0)
+    inner = [root(-far, -turn), root(-turn, mp.mpf(0))] if x < l and value(-turn) >= 0 else []
+    return [*inner, root(turn, far)], turn
+
+
+def test_inclinations_of_a_carried_plummet():
+    d, worst = Draw("carried_inclinations"), (0.0, None)
+    for _ in range(SAMPLES // 2):
+        scale, share = d.power(-100, 100), d.power(-9, 0) if d.rng.random() < 0.5 else d.near_one()
+        fold = abs(1 - share ** (2 / 3)) ** 1.5
+        radius = d.power(-9, 3) if d.rng.random() < 0.5 or not fold else fold * d.near_one()
+        given = (scale, scale * share, scale * radius)
+        with mp.workdps(90):
+            roots, turn = carried(*exactly(*given))
+            found = plummet.carried_inclinations(*given)
+            assert np.isnan(found).sum() == 3 - len(roots), given
+            meeting = 1 / mp.sqrt(1 + turn**2)
+            for number, (f, t) in enumerate(zip(found, roots)):
+                inner = len(roots) == 3 and number < 2
+                condition = abs(1 / (1 - (meeting * mp.sqrt(1 + t * t)) ** 3)) if inner else 1
+                worst = max(worst, (ulps(f, mp.atan(t)) / 4 / float(max(1, condition)), given), key=lambda w: w[0])
+    assert worst[0] <= 1, worst
+
+
+# Elliptic integrals and functions ------------------------------------------------------------------------------------
+
+
+def moduli(d):
+    """Complementary moduli: any, tiny, next to 1."""
+    kind = d.rng.integers(4)
+    return [d.uniform(0, 1), d.power(-150, 0), 1 - d.power(-16, -1), d.power(-16, 0)][kind]
+
+
+def amplitudes(d):
+    """Any, tiny, next to a number of quarter turns."""
+    kind = d.rng.integers(3)
+    if kind == 0:
+        return d.uniform(-12, 12)
+    if kind == 1:
+        return d.power(-100, 0)
+    quarters = float(d.rng.integers(-40, 40)) * math.pi / 2
+    return float(np.nextafter(quarters, 100)) if d.rng.random() < 0.5 else quarters * (1 + d.power(-16, -1))
+
+
+def characteristics(d):
+    kind = d.rng.integers(4)
+    return [-d.power(-12, 12), d.power(-12, 0) * (1 - 1e-16), 1 - d.power(-7.9, 0), -d.power(-150, 150)][kind]
+
+
+def legendre(amplitude, kc, n=None):
+    """F, E, D, or the integral of the third kind, by Carlson's forms and whole half turns."""
+    turns = mp.nint(amplitude / mp.pi)
+    rest = amplitude - turns * mp.pi
+    s, c2 = mp.sin(rest), mp.cos(rest) ** 2
+    y = c2 + (kc * s) ** 2
+    F, m = s * mp.elliprf(c2, y, 1), 1 - kc**2
+    K = mp.elliprf(0, kc**2, 1) if turns else 0
+    if n is not None:
+        whole = K + n / 3 * mp.elliprj(0, kc**2, 1, 1 - n) if turns else 0
+        return [F + n * s**3 / 3 * mp.elliprj(c2, y, 1, 1 - n * s**2) + 2 * turns * whole]
+    D = s**3 / 3 * mp.elliprd(c2, y, 1) + (2 * turns * mp.elliprd(0, kc**2, 1) / 3 if turns else 0)
+    F += 2 * turns * K
+    return [F, F - m * D, D]
+
+
+def jacobi_functions(u, kc):
+    """am, sn, cn, dn, epsilon and their derivatives by descending arithmetic-geometric means."""
+    a, b, c = [mp.mpf(1)], kc, [mp.sqrt(1 - kc**2)]
+    total = c[0] ** 2 / 2
+    while abs(c[-1]) > mp.mpf(10) ** -(mp.mp.dps // 2 + 5):
+        a, b, c = [*a, (a[-1] + b) / 2], mp.sqrt(a[-1] * b), [*c, (a[-1] - b) / 2]
+        total += mp.mpf(2) ** (len(a) - 2) * c[-1] ** 2
+    phi, epsilon = mp.mpf(2) ** (len(a) - 1) * a[-1] * u, (1 - total) * u
+    for mean, difference in zip(a[:0:-1], c[:0:-1], strict=True):
+        epsilon += difference * mp.sin(phi)
+        phi = (phi + mp.asin(difference / mean * mp.sin(phi))) / 2
+    s, x = mp.sin(phi), mp.cos(phi)
+    d = mp.sqrt(x**2 + (kc * s) ** 2)
+    return [(phi, d), (s, x * d), (x, -s * d), (d, -(1 - kc**2) * s * x), (epsilon, d**2)]
+
+
+def relative(bound, *numbers):
+    return [(number, bound / ULP) for number in numbers]
+
+
+def complete_integrals(kc):
+    with mp.workdps(360):
+        K, D = mp.elliprf(0, kc**2, 1), mp.elliprd(0, kc**2, 1) / 3
+        return relative(1e-15, K, K - (1 - kc**2) * D, D, K - D)
+
+
+def incomplete_integrals(amplitude, kc):
+    with mp.workdps(360):
+        return relative(2e-15, *legendre(amplitude, kc))
+
+
+def third_kind(n, amplitude, kc):
+    with mp.workdps(60):
+        edge = n > 1 - mp.mpf(10) ** -8 and mp.sin(amplitude) ** 2 > 1 - mp.mpf(10) ** -8
+        return relative(1e-11 if edge else 3e-15, *legendre(amplitude, kc, n))
+
+
+def jacobi(u, kc):
+    with mp.workdps(400):
+        return [(f, 1e-15 / ULP * (1 + abs(u * df / f))) for f, df in jacobi_functions(u, kc)]
+
+
+def arguments_of_jacobi(d):
+    kc = moduli(d)
+    quarter = float(elliptic.complete(complementary_modulus=kc).K)
+    kind = d.rng.integers(3)
+    return [d.power(-100, 0), quarter * d.uniform(-9, 9), quarter * float(d.rng.integers(1, 5)) * d.near_one()][kind], kc
+
+
+ELLIPTIC = {
+    "elliptic.complete": (
+        lambda d: [moduli(d)],
+        lambda kc: elliptic.complete(complementary_modulus=kc),
+        complete_integrals,
+    ),
+    "elliptic.complete_pi": (
+        lambda d: [characteristics(d), moduli(d)],
+        lambda n, kc: elliptic.complete_pi(n, complementary_modulus=kc),
+        lambda n, kc: relative(1e-15, mp.elliprf(0, kc**2, 1) + n / 3 * mp.elliprj(0, kc**2, 1, 1 - n)),
+    ),
+    "elliptic.incomplete": (
+        lambda d: [amplitudes(d), moduli(d)],
+        lambda a, kc: elliptic.incomplete(a, complementary_modulus=kc),
+        incomplete_integrals,
+    ),
+    "elliptic.incomplete_pi": (
+        lambda d: [characteristics(d), amplitudes(d), moduli(d)],
+        lambda n, a, kc: elliptic.incomplete_pi(n, a, complementary_modulus=kc),
+        third_kind,
+    ),
+    "elliptic.jacobi": (
+        arguments_of_jacobi,
+        lambda u, kc: elliptic.jacobi(u, complementary_modulus=kc),
+        jacobi,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ELLIPTIC)
+def test_elliptic(name):
+    draw, found, exact = ELLIPTIC[name]
+    worst, arguments = worst_of(name, draw, found, exact)
+    assert worst <= 1, arguments
+
+
+# Chains without links ------------------------------------------------------------------------------------------------
+
+
+def zero_of(function, near):
+    """The zero next to a number that is right to some 1e-13."""
+    with mp.workdps(60):
+        near = mp.mpf(float(near))
+        return mp.findroot(function, (near, near * (1 + mp.mpf(10) ** -14)), tol=1e-70, verify=False)
+
+
+def zero_of_bessel(order, number):
+    """Zero of J of an integer or other order, found next to the number of McMahon that the library gives."""
+    heights = tapered_chain.conical_heights(number, exponent=float(order))
+    return zero_of(lambda z: mp.besselj(mp.mpf(order), z), 2 * math.sqrt((order + 1) / heights[number - 1]))
+
+
+def modes_up_to(d, most):
+    return int(d.power(0, math.log10(most)))
+
+
+def test_heights_of_the_heavy_chain():
+    d, worst = Draw("heavy_chain"), {}
+
+    def note(name, error):
+        worst[name] = max(worst.get(name, 0.0), error)
+
+    for _ in range(40):
+        length, mode = d.power(-150, 150), modes_up_to(d, 30_000)
+        zero = zero_of_bessel(0, mode)
+        height = heavy_chain.conical_heights(mode, length)[-1]
+        note("conical_heights", ulps(height, 4 * mp.mpf(length) / zero**2) / 4)
+        turns = heavy_chain.revolutions_per_second(mode, length)[-1]
+        note("revolutions_per_second", ulps(turns, mp.sqrt(mp.mpf(9.80665) / mp.mpf(length)) / (4 * mp.pi) * zero) / 6)
+        energy = (zero * mp.besselj(1, zero)) ** 2 / 8
+        note("kinetic_energy", ulps(heavy_chain.kinetic_energy(mode), energy) * ULP / 1e-15 / (1 + mode))
+        if mode > 1:
+            node = int(d.rng.integers(1, mode))
+            there = heavy_chain.nodes(mode, length)[node - 1]
+            note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(0, node) / zero) ** 2) / 5)
+            there = heavy_chain.vertical_points(mode, length)[node - 1]
+            note("vertical_points", ulps(there, mp.mpf(length) * (zero_of_bessel(1, node) / zero) ** 2) / 5)
+        for share in (d.uniform(0, 1), d.power(-20, 0), 1 - d.power(-16, 0)):
+            x = length * share
+            z = zero * mp.sqrt(mp.mpf(x) / mp.mpf(length))
+            offset = abs(mp.mpf(float(heavy_chain.shape(x, mode, length))) - mp.besselj(0, z))
+            note("shape", float(offset / 1e-15 / mode))
+            slope = mp.mpf(float(heavy_chain.slope(x, mode, length))) * mp.mpf(height)
+            note("slope", float(abs(slope + 2 * mp.besselj(1, z) / z) / 1e-15 / mode))
+    assert max(worst.values()) <= 1, worst
+
+
+def test_chains_that_taper():
+    d, worst = Draw("tapered_chain"), {}
+
+    def note(name, error):
+        worst[name] = max(worst.get(name, 0.0), error)
+
+    for _ in range(40):
+        length, mode = d.power(-150, 150), modes_up_to(d, 3000)
+        p = [d.uniform(-0.99, 1), d.power(-1, 2), -0.99 + d.power(-6, -2)][d.rng.integers(3)]
+        order, zero = mp.mpf(p), zero_of_bessel(p, mode)
+        height = tapered_chain.conical_heights(mode, exponent=p, length=length)[-1]
+        note("conical_heights", ulps(height, 4 * (order + 1) * mp.mpf(length) / zero**2) / 3)
+        if mode > 1:
+            node = int(d.rng.integers(1, mode))
+            there = tapered_chain.nodes(mode, exponent=p, length=length)[node - 1]
+            note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(p, node) / zero) ** 2) / 3)
+        shares = [d.uniform(0, 1), d.power(-20, 0), 1 - d.power(-16, 0)]
+        grid = np.linspace(0, 1, 400)
+        offset_of = lambda s: tapered_chain.shape(s * length, mode, exponent=p, length=length)  # noqa: E731
+        slope_of = lambda s: tapered_chain.slope(s * length, mode, exponent=p, length=length)  # noqa: E731
+        largest = max(1.0, np.abs(offset_of(grid)).max())
+        steepest = np.abs(slope_of(grid)).max()
+        for share in shares:
+            z = zero * mp.sqrt(mp.mpf(share * length) / mp.mpf(length))
+            exact = mp.hyp0f1(order + 1, -(z**2) / 4)
+            allowed = mp.mpf(1e-15) * (1 + zero)
+            note("shape", float(abs(mp.mpf(float(offset_of(share))) - exact) / largest / allowed))
+            exact = -mp.hyp0f1(order + 2, -(z**2) / 4) * zero**2 / (4 * (order + 1) * mp.mpf(length))
+            note("slope", float(abs(mp.mpf(float(slope_of(share))) - exact) / mp.mpf(steepest) / allowed))
+    assert max(worst.values()) <= 1, worst
+
+
+def tip_shape(m, height):
+    """Offset and slope (times the height) at a distance over the length, 1 at the free end."""
+    a = 2 * mp.sqrt(m / height)
+    A, B = (mp.pi * a / 2 * v for v in (-mp.bessely(2, a), mp.besselj(2, a))) if m else (mp.mpf(1), mp.mpf(0))
+
+    def at(x):
+        z = 2 * mp.sqrt((m + x) / height)
+        offset = A * mp.besselj(0, z) + (B * mp.bessely(0, z) if m else 0)
+        slope = -(A * mp.besselj(1, z) + (B * mp.bessely(1, z) if m else 0)) * 2 / z if z else -mp.mpf(1)
+        return offset, slope
+
+    return at
+
+
+def test_chains_with_a_tip():
+    d, worst = Draw("tip_mass"), {}
+
+    def note(name, error, where):
+        worst[name] = max(worst.get(name, (0.0, None)), (error, where), key=lambda w: w[0])
+
+    for _ in range(40):
+        length, mode = d.power(-140, 140), modes_up_to(d, 1000)
+        tip = length * [d.power(-12, 3), d.power(-3, 3), d.power(3, 12), d.power(12, 100)][d.rng.integers(4)]
+        where = (length, mode, tip)
+        with mp.workdps(60 if tip < 1e12 * length else 300):
+            L, m = mp.mpf(length), mp.mpf(tip) / mp.mpf(length)
+            found = tip_mass.conical_heights(mode, tip=tip, length=length)[-1]
+            cross = lambda y, m=m: tip_shape(m, y)(mp.mpf(1))[0]  # noqa: E731
+            with mp.workdps(mp.mp.dps):
+                guess = mp.mpf(float(found)) / L
+                root = mp.findroot(cross, (guess, guess * (1 + mp.mpf(10) ** -14)), tol=mp.mpf(10) ** -70, verify=False)
+            note("conical_heights", ulps(found, root * L) / 2, where)
+            at = tip_shape(m, root)
+            grid = np.linspace(0, 1, 400)
+            offset_of = lambda s: tip_mass.shape(s * length, mode, tip=tip, length=length)  # noqa: E731, B023
+            slope_of = lambda s: tip_mass.slope(s * length, mode, tip=tip, length=length)  # noqa: E731, B023
+            largest, steepest = np.abs(offset_of(grid)).max(), np.abs(slope_of(grid)).max()
+            for share in (d.uniform(0, 1), d.power(-20, 0), 1 - d.power(-16, 0)):
+                offset, slope = at(mp.mpf(share * length) / L)
+                allowed = mp.mpf(2e-15) * mode
+                note("shape", float(abs(mp.mpf(float(offset_of(share))) - offset) / mp.mpf(float(largest)) / allowed), where)
+                error = abs(mp.mpf(float(slope_of(share))) - slope / (root * L)) / mp.mpf(float(steepest))
+                note("slope", float(error / allowed), where)
+            if mode > 1:
+                nodes = tip_mass.nodes(mode, tip=tip, length=length)
+                node = float(nodes[d.rng.integers(0, mode - 1)]) / length
+                guess = mp.mpf(node)
+                exact = mp.findroot(lambda x: at(x)[0], (guess, guess + mp.mpf(10) ** -14), tol=mp.mpf(10) ** -70, verify=False)
+                note("nodes", float(abs(exact - guess) / 1e-15), where)
+    assert max(w[0] for w in worst.values()) <= 1, worst
+
+
+# Wheels in a row, links made of others -------------------------------------------------------------------------------
+
+
+def test_waves_of_a_gyrostatic_string():
+    """Phases, speeds and rotations; where terms cancel as many times more is allowed as the docstring says."""
+    d, worst = Draw("GyrostaticString"), {}
+
+    def note(name, found, exact, allowed, where):
+        worst[name] = max(worst.get(name, (0.0, None)), (ulps(found, exact) / float(allowed), where), key=lambda w: w[0])
+
+    for _ in range(3 * SAMPLES):
+        a, W = d.power(-50, 50), d.power(-50, 50)
+        given = dict(
+            weight=W,
+            length=a,
+            tension=W * d.power(-3, 6),
+            momentum=W * a * d.uniform(-1, 1) * (1 if d.rng.random() < 0.5 else d.power(-25, 0)) / math.sqrt(a / 9.80665),
+            centroid=a * d.uniform(0, 1),
+            radius_of_gyration=a * d.uniform(0, 1),
+        )
+        string = rc.GyrostaticString(**given)
+        W, a, T, H, h, rho, g = exactly(*given.values(), 9.80665)
+        X = W * (h * (a - h) - rho**2) / a**2
+        terms_of_X = W * (abs(h * (a - h)) + rho**2) / a**2
+        theta = d.power(-6, math.log10(math.pi)) if d.rng.random() < 0.7 else math.pi * (1 - d.power(-9, 0))
+        t = mp.mpf(theta)
+        s2 = 4 * mp.sin(t / 2) ** 2
+        A, B, C = (W - X * s2) / g, s2 * H / a**2, s2 * T / a
+        where = (given, theta)
+        if A > 0:  # n^2 A - n B - C = 0
+            cancelled = (W + terms_of_X * s2) / (A * g)
+            q = (abs(B) + mp.sqrt(B**2 + 4 * A * C)) / 2
+            forward, backward = (q / A, -C / q) if B >= 0 else (C / q, -q / A)
+            found = string.angular_speeds(theta)
+            note("angular_speeds", found.forward, forward, 4 * cancelled, where)
+            note("angular_speeds", found.backward, backward, 4 * cancelled, where)
+
+        def sine(n):
+            """sin^2 of half the phase and how far its terms cancel."""
+            k = (T + n * H / a) / a + n**2 / g * X
+            return n**2 * W / g / (4 * k), (T / a + abs(n * H) / a**2 + n**2 / g * terms_of_X) / abs(k)
+
+        n = float(mp.sqrt(g / a)) * d.power(-3, 2)
+        ahead, back = sine(mp.mpf(n)), sine(-mp.mpf(n))
+        condition = 1
+        for sign, (s, cancelled) in ((1, ahead), (-1, back)):
+            if not 0 < s < 1:
+                continue
+            condition = max(condition, cancelled / mp.sqrt(1 - s))
+            note("phase", string.phase(sign * n), 2 * mp.asin(mp.sqrt(s)), 4 * cancelled / mp.sqrt(1 - s), (given, n))
+        turned = string.plane_rotation(n)
+        if 0 < ahead[0] < 1 and 0 < back[0] < 1 and H:
+            exact = mp.asin(mp.sqrt(back[0])) - mp.asin(mp.sqrt(ahead[0]))
+            note("plane_rotation", turned, exact, 8 * condition, (given, n))
+    assert max(w[0] for w in worst.values()) <= 1, worst
+
+
+def test_links_of_a_tapered_chain():
+    """Weights and centroids of `Chain.tapered`, of the lowest and highest links and some between."""
+    d, worst = Draw("Chain.tapered"), {"weight": 0.0, "centroid": 0.0}
+    for _ in range(SAMPLES // 4):
+        count = modes_up_to(d, 100_000)
+        length, weight = d.power(-100, 100), d.power(-100, 100)
+        p = [d.uniform(-1, 1), d.power(-3, 2), d.power(-12, -3) - 1, d.power(2, 3)][d.rng.integers(4)]
+        if (p + 1) * math.log10(count) > 180:
+            continue
+        chain = rc.Chain.tapered(count, length, weight, exponent=p)
+        q = mp.mpf(p) + 1
+        for m in {0, count - 1, *d.rng.integers(0, count, 3).tolist()}:
+            low, high = mp.mpf(m) / count, mp.mpf(m + 1) / count
+            share = high**q - low**q
+            worst["weight"] = max(worst["weight"], ulps(chain.weight[m], mp.mpf(weight) * share) / 0.51)
+            below = high - q / (q + 1) * (high ** (q + 1) - low ** (q + 1)) / share
+            worst["centroid"] = max(worst["centroid"], ulps(chain.centroid[m], mp.mpf(length) * below) / 0.51)
+    assert max(worst.values()) <= 1, worst
+
+
+def joined(one, other):
+    """One body of two (weight, depth of the centroid, rho^2) in the same link."""
+    (w, h, r), (v, g, s) = one, other
+    middle = (w * h + v * g) / (w + v)
+    return w + v, middle, (w * (r + (h - middle) ** 2) + v * (s + (g - middle) ** 2)) / (w + v)
+
+
+def test_heights_with_a_weight_at_a_pin():
+    """`Chain.with_weight`: of the exact body of link and weight."""
+    d, worst = Draw("Chain.with_weight"), (0.0, None)
+    for _ in range(SAMPLES // 3):
+        n = int(d.rng.integers(1, 5))
+        unit, force = d.power(-30, 30), d.power(-30, 30)
+        length = [unit * d.power(-2, 2) for _ in range(n)]
+        weight = [force * d.power(-4, 4) for _ in range(n)]
+        centroid = [a * d.uniform(0.01, 1.2) for a in length]
+        radius = [a * d.uniform(0, 0.6) for a in length]
+        chain = rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
+        pin, extra, rho = int(d.rng.integers(0, n)), force * d.power(-4, 4), unit * d.uniform(0, 1)
+        links = [
+            [w, a, h, k**2] for w, a, h, k in (exactly(*each) for each in zip(weight, length, centroid, radius, strict=True))
+        ]
+        # the pin is the lower one of link `pin`
+        w, a, h, r2 = links[pin]
+        body = joined((w, h, r2), (mp.mpf(extra), a, mp.mpf(rho) ** 2))
+        links[pin] = [body[0], a, body[1], body[2]]
+        found = rc.modes(chain.with_weight(extra, pin, radius_of_gyration=rho)).conical_height
+        for f, e in zip(found, heights_of(links), strict=True):
+            worst = max(worst, (ulps(f, e) / 3, (weight, length, pin)), key=lambda each: each[0])
+    assert worst[0] <= 1, worst
+
+
+def test_a_bell_and_its_clapper():
+    """Heights and ratios of `bell_and_clapper`, the bell hung above and below its centroid."""
+    d, worst = Draw("bell_and_clapper"), (0.0, None)
+    for _ in range(2 * SAMPLES):
+        unit = d.power(-100, 100)
+        a1, a2, h1 = (unit * d.power(-3, 3) for _ in range(3))
+        w1, w2 = d.power(-50, 50), 0.0
+        w2 = w1 * d.power(-4, 4)
+        h2 = unit * d.power(-3, 3)
+        if d.rng.random() < 0.4:  # hung below its centroid, up to where it would stand
+            h2 = -w1 * a2 / w2 * [d.uniform(0, 1), 1 - d.power(-8, 0)][d.rng.integers(2)]
+            if w1 * a2 + w2 * h2 <= 0:
+                continue
+        k1, k2 = d.link(h1), d.link(abs(h2))
+        chain = rc.Chain(weight=[w1, w2], length=[a1, a2], centroid=[h1, h2], radius_of_gyration=[k1, k2])
+        (W1, _, H1, R1), (W2, A2, H2, R2) = stored_links(chain)
+        l1, f = H1 + R1 / H1, W2 / W1
+        moment, turning = f * H2 + A2, f * (H2**2 + R2)
+        slope = moment / A2 * l1 - turning / A2 - A2
+        ratios = roots_of(slope / H1, -moment / H1)
+        ratios = [max(ratios), min(ratios)]
+        found = rc.bell_and_clapper(chain)
+        for k, r in enumerate(ratios):
+            for name, result, exact in (
+                ("ratio", found.inclination_ratio[k], r),
+                ("height", found.conical_height[k], l1 + A2 / r),
+            ):
+                where = (name, k, w1, w2, a2, h1, h2, k1, k2)
+                worst = max(worst, (ulps(result, exact) / 2, where), key=lambda each: each[0])
+    assert worst[0] <= 1, worst
+
+
+def test_weights_on_a_thread():
+    """`funicular_polygon` and `transverse_modes`."""
+    d, worst = Draw("funicular_polygon"), {}
+
+    def note(name, error, where):
+        worst[name] = max(worst.get(name, (0.0, None)), (float(error), where), key=lambda w: w[0])
+
+    for _ in range(SAMPLES // 2):
+        n = int(d.rng.integers(1, 7))
+        unit, force = d.power(-60, 60), d.power(-60, 60)
+        weight = [force * d.power(-4, 4) for _ in range(n)]
+        place = np.concatenate([[0.0], np.cumsum([unit * d.power(-4, 4) for _ in range(n + 1)])]) + unit * d.uniform(-1, 1)
+        if not (np.diff(place) > 0).all():
+            continue
+        pull, first, last = force * d.power(-3, 3), unit * d.uniform(-1, 1), unit * d.uniform(-1, 1)
+        where = (weight, place.tolist(), pull, first, last)
+        polygon = rc.funicular_polygon(weight, place, pull, first_height=first, last_height=last)
+        W, x, H, z0, z1 = exactly(*weight), exactly(*place), *exactly(pull, first, last)
+        span = x[-1] - x[0]
+        rise = -(H * (z0 - z1) + sum(w * (x[-1] - at) for w, at in zip(W, x[1:-1], strict=True))) / span
+        height, drop = z0, sum(W) * span / H
+        for j in range(n + 1):
+            rise += W[j - 1] if j else 0
+            height += rise / H * (x[j + 1] - x[j])
+            room = abs(height) * ULP / 2 * mp.mpf(1.001) + mp.mpf(10) ** -28 * (drop + abs(z0) + abs(z1))
+            note("height", abs(mp.mpf(float(polygon.height[j + 1])) - height) / room, where)
+        modes = rc.transverse_modes(weight, place, pull)
+        matrix, k = mp.matrix(n), [H / (b - a) for a, b in zip(x, x[1:], strict=False)]
+        for j in range(n):
+            matrix[j, j] = (k[j] + k[j + 1]) / W[j]
+            if j:
+                matrix[j, j - 1] = matrix[j - 1, j] = -k[j] / mp.sqrt(W[j] * W[j - 1])
+        with mp.workdps(90):
+            inverse = sorted(mp.eigsy(matrix, eigvals_only=True))
+        for found, bound, e in zip(modes.conical_height, modes.error_bound, inverse, strict=True):
+            note("transverse", ulps(found, 1 / e) / 2, where)
+            note("bound", ulps(found, 1 / e) * ULP / bound, where)
+    assert max(w[0] for w in worst.values()) <= 1, worst
