@@ -336,6 +336,23 @@ def test_a_link_swings_as_its_equation_of_motion_says(name):
     assert not far_off(motion, swing, [0.0, *(period * np.array([0.1, 0.25, 0.5, 0.77, 1.0, 1.9, 3.3]))])
 
 
+@pytest.mark.parametrize("seed", range(16))
+def test_any_link_swings_as_its_equation_of_motion_says(seed):
+    """Of the greatest angle and rate and acceleration of the times looked at."""
+    unit, turn, pull, angle, rate = [10.0 ** random(seed + 1, -6, 6)[-1], *np.random.default_rng(seed).uniform(-1, 1, 4)]
+    small = 10.0 ** -(6 * (seed % 3))
+    numbers = dict(angular_speed=6 * abs(turn) / unit, pendulum_length=abs(pull) * unit**2, angle=3.1 * angle * small)
+    numbers |= dict(angle_rate=10 * rate * small / unit, gravity=math.copysign(10 * pull**2, pull))
+    motion, swing = rc.GovernorMotion(**numbers), Swing(**numbers)
+    times = unit * np.array([0.0, *np.sort(random(12, 0, 4))])
+    found, exact = motion.state(times), swing(times)
+    greatest, fastest = (max(abs(state[i]) for state in exact) for i in range(2))
+    strongest = max(abs(swing.acceleration(angle)) for angle, _ in exact)
+    for i, (time, (angle, rate)) in enumerate(zip(times, exact, strict=True)):
+        assert abs(float(found.angle[i]) - angle) <= 1e-13 * (greatest + time * fastest)
+        assert abs(float(found.angle_rate[i]) - rate) <= 1e-13 * (fastest + time * strongest)
+
+
 @pytest.mark.parametrize("name", SWINGS)
 def test_the_period_and_the_turning_angles(name):
     motion, swing = rc.GovernorMotion(**SWINGS[name]), Swing(**SWINGS[name])
