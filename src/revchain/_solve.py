@@ -87,7 +87,7 @@ def modes(
         float32 first, and results are float32. ``"extended"``: results are of numpy's longdouble, which
         has 64 bits on x86-64 and on some platforms is no more than double. ``"double-double"``: twice
         the digits of double; ``conical_height + conical_height_low``, two float64 arrays, is the height that
-        `error_bound` is of (3e-29 for one link, 1e-24 for 2000, 1e-21 for 100,000), and shapes are float64.
+        `error_bound` is of (3e-29 for one link, 1e-24 for 2000), and shapes are float64.
     method : {"auto", "bisection", "blocks", "together", "spectrum", "dense", "recurrence"}
         ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain,
         to 2 ulp. ``"blocks"`` condenses a long chain first: some of its slowest modes, to 2 ulp.
