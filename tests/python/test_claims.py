@@ -687,6 +687,24 @@ def test_chains_with_a_tip():
     assert max(w[0] for w in worst.values()) <= 1, worst
 
 
+def test_critical_heights_without_links():
+    """`continuous_critical_heights` against the closed forms, in any unit."""
+    d, worst = Draw("continuous_critical_heights"), (0.0, None)
+    for turn in range(40):
+        length = d.power(-100, 100) if turn % 2 else d.power(-3, 3)
+        tip, p = length * d.power(-9, 7), d.uniform(-0.9, 5)
+        if turn % 2:
+            count = modes_up_to(d, 60)
+            found = rc.continuous_critical_heights(length, count=count, tip_weight=tip)
+            exact = tip_mass.conical_heights(count, tip=tip, length=length)
+        else:
+            density = lambda s, p=p, length=length: (s / length) ** p if s > 0 else 0.0  # noqa: E731
+            found = rc.continuous_critical_heights(length, count=5, line_density=density)
+            exact = tapered_chain.conical_heights(5, exponent=p, length=length)
+        worst = max(worst, (np.abs(found / exact - 1).max() / 4e-15, (length, tip, p)), key=lambda w: w[0])
+    assert worst[0] <= 1, worst
+
+
 # Wheels in a row, links made of others -------------------------------------------------------------------------------
 
 
