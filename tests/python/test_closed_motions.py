@@ -339,7 +339,8 @@ def test_a_link_swings_as_its_equation_of_motion_says(name):
 @pytest.mark.parametrize("seed", range(16))
 def test_any_link_swings_as_its_equation_of_motion_says(seed):
     """To 1e-13 of the greatest angle, a turn where it revolves, and of the greatest rate and acceleration looked at."""
-    unit, turn, pull, angle, rate = [10.0 ** random(seed + 1, -6, 6)[-1], *np.random.default_rng(seed).uniform(-1, 1, 4)]
+    turn, pull, angle, rate, power = np.random.default_rng(seed).uniform(-1, 1, 5)
+    unit = 10.0 ** (6 * power)
     small = 10.0 ** -(6 * (seed % 3))
     numbers = dict(angular_speed=6 * abs(turn) / unit, pendulum_length=abs(pull) * unit**2, angle=3.1 * angle * small)
     numbers |= dict(angle_rate=10 * rate * small / unit, gravity=math.copysign(10 * pull**2, pull))

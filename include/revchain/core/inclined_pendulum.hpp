@@ -66,11 +66,15 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     if (!(slack >= T(0))) detail::refuse(place, "distance must make a triangle with the two threads", distance);
     // No product of two lengths, which may leave the range.
     const T radius = sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
-    // In two words: of a thin triangle depth and depth - distance are differences.
+    // In two words, of lengths near 1: of a thin triangle depth and depth - distance are differences.
     using S = Wide<T>;
-    const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
-    const S u = wide(upper_thread), l = wide(lower_thread), d = wide(distance), x = wide(height), half = wide(T(0.5));
-    const S along = (u - l) / d * (u + l), depth = (d + along) * half, above_lower = (along - d) * half;
+    using std::frexp;
+    using std::ldexp;
+    int unit = 0;
+    frexp(a, &unit);
+    const auto wide = [](const T& x, int power) { return S(static_cast<Narrow<S>>(ldexp(x, power))); };
+    const S u = wide(upper_thread, -unit), l = wide(lower_thread, -unit), d = wide(distance, -unit), x = wide(height, 0);
+    const S along = (u - l) / d * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
     const T upper = upper_thread / distance * (static_cast<T>(S(x - above_lower)) / height);
     const T lower = lower_thread / distance * (static_cast<T>(S(depth - x)) / height);
     return {radius, static_cast<T>(depth), upper, lower, upper >= T(0), lower >= T(0)};
