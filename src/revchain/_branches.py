@@ -415,7 +415,7 @@ def branch(
     -------
     Branch
         The first point is the straight chain, alone if no double tells the end from it (``end`` is then
-        ``stuck``). Numbers to about 1e-12; folds to 1e-9 of the arc, their heights to 1e-15.
+        ``stuck``). Numbers to about 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, mostly an ulp.
 
     Raises
     ------

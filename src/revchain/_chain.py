@@ -198,8 +198,8 @@ class Chain(Unchangeable):
         Notes
         -----
         Greenhill (1908) section 4. The conical heights tend to those of the cord (`revchain.tapered_chain`) as
-        1 / count**2, and `revchain.solve` knows how. Weights and centroids within 0.51 ulp. Cost: 0.5 to 2
-        microseconds a link.
+        1 / count**2, and `revchain.solve` knows how. Weights within 0.51 ulp, and centroids for the
+        length of a link as it is stored. Cost: 0.5 to 2 microseconds a link.
 
         Examples
         --------

@@ -357,7 +357,8 @@ def continuous_critical_heights(
     Returns
     -------
     ndarray, shape (count,)
-        Descending, in the unit of `length`: those of small amplitude.
+        Descending, in the unit of `length`: those of small amplitude, within 4e-15 of themselves for tips up to 1e7
+        times the weight of the chain.
 
     Raises
     ------

@@ -283,7 +283,7 @@ def funicular_polygon(
     Returns
     -------
     FunicularPolygon
-        Heights to n ulp of the drop below the chord.
+        Heights within half an ulp, and 1e-28 of the drop below the chord.
 
     Raises
     ------

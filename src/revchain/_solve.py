@@ -85,9 +85,9 @@ def modes(
     precision : {"double", "single", "extended", "double-double"}
         The arithmetic of the result. ``"single"``: the chain's numbers and the window are ROUNDED to
         float32 first, and results are float32. ``"extended"``: results are of numpy's longdouble, which
-        has 64 bits on x86-64 and on some platforms is no more than double. ``"double-double"``: about 31
-        digits; ``conical_height + conical_height_low``, two float64 arrays, is the height that
-        `error_bound` (1e-28 to 1e-24, it grows with N) is of, and shapes are rounded to float64.
+        has 64 bits on x86-64 and on some platforms is no more than double. ``"double-double"``: twice
+        the digits of double; ``conical_height + conical_height_low``, two float64 arrays, is the height that
+        `error_bound` is of (3e-29 for one link, 1e-24 for 2000), and shapes are float64.
     method : {"auto", "bisection", "blocks", "together", "spectrum", "dense", "recurrence"}
         ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain,
         to 2 ulp. ``"blocks"`` condenses a long chain first: some of its slowest modes, to 2 ulp.

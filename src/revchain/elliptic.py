@@ -165,7 +165,7 @@ def complete(*, modulus: ArrayLike | None = None, complementary_modulus: ArrayLi
     Returns
     -------
     Complete
-        Each of the shape given, within 1e-15 relative; `K` and `D` infinite for modulus 1. Cost 0.2
+        Each of the shape given, within 1.5e-15 relative; `K` and `D` infinite for modulus 1. Cost 0.2
         microseconds a number.
 
     Raises
@@ -242,7 +242,7 @@ def complete_pi(
     Returns
     -------
     float or ndarray
-        Broadcast shape, within 1e-15 relative; infinite for modulus 1. Cost 0.1 microseconds a number.
+        Broadcast shape, within 1.5e-15 relative; infinite for modulus 1. Cost 0.1 microseconds a number.
 
     Raises
     ------
@@ -282,8 +282,7 @@ def incomplete_pi(
     Returns
     -------
     float or ndarray
-        Broadcast shape, within 3e-15 relative, 1e-11 where `characteristic` and the sine of `amplitude`
-        are both within 1e-8 of 1. Cost 0.7 microseconds a number.
+        Broadcast shape, within 3e-15 relative. Cost 0.7 microseconds a number.
 
     Raises
     ------

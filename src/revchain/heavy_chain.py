@@ -44,7 +44,7 @@ def conical_heights(count: int, length: ArrayLike = 1.0) -> Floats:
     Returns
     -------
     ndarray, shape (..., count)
-        Descending, in the unit of `length`, within 4 ulp. Cost O(count).
+        Descending, in the unit of `length`, within 3 ulp. Cost O(count).
 
     Raises
     ------
@@ -331,7 +331,7 @@ def revolutions_per_second(count: int, length: ArrayLike = 1.0, gravity: ArrayLi
     -------
     ndarray, shape (..., count)
         In 1/s, ascending: ``R = N z / 2`` with `N` the turns in a second of the conical pendulum
-        whose height is the length of the chain, within 6 ulp; `gravity` and `length`
+        whose height is the length of the chain, within 4 ulp; `gravity` and `length`
         broadcast. Cost O(count).
 
     Raises

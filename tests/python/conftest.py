@@ -14,6 +14,7 @@ from typing import Any
 
 import mpmath as mp
 import pytest
+from exact import heights_of, stored_links
 from hypothesis import HealthCheck, settings
 
 settings.register_profile(
@@ -31,41 +32,12 @@ def repository() -> Path:
 
 
 @pytest.fixture(scope="session")
-def stored_links() -> Callable:
-    """(W, a, h, rho^2) of each link, from the numbers that a chain stores (rho^2/a^2 in two words)."""
-
-    def links(chain):
-        size, *columns, _ = chain._compiled.__getstate__()
-        full = [column.tolist() if column.ndim else [float(column)] * size for column in columns]
-        return [
-            (mp.mpf(w), mp.mpf(a), mp.mpf(h), (mp.mpf(high) + mp.mpf(low)) * mp.mpf(a) ** 2)
-            for w, a, h, high, low in zip(*full, strict=True)
-        ]
-
-    return links
-
-
-@pytest.fixture(scope="session")
-def exact_heights(stored_links) -> Callable:
-    """All conical heights of the stored numbers: inertia in the angles of the links, 50 digits.
-
-    See tests/data/make_expected.py: a dense matrix in other coordinates than the program's.
-    """
+def exact_heights() -> Callable:
+    """All conical heights of the stored numbers, 50 digits."""
 
     def heights(chain):
         with mp.workdps(50):
-            links = stored_links(chain)
-            below = [mp.mpf(0)]
-            for link in links[:-1]:
-                below.append(below[-1] + link[0])
-            kappa = [w * h + a * s for (w, a, h, _), s in zip(links, below, strict=True)]
-            n = len(links)
-            inertia = mp.matrix(n)
-            for m, (w, a, h, rho2) in enumerate(links):
-                inertia[m, m] = (w * (h**2 + rho2) + a**2 * below[m]) / kappa[m]
-                for j in range(m + 1, n):
-                    inertia[m, j] = inertia[j, m] = links[j][1] * kappa[m] / mp.sqrt(kappa[m] * kappa[j])
-            return sorted(mp.eigsy(inertia, eigvals_only=True), reverse=True)[: chain.mode_count]
+            return heights_of(stored_links(chain))[: chain.mode_count]
 
     return heights
 

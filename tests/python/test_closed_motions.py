@@ -34,6 +34,10 @@ def exactly(*numbers):
     return [mp.mpf(float(number)) for number in numbers]
 
 
+def random(count, low, high):
+    return np.random.default_rng(count).uniform(low, high, count)
+
+
 def close(found, exact, relative):
     return abs(mp.mpf(float(found)) - exact) <= relative * abs(exact)
 
@@ -131,6 +135,10 @@ IMPACTS = [
     dict(front_mass=1, rear_mass=50, buffer_stiffness=1000, coupling_stiffness=2, speed=1),
     dict(front_mass=1e4, rear_mass=3e4, buffer_stiffness=1e6, coupling_stiffness=1e8, speed=0.4),
     dict(front_mass=30, rear_mass=1, buffer_stiffness=1, coupling_stiffness=7, speed=1),
+]
+IMPACTS += [
+    dict(front_mass=10.0**m, rear_mass=1.0, buffer_stiffness=10.0**b, coupling_stiffness=10.0**c, speed=10.0**v)
+    for m, b, c, v in random(32, -1, 1).reshape(8, 4) * [1, 2, 2, 9]
 ]
 many = pytest.mark.parametrize("numbers", IMPACTS)
 
@@ -331,6 +339,25 @@ def test_a_link_swings_as_its_equation_of_motion_says(name):
     assert motion.regime == name.partition(",")[0]
     period = motion.period
     assert not far_off(motion, swing, [0.0, *(period * np.array([0.1, 0.25, 0.5, 0.77, 1.0, 1.9, 3.3]))])
+
+
+@pytest.mark.parametrize("seed", range(16))
+def test_any_link_swings_as_its_equation_of_motion_says(seed):
+    """To 1e-13 of the greatest angle, a turn where it revolves, and of the greatest rate and acceleration looked at."""
+    turn, pull, angle, rate, power = np.random.default_rng(seed).uniform(-1, 1, 5)
+    unit = 10.0 ** (6 * power)
+    small = 10.0 ** -(6 * (seed % 3))
+    numbers = dict(angular_speed=6 * abs(turn) / unit, pendulum_length=abs(pull) * unit**2, angle=3.1 * angle * small)
+    numbers |= dict(angle_rate=10 * rate * small / unit, gravity=math.copysign(10 * pull**2, pull))
+    motion, swing = rc.GovernorMotion(**numbers), Swing(**numbers)
+    times = unit * np.array([0.0, *np.sort(random(12, 0, 4))])
+    found, exact = motion.state(times), swing(times)
+    greatest = min(max(abs(motion.least_angle), abs(motion.greatest_angle)), 2 * math.pi)
+    fastest = max(abs(rate) for _, rate in exact)
+    strongest = max(abs(swing.acceleration(angle)) for angle, _ in exact)
+    for i, (time, (angle, rate)) in enumerate(zip(times, exact, strict=True)):
+        assert abs(float(found.angle[i]) - angle) <= 1e-13 * (greatest + time * fastest)
+        assert abs(float(found.angle_rate[i]) - rate) <= 1e-13 * (fastest + time * strongest)
 
 
 @pytest.mark.parametrize("name", SWINGS)
@@ -534,6 +561,7 @@ def rope_of(span, complementary):
 QUANTITIES = ("span", "length", "slack", "sag", "height_times_tension")
 PAIRS = list(itertools.combinations(QUANTITIES, 2))
 FORMS = [1 - 1e-15, 1 - 1e-8, 0.999, 0.8, 0.3, 1e-2, 1e-5]
+FORMS += [1 - 10.0**e for e in random(2, -15, -1)] + [10.0**e for e in random(4, -6, 0)]
 
 
 def logarithms(u, v):
@@ -805,7 +833,9 @@ class Tortuous:
 
 
 RADII = [(0.5, 1.0), (0.0, 1.0), (1.0, 1.0), (1e-6, 1.0), (1e-150, 1.0), (0.999999, 1.0), (1e-9, 1e-8), (3.0, 40.0)]
-SPEEDS = [(5.0, 2.0), (0.1, 2.0), (50.0, 1e-3)]
+RADII += [(10.0**e, 10.0**f) for e, f in zip(random(12, -30, -1), random(12, 0, 3), strict=True)]
+RADII += [(1 - 10.0**e, 1.0) for e in random(6, -15, 0)]
+SPEEDS = [(5.0, 2.0), (0.1, 2.0), (50.0, 1e-3), *((10.0**e, 10.0**f) for e, f in random(24, -6, 6).reshape(12, 2))]
 
 
 @pytest.mark.parametrize("radii", RADII)
@@ -813,7 +843,7 @@ SPEEDS = [(5.0, 2.0), (0.1, 2.0), (50.0, 1e-3)]
 def test_half_waves_of_a_tortuous_rope(radii, speed):
     rope = rc.TortuousRope(least_radius=radii[0], greatest_radius=radii[1], angular_speed=speed[0], tension=speed[1])
     exact = Tortuous(*radii, *speed)
-    with mp.workdps(340 if radii[0] == 1e-150 else 40):
+    with mp.workdps(340 if radii[0] < 1e-9 * radii[1] else 40):
         x, arc, angle, slack = (2 * each for each in Tortuous(*radii, *speed).at(mp.pi / 2))
     assert close(rope.half_wave, x, 1e-14) and close(rope.half_wave_length, arc, 1e-14)
     assert close(rope.half_wave_slack, slack, 1e-14)

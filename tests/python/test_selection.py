@@ -11,6 +11,7 @@ import timeit
 import mpmath as mp
 import numpy as np
 import pytest
+from exact import stored_links
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -228,7 +229,7 @@ def count_above(pencil, height):
 
 
 @given(chains(6), st.sampled_from([None, 1e-12, 1e-3, 0.7]))
-def test_certificates_hold_in_sixty_digits(stored_links, exact_heights, chain, rtol):
+def test_certificates_hold_in_sixty_digits(exact_heights, chain, rtol):
     result = rc.modes(chain, rtol=rtol, certify=True, shapes=False)
     proof = result.certificate
     with mp.workdps(60):

@@ -7,6 +7,7 @@ import pickle
 import mpmath as mp
 import numpy as np
 import pytest
+from exact import heights_of, stored_links
 
 import revchain as rc
 from revchain import Chain
@@ -41,21 +42,7 @@ def moved(links, quantity, m, x):
     return [*links[:m], (w, a, h, square), *links[m + 1 :]]
 
 
-def heights(links):
-    """All conical heights: inertia in the angles of the links, in mpmath's precision."""
-    below = [mp.mpf(0)]
-    for link in links[:-1]:
-        below.append(below[-1] + link[0])
-    kappa = [w * h + a * s for (w, a, h, _), s in zip(links, below, strict=True)]
-    inertia = mp.matrix(len(links))
-    for m, (w, a, h, square) in enumerate(links):
-        inertia[m, m] = (w * (h**2 + square) + a**2 * below[m]) / kappa[m]
-        for j in range(m + 1, len(links)):
-            inertia[m, j] = inertia[j, m] = links[j][1] * kappa[m] / mp.sqrt(kappa[m] * kappa[j])
-    return sorted(mp.eigsy(inertia, eigvals_only=True), reverse=True)
-
-
-def test_derivatives_are_central_differences_in_50_digits(stored_links):
+def test_derivatives_are_central_differences_in_50_digits():
     chain = bodies()
     found = rc.modes(chain).sensitivity
     with mp.workdps(50):
@@ -64,8 +51,8 @@ def test_derivatives_are_central_differences_in_50_digits(stored_links):
         for quantity in QUANTITIES:
             for m, (w, a, h, square) in enumerate(links):
                 x = {"weight": w, "centroid": h, "radius_of_gyration": mp.sqrt(square)}.get(quantity, a)
-                up = heights(moved(links, quantity, m, x * (1 + step)))
-                down = heights(moved(links, quantity, m, x * (1 - step)))
+                up = heights_of(moved(links, quantity, m, x * (1 + step)))
+                down = heights_of(moved(links, quantity, m, x * (1 - step)))
                 for j, (more, less) in enumerate(zip(up, down, strict=True)):
                     exact = (more - less) / (2 * step * x)
                     off = abs(mp.mpf(float(found[quantity][j, m])) - exact)

@@ -58,14 +58,14 @@ inline double complete_integral(double complement, double p, double a, double b)
         const double before = a, mean = scale;
         a += b / p;
         const double ratio = e / p;
-        b = 2 * (b + before * ratio);
+        b = 2 * std::fma(before, ratio, b);
         p += ratio;
         scale += complement;
         if (std::abs(mean - complement) <= mean * 1e-8) break;
         complement = 2 * std::sqrt(e);
         e = complement * scale;
     }
-    return 0.5 * std::numbers::pi * (b + a * scale) / (scale * (scale + p));
+    return 0.5 * std::numbers::pi * (std::fma(a, scale, b) / (scale * (scale + p)));
 }
 
 }  // namespace detail
@@ -76,7 +76,7 @@ struct CompleteIntegrals {
     double K, E, D, B;
 };
 
-/// Accuracy: 1e-15 relative each. K and D are infinite for kappa' = 0. Cost: 0.1 microseconds.
+/// Accuracy: 1.5e-15 relative each. K and D are infinite for kappa' = 0. Cost: 0.1 microseconds.
 inline CompleteIntegrals complete_integrals(const EllipticModulus& modulus) {
     const double c = modulus.complementary_modulus();
     if (c == 0) {

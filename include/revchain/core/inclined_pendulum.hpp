@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "revchain/core/double_word.hpp"
 #include "revchain/core/status.hpp"
 
 /// One plummet at any inclination, free or held, and the whirling machine: Greenhill (1908) §1. Lengths in any unit,
@@ -45,8 +46,8 @@ struct HeldPlummet {
 };
 
 /// `upper_thread` and `lower_thread` from two points of the axis, the lower `distance` below the upper; the equations of
-/// the polygon KN, NP, PC', C'K of §1. The lower thread is taut where depth > height. Accuracy: radius 3 ulp, depth 3 ulp
-/// of the longer thread, forces balanced to 4.
+/// the polygon KN, NP, PC', C'K of §1. The lower thread is taut where depth > height. Accuracy: 3 ulp; where a depth or
+/// a tension nearly vanishes, 1e-29 of the larger of the two terms whose difference it is.
 /// Throws InvalidArgument unless the three lengths make a triangle.
 template <Real T>
 HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const T& distance, const T& height) {
@@ -65,11 +66,18 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     if (!(slack >= T(0))) detail::refuse(place, "distance must make a triangle with the two threads", distance);
     // No product of two lengths, which may leave the range.
     const T radius = sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
-    const T along = (upper_thread - lower_thread) / distance * (upper_thread + lower_thread);
-    const T depth = (distance + along) / T(2), above_lower = (along - distance) / T(2);  // depth - distance
-    const T upper = upper_thread / distance * ((height - above_lower) / height);
-    const T lower = lower_thread / distance * ((depth - height) / height);
-    return {radius, depth, upper, lower, upper >= T(0), lower >= T(0)};
+    // In two words, of lengths near 1: of a thin triangle depth and depth - distance are differences.
+    using S = Wide<T>;
+    using std::frexp;
+    using std::ldexp;
+    int unit = 0;
+    frexp(a, &unit);
+    const auto wide = [](const T& x, int power) { return S(static_cast<Narrow<S>>(ldexp(x, power))); };
+    const S u = wide(upper_thread, -unit), l = wide(lower_thread, -unit), d = wide(distance, -unit), x = wide(height, 0);
+    const S along = (u - l) / d * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
+    const T upper = upper_thread / distance * (static_cast<T>(S(x - above_lower)) / height);
+    const T lower = lower_thread / distance * (static_cast<T>(S(depth - x)) / height);
+    return {radius, static_cast<T>(depth), upper, lower, upper >= T(0), lower >= T(0)};
 }
 
 /// The whirling machine: a plummet whose thread hangs from an arm `arm` long, its length adjusted until the arm stands at

@@ -206,7 +206,7 @@ struct Pack {
             r = reinterpret_cast<Register>(((2 * bias) << fraction_bits) - power);
         });
     }
-    /// About 1/sqrt(x), within 4 per cent: half the exponent, and the rest as it comes. Precondition: x >= 0.
+    /// About 1/sqrt(x), within 4 per cent: half the exponent, and the rest as it comes. Precondition: x is normal, or 0.
     [[gnu::always_inline]] friend Pack rough_inverse_root(const Pack& x) requires(sizeof(T) == 8) {
         return each([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             r = reinterpret_cast<Register>(0x5fe6eb50c7b537a9ULL - (reinterpret_cast<Naturals>(x.part[i]) >> 1));

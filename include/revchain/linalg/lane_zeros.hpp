@@ -11,7 +11,7 @@ namespace detail {
 inline constexpr double last_step = 2e-4;
 
 /// Square root to a relative 1e-10: a first guess from the exponent, three Newton steps for 1/sqrt. The built-in one is
-/// not vectorised where it has to set errno. Precondition: x >= 0.
+/// not vectorised where it has to set errno. Precondition: x is normal, or 0.
 template <class V>
 [[gnu::always_inline]] inline V rough_sqrt(const V& x) {
     V r = rough_inverse_root(x);

@@ -63,7 +63,7 @@ struct Modes {
 
     Index size() const { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2 ulp.
+    /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.
     Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::angular_speed<T>);
     }

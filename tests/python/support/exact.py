@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Exact conical heights in mpmath, from the numbers that a chain stores."""
+
+import mpmath as mp
+
+
+def stored_links(chain):
+    """(W, a, h, rho^2) of each link, from the numbers that a chain stores (rho^2/a^2 in two words)."""
+    size, *columns, _ = chain._compiled.__getstate__()
+    full = [column.tolist() if column.ndim else [float(column)] * size for column in columns]
+    return [
+        (mp.mpf(w), mp.mpf(a), mp.mpf(h), (mp.mpf(high) + mp.mpf(low)) * mp.mpf(a) ** 2)
+        for w, a, h, high, low in zip(*full, strict=True)
+    ]
+
+
+def heights_of(links):
+    """All conical heights of links (W, a, h, rho^2), descending, in the precision of mpmath.
+
+    See tests/data/make_expected.py: a dense matrix in other coordinates than the program's, the angles of the links.
+    """
+    below = [mp.mpf(0)]
+    for link in links[:-1]:
+        below.append(below[-1] + link[0])
+    kappa = [w * h + a * s for (w, a, h, _), s in zip(links, below, strict=True)]
+    inertia = mp.matrix(len(links))
+    for m, (w, a, h, square) in enumerate(links):
+        inertia[m, m] = (w * (h**2 + square) + a**2 * below[m]) / kappa[m]
+        for j in range(m + 1, len(links)):
+            inertia[m, j] = inertia[j, m] = links[j][1] * kappa[m] / mp.sqrt(kappa[m] * kappa[j])
+    return sorted(mp.eigsy(inertia, eigvals_only=True), reverse=True)

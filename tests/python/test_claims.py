@@ -1,0 +1,956 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Claims of accuracy with a number, each against mpmath over the domain that its docstring states, edges included.
+
+The list of all claims and of their tests is in docs/accuracy.md, "Claims and their tests".
+"""
+
+import ast
+import inspect
+import math
+import re
+from operator import attrgetter
+
+import mpmath as mp
+import numpy as np
+import pytest
+from exact import heights_of, stored_links
+
+import revchain as rc
+from revchain import elliptic, heavy_chain, plummet, tapered_chain, tip_mass
+
+ULP = 2.0**-52
+TINY, HUGE = mp.mpf(2) ** -1021, mp.mpf(2) ** 1023
+SAMPLES = 150
+
+pytestmark = pytest.mark.usefixtures("digits")
+
+
+@pytest.fixture
+def digits():
+    with mp.workdps(60):
+        yield
+
+
+# Random data ---------------------------------------------------------------------------------------------------------
+
+
+class Draw:
+    """Random numbers of one test: the seed is the name of the claim."""
+
+    def __init__(self, name):
+        self.rng = np.random.default_rng(list(name.encode()))
+
+    def uniform(self, low, high):
+        return float(self.rng.uniform(low, high))
+
+    def power(self, low, high):
+        """Ten to a power between the two."""
+        return 10.0 ** self.uniform(low, high)
+
+    def near_one(self):
+        """Next to 1 on either side: by 1/2 down to a rounding."""
+        return 1 + float(self.rng.choice([-1, 1])) * 2.0 ** -self.uniform(1, 52)
+
+    def lengths(self, count, spread=(0.3, 6, 40)):
+        """Positive numbers about one scale from 1e-150 to 1e150; in one draw of three two of them nearly agree."""
+        scale, decades = self.power(-150, 150), float(self.rng.choice(spread))
+        numbers = [scale * self.power(-decades, decades) for _ in range(count)]
+        if count > 1 and self.rng.random() < 1 / 3:
+            one, other = self.rng.permutation(count)[:2]
+            numbers[one] = numbers[other] * self.near_one()
+        return numbers
+
+    def anything(self, count):
+        """Positive numbers from 1e-150 to 1e150, each by itself."""
+        return [self.power(-150, 150) for _ in range(count)]
+
+    def link(self, centroid):
+        """A radius of gyration for a centroid: none, any."""
+        return 0.0 if self.rng.random() < 0.2 else centroid * self.power(-8, 3)
+
+
+def exactly(*numbers):
+    return [mp.mpf(float(number)) for number in numbers]
+
+
+def ulps(found, exact):
+    """Error in ulp of the exact number; 0 where that is beyond the normal numbers."""
+    if exact == 0:
+        return 0.0 if found == 0 else math.inf
+    return float(abs(mp.mpf(float(found)) - exact) / abs(exact) / ULP) if TINY < abs(exact) < HUGE else 0.0
+
+
+class Worst:
+    """The largest error over what is allowed, by name, and where it was; no number counts as infinite."""
+
+    def __init__(self):
+        self.found = {}
+
+    def note(self, name, error, where=None):
+        error = math.inf if math.isnan(error) else float(error)
+        self.found[name] = max(self.found.get(name, (0.0, None)), (error, where), key=lambda each: each[0])
+
+    def check(self):
+        assert self.found
+        assert max(error for error, _ in self.found.values()) <= 1, self.found
+
+
+def off(found, exact):
+    return abs(mp.mpf(float(found)) - exact)
+
+
+def check_random(name, draw, found, exact, samples=SAMPLES):
+    """All numbers that are found of random data. `exact` gives pairs of a number and the error allowed, in ulp."""
+    given, worst = Draw(name), Worst()
+    for _ in range(samples):
+        arguments = draw(given)
+        results = np.ravel(found(*arguments)).tolist()
+        for result, (truth, allowed) in zip(results, exact(*exactly(*arguments)), strict=True):
+            worst.note(name, ulps(result, truth) / float(allowed), arguments)
+    worst.check()
+
+
+# Closed forms --------------------------------------------------------------------------------------------------------
+
+
+def roots_of(total, product):
+    """Roots of x^2 - total x + product, the larger first."""
+    root = mp.sqrt(total**2 / 4 - product)
+    larger = abs(total) / 2 + root
+    return [larger, product / larger] if total > 0 else [product / -larger, -larger]
+
+
+def within(allowed, *numbers):
+    return [(number, allowed) for number in numbers]
+
+
+def pendulum(h, k):
+    return h + k**2 / h
+
+
+def inclined(l, x):  # noqa: E741
+    if x >= l:
+        return within(3, mp.mpf(0), mp.mpf(0), l, mp.mpf(1))
+    r = mp.sqrt((l - x) * (l + x))
+    return within(3, mp.atan2(r, x), r, x, l / x)
+
+
+def a_plummet(d):
+    length, height = d.lengths(2)
+    return (length, length / (1 + d.power(-15, 15))) if d.rng.random() < 0.6 else (length, height)
+
+
+def a_link_on_a_thread(d):
+    thread, centroid = d.lengths(2, (0.3, 6, 12))
+    return thread, centroid, d.link(centroid)
+
+
+def a_link(d):
+    return a_link_on_a_thread(d)[1:]
+
+
+def hung(a, h, k):
+    return within(4, *roots_of(a + pendulum(h, k), a * k**2 / h))
+
+
+def two_weights_and_lengths(d):
+    (w1, w2), (l1, l2) = d.lengths(2, (0.3, 6)), d.lengths(2, (0.3, 6, 12))
+    return w1, l1, w2, l2
+
+
+def from_the_middle(d):
+    half, share = d.power(-150, 150), d.uniform(-1, 1) * (1 if d.rng.random() < 0.5 else d.power(-12, 0))
+    if d.rng.random() < 0.5:
+        return half, half * share, d.power(-12, 12)
+    ratio = -d.uniform(0, 1) * (1 if d.rng.random() < 0.5 else d.power(-12, 0))
+    edge = math.sqrt(-ratio)
+    return half, half * (edge + (1 - edge) * d.power(-12, 0) * 0.999 + 1e-15), ratio
+
+
+def middle(a, x, mu):
+    return within(4, *roots_of(2 * a, (a - x) * (a + x) / (1 + mu)))
+
+
+def clock(c, h, k):
+    l = pendulum(h, k)  # noqa: E741
+    with mp.workdps(400):
+        lost = 86400 * (1 - mp.sqrt(l / roots_of(c + l, c * k**2 / h)[0]))
+    return within(8 * (1 + mp.sqrt(l / h) if abs(c / l - 1) < 0.1 else 1), lost)
+
+
+def two_jointed(d):
+    h1, a2, h2, k2 = d.lengths(4, (0.3, 3, 8))
+    if d.rng.random() < 0.5:
+        h2 = -h2
+    w1, w2 = d.lengths(2, (0.3, 4))
+    if h2 < 0 and w1 * a2 + w2 * h2 <= 0:
+        w2 = -w1 * a2 / h2 * d.uniform(0.001, 0.999)
+    return w1, h1, d.link(h1), w2, a2, h2, k2 if d.rng.random() < 0.8 else 0.0
+
+
+def jointed(w1, h1, k1, w2, a2, h2, k2):
+    l1, hung = pendulum(h1, k1), w1 * a2 + w2 * h2
+    p = (w2 * (h2**2 + k2**2) + w1 * a2**2) / hung
+    return within(3, *roots_of(l1 + p, l1 * p - a2 * h1 * w1 * a2 / hung))
+
+
+def bell_and_clapper(d):
+    h2, h1 = d.lengths(2, (0.3, 3))
+    k2, k1 = d.link(h2), d.link(h1)
+    w2, w1 = d.lengths(2, (0.3, 6))
+    bell, clapper = h2 + k2 / h2 * k2, h1 + k1 / h1 * k1
+    if bell <= clapper:
+        factor = bell / clapper * d.uniform(0, 1) if d.rng.random() < 0.5 else bell / clapper * (1 - d.power(-9, -1))
+        h1, k1 = h1 * factor, k1 * factor
+    return w2, h2, k2, w1, h1, k1
+
+
+def silent_pin(w2, h2, k2, w1, h1, k1):
+    l1, l2 = pendulum(h1, k1), pendulum(h2, k2)
+    w = w2 * h2 / w1
+    return within(2 * (l1 + l2) / (l2 - l1), w * (l2 - l1) / (w + l1 - h1))
+
+
+def jointed_rod(d):
+    length = d.power(-150, 150)
+    pin = d.uniform(1 / 6, 0.5) if d.rng.random() < 0.5 else 0.5 - d.power(-15, -0.5)
+    return length, length * min(max(pin, 1 / 6 * (1 + 1e-14)), 0.5 * (1 - 1e-15))
+
+
+def two(d):
+    return d.anything(2)
+
+
+def lengths(count):
+    return lambda d: d.lengths(count)
+
+
+# Random data, and the numbers they give with the errors allowed.
+CLOSED_FORMS = {
+    "conical_pendulum.angular_speed": (two, lambda x, g: within(2.1, mp.sqrt(g / x))),
+    "conical_pendulum.period": (two, lambda x, g: within(2.1, 2 * mp.pi * mp.sqrt(x / g))),
+    "conical_pendulum.revolutions_per_second": (two, lambda x, g: within(2.1, mp.sqrt(g / x) / (2 * mp.pi))),
+    "conical_pendulum.height": (two, lambda n, g: within(2.1, g / n**2)),
+    "conical_pendulum.height_from_period": (two, lambda t, g: within(2.1, g * (t / (2 * mp.pi)) ** 2)),
+    "conical_pendulum.height_from_revolutions_per_second": (two, lambda r, g: within(3, g / (2 * mp.pi * r) ** 2)),
+    "conical_pendulum.height_from_seconds_pendulum": (two, lambda x, t: within(2.1, x * t**2 / 4)),
+    "conical_pendulum.gravity": (two, lambda x, t: within(2.1, x * (2 * mp.pi / t) ** 2)),
+    "conical_pendulum.gravity_from_seconds_pendulum": (lambda d: d.anything(1), lambda x: within(2.1, mp.pi**2 * x)),
+    "hoop.tension": (two, lambda v, g: within(3, v**2 / g)),
+    "hoop.speed": (two, lambda t, g: within(3, mp.sqrt(g * t))),
+    "hoop.string_revolutions_per_second": (
+        lambda d: d.anything(3),
+        lambda a, t, g: within(3, mp.sqrt(g * t) / (2 * a)),
+    ),
+    "plummet.inclined_pendulum": (a_plummet, inclined),
+    "plummet.air_resistance": (two, lambda a, x: within(0.5 * (1 + 1e-15), a / x)),
+    "plummet.whirling_thread": (lengths(3), lambda *sides: within(2, mp.sqrt(sum(side**2 for side in sides)))),
+    "plummet.carried_response": (lengths(2), lambda l, x: within(1.1, x / (x - l) if x != l else mp.inf)),  # noqa: E741
+    "two_links.two_plummets": (
+        two_weights_and_lengths,
+        lambda w1, l1, w2, l2: within(3, *roots_of(l1 + l2, l1 * l2 * w2 / (w1 + w2))),
+    ),
+    "two_links.two_plummets_from_the_middle": (from_the_middle, middle),
+    "two_links.pendulum_length": (a_link, lambda h, k: within(1.5, pendulum(h, k))),
+    "two_links.share_at_centre_of_oscillation": (a_link, lambda h, k: within(2, h / pendulum(h, k))),
+    "two_links.link_on_thread": (a_link_on_a_thread, hung),
+    "two_links.link_on_spring": (a_link_on_a_thread, hung),
+    "two_links.standing_link": (
+        a_link_on_a_thread,
+        lambda a, h, k: within(5, max(roots_of(a - pendulum(h, k), -a * k**2 / h))),
+    ),
+    "two_links.thread_of_standing_link": (
+        a_link_on_a_thread,
+        lambda x, h, k: within(3, x * (pendulum(h, k) + x) / (k**2 / h + x)),
+    ),
+    "two_links.standing_plummet": (
+        two_weights_and_lengths,
+        lambda w1, l1, w2, l2: within(4, max(roots_of(l2 - l1, -l1 * l2 * w2 / (w1 + w2)))),
+    ),
+    "two_links.seconds_lost_per_day": (a_link_on_a_thread, clock),
+    "two_links.jointed_links": (two_jointed, jointed),
+    "two_links.pin_of_silent_clapper": (bell_and_clapper, silent_pin),
+    "two_links.joint_without_bending": (jointed_rod, lambda l, p: within(2.5, (l / 2 - p) ** 2 / p)),  # noqa: E741
+}
+
+
+@pytest.mark.parametrize("name", CLOSED_FORMS)
+def test_closed_forms(name):
+    draw, exact = CLOSED_FORMS[name]
+    function = attrgetter(name)(rc)
+    names = inspect.signature(function).parameters
+    check_random(name, draw, lambda *data: function(**dict(zip(names, data, strict=False))), exact)
+
+
+def test_a_held_plummet():
+    """Threads that make a triangle, thin ones too: depths and tensions that are differences."""
+    d, worst = Draw("held_plummet"), Worst()
+    for _ in range(2 * SAMPLES):
+        scale, a = d.power(-100, 100), d.power(-6, 6)
+        b = a * (d.power(-3, 3) if d.rng.random() < 0.6 else d.near_one())
+        share = d.uniform(0, 1) if d.rng.random() < 0.5 else d.power(-12, 0)
+        given = (a * scale, b * scale, (abs(a - b) + (a + b - abs(a - b)) * share) * scale, a * scale * d.power(-3, 3))
+        u, l, c, x = exactly(*given)  # noqa: E741
+        if not abs(u - l) < c < u + l:
+            continue
+        radius = mp.sqrt((u + l + c) * (u + l - c) * (u - l + c) * (l - u + c)) / (2 * c)
+        half, along = c / 2, (u - l) * (u + l) / (2 * c)
+        # each number, and the larger of the terms of its last difference
+        exact = [
+            (radius, 0),
+            (half + along, half),
+            (u / c * (x + half - along) / x, u / c * max(1, (half + abs(along)) / x)),
+            (l / c * (half + along - x) / x, l / c * max(1, (half + abs(along)) / x)),
+        ]
+        for found, (number, term) in zip(plummet.held_plummet(*given), exact, strict=False):
+            allowed = 3 * ULP * abs(number) + mp.mpf(10) ** -29 * term
+            worst.note("plummet", off(found, number) / allowed, given)
+    worst.check()
+
+
+def carried(l, x, b):  # noqa: E741
+    """Every root of x tan d = b + l sin d, by bisection of t (x - l cos d) - b between its extremes."""
+    value = lambda t: x * t - b - l * t / mp.sqrt(1 + t * t)  # noqa: E731
+    def root(low, high):
+        rising = value(high) > value(low)
+        for _ in range(330):
+            middle = (low + high) / 2
+            low, high = (middle, high) if (value(middle) < 0) == rising else (low, middle)
+        return low
+
+    far = 2 * (l + b) / x
+    turn = mp.sqrt((l / x) ** (mp.mpf(2) / 3) - 1) if x < l else mp.mpf(0)
+    inner = [root(-far, -turn), root(-turn, mp.mpf(0))] if x < l and value(-turn) >= 0 else []
+    return [*inner, root(turn, far)], turn
+
+
+def test_inclinations_of_a_carried_plummet():
+    d, worst = Draw("carried_inclinations"), Worst()
+    for _ in range(SAMPLES // 2):
+        scale, share = d.power(-100, 100), d.power(-9, 0) if d.rng.random() < 0.5 else d.near_one()
+        fold = abs(1 - share ** (2 / 3)) ** 1.5
+        radius = d.power(-9, 3) if d.rng.random() < 0.5 or not fold else fold * d.near_one()
+        given = (scale, scale * share, scale * radius)
+        with mp.workdps(90):
+            roots, turn = carried(*exactly(*given))
+            found = [d for d in np.ravel(plummet.carried_inclinations(*given)) if not np.isnan(d)]
+            meeting = 1 / mp.sqrt(1 + turn**2)
+            for number, (f, t) in enumerate(zip(found, roots, strict=True)):
+                inner = len(roots) == 3 and number < 2
+                condition = abs(1 / (1 - (meeting * mp.sqrt(1 + t * t)) ** 3)) if inner else 1
+                worst.note("inclination", ulps(f, mp.atan(t)) / 4 / max(1, condition), given)
+    worst.check()
+
+
+# Elliptic integrals and functions ------------------------------------------------------------------------------------
+
+
+def moduli(d, least=-300):
+    """Complementary moduli: any, tiny, next to 1."""
+    kind = d.rng.integers(4)
+    return [d.uniform(0, 1), d.power(least, 0), 1 - d.power(-16, -1), d.power(-16, 0)][kind]
+
+
+def amplitudes(d):
+    """Any, tiny, next to a number of quarter turns."""
+    kind = d.rng.integers(3)
+    if kind == 0:
+        return d.uniform(-12, 12)
+    if kind == 1:
+        return d.power(-100, 0)
+    quarters = float(d.rng.integers(-40, 40)) * math.pi / 2
+    return float(np.nextafter(quarters, 100)) if d.rng.random() < 0.5 else quarters * (1 + d.power(-16, -1))
+
+
+def characteristics(d):
+    kind = d.rng.integers(4)
+    return [-d.power(-12, 12), d.power(-12, 0) * (1 - 1e-16), 1 - d.power(-16, 0), -d.power(-150, 150)][kind]
+
+
+def legendre(amplitude, kc, n=None):
+    """F, E, D, or the integral of the third kind, by Carlson's forms and whole half turns."""
+    turns = mp.nint(amplitude / mp.pi)
+    rest = amplitude - turns * mp.pi
+    s, c2 = mp.sin(rest), mp.cos(rest) ** 2
+    y = c2 + (kc * s) ** 2
+    F, m = s * mp.elliprf(c2, y, 1), 1 - kc**2
+    K = mp.elliprf(0, kc**2, 1) if turns else 0
+    if n is not None:
+        whole = K + n / 3 * mp.elliprj(0, kc**2, 1, 1 - n) if turns else 0
+        return [F + n * s**3 / 3 * mp.elliprj(c2, y, 1, 1 - n * s**2) + 2 * turns * whole]
+    D = s**3 / 3 * mp.elliprd(c2, y, 1) + (2 * turns * mp.elliprd(0, kc**2, 1) / 3 if turns else 0)
+    F += 2 * turns * K
+    return [F, F - m * D, D]
+
+
+def jacobi_functions(u, kc):
+    """am, sn, cn, dn, epsilon and their derivatives by descending arithmetic-geometric means."""
+    a, b, c = [mp.mpf(1)], kc, [mp.sqrt(1 - kc**2)]
+    total = c[0] ** 2 / 2
+    while abs(c[-1]) > mp.mpf(10) ** -(mp.mp.dps // 2 + 5):
+        a, b, c = [*a, (a[-1] + b) / 2], mp.sqrt(a[-1] * b), [*c, (a[-1] - b) / 2]
+        total += mp.mpf(2) ** (len(a) - 2) * c[-1] ** 2
+    phi, epsilon = mp.mpf(2) ** (len(a) - 1) * a[-1] * u, (1 - total) * u
+    for mean, difference in zip(a[:0:-1], c[:0:-1], strict=True):
+        epsilon += difference * mp.sin(phi)
+        phi = (phi + mp.asin(difference / mean * mp.sin(phi))) / 2
+    s, x = mp.sin(phi), mp.cos(phi)
+    d = mp.sqrt(x**2 + (kc * s) ** 2)
+    return [(phi, d), (s, x * d), (x, -s * d), (d, -(1 - kc**2) * s * x), (epsilon, d**2)]
+
+
+def relative(bound, *numbers):
+    return [(number, bound / ULP) for number in numbers]
+
+
+def complete_integrals(kc):
+    with mp.workdps(360):
+        K, D = mp.elliprf(0, kc**2, 1), mp.elliprd(0, kc**2, 1) / 3
+        return relative(1.5e-15, K, K - (1 - kc**2) * D, D, K - D)
+
+
+def incomplete_integrals(amplitude, kc):
+    with mp.workdps(360):
+        return relative(2e-15, *legendre(amplitude, kc))
+
+
+def complete_third_kind(n, kc):
+    with mp.workdps(60 + int(mp.log10(1 + abs(n)))):
+        return relative(1.5e-15, mp.elliprf(0, kc**2, 1) + n / 3 * mp.elliprj(0, kc**2, 1, 1 - n))
+
+
+def third_kind(n, amplitude, kc):
+    with mp.workdps(60 + 2 * int(mp.log10(1 + abs(n)))):
+        return relative(3e-15, *legendre(amplitude, kc, n))
+
+
+def jacobi(u, kc):
+    with mp.workdps(400):
+        return [(f, 1e-15 / ULP * (1 + abs(u * df / f))) for f, df in jacobi_functions(u, kc)]
+
+
+def arguments_of_jacobi(d):
+    kc = moduli(d, -150)
+    quarter = float(elliptic.complete(complementary_modulus=kc).K)
+    kind = d.rng.integers(3)
+    beside = quarter * float(d.rng.integers(1, 5)) * d.near_one()
+    return [d.power(-100, 0), quarter * d.uniform(-9, 9), beside][kind], kc
+
+
+def near_both_edges(d):
+    """Characteristic and sine of the amplitude both next to 1 in one draw of three."""
+    if d.rng.random() < 2 / 3:
+        return characteristics(d), amplitudes(d), moduli(d)
+    quarters = float(2 * d.rng.integers(-5, 5) + 1) * math.pi / 2
+    return 1 - d.power(-16, 0), quarters * (1 + d.power(-17, -1)), moduli(d)
+
+
+ELLIPTIC = {
+    "elliptic.complete": (
+        lambda d: [moduli(d)],
+        lambda kc: elliptic.complete(complementary_modulus=kc),
+        complete_integrals,
+    ),
+    "elliptic.complete_pi": (
+        lambda d: [characteristics(d), moduli(d)],
+        lambda n, kc: elliptic.complete_pi(n, complementary_modulus=kc),
+        complete_third_kind,
+    ),
+    "elliptic.incomplete": (
+        lambda d: [amplitudes(d), moduli(d)],
+        lambda a, kc: elliptic.incomplete(a, complementary_modulus=kc),
+        incomplete_integrals,
+    ),
+    "elliptic.incomplete_pi": (
+        near_both_edges,
+        lambda n, a, kc: elliptic.incomplete_pi(n, a, complementary_modulus=kc),
+        third_kind,
+    ),
+    "elliptic.jacobi": (
+        arguments_of_jacobi,
+        lambda u, kc: elliptic.jacobi(u, complementary_modulus=kc),
+        jacobi,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ELLIPTIC)
+def test_elliptic(name):
+    check_random(name, *ELLIPTIC[name])
+
+
+# Chains without links ------------------------------------------------------------------------------------------------
+
+
+def root_next_to(function, guess):
+    """The root next to a number that is right to some 1e-13."""
+    return mp.findroot(function, (guess, guess * (1 + mp.mpf(10) ** -14)), tol=mp.mpf(10) ** -70, verify=False)
+
+
+def zero_of_bessel(order, number):
+    """Zero of J of any order, next to the one that the library's heights give."""
+    height = tapered_chain.conical_heights(number, exponent=float(order))[-1]
+    return root_next_to(lambda z: mp.besselj(mp.mpf(order), z), mp.mpf(2 * math.sqrt((order + 1) / height)))
+
+
+def places(d):
+    """Parts of a length: any, next to the free end, next to the support."""
+    return d.uniform(0, 1), d.power(-20, 0), 1 - d.power(-16, 0)
+
+
+def modes_up_to(d, most):
+    return int(d.power(0, math.log10(most)))
+
+
+@pytest.mark.parametrize(("size", "most"), [(1, 3e-29), (2000, 1e-24)])
+def test_bounds_in_two_words(size, most):
+    """`modes` with ``precision="double-double"``: how much is proved; that it holds is tested elsewhere."""
+    found = rc.modes(rc.Chain.uniform_rods(size), count=min(size, 3), precision="double-double", shapes=False)
+    assert found.error_bound.max() <= most
+
+
+def test_speeds_of_a_solution():
+    """`Solution.angular_speed`, from its heights."""
+    d = Draw("Solution")
+    for _ in range(SAMPLES // 5):
+        chain = rc.Chain(weight=d.lengths(3, (2,)), length=d.lengths(3, (2,)))
+        solution = rc.solve(chain, gravity=d.power(-20, 20))
+        for speed, height in zip(solution.angular_speed, solution.conical_height, strict=True):
+            assert ulps(speed, mp.sqrt(mp.mpf(solution.gravity) / mp.mpf(float(height)))) <= 1
+
+
+def test_heights_of_the_heavy_chain():
+    d, worst = Draw("heavy_chain"), Worst()
+
+    for _ in range(40):
+        length, mode = d.power(-150, 150), modes_up_to(d, 30_000)
+        zero = zero_of_bessel(0, mode)
+        height = heavy_chain.conical_heights(mode, length)[-1]
+        worst.note("conical_heights", ulps(height, 4 * mp.mpf(length) / zero**2) / 3)
+        gravity = d.power(-100, 100)
+        turns = heavy_chain.revolutions_per_second(mode, length, gravity)[-1]
+        turning = mp.sqrt(mp.mpf(gravity) / mp.mpf(length)) / (2 * mp.pi)
+        worst.note("revolutions_per_second", ulps(turns, turning * zero / 2) / 4)
+        energy = (zero * mp.besselj(1, zero)) ** 2 / 8
+        worst.note("kinetic_energy", ulps(heavy_chain.kinetic_energy(mode), energy) * ULP / 1e-15 / (1 + mode))
+        if mode > 1:
+            node = int(d.rng.integers(1, mode))
+            there = heavy_chain.nodes(mode, length)[node - 1]
+            worst.note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(0, node) / zero) ** 2) / 5)
+            there = heavy_chain.vertical_points(mode, length)[node - 1]
+            worst.note("vertical_points", ulps(there, mp.mpf(length) * (zero_of_bessel(1, node) / zero) ** 2) / 5)
+        for share in places(d):
+            x = length * share
+            z = zero * mp.sqrt(mp.mpf(x) / mp.mpf(length))
+            worst.note("shape", off(heavy_chain.shape(x, mode, length), mp.besselj(0, z)) / 1e-15 / mode)
+            slope = mp.mpf(float(heavy_chain.slope(x, mode, length))) * mp.mpf(height)
+            worst.note("slope", abs(slope + 2 * mp.besselj(1, z) / z) / 1e-15 / mode)
+    worst.check()
+
+
+def test_chains_that_taper():
+    d, worst = Draw("tapered_chain"), Worst()
+
+    for _ in range(40):
+        length, mode = d.power(-150, 150), modes_up_to(d, 3000)
+        p = [d.uniform(-0.99, 1), d.power(-1, 2), -0.99 + d.power(-6, -2)][d.rng.integers(3)]
+        order, zero = mp.mpf(p), zero_of_bessel(p, mode)
+        height = tapered_chain.conical_heights(mode, exponent=p, length=length)[-1]
+        worst.note("conical_heights", ulps(height, 4 * (order + 1) * mp.mpf(length) / zero**2) / 3)
+        if mode > 1:
+            node = int(d.rng.integers(1, mode))
+            there = tapered_chain.nodes(mode, exponent=p, length=length)[node - 1]
+            worst.note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(p, node) / zero) ** 2) / 3)
+        at = lambda f, share: f(np.asarray(share) * length, mode, exponent=p, length=length)  # noqa: E731, B023
+        largest = max(1.0, np.abs(at(tapered_chain.shape, np.linspace(0, 1, 400))).max())
+        steepest = np.abs(at(tapered_chain.slope, np.linspace(0, 1, 400))).max()
+        for share in places(d):
+            z = zero * mp.sqrt(mp.mpf(share * length) / mp.mpf(length))
+            allowed = mp.mpf(1e-15) * (1 + zero)
+            exact = mp.hyp0f1(order + 1, -(z**2) / 4)
+            worst.note("shape", off(at(tapered_chain.shape, share), exact) / largest / allowed)
+            exact = -mp.hyp0f1(order + 2, -(z**2) / 4) * zero**2 / (4 * (order + 1) * mp.mpf(length))
+            worst.note("slope", off(at(tapered_chain.slope, share), exact) / mp.mpf(steepest) / allowed)
+    worst.check()
+
+
+def tip_shape(m, height):
+    """Offset and slope (times the height) at a distance over the length, 1 at the free end."""
+    a = 2 * mp.sqrt(m / height)
+    A, B = (mp.pi * a**2 / 4 * v for v in (-mp.bessely(2, a), mp.besselj(2, a))) if m else (mp.mpf(1), mp.mpf(0))
+
+    def at(x):
+        z = 2 * mp.sqrt((m + x) / height)
+        offset = A * mp.besselj(0, z) + (B * mp.bessely(0, z) if m else 0)
+        slope = -(A * mp.besselj(1, z) + (B * mp.bessely(1, z) if m else 0)) * 2 / z if z else -mp.mpf(1)
+        return offset, slope
+
+    return at
+
+
+def test_chains_with_a_tip():
+    d, worst = Draw("tip_mass"), Worst()
+
+    for turn in range(16):
+        length, mode = d.power(-140, 140), modes_up_to(d, 300)
+        tip = length * [d.power(-12, 3), d.power(-3, 3), d.power(3, 12), d.power(12, 100)][turn % 4]
+        where = (length, mode, tip)
+        with mp.workdps(60 if tip < 1e12 * length else 300):
+            L, m = mp.mpf(length), mp.mpf(tip) / mp.mpf(length)
+            found = tip_mass.conical_heights(mode, tip=tip, length=length)[-1]
+            cross = lambda y, m=m: tip_shape(m, y)(mp.mpf(1))[0]  # noqa: E731
+            root = root_next_to(cross, mp.mpf(float(found)) / L)
+            worst.note("conical_heights", ulps(found, root * L) / 2, where)
+            exact = tip_shape(m, root)
+            at = lambda f, share: f(np.asarray(share) * length, mode, tip=tip, length=length)  # noqa: E731, B023
+            largest, steepest = (np.abs(at(f, np.linspace(0, 1, 400))).max() for f in (tip_mass.shape, tip_mass.slope))
+            for share in places(d):
+                offset, slope = exact(mp.mpf(share * length) / L)
+                allowed = mp.mpf(2e-15) * mode
+                worst.note("shape", off(at(tip_mass.shape, share), offset) / mp.mpf(float(largest)) / allowed, where)
+                error = off(at(tip_mass.slope, share), slope / (root * L)) / mp.mpf(float(steepest))
+                worst.note("slope", error / allowed, where)
+            if mode > 1:
+                nodes = tip_mass.nodes(mode, tip=tip, length=length)
+                node = mp.mpf(float(nodes[d.rng.integers(0, mode - 1)])) / L
+                worst.note("nodes", abs(root_next_to(lambda x: exact(x)[0], node) - node) / 1e-15, where)  # noqa: B023
+    worst.check()
+
+
+def test_critical_heights_without_links():
+    """`continuous_critical_heights` against the closed forms, in any unit."""
+    d, worst = Draw("continuous_critical_heights"), Worst()
+    for turn in range(40):
+        length = d.power(-100, 100) if turn % 2 else d.power(-3, 3)
+        tip, p = length * d.power(-9, 7), d.uniform(-0.9, 5)
+        if turn % 2:
+            count = modes_up_to(d, 60)
+            found = rc.continuous_critical_heights(length, count=count, tip_weight=tip)
+            exact = tip_mass.conical_heights(count, tip=tip, length=length)
+        else:
+            density = lambda s, p=p, length=length: (s / length) ** p if s > 0 else 0.0  # noqa: E731
+            found = rc.continuous_critical_heights(length, count=5, line_density=density)
+            exact = tapered_chain.conical_heights(5, exponent=p, length=length)
+        worst.note("heights", np.abs(found / exact - 1).max() / 4e-15, (length, tip, p))
+    worst.check()
+
+
+# Wheels in a row, links made of others -------------------------------------------------------------------------------
+
+
+def test_waves_of_a_gyrostatic_string():
+    """Phases, speeds and rotations; where terms cancel as many times more is allowed as the docstring says."""
+    d, worst = Draw("GyrostaticString"), Worst()
+
+    for _ in range(3 * SAMPLES):
+        a, W = d.power(-50, 50), d.power(-50, 50)
+        given = dict(
+            weight=W,
+            length=a,
+            tension=W * d.power(-3, 6),
+            momentum=W * math.sqrt(a) * d.uniform(-1, 1) * (1 if d.rng.random() < 0.5 else d.power(-25, 0)),
+            centroid=a * d.uniform(0, 1),
+            radius_of_gyration=a * d.uniform(0, 1),
+        )
+        string = rc.GyrostaticString(**given)
+        W, a, T, H, h, rho, g = exactly(*given.values(), 9.80665)
+        X = W * (h * (a - h) - rho**2) / a**2
+        terms_of_X = W * (abs(h * (a - h)) + rho**2) / a**2
+        theta = d.power(-6, math.log10(math.pi)) if d.rng.random() < 0.7 else math.pi * (1 - d.power(-9, 0))
+        t = mp.mpf(theta)
+        s2 = 4 * mp.sin(t / 2) ** 2
+        A, B, C = (W - X * s2) / g, s2 * H / a**2, s2 * T / a
+        where = (given, theta)
+        if A > 0:  # n^2 A - n B - C = 0
+            cancelled = (W + terms_of_X * s2) / (A * g)
+            q = (abs(B) + mp.sqrt(B**2 + 4 * A * C)) / 2
+            forward, backward = (q / A, -C / q) if B >= 0 else (C / q, -q / A)
+            found = string.angular_speeds(theta)
+            worst.note("angular_speeds", ulps(found.forward, forward) / 4 / cancelled, where)
+            worst.note("angular_speeds", ulps(found.backward, backward) / 4 / cancelled, where)
+
+        def sine(n):
+            """sin^2 of half the phase and how far its terms cancel."""
+            k = (T + n * H / a) / a + n**2 / g * X
+            return n**2 * W / g / (4 * k), (T / a + abs(n * H) / a**2 + n**2 / g * terms_of_X) / abs(k)
+
+        n = float(mp.sqrt(g / a)) * d.power(-3, 2)
+        ahead, back = sine(mp.mpf(n)), sine(-mp.mpf(n))
+        condition = 1
+        for sign, (s, cancelled) in ((1, ahead), (-1, back)):
+            if not 0 < s < 1:
+                continue
+            condition = max(condition, cancelled / mp.sqrt(1 - s))
+            error = ulps(string.phase(sign * n), 2 * mp.asin(mp.sqrt(s)))
+            worst.note("phase", error / 4 / cancelled * mp.sqrt(1 - s), (given, n))
+        turned = string.plane_rotation(n)
+        if 0 < ahead[0] < 1 and 0 < back[0] < 1 and H:
+            with mp.workdps(120):
+                exact = mp.asin(mp.sqrt(sine(-mp.mpf(n))[0])) - mp.asin(mp.sqrt(sine(mp.mpf(n))[0]))
+            worst.note("plane_rotation", ulps(turned, exact) / 8 / condition, (given, n))
+    worst.check()
+
+
+def test_links_of_a_tapered_chain():
+    """Weights and centroids of `Chain.tapered`, of the lowest and highest links and some between."""
+    d, worst = Draw("Chain.tapered"), Worst()
+
+    for _ in range(SAMPLES // 4):
+        count = modes_up_to(d, 100_000)
+        length, weight = d.power(-100, 100), d.power(-100, 100)
+        p = [d.uniform(-1, 1), d.power(-3, 2), d.power(-12, -3) - 1, d.power(2, 3)][d.rng.integers(4)]
+        if (p + 1) * math.log10(count) > 180:
+            continue
+        chain = rc.Chain.tapered(count, length, weight, exponent=p)
+        q = mp.mpf(p) + 1
+        for m in {0, count - 1, *d.rng.integers(0, count, 3).tolist()}:
+            low, high = mp.mpf(m) / count, mp.mpf(m + 1) / count
+            share = high**q - low**q
+            worst.note("weight", ulps(chain.weight[m], mp.mpf(weight) * share) / 0.51, (count, p, m))
+            below = (high - q / (q + 1) * (high ** (q + 1) - low ** (q + 1)) / share) * count
+            worst.note("centroid", ulps(chain.centroid[m], mp.mpf(chain.length[m]) * below) / 0.51, (count, p, m))
+    worst.check()
+
+
+def joined(one, other):
+    """One body of two (weight, depth of the centroid, rho^2) in the same link."""
+    (w, h, r), (v, g, s) = one, other
+    middle = (w * h + v * g) / (w + v)
+    return w + v, middle, (w * (r + (h - middle) ** 2) + v * (s + (g - middle) ** 2)) / (w + v)
+
+
+def test_heights_with_a_weight_at_a_pin():
+    """`Chain.with_weight`: of the exact body of link and weight."""
+    d, worst = Draw("Chain.with_weight"), Worst()
+    for _ in range(SAMPLES // 3):
+        n = int(d.rng.integers(1, 5))
+        unit, force = d.power(-30, 30), d.power(-30, 30)
+        length = [unit * d.power(-2, 2) for _ in range(n)]
+        weight = [force * d.power(-4, 4) for _ in range(n)]
+        centroid = [a * d.uniform(0.01, 1.2) for a in length]
+        radius = [a * d.uniform(0, 0.6) for a in length]
+        chain = rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
+        pin, extra, rho = int(d.rng.integers(0, n)), force * d.power(-4, 4), unit * d.uniform(0, 1)
+        data = zip(weight, length, centroid, radius, strict=True)
+        links = [[w, a, h, k**2] for w, a, h, k in (exactly(*each) for each in data)]
+        # the pin is the lower one of link `pin`
+        w, a, h, r2 = links[pin]
+        body = joined((w, h, r2), (mp.mpf(extra), a, mp.mpf(rho) ** 2))
+        links[pin] = [body[0], a, body[1], body[2]]
+        found = rc.modes(chain.with_weight(extra, pin, radius_of_gyration=rho)).conical_height
+        for f, e in zip(found, heights_of(links), strict=True):
+            worst.note("heights", ulps(f, e) / 3, (weight, length, pin))
+    worst.check()
+
+
+def test_a_bell_and_its_clapper():
+    """Heights and ratios of `bell_and_clapper`, the bell hung above and below its centroid."""
+    d, worst = Draw("bell_and_clapper"), Worst()
+    for _ in range(2 * SAMPLES):
+        unit = d.power(-100, 100)
+        a1, a2, h1 = (unit * d.power(-3, 3) for _ in range(3))
+        w1, w2 = d.power(-50, 50), 0.0
+        w2 = w1 * d.power(-4, 4)
+        h2 = unit * d.power(-3, 3)
+        if d.rng.random() < 0.4:  # hung below its centroid, up to where it would stand
+            h2 = -w1 * a2 / w2 * [d.uniform(0, 1), 1 - d.power(-8, 0)][d.rng.integers(2)]
+            if w1 * a2 + w2 * h2 <= 0:
+                continue
+        k1, k2 = d.link(h1), d.link(abs(h2))
+        chain = rc.Chain(weight=[w1, w2], length=[a1, a2], centroid=[h1, h2], radius_of_gyration=[k1, k2])
+        (W1, _, H1, R1), (W2, A2, H2, R2) = stored_links(chain)
+        l1, f = H1 + R1 / H1, W2 / W1
+        moment, turning = f * H2 + A2, f * (H2**2 + R2)
+        slope = moment / A2 * l1 - turning / A2 - A2
+        ratios = roots_of(slope / H1, -moment / H1)
+        ratios = [max(ratios), min(ratios)]
+        found = rc.bell_and_clapper(chain)
+        for k, r in enumerate(ratios):
+            for name, result, exact in (
+                ("ratio", found.inclination_ratio[k], r),
+                ("height", found.conical_height[k], l1 + A2 / r),
+            ):
+                worst.note(name, ulps(result, exact) / 2, (k, w1, w2, a2, h1, h2, k1, k2))
+    worst.check()
+
+
+def test_weights_on_a_thread():
+    """`funicular_polygon` and `transverse_modes`."""
+    d, worst = Draw("funicular_polygon"), Worst()
+
+    for _ in range(SAMPLES // 2):
+        n = int(d.rng.integers(1, 7))
+        unit, force = d.power(-60, 60), d.power(-60, 60)
+        weight = [force * d.power(-4, 4) for _ in range(n)]
+        place = np.cumsum([unit * d.uniform(-1, 1), *(unit * d.power(-4, 4) for _ in range(n + 1))])
+        if not (np.diff(place) > 0).all():
+            continue
+        pull, first, last = force * d.power(-3, 3), unit * d.uniform(-1, 1), unit * d.uniform(-1, 1)
+        where = (weight, place.tolist(), pull, first, last)
+        polygon = rc.funicular_polygon(weight, place, pull, first_height=first, last_height=last)
+        W, x, H, z0, z1 = exactly(*weight), exactly(*place), *exactly(pull, first, last)
+        span = x[-1] - x[0]
+        rise = -(H * (z0 - z1) + sum(w * (x[-1] - at) for w, at in zip(W, x[1:-1], strict=True))) / span
+        height, drop = z0, sum(W) * span / H
+        for j in range(n + 1):
+            rise += W[j - 1] if j else 0
+            height += rise / H * (x[j + 1] - x[j])
+            room = abs(height) * ULP / 2 * mp.mpf(1.001) + mp.mpf(10) ** -28 * (drop + abs(z0) + abs(z1))
+            worst.note("height", off(polygon.height[j + 1], height) / room, where)
+        modes = rc.transverse_modes(weight, place, pull)
+        matrix, k = mp.matrix(n), [H / (b - a) for a, b in zip(x, x[1:], strict=False)]
+        for j in range(n):
+            matrix[j, j] = (k[j] + k[j + 1]) / W[j]
+            if j:
+                matrix[j, j - 1] = matrix[j - 1, j] = -k[j] / mp.sqrt(W[j] * W[j - 1])
+        with mp.workdps(90):
+            inverse = sorted(mp.eigsy(matrix, eigvals_only=True))
+        for found, bound, e in zip(modes.conical_height, modes.error_bound, inverse, strict=True):
+            worst.note("transverse", ulps(found, 1 / e) / 2, where)
+            worst.note("bound", ulps(found, 1 / e) * ULP / bound, where)
+    worst.check()
+
+
+# Folds of branches ---------------------------------------------------------------------------------------------------
+
+
+def test_folds():
+    """`branch`: heights of folds of plummets, and their place by the inclination of the lowest thread."""
+    d, count = Draw("folds"), 0
+    while count < 10:
+        size = int(d.rng.integers(2, 31))
+        weight, length = ([d.power(-1, 1) for _ in range(size)] for _ in range(2))
+        W, L = exactly(*weight), exactly(*length)
+
+        def support(tangent, x, W=W, L=L):
+            """Offset of the support for the tangent of the lowest thread."""
+            y, load, whole = x * tangent, mp.mpf(0), mp.mpf(0)
+            for w, l in zip(W, L, strict=True):  # noqa: E741
+                load, whole = load + w * y, whole + w
+                q = load / (x * whole)
+                y -= l * q / mp.sqrt(1 + q * q)
+            return y
+
+        def fold_near(tangent, height, support=support):
+            slope = lambda t, x: mp.diff(lambda p: support(p, x), t)  # noqa: E731
+            with mp.workdps(40):
+                return mp.findroot(lambda t, x: [support(t, x), slope(t, x)], (tangent, height), verify=False)
+
+        chain, end = rc.Chain(weight=weight, length=length), 0.01 * sum(length)
+        for mode in range(2, 1 + min(5, rc.count_modes(chain, conical_height=end * 1.01))):
+            branch = rc.branch(chain, mode, conical_height=end)
+            for at in branch.folds:
+                height, inclination = float(branch.conical_height[at]), abs(branch.tip_inclination[at])
+                tangent, exact = fold_near(math.tan(inclination), height)
+                assert ulps(height, exact) * ULP <= 1e-13, (weight, length, mode)
+                assert inclination == pytest.approx(float(mp.atan(tangent)), abs=1e-6 * branch.arc[-1])
+                count += 1
+
+
+# Small disturbances of shapes ----------------------------------------------------------------------------------------
+
+
+def exponents_of(weight, length, inclination, driven):
+    """Exponents over the speed, of plummets in the angles of their threads, in the frame that turns with them."""
+    size = len(weight)
+    plane = list(range(size))
+    W, L, angle = exactly(*weight), exactly(*length), inclination
+    s, c = [mp.sin(t) for t in angle], [mp.cos(t) for t in angle]
+    out = [mp.fsum(L[i] * s[i] for i in range(k, size)) for k in range(size)]  # of plummet k, from the axis
+    height = out[0] * c[0] / s[0]
+    above = [mp.fsum(W[: i + 1]) for i in plane]  # what each thread carries
+    pull = [mp.fsum(W[k] * out[k] for k in range(i + 1)) for i in plane]
+    mass, rest, turn = mp.matrix(2 * size), mp.matrix(2 * size), mp.matrix(2 * size)
+    for i in plane:
+        for j in plane:
+            both = mp.fsum(W[: min(i, j) + 1]) * L[i] * L[j]
+            mass[i, j] = both * (c[i] * c[j] + s[i] * s[j])
+            mass[size + i, size + j] = both * s[i] * s[j]
+            rest[i, j] = -both * c[i] * c[j]
+            rest[size + i, size + j] = -both * s[i] * s[j]
+            # 2 z.(d/dj x d/di)
+            turn[size + i, j] = 2 * both * c[j] * s[i]
+            turn[j, size + i] = -2 * both * c[j] * s[i]
+        rest[i, i] += height * above[i] * L[i] * c[i] + pull[i] * L[i] * s[i]
+        rest[size + i, size + i] += pull[i] * L[i] * s[i]
+    if driven:
+        values = mp.eigsy(half_inverse(mass[:size, :size], rest[:size, :size]), eigvals_only=True)
+        return [sign * mp.sqrt(-value) for value in values for sign in (1, -1)]
+    whole, inverse, half = mp.zeros(4 * size), mass**-1, 2 * size
+    whole[:half, half:], whole[half:, :half], whole[half:, half:] = mp.eye(half), -inverse * rest, -inverse * turn
+    return mp.eig(whole, left=False, right=False)
+
+
+def half_inverse(mass, matrix):
+    """The symmetric matrix with the eigenvalues of mass^-1 matrix."""
+    root = mp.cholesky(mass) ** -1
+    return root * matrix * root.T
+
+
+@pytest.mark.parametrize("frame", ["free", "driven"])
+def test_exponents_of_small_disturbances(frame):
+    """`SteadyShape.stability`, where exponents are simple."""
+    d, compared = Draw(frame), 0
+    while compared < 40:
+        size = int(d.rng.integers(1, 4))
+        weight, length = ([d.power(-1, 1) for _ in range(size)] for _ in range(2))
+        chain = rc.Chain(weight=weight, length=length)
+        for shape in rc.steady_shapes(chain, conical_height=rc.modes(chain).conical_height[0] * d.uniform(0.05, 0.95)):
+            with mp.workdps(40):
+                exact = exponents_of(weight, length, exactly(*shape.inclination), frame == "driven")
+            largest = max(map(abs, exact))
+            found = shape.stability(frame=frame).exponents
+            for value in found:
+                near = sorted(abs(mp.mpc(complex(value)) - e) for e in exact)
+                if len(near) > 1 and near[1] < largest / 100:
+                    continue
+                compared += 1
+                assert near[0] <= 1e-13 * largest, (weight, length, shape)
+
+
+# The list ------------------------------------------------------------------------------------------------------------
+
+
+def rows_of(repository):
+    """First cell and tests of each row of the list: (file, name) of a test, as the page says them."""
+    page = (repository / "docs/accuracy.md").read_text()
+    section = page.partition("## Claims and their tests\n")[2].partition("\n## ")[0]
+    rows = [line.strip("| ").split(" | ") for line in section.splitlines() if line.startswith("| `")]
+    return [(row[0], re.findall(r"`([\w/]+\.(?:cpp|py))`: ([^;]+)", row[-1])) for row in rows]
+
+
+def test_every_test_of_the_list_exists(repository):
+    rows = rows_of(repository)
+    assert len(rows) > 60
+    missing = [first for first, tests in rows if not tests]
+    for _, tests in rows:
+        for file, name in tests:
+            path = repository / "tests" / ("python" if file.endswith(".py") else "cpp") / file
+            text = path.read_text() if path.is_file() else ""
+            start = f"def {name.strip()}(" if file.endswith(".py") else f'TEST_CASE("{name.strip()}'
+            if start not in text:
+                missing.append((file, name))
+    assert not missing
+
+
+PLAIN = {"governor", "ropes", "buffer_impact", "study", "scene"}  # modules whose names are those of the package
+CLAIM = re.compile(r"\d ulp|\b(half )?an ulp|last digits?\b|\b[\d.]+e-1\d\b")
+
+
+def described(node, prefix):
+    """Names and docstrings, their examples left out, of what is public in a parsed module or class."""
+    for child in ast.iter_child_nodes(node):
+        if isinstance(child, (ast.FunctionDef, ast.ClassDef)) and not child.name.startswith("_"):
+            yield prefix + child.name, (ast.get_docstring(child) or "").partition("Examples\n---")[0]
+            yield from described(child, f"{prefix}{child.name}.")
+
+
+def test_every_docstring_with_a_number_is_in_the_list(repository):
+    listed = " ".join(first for first, _ in rows_of(repository))
+    absent = []
+    for path in sorted((repository / "src/revchain").glob("*.py")):
+        prefix = "" if path.stem.startswith("_") or path.stem in PLAIN else f"{path.stem}."
+        for name, text in described(ast.parse(path.read_text()), prefix):
+            if CLAIM.search(text) and f"`{name}`" not in listed:
+                absent.append(name)
+    assert not absent
