@@ -1,7 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gsl/gsl_errno.h>
 
+#include <algorithm>
+
 #include "bindings.hpp"
+
+namespace {
+
+/// Makes every class of the module use pickle protocol 2 at least. A class without a pickle then raises TypeError;
+/// protocols 0 and 1 would make an instance that pybind11 did not register, and that ends the process.
+void refuse_old_pickles(const py::module_& module) {
+    const auto reduce = [](const py::object& self, int protocol) {
+        return py::module_::import("builtins").attr("object").attr("__reduce_ex__")(self, std::max(protocol, 2));
+    };
+    for (const auto& [name, value] : py::dict(module.attr("__dict__")))
+        if (PyType_Check(value.ptr()) != 0 && PyObject_IsSubclass(value.ptr(), PyExc_BaseException) == 0)
+            value.attr("__reduce_ex__") = py::cpp_function(reduce, py::name("__reduce_ex__"), py::is_method(value));
+}
+
+}  // namespace
 
 PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     module.doc() = "Compiled core of revchain; use the package, not this module.";
@@ -25,4 +42,5 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_elliptic(module);
     bind_response(module);
     bind_models(module);
+    refuse_old_pickles(module);
 }

@@ -178,8 +178,11 @@ def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
 
 
 def shown(value: object, width: int = 60) -> str:
-    """`value` as an error message shows it: its repr, cut where it is long."""
-    text = repr(value)
+    """`value` as an error message shows it: its repr, cut where it is long; its type where it has no repr."""
+    try:
+        text = repr(value)
+    except Exception:  # a whole number of more than 4300 digits, or any object of a caller
+        text = f"an object of type {type(value).__name__}"
     return text if len(text) <= width else text[: width - 3] + "..."
 
 

@@ -45,6 +45,11 @@ def new_axes(width: float, height: float) -> Axes:
     return new_figure(width, height).add_subplot()
 
 
+def plain(text: str) -> str:
+    """`text` as matplotlib draws it letter by letter: what stands between two $ would be mathematics."""
+    return text.replace("$", r"\$")
+
+
 def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gravity: float, length_unit: str) -> Axes:
     """See `Modes.plot`."""
     place = "revchain.Modes.plot"

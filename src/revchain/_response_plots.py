@@ -11,6 +11,7 @@ import numpy as np
 from ._arguments import integer, shown
 from ._chain import Chain
 from ._plots import MOST_PINS_AS_DOTS, new_axes, thinned
+from ._rig_plots import plot_carried
 from ._solve import count_modes, modes
 
 if TYPE_CHECKING:
@@ -26,13 +27,15 @@ MOST_RESONANCES = 60  # marked: more would blacken the plot
 def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, *, resonances: bool) -> Axes:
     """See `Response.plot`."""
     speed = found.angular_speed.reshape(-1)
-    if speed.size < 2:
-        raise ValueError("Response.plot: at least two speeds are needed")
+    available = np.atleast_1d(found.pins).tolist()
+    if speed.size == 0:
+        raise ValueError("Response.plot: the response has no speed to draw; it needs at least one")
+    if speed.size == 1:
+        return plot_carried(found, ax, available if pins is None else _known(pins, available))
     order = np.argsort(speed)
     speed = speed[order]
     offset = found.offset.reshape(speed.size, -1)[order]
-    available = np.atleast_1d(found.pins).tolist()
-    chosen = _spread(available, found.chain.size) if pins is None else [_known(pin, available) for pin in pins]
+    chosen = _spread(available, found.chain.size) if pins is None else _known(pins, available)
     if ax is None:
         ax = new_axes(7.0, 4.5)
     for number, pin in enumerate(chosen):
@@ -92,11 +95,12 @@ def _spread(available: list[int], links: int) -> list[int]:
     return [free[place] for place in places]
 
 
-def _known(pin: int, available: list[int]) -> int:
-    number = integer("Response.plot", "pins", pin)
-    if number not in available:
-        raise ValueError(f"Response.plot: pins must be among those of this result, got {number}")
-    return number
+def _known(pins: Iterable[int], available: list[int]) -> list[int]:
+    numbers = [integer("Response.plot", "pins", pin) for pin in pins]
+    for number in numbers:
+        if number not in available:
+            raise ValueError(f"Response.plot: pins must be among those of this result, got {number}")
+    return numbers
 
 
 def plot_small_oscillation(

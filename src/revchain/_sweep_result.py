@@ -255,6 +255,8 @@ class SweepResult:
     def plot(self, name: str | None = None, ax: Axes | None = None) -> Axes:
         """Draw what was found against what varied: one number as curves, two grids as a map of the first.
 
+        Three or more numbers that are all random give a histogram: how what was found scatters about its mean.
+
         Parameters
         ----------
         name : str, optional
@@ -269,7 +271,7 @@ class SweepResult:
         Raises
         ------
         ValueError
-            If more than two numbers varied, or words.
+            If more than two numbers varied and not all are random, or if words varied.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
