@@ -9,7 +9,6 @@ import re
 import tomllib
 from collections.abc import Iterator
 from difflib import get_close_matches
-from functools import cache
 from pathlib import Path
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
@@ -17,6 +16,7 @@ import msgspec
 
 from ._arguments import shown
 from ._scene_error import SceneError
+from ._scene_tables import fields_of
 from ._units import SI
 
 Kind = TypeVar("Kind")
@@ -144,14 +144,11 @@ def _known_keys(kind: type, key: str) -> list[str]:
 def _fields_at(kind: type, key: str) -> tuple[Any, ...]:
     """The fields of the table at `key`, found by walking the structs along the path."""
     for name in re.findall(r"[^.\[\]]+", re.sub(r"\[\d+\]", "", key)):
-        for field in _fields_of(kind):
+        for field in fields_of(kind):
             if field.encode_name == name:
                 structs = (part for part in _parts_of(field.type) if isinstance(part, type))
                 kind = next((part for part in structs if issubclass(part, msgspec.Struct)), kind)
-    return _fields_of(kind)
-
-
-_fields_of = cache(msgspec.structs.fields)  # which evaluates annotations anew each time, in a millisecond
+    return fields_of(kind)
 
 
 def _annotation_at(kind: type, key: str) -> Any:
