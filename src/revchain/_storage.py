@@ -15,7 +15,7 @@ import numpy as np
 from . import _core
 from ._chain import Chain
 from ._extras import require
-from ._files import OutputError, written_aside
+from ._files import hdf5_file, naming, written_aside
 from ._modes import Modes
 from ._record import extra_columns, extra_fields, to_xarray
 from ._rig import Rig
@@ -33,17 +33,14 @@ def save(modes: Modes | RigModes, path: str | os.PathLike[str]) -> None:
     if isinstance(modes, RigModes) and ending != ".npz":
         raise ValueError(f"modes of a rig are kept in .npz files, got {os.fspath(path)}")
     dataset = _dataset(modes) if isinstance(modes, Modes) and ending == ".nc" else None
-    try:
-        with written_aside(path) as [aside]:
-            if dataset is not None:
-                dataset.to_netcdf(aside, engine="h5netcdf")
-            else:
-                with open(aside, "wb") as file:  # given a name, numpy may add to it
-                    np.savez(
-                        file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes))
-                    )
-    except OSError as error:
-        raise OutputError(error.errno, error.strerror or str(error), os.fspath(path)) from error
+    with naming(path), written_aside(path) as [aside]:
+        if dataset is not None:
+            _write_netcdf(dataset, aside)
+        else:
+            with open(aside, "wb") as file:  # given a name, numpy may add to it
+                np.savez(
+                    file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes))
+                )
 
 
 def load(path: str | os.PathLike[str]) -> Modes | RigModes:
@@ -88,6 +85,14 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
                 return _from_dataset(dataset.load())
         except (KeyError, ValueError, TypeError, AttributeError, EOFError, OSError, zipfile.BadZipFile) as error:
             raise ValueError(f"{os.fspath(path)}: not a result that revchain saved ({error})") from None
+
+
+def _write_netcdf(dataset: Any, path: Path) -> None:
+    from h5netcdf import File
+    from xarray.backends import H5NetCDFStore
+
+    with hdf5_file(path) as file, File(file, "w") as target:
+        dataset.dump_to_store(H5NetCDFStore(target))
 
 
 def _netcdf(purpose: str) -> Any:

@@ -9,6 +9,7 @@ from contextlib import suppress
 from queue import Empty, Queue
 from threading import Thread
 
+from ._files import naming
 from ._study_find import Arrays
 from ._study_journal import Journal
 from ._study_plan import Stretch
@@ -67,7 +68,8 @@ class Keeper:
 
     def _raise(self) -> None:
         if self._failed is not None:
-            raise self._failed
+            with naming(self._journal.output):
+                raise self._failed
 
     def _run(self) -> None:
         while (stretch := self._next()) is not None:

@@ -19,7 +19,7 @@ from msgspec.json import Encoder
 from numpy.typing import NDArray
 
 from ._extras import require
-from ._files import write_fully
+from ._files import hdf5_file, write_fully
 from ._study_axes import Axis, Reader
 from ._study_find import STATUS, Arrays
 from ._study_plan import Plan
@@ -222,7 +222,17 @@ class _NetCdf:
     def __init__(self, path: Path, study: Study, plan: Plan) -> None:
         h5netcdf = require("h5netcdf", "sweep", "a .nc file")
         h5py = require("h5py", "sweep", "a .nc file")
-        with h5netcdf.File(path, "w") as file:
+        with hdf5_file(path) as whole:
+            self._make(h5netcdf, h5py, whole, study, plan)
+        with hdf5_file(path, "r+") as whole, h5py.File(whole, "r+") as file:
+            for name, *_ in _variables(plan):
+                file[name][(0,) * file[name].ndim] = 0  # now it has its place
+            self._places = {name: file[name].id.get_offset() for name, *_ in _variables(plan)}
+        self._file = FileIO(path, "r+")
+
+    def _make(self, h5netcdf: Any, h5py: Any, whole: FileIO, study: Study, plan: Plan) -> None:
+        """Everything but the results."""
+        with h5netcdf.File(whole, "w") as file:
             dimensions = _dimensions(plan)
             file.dimensions = dict(zip(dimensions, plan.shape, strict=True))
             for name, values, about in _coordinates(plan):
@@ -242,11 +252,6 @@ class _NetCdf:
                 made = file.create_variable(name, place, _on_disk(dtype), dcpl=unfilled, **_filled(dtype))
                 made.attrs.update({**about, **_marked(dtype)})
             file.attrs.update(_about(study))
-        with h5py.File(path, "r+") as file:
-            for name, *_ in _variables(plan):
-                file[name][(0,) * file[name].ndim] = 0  # now it has its place
-            self._places = {name: file[name].id.get_offset() for name, *_ in _variables(plan)}
-        self._file = FileIO(path, "r+")
 
     def add(self, start: int, stop: int, pieces: Arrays) -> None:
         for name, place in self._places.items():

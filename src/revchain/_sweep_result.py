@@ -244,12 +244,12 @@ class SweepResult:
         >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
         >>> rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}}).save("moon.csv")
         """
-        from ._files import written_aside
+        from ._files import naming, written_aside
         from ._sweep_output import write_all, writer_of
 
         writer = writer_of(path)
         stored = {block.name: self._arrays[block.name] for block in self._plan.stored}
-        with written_aside(path) as [aside]:
+        with naming(path), written_aside(path) as [aside]:
             write_all(writer(aside, self.study, self._plan), self._plan, {**stored, "status": self._status})
 
     def plot(self, name: str | None = None, ax: Axes | None = None) -> Axes:
