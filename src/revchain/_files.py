@@ -27,11 +27,14 @@ def write_fully(file: FileIO, data: bytes | NDArray[Any]) -> None:
 
 @contextmanager
 def naming(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Turn an OSError into one that names the output, not the file beside it."""
+    """Turn an OSError, of whatever library, into one that names the output, not the file beside it."""
     try:
         yield
+    except OutputError:
+        raise
     except OSError as error:
-        raise OutputError(error.errno, error.strerror or str(error), os.fspath(path)) from error
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise OutputError(error.errno, reason, os.fspath(path)) from error
 
 
 class _Unfailing(FileIO):

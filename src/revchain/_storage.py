@@ -4,11 +4,11 @@
 from __future__ import annotations
 
 import os
-import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
@@ -25,6 +25,7 @@ KIND = "revchain modes 1"
 RIG_KIND = "revchain rig modes 1"
 STATE = "chain_state_"
 RIGGING = "rig_"
+SEAL = b"revchain"  # then the CRC-32 of all bytes before it
 
 
 def save(modes: Modes | RigModes, path: str | os.PathLike[str]) -> None:
@@ -41,6 +42,9 @@ def save(modes: Modes | RigModes, path: str | os.PathLike[str]) -> None:
                 np.savez(
                     file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes))
                 )
+        if aside.is_file():
+            with open(aside, "r+b") as whole:
+                whole.write(_seal(whole))
 
 
 def load(path: str | os.PathLike[str]) -> Modes | RigModes:
@@ -59,7 +63,7 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
     Raises
     ------
     ValueError
-        If the path has another ending or the file holds something else.
+        If the path has another ending, or the file holds something else or is damaged: its checksum tells.
     ImportError
         If what ``.nc`` needs is not installed; the message says how to install it.
     OSError
@@ -78,13 +82,23 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
     if ending == ".nc":
         xarray = _netcdf("reading .nc files")
     with open(path, "rb") as file:  # the ordinary OSError where it cannot be read
-        try:
-            if ending == ".npz":
-                return _from_arrays(dict(np.load(file, allow_pickle=False)))
-            with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-                return _from_dataset(dataset.load())
-        except (KeyError, ValueError, TypeError, AttributeError, EOFError, OSError, zipfile.BadZipFile) as error:
-            raise ValueError(f"{os.fspath(path)}: not a result that revchain saved ({error})") from None
+        size = max(os.fstat(file.fileno()).st_size - len(SEAL) - 4, 0)
+        if _seal(file, size) != file.read():
+            reason = "not a result that revchain saved, or damaged since; compute and save it again"
+            raise ValueError(f"{os.fspath(path)}: {reason}")
+        if ending == ".npz":
+            return _from_arrays(dict(np.load(path, allow_pickle=False)))
+    with xarray.open_dataset(path, engine="h5netcdf") as dataset:
+        return _from_dataset(dataset.load())
+
+
+def _seal(file: IO[bytes], size: int | None = None) -> bytes:
+    """What ends a file of ours, by its first `size` bytes. Readers of .npz and .nc files pass over it."""
+    checksum = 0
+    while chunk := file.read(2**20 if size is None else min(2**20, size)):
+        checksum = zlib.crc32(chunk, checksum)
+        size = None if size is None else size - len(chunk)
+    return SEAL + checksum.to_bytes(4, "little")
 
 
 def _write_netcdf(dataset: Any, path: Path) -> None:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._files import OutputError, write_fully
+from ._files import OutputError, naming, write_fully
 from ._study_find import Arrays
 from ._study_plan import Plan, Stretch
 
@@ -77,7 +77,8 @@ class Journal:
             if head.exists():
                 self._same(head)
             else:
-                self._begin(head)
+                with naming(self.output):
+                    self._begin(head)
             self._ours = True
             for left in self.folder.glob(".*.writing*"):
                 left.unlink()

@@ -77,10 +77,12 @@ def pieces_of(plan: Plan, reader: Reader, stored: Arrays, start: int, stop: int)
 def write_all(writer: Writer, plan: Plan, stored: Arrays) -> None:
     """Everything that is there already."""
     reader = plan.reader()
-    for start in range(0, plan.points, ROWS):
-        stop = min(start + ROWS, plan.points)
-        writer.add(start, stop, pieces_of(plan, reader, stored, start, stop))
-    writer.close()
+    try:
+        for start in range(0, plan.points, ROWS):
+            stop = min(start + ROWS, plan.points)
+            writer.add(start, stop, pieces_of(plan, reader, stored, start, stop))
+    finally:
+        writer.close()
 
 
 def columns_of(plan: Plan, pieces: Arrays, start: int, stop: int) -> dict[str, NDArray[Any]]:
@@ -213,7 +215,8 @@ class _Parquet:
         self._writer.write_table(table.replace_schema_metadata(self._metadata))
 
     def close(self) -> None:
-        self._writer.close()
+        if self._writer is not None:
+            self._writer.close()
 
 
 class _NetCdf:
