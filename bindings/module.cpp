@@ -2,6 +2,9 @@
 #include <gsl/gsl_errno.h>
 
 #include <algorithm>
+#include <exception>
+#include <new>
+#include <stdexcept>
 
 #include "bindings.hpp"
 
@@ -18,6 +21,18 @@ void refuse_old_pickles(const py::module_& module) {
             value.attr("__reduce_ex__") = py::cpp_function(reduce, py::name("__reduce_ex__"), py::is_method(value));
 }
 
+/// Says in words of this package that memory is short, where neither Python nor pybind11 knows what for.
+void tell_of_memory(const std::exception_ptr& thrown) {
+    const char* sentence = "revchain: the results do not fit in the memory; use fewer links or ask for fewer modes";
+    try {
+        if (thrown) std::rethrow_exception(thrown);
+    } catch (const std::length_error&) {
+        py::set_error(PyExc_ValueError, sentence);
+    } catch (const std::bad_alloc&) {
+        py::set_error(PyExc_MemoryError, sentence);
+    }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
@@ -25,6 +40,7 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     // Where GSL is linked statically, as in our wheels, this handler is the module's own copy; the headers never reach
     // one in either case.
     gsl_set_error_handler_off();
+    py::register_local_exception_translator(tell_of_memory);
     bind_core(module);
     bind_chain(module);
     bind_rig(module);

@@ -253,7 +253,11 @@ def _checked(
         )
 
     def checked(s: float) -> float:
-        return real(place, f"line_density({s:g})", line_density(s))
+        try:
+            density = line_density(s)
+        except TypeError as error:
+            raise TypeError(f"{place}: line_density must take one number, the distance from the free end: {error}") from error
+        return real(place, f"line_density({s:g})", density)
 
     return long, tip, _core.LineDensity(checked, long)
 
@@ -378,7 +382,7 @@ def continuous_critical_heights(
     array([0.658339, 0.143271, 0.059425])
     """
     place = "revchain.continuous_critical_heights"
-    number = checked_count(place, "count", count)
+    number = checked_count(place, "count", count, each=8)
     if number > 100_000:
         raise ValueError(f"{place}: count must be at most 100000, got {number}")
     long, tip, density = _checked(place, length, tip_weight, line_density)

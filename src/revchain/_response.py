@@ -15,6 +15,7 @@ from ._arguments import (
     STANDARD_GRAVITY,
     Floats,
     Whole,
+    array_of,
     floats,
     integer,
     limit,
@@ -266,7 +267,7 @@ def _pins(place: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[i
     """Numbers of the pins asked for, and the axis they make."""
     if pins is None:
         return np.arange(size + 1), (size + 1,)
-    asked = np.asarray(pins)
+    asked = array_of(pins)
     if asked.dtype.kind not in "iu" and asked.size:
         raise ValueError(f"{place}: pins must be whole numbers, got {shown(pins)}")
     if asked.ndim > 1:

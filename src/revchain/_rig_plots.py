@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._arguments import integer, shown
-from ._plots import MOST_PINS_AS_DOTS, MOST_POINTS, SPACING, new_axes, thinned
+from ._plots import MOST_PINS_AS_DOTS, MOST_POINTS, SPACING, axes_or_new, thinned
+from ._response import Response
 from ._rig import Rig
 from ._tables import digits
 
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ._arguments import Floats
-    from ._response import Response
     from ._rig_modes import RigModes
 
 FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
@@ -35,11 +35,12 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
     if drawn < min(1, len(modes)):
         raise ValueError(f"{place}: most must be at least 1, got {shown(most)}")
     rig = modes.rig
+    if carried is not None and not isinstance(carried, Response):
+        raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.chain != rig or carried.offset.shape != (rig.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
     before = 1 if carried is None else 2
-    if ax is None:
-        ax = new_axes(1.6 + 1.25 * (before + max(drawn, 2)), 6.0)
+    ax = axes_or_new(ax, 1.6 + 1.25 * (before + max(drawn, 2)), 6.0)
     upwards, level = _levels(rig)
     _draw_at_rest(rig, ax, level)
     labels = ["at rest" + (f"\nin {rig.fluid} fluid" if rig.displaced_weight.any() else "")]
@@ -86,8 +87,7 @@ def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
     rig = found.chain if isinstance(found.chain, Rig) else Rig(found.chain)
     upwards, level = _levels(rig)
     offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
-    if ax is None:
-        ax = new_axes(5.0, 6.0)
+    ax = axes_or_new(ax, 5.0, 6.0)
     _draw_axis(ax, 0.0, level)
     across = np.array([offset.get(pin, np.nan) if pin in pins else np.nan for pin in range(rig.size + 1)])
     if len(pins) == level.size:

@@ -14,7 +14,7 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import msgspec
 
-from ._arguments import shown
+from ._arguments import file_path, shown
 from ._scene_error import SceneError
 from ._scene_tables import fields_of
 from ._units import SI
@@ -25,15 +25,13 @@ MOST_DIGITS = 400  # more than the largest float has
 
 def read(path: str | os.PathLike[str]) -> Any:
     """The raw content of a .toml or .json file."""
-    source = os.fspath(path)
+    source = file_path("revchain", "the scene or study", path)
     try:
-        text = Path(path).read_text(encoding="utf-8-sig")
+        text = Path(source).read_text(encoding="utf-8-sig")
     except OSError as error:
         raise SceneError(source, "", f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
         raise SceneError(source, "", f"is not UTF-8 text (byte {error.start + 1})") from None
-    except ValueError:  # of a null byte in the path
-        raise SceneError(shown(source), "", "is not the name of a file; a name has no null byte and is Unicode") from None
     try:
         return json.loads(text, parse_int=_whole) if source.lower().endswith(".json") else tomllib.loads(text)
     except json.JSONDecodeError as error:

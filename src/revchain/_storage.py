@@ -13,6 +13,7 @@ from typing import IO, Any
 import numpy as np
 
 from . import _core
+from ._arguments import file_path
 from ._chain import Chain
 from ._extras import require
 from ._files import hdf5_file, naming, written_aside
@@ -30,7 +31,7 @@ SEAL = b"revchain"  # then the CRC-32 of all bytes before it
 
 def save(modes: Modes | RigModes, path: str | os.PathLike[str]) -> None:
     """See `Modes.save`, `RigModes.save`."""
-    ending = _ending(path)
+    ending = _ending(f"revchain.{type(modes).__name__}.save", path)
     if isinstance(modes, RigModes) and ending != ".npz":
         raise ValueError(f"modes of a rig are kept in .npz files, got {os.fspath(path)}")
     dataset = _dataset(modes) if isinstance(modes, Modes) and ending == ".nc" else None
@@ -78,7 +79,7 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
     >>> rc.load(path).chain == chain
     True
     """
-    ending = _ending(path)
+    ending = _ending("revchain.load", path)
     if ending == ".nc":
         xarray = _netcdf("reading .nc files")
     with open(path, "rb") as file:  # the ordinary OSError where it cannot be read
@@ -116,8 +117,8 @@ def _netcdf(purpose: str) -> Any:
     return require("xarray", "netcdf", purpose)
 
 
-def _ending(path: str | os.PathLike[str]) -> str:
-    ending = Path(path).suffix.lower()
+def _ending(place: str, path: str | os.PathLike[str]) -> str:
+    ending = Path(file_path(place, "path", path)).suffix.lower()
     if ending not in (".npz", ".nc"):
         raise ValueError(f"results are kept in .npz or .nc files, got {os.fspath(path)}")
     return ending

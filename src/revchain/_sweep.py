@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ._arguments import count as checked_count
+from ._arguments import shown
 from ._extras import require
 from ._study_axes import BLOCK
 from ._study_find import Arrays
@@ -107,6 +108,10 @@ def sweep(
         study = load_study(study)
     if executor is not None and threads is not None:
         raise ValueError(f"{_PLACE}: threads does not go with executor, which has its own")
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise TypeError(f"{_PLACE}: executor must be a concurrent.futures.Executor, got {shown(executor)}")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"{_PLACE}: progress must be a function of two numbers, got {shown(progress)}")
     chunk = None if chunk is None else checked_count(_PLACE, "chunk", chunk)
     workers = _processors() if threads is None else checked_count(_PLACE, "threads", threads)
     plan = study._plan("study")

@@ -18,6 +18,7 @@ from msgspec import Raw
 from msgspec.json import Encoder
 from numpy.typing import NDArray
 
+from ._arguments import file_path
 from ._extras import require
 from ._files import hdf5_file, write_fully
 from ._study_axes import Axis, Reader
@@ -48,7 +49,7 @@ class Writer(Protocol):
 
 def writer_of(path: str | os.PathLike[str]) -> type[_Csv] | type[_Parquet] | type[_NetCdf]:
     """What writes a file with this ending; that its packages are there is found out at once."""
-    ending = Path(path).suffix.lower()
+    ending = Path(file_path("revchain.sweep", "the output", path)).suffix.lower()
     if ending not in ENDINGS:
         raise ValueError(f"{os.fspath(path)} must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}")
     if ending == ".parquet":

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._extras import require
-from ._plots import plain
+from ._arguments import word
+from ._plots import axes_or_new, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,19 +31,15 @@ def why_not_drawn(plan: Plan) -> str:
 
 def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
     """Curves over one number, dots over a random one, a map over two grids, a histogram of three or more random ones."""
-    pyplot = require("matplotlib.pyplot", "plot", "plotting")
     place = "revchain.SweepResult.plot"
     blocks = {block.name: block for block in result._plan.blocks}
     name = next(iter(blocks)) if name is None else name
-    if name not in blocks:
-        raise ValueError(f"{place}: name must be one of {', '.join(blocks)}, got {name!r}")
+    word(place, "name", name, blocks)
     axes = result._plan.axes
     if reason := why_not_drawn(result._plan):
         raise ValueError(f"{place}: {reason}")
     values = result[name].reshape(len(result), -1).astype(float)
-    if ax is None:
-        _, ax = pyplot.subplots(layout="constrained")
-        assert ax is not None
+    ax = axes_or_new(ax, 6.4, 4.8)
     if len(axes) > 2:
         return _histogram(values, _labels(blocks[name]), name, ax)
     one = axes[0]

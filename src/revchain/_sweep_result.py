@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arguments import read_only
+from ._arguments import read_only, word
 from ._study_find import REFUSED, STATUS, Arrays
 from ._study_plan import Plan
 from .study import Study
@@ -118,9 +118,8 @@ class SweepResult:
         >>> rc.sweep({"scene": scene, "vary": vary, "samples": 1000}).count("success")
         1000
         """
-        if status not in STATUS:
-            raise ValueError(f"revchain.SweepResult.count: status must be one of {', '.join(STATUS)}, got {status!r}")
-        return int(np.count_nonzero(self._status == STATUS.index(status)))
+        known = word("revchain.SweepResult.count", "status", status, STATUS)
+        return int(np.count_nonzero(self._status == STATUS.index(known)))
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name in self._arrays:
