@@ -253,11 +253,7 @@ def _checked(
         )
 
     def checked(s: float) -> float:
-        try:
-            density = line_density(s)
-        except TypeError as error:
-            raise TypeError(f"{place}: line_density must take one number, the distance from the free end: {error}") from error
-        return real(place, f"line_density({s:g})", density)
+        return real(place, f"line_density({s:g})", line_density(s))
 
     return long, tip, _core.LineDensity(checked, long)
 

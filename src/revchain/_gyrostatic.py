@@ -313,7 +313,7 @@ class GyrostaticString(Unchangeable):
 
         place = "revchain.GyrostaticString.plot_vibration"
         speed = one_positive(place, "angular_speed", angular_speed)
-        size = count(place, "links", links)
+        size = count(place, "links", links, each=64)
         turn = float(self.plane_rotation(speed))
         if np.isnan(turn):
             raise ValueError(f"{place}: a circular wave does not pass at angular_speed, got {speed:g}")

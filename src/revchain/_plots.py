@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import Numbers, Whole, integer, listed, one_positive, shown
+from ._arguments import Numbers, Whole, integer, listed, one_positive, refuse_beyond_memory, shown
 from ._extras import require
 from ._tables import digits
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .governor import GovernorMotion
     from .ropes import SkippingRope, TortuousRope
 
+BYTES = 64  # of a point of a curve
 MOST_SHAPES = 6  # drawn unless asked: more do not stay legible side by side
 MOST_PINS_AS_DOTS = 40
 MOST_POINTS = 2000  # per curve: about the pixels of a large picture
@@ -202,6 +203,7 @@ def _chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[i
 
 def plot_skipping_rope(rope: SkippingRope, ax: Axes | None, *, length_unit: str) -> Axes:
     """See `SkippingRope.plot`."""
+    refuse_beyond_memory("revchain.SkippingRope.plot", "half_waves", rope.half_waves, 200 * BYTES)
     ax = axes_or_new(ax, 6.4, 4.0)
     places = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
     ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
@@ -214,6 +216,7 @@ def plot_skipping_rope(rope: SkippingRope, ax: Axes | None, *, length_unit: str)
 
 def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None, half_waves: float, *, length_unit: str) -> Axes:
     """See `TortuousRope.plot`."""
+    refuse_beyond_memory("revchain.TortuousRope.plot", "half_waves", int(half_waves), 200 * BYTES)
     ax = axes_or_new(ax, 5.0, 5.0)
     places = rope.at(np.linspace(0.0, half_waves * rope.half_wave, 1 + int(200 * max(half_waves, 1.0))))
     round_ = np.linspace(0.0, 2 * np.pi, 200)

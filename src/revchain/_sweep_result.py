@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arguments import read_only, word
+from ._arguments import boolean, read_only, word
 from ._study_find import REFUSED, STATUS, Arrays
 from ._study_plan import Plan
 from .study import Study
@@ -169,7 +169,7 @@ class SweepResult:
 
         pieces = {name: self[name] for name in [*self.varied, *self.found]}
         columns = columns_of(self._plan, {**pieces, "status": self._status}, 0, len(self))
-        return {**columns, "status": self.status} if words else columns
+        return {**columns, "status": self.status} if boolean("revchain.SweepResult.columns", "words", words) else columns
 
     def to_dataframe(self) -> Any:
         """Return a pandas table with one row for each point.

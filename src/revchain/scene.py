@@ -10,7 +10,7 @@ from msgspec import UNSET, Meta, UnsetType, json, to_builtins
 
 from . import _scene_file
 from ._arguments import STANDARD_GRAVITY, text
-from ._chain import Chain
+from ._chain import Chain, compiled
 from ._held import HeldShape, HeldShapes, TautModes
 from ._modes import Modes
 from ._response import Response, SmallOscillation
@@ -259,6 +259,7 @@ class Scene(Table, frozen=True):
         >>> scene.asked(scene.chain())
         {'modes': range(25, 31)}
         """
+        compiled("revchain.Scene.asked", chain, link_by_link=False)
         if self.is_held:
             raise SceneError(
                 "scene", "held", "is for shapes and modes: there is one model of it, `revchain.taut_modes`"

@@ -11,7 +11,7 @@ import numpy as np
 from msgspec import UNSET, Meta, UnsetType, json, to_builtins
 
 from . import _scene_file
-from ._arguments import file_path, text
+from ._arguments import file_path, integer, text
 from ._scene_ask import DEFAULT_MODES
 from ._scene_error import SceneError
 from ._scene_tables import Table
@@ -176,9 +176,10 @@ class Study(Table, frozen=True):
         >>> study.scene_at(1).chain()
         Chain of 1 link, length 0.2, weight 9.80665
         """
-        plan = self._plan("study")
+        plan, place = self._plan("study"), "revchain.Study.scene_at"
+        point = integer(place, "point", point)
         if not 0 <= point < plan.points:
-            raise IndexError(f"revchain.Study.scene_at: there are {plan.points} points from 0 on, got {point}")
+            raise IndexError(f"{place}: there are {plan.points} points from 0 on, got {point}")
         values = [column.tolist()[0] for column in plan.values(point, point + 1)]
         return Scene.from_dict(plan.scene_data(values))
 

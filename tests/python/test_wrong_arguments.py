@@ -30,7 +30,7 @@ WRONG = {
     "1e5000": 10**5000,
     "1e300": 1e300,
     "object": object(),
-    "function": len,
+    "function": lambda *_: "x",
     "words": ["a", "b"],
     "three axes": np.ones((2, 3, 2)),
     "nans": [float("nan"), 1.0],
@@ -47,8 +47,9 @@ FOREIGN = re.compile(
 
 CHAIN = rc.Chain(weight=[1.0, 2.0], length=[1.0, 0.5])
 RIG = rc.Rig(rc.Chain.uniform_rods(3, length=2.0, weight=3.0), stiffness=5.0)
-SCENE = {"links": [{"mass": 1, "length": 1, "repeat": 3}], "ask": {"shapes": {"conical_height": 0.4}}}
-STUDY = {"scene": SCENE, "vary": {"gravity": {"values": [9.0, 10.0]}}}
+ASK = {"shapes": {"conical_height": 0.4}, "response": {"conical_height": [0.4]}, "swing": {"offset": [0.1, 0.1, 0.1]}}
+SCENE = {"links": [{"mass": 1, "length": 1, "repeat": 3}], "ask": ASK}
+STUDY = {"find": ["modes"], "scene": SCENE, "vary": {"gravity": {"values": [9.0, 10.0]}}}
 """What a parameter of that name is given where it must be given; by function where another is needed or one of several."""
 GIVEN = {
     "chain": CHAIN,
@@ -100,6 +101,7 @@ ONE_OF = {
     "two_links.joint_without_bending": {"length": 1.0, "pin": 0.3},
     "two_links.pin_of_silent_clapper": {},
     "ropes.SkippingRope": {"span": 1.0, "length": 1.5},
+    "SweepResult.save": {"path": "found.csv"},
     "Study.from_dict": {"data": STUDY},
 }
 MODULES = [rc, *(value for name, value in vars(rc).items() if isinstance(value, types.ModuleType) and name[0] != "_")]
@@ -181,6 +183,8 @@ def complaint(function, arguments):
     except (ValueError, TypeError) as error:
         sentence = str(error)
         return f"{type(error).__name__}: {sentence}" if not sentence.strip() or FOREIGN.search(sentence) else ""
+    except IndexError as error:
+        return "" if str(error).startswith("revchain.") else f"IndexError: {error}"
     except Exception as error:
         return f"{type(error).__name__}: {error}"
     return ""
