@@ -1,13 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gsl/gsl_errno.h>
 
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <stdexcept>
+
 #include "bindings.hpp"
+
+namespace {
+
+/// Makes every class of the module use pickle protocol 2 at least. A class without a pickle then raises TypeError;
+/// protocols 0 and 1 would make an instance that pybind11 did not register, and that ends the process.
+void refuse_old_pickles(const py::module_& module) {
+    const auto reduce = [](const py::object& self, int protocol) {
+        return py::module_::import("builtins").attr("object").attr("__reduce_ex__")(self, std::max(protocol, 2));
+    };
+    for (const auto& [name, value] : py::dict(module.attr("__dict__")))
+        if (PyType_Check(value.ptr()) != 0 && PyObject_IsSubclass(value.ptr(), PyExc_BaseException) == 0)
+            value.attr("__reduce_ex__") = py::cpp_function(reduce, py::name("__reduce_ex__"), py::is_method(value));
+}
+
+/// Says in words of this package that memory is short, where neither Python nor pybind11 knows what for.
+void tell_of_memory(const std::exception_ptr& thrown) {
+    const char* sentence = "revchain: the results do not fit in the memory; use fewer links or ask for fewer modes";
+    try {
+        if (thrown) std::rethrow_exception(thrown);
+    } catch (const std::length_error&) {
+        py::set_error(PyExc_ValueError, sentence);
+    } catch (const std::bad_alloc&) {
+        py::set_error(PyExc_MemoryError, sentence);
+    }
+}
+
+}  // namespace
 
 PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     module.doc() = "Compiled core of revchain; use the package, not this module.";
     // Where GSL is linked statically, as in our wheels, this handler is the module's own copy; the headers never reach
     // one in either case.
     gsl_set_error_handler_off();
+    py::register_local_exception_translator(tell_of_memory);
     bind_core(module);
     bind_chain(module);
     bind_rig(module);
@@ -25,4 +58,5 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_elliptic(module);
     bind_response(module);
     bind_models(module);
+    refuse_old_pickles(module);
 }

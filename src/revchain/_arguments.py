@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import math
 import operator
+import os
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from functools import cache
 from numbers import Real
 from typing import Any, TypeVar
 
@@ -20,16 +22,14 @@ Numbers = NDArray[Any]  # float32, float64 or longdouble, by the precision asked
 Whole = NDArray[np.int64]
 Scalar = TypeVar("Scalar", bound=np.generic)
 
+LARGEST = 2**63 - 1
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
 
 
 def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
     """`value` as a float64 array; anything but real numbers is refused with a ValueError."""
-    try:
-        array = np.asarray(value)
-    except (TypeError, ValueError, OverflowError):  # ragged lists among others
-        array = np.asarray(None)
+    array = array_of(value)
     if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
         with suppress(OverflowError):
             array = array.astype(np.float64)  # whole numbers beyond 64 bits, fractions
@@ -42,30 +42,91 @@ def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
     return array.astype(np.float64, order="C", copy=False)
 
 
+def array_of(value: object) -> NDArray[Any]:
+    """`value` as numpy has it; an array of None for what it refuses, ragged lists among others."""
+    try:
+        return np.asarray(value)
+    except (TypeError, ValueError, OverflowError):
+        return np.asarray(None)
+
+
 def integer(place: str, name: str, value: object) -> int:
-    """`value` as an int; a float, a bool or a string is refused with a ValueError."""
-    if not isinstance(value, (bool, np.bool_)):
-        try:
-            return operator.index(value)  # type: ignore[arg-type]
-        except TypeError:
-            pass
-    raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
+    """`value` as an int that the compiled module can hold; a float, a bool or a string is refused with a ValueError."""
+    number = _whole(place, name, value)
+    if not -LARGEST <= number <= LARGEST:
+        size = "large" if number > 0 else "small"
+        raise ValueError(f"{place}: {name} is too {size}, got {shown(number)}; it must be within 2**63 of 0")
+    return number
 
 
-def count(place: str, name: str, value: object) -> int:
-    """`value` as an int from 1 to what the compiled module can hold."""
+def count(place: str, name: str, value: object, each: int = 0) -> int:
+    """`value` as an int from 1 on; a ValueError where so many results of `each` bytes do not fit in the memory."""
     number = integer(place, name, value)
     if number < 1:
-        raise ValueError(f"{place}: {name} must be at least 1, got {number}")
-    if number > np.iinfo(np.int64).max:
-        raise ValueError(f"{place}: {name} is too large, got {number}")
+        raise ValueError(f"{place}: {name} must be at least 1, got {shown(number)}")
+    refuse_beyond_memory(place, name, number, each)
     return number
+
+
+def refuse_beyond_memory(place: str, name: str, number: int, each: int) -> None:
+    """A ValueError where so many numbers of `each` bytes are more than the memory of this machine."""
+    if number * each > (memory := _memory()):
+        needed, there = number * each / 2**30, memory / 2**30
+        raise ValueError(
+            f"{place}: {name} is too large, got {number}: it would take {needed:.3g} GiB of memory, and this machine "
+            f"has {there:.3g} GiB"
+        )
+
+
+@cache
+def _memory() -> int:
+    """Bytes of this machine; where it does not tell, what a process can address."""
+    with suppress(AttributeError, ValueError, OSError):
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    return 2**47
 
 
 def limit(place: str, name: str, value: object) -> int:
     """`value` as an int; beyond what the compiled module can hold, the largest that it can."""
-    largest = np.iinfo(np.int64).max
-    return int(min(max(integer(place, name, value), -largest), largest))
+    return int(min(max(_whole(place, name, value), -LARGEST), LARGEST))
+
+
+def _whole(place: str, name: str, value: object) -> int:
+    if not isinstance(value, (bool, np.bool_)):
+        with suppress(TypeError):
+            return operator.index(value)  # type: ignore[arg-type]
+    raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
+
+
+def listed(place: str, name: str, value: object) -> list[Any]:
+    """`value` as a list; a ValueError for what holds nothing one after another."""
+    try:
+        return list(value)  # type: ignore[call-overload,no-any-return]
+    except (TypeError, ValueError):
+        raise ValueError(f"{place}: {name} must be a list of whole numbers, got {shown(value)}") from None
+
+
+def word(place: str, name: str, value: object, words: Iterable[str]) -> str:
+    """`value` if it is one of the words; a ValueError otherwise."""
+    if not isinstance(value, str) or value not in words:
+        raise ValueError(f"{place}: {name} must be one of {', '.join(words)}, got {shown(value)}")
+    return value
+
+
+def text(place: str, name: str, value: object) -> str:
+    """`value` if it is text; a TypeError otherwise."""
+    if not isinstance(value, str):
+        raise TypeError(f"{place}: {name} must be text, got {shown(value)}")
+    return value
+
+
+def file_path(place: str, name: str, value: object) -> str:
+    """`value` as the path of a file; a TypeError or a ValueError for what is none."""
+    if not isinstance(value, str | os.PathLike) or not isinstance(path := os.fspath(value), str):
+        raise TypeError(f"{place}: {name} must be a path, that is text or a pathlib.Path, got {shown(value)}")
+    if "\0" in path:
+        raise ValueError(f"{place}: {name} must have no null byte, got {shown(path)}")
+    return path
 
 
 def boolean(place: str, name: str, value: object) -> bool:
@@ -77,7 +138,7 @@ def boolean(place: str, name: str, value: object) -> bool:
 
 def counts(place: str, name: str, value: ArrayLike) -> Whole:
     """`value` as an int64 array of numbers from 1 to 2**53."""
-    whole = np.asarray(value)
+    whole = array_of(value)
     if whole.dtype.kind not in "iu":
         raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
     if whole.size and whole.min() < 1:
@@ -178,8 +239,11 @@ def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
 
 
 def shown(value: object, width: int = 60) -> str:
-    """`value` as an error message shows it: its repr, cut where it is long."""
-    text = repr(value)
+    """`value` as an error message shows it: its repr, cut where it is long; its type where it has no repr."""
+    try:
+        text = repr(value)
+    except Exception:  # a whole number of more than 4300 digits, or any object of a caller
+        text = f"{type(value).__name__} (it cannot be printed)"
     return text if len(text) <= width else text[: width - 3] + "..."
 
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import Floats
-from ._plots import half_waves_style, new_axes
+from ._arguments import Floats, word
+from ._plots import axes_or_new, half_waves_style
 from ._solve import modes
 
 if TYPE_CHECKING:
@@ -31,10 +31,8 @@ CLOSEST = 0.03  # of the width, between births that are written out
 
 def plot_branches(branches: Sequence[Branch], chain: Chain, ax: Axes | None, *, quantity: str, place: str) -> Axes:
     """See `Branches.plot`."""
-    if quantity not in QUANTITIES:
-        raise ValueError(f"{place}: quantity must be one of {', '.join(QUANTITIES)}, got {quantity!r}")
-    if ax is None:
-        ax = new_axes(7.2, 5.0)
+    word(place, "quantity", quantity, QUANTITIES)
+    ax = axes_or_new(ax, 7.2, 5.0)
     first = float(modes(chain, count=1, shapes=False).conical_height[0])
     named: set[int] = set()
     curves: dict[Artist, int] = {}

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import Floats, integer, link_arrays, real, shown
+from ._arguments import Floats, integer, link_arrays, real, refuse_beyond_memory, shown
 from ._arguments import count as checked_count
 from ._results import Unchangeable
 
@@ -210,7 +210,7 @@ class Chain(Unchangeable):
         place = "revchain.Chain.tapered"
         return cls._wrap(
             _core.Chain.tapered(
-                checked_count(place, "count", count),
+                checked_count(place, "count", count, each=8),
                 real(place, "length", length),
                 real(place, "exponent", exponent),
                 real(place, "weight", weight),
@@ -301,7 +301,7 @@ class Chain(Unchangeable):
         place = "revchain.Chain.with_weight"
         return self._wrap(
             _core.with_weight(
-                self._compiled,
+                compiled(place, self),
                 real(place, "weight", weight),
                 integer(place, "pin", pin),
                 real(place, "radius_of_gyration", radius_of_gyration),
@@ -335,7 +335,8 @@ class Chain(Unchangeable):
         array([1.5])
         """
         place = "revchain.Chain.with_thread"
-        return self._wrap(_core.with_thread(self._compiled, real(place, "length", length), integer(place, "pin", pin)))
+        core = compiled(place, self)
+        return self._wrap(_core.with_thread(core, real(place, "length", length), integer(place, "pin", pin)))
 
     def clamped(self, link: int) -> Chain:
         """Return the chain with two neighbouring links locked in line, as one rigid link.
@@ -361,7 +362,8 @@ class Chain(Unchangeable):
         >>> rc.Chain.uniform_rods(3, length=3.0).clamped(1).length
         array([2., 1.])
         """
-        return self._wrap(_core.clamped(self._compiled, integer("revchain.Chain.clamped", "link", link)))
+        place = "revchain.Chain.clamped"
+        return self._wrap(_core.clamped(compiled(place, self), integer(place, "link", link)))
 
     def plot(self, ax: Axes | None = None, *, length_unit: str = "m", weight_unit: str = "N") -> Axes:
         """Draw the chain at rest: pins, centres of gravity and weights.
@@ -394,7 +396,10 @@ class Chain(Unchangeable):
         return plot_chain(self, ax, length_unit=length_unit, weight_unit=weight_unit)
 
     def _column(self, stored: Floats) -> Floats:
-        return stored if stored.ndim else np.broadcast_to(stored, (self.size,))
+        if stored.ndim:
+            return stored
+        refuse_beyond_memory("revchain.Chain", "the number of links", self.size, 8)
+        return np.broadcast_to(stored, (self.size,))
 
     def __len__(self) -> int:
         return self.size
@@ -436,8 +441,10 @@ def _check_shapes(columns: dict[str, Floats]) -> None:
         raise ValueError(f"revchain.Chain: arrays must have one number for each link, but {found}")
 
 
-def compiled(place: str, chain: Chain) -> _core.Chain:
-    """What the compiled module takes; a TypeError for anything but a chain."""
+def compiled(place: str, chain: Chain, link_by_link: bool = True) -> _core.Chain:
+    """What the compiled module takes; a TypeError for anything but a chain, a ValueError where its links are too many."""
     if not isinstance(chain, Chain):
         raise TypeError(f"{place}: chain must be a revchain.Chain, got {shown(chain)}")
+    if link_by_link:
+        refuse_beyond_memory(place, "the number of links", chain.size, 8)
     return chain._compiled

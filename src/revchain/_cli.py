@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from msgspec import UNSET
 from rich.console import Console, RenderableType
 
 from . import _core
@@ -78,16 +79,17 @@ def solve(
     method: Annotated[str | None, typer.Option(metavar="M", help=f"One of {', '.join(_core.METHODS)}.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progress bar.")] = False,
 ) -> None:
-    """Find the whirl speeds of a scene and print them as a table."""
+    """Find the whirl speeds of a scene and print them as a table; of a slack chain held at both ends, its shapes."""
     given = load_scene(scene)
     chosen = {"modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
     overriding = {"rtol": rtol, "precision": precision, "method": method}
-    if given.is_held:
+    if given.held is not UNSET:
         from ._cli_motion import answer, refuse_any
 
         of_others = {**chosen, **overriding, "out": out, "certify": certify or None}
         refuse_any(of_others, "a chain held at both ends")
-        return answer(scene, Scene.modes, Wanted(plot, json, csv, quiet))
+        find = Scene.modes if given.held.span is UNSET else Scene.steady_shapes
+        return answer(scene, find, Wanted(plot, json, csv, quiet))
     hung, gravity = given._hung(str(scene)), given.gravity_value()
     asked = given.asked(base_chain(hung))
     if len(named := [name for name, value in chosen.items() if value is not None]) > 0:

@@ -17,6 +17,7 @@ from rich.console import Console, RenderableType
 from ._exit_codes import MEANING, ExitCode
 from ._extras import require
 from ._files import written_aside
+from ._plots import plain
 from ._report import NARROWEST
 from ._scene_error import SceneError
 
@@ -173,11 +174,11 @@ def answered(scene: Path, find: Callable[[], Found], wanted: Wanted) -> Found:
 
 @contextmanager
 def told_of(scene: Path) -> Iterator[None]:
-    """Errors of a scene name its file; others are of the options, since the scene itself has been checked."""
+    """The scene itself has been checked: an error is of the options, or the command is not for this scene."""
     try:
         yield
     except SceneError as error:
-        raise SceneError(str(scene), error.key, error.reason) from None
+        raise Stop(f"{scene}: {error.key}: {error.reason}", ExitCode.WRONG_USAGE) from None
     except ValueError as error:
         raise Stop(str(error), ExitCode.WRONG_USAGE) from None
 
@@ -195,7 +196,7 @@ def _write(found: Answer, path: Path, kind: str) -> None:
 
 def save_picture(axes: Any, title: str, path: Path) -> None:
     """With its title."""
-    axes.set_title(title, wrap=True)
+    axes.set_title(plain(title), wrap=True)
     axes.figure.savefig(path, dpi=150)
 
 

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import sys
 import time
+import warnings
 from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import ExitStack
@@ -71,6 +73,9 @@ def sweep(
         executor = None if dask is None else _executor(dask, workers, stack)
         told = _bar(stack, given.points, quiet)
         threads = None if executor is not None else workers
+        stack.enter_context(warnings.catch_warnings())
+        warnings.filterwarnings("always", ".*computed again", RuntimeWarning)
+        warnings.showwarning = lambda message, *_, **__: print(f"revchain: warning: {message}", file=sys.stderr)
         try:
             found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
         except KeyboardInterrupt:

@@ -379,7 +379,7 @@ def continuous_critical_heights(
     array([0.658339, 0.143271, 0.059425])
     """
     place = "revchain.continuous_critical_heights"
-    number = checked_count(place, "count", count)
+    number = checked_count(place, "count", count, each=8)
     if number > 100_000:
         raise ValueError(f"{place}: count must be at most 100000, got {number}")
     long, tip, density = _checked(place, length, tip_weight, line_density)

@@ -26,6 +26,51 @@ def write_fully(file: FileIO, data: bytes | NDArray[Any]) -> None:
 
 
 @contextmanager
+def naming(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Turn an OSError, of whatever library, into one that names the output, not the file beside it."""
+    try:
+        yield
+    except OutputError:
+        raise
+    except OSError as error:
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise OutputError(error.errno, reason, os.fspath(path)) from error
+
+
+class _Unfailing(FileIO):
+    """A file whose writes seem to succeed always; the first failure is kept."""
+
+    failure: OSError | None = None
+
+    def write(self, data: Any) -> int:
+        try:
+            left = memoryview(data).cast("B")
+            while left:
+                left = left[super().write(left) or 0 :]
+        except OSError as error:
+            self.failure = self.failure or error
+        return len(memoryview(data).cast("B"))
+
+    def truncate(self, size: int | None = None) -> int:
+        try:
+            return super().truncate(size)
+        except OSError as error:
+            self.failure = self.failure or error
+            return size or 0
+
+
+@contextmanager
+def hdf5_file(path: str | os.PathLike[str], mode: str = "w+") -> Iterator[FileIO]:
+    """Yield a file for h5py. After a write that failed, HDF5 would end the process in a segmentation fault at exit."""
+    with _Unfailing(path, mode) as file:
+        try:
+            yield file
+        finally:
+            if file.failure is not None:
+                raise file.failure
+
+
+@contextmanager
 def written_aside(*paths: str | os.PathLike[str]) -> Iterator[list[Path]]:
     """Yield an empty file beside each path, with the same ending; rename all of them at the end.
 

@@ -261,10 +261,9 @@ class GyrostaticString(Unchangeable):
         >>> string.plot().get_xlabel()
         'phase from link to link (degrees)'
         """
-        from ._plots import new_axes
+        from ._plots import axes_or_new
 
-        if ax is None:
-            ax = new_axes(5.0, 4.0)
+        ax = axes_or_new(ax, 5.0, 4.0)
         phase = np.linspace(0.0, np.pi, 200)[1:]
         speeds = self.angular_speeds(phase)
         degrees = np.degrees(phase)
@@ -311,17 +310,16 @@ class GyrostaticString(Unchangeable):
         >>> string.plot_vibration(8.0).get_xlabel()
         'link'
         """
-        from ._plots import new_axes
+        from ._plots import axes_or_new
 
         place = "revchain.GyrostaticString.plot_vibration"
         speed = one_positive(place, "angular_speed", angular_speed)
-        size = count(place, "links", links)
+        size = count(place, "links", links, each=64)
         turn = float(self.plane_rotation(speed))
         if np.isnan(turn):
             raise ValueError(f"{place}: a circular wave does not pass at angular_speed, got {speed:g}")
         mean = float(self.phase(speed) + self.phase(-speed)) / 2
-        if ax is None:
-            ax = new_axes(8.0, 4.0)
+        ax = axes_or_new(ax, 8.0, 4.0)
         pin = np.arange(size + 1)
         wave, angle = np.cos(mean * pin), turn * pin
         ax.plot(pin, wave * np.cos(angle), color="C0", linewidth=1.2, label="in the plane it starts in")

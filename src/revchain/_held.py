@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, numbers, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, boolean, floats, numbers, positive, real
 from ._arguments import count as counted
 from ._chain import Chain, compiled
 from ._results import Results
-from ._steady import Stability
+from ._steady import Stability, is_driven
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -182,9 +182,8 @@ class HeldShape(_Held):
         >>> [shape.stability().verdict for shape in rope]
         ['minimum', 'spectrally stable']
         """
-        if frame not in ("free", "driven"):
-            raise ValueError(f"revchain.HeldShape.stability: frame must be 'free' or 'driven', got {frame!r}")
-        return Stability._wrap(_core.held_stability(self._chain, self._compiled, frame == "driven"), frame)
+        driven = is_driven("revchain.HeldShape.stability", frame)
+        return Stability._wrap(_core.held_stability(self._chain, self._compiled, driven), frame)
 
 
 class HeldCordPlaces(NamedTuple):
@@ -440,9 +439,7 @@ def held_shapes(
     apart, pull = _between(place, span, top_tension)
     speed = _speed(place, conical_height, angular_speed, gravity)
     most = _half_waves(place, most_half_waves)
-    if not isinstance(prove, (bool, np.bool_)):
-        raise TypeError(f"{place}: prove must be True or False, got {prove!r}")
-    sure = bool(prove)
+    sure = boolean(place, "prove", prove)
     if pull is not None:
         found = _core.held_shapes_under_tension(core, pull / speed.per, speed.height, most, sure)
     elif speed.given is not None:
@@ -599,10 +596,10 @@ class TautModes:
         >>> rc.taut_modes(rc.Chain.uniform_rods(50, length=1.0), tension=10.0, count=3).plot().get_ylabel()
         'above the lower end (m)'
         """
-        from ._plots import MOST_PINS_AS_DOTS, SPACING, new_axes
+        from ._plots import MOST_PINS_AS_DOTS, SPACING, axes_or_new
 
         shown = min(counted("revchain.TautModes.plot", "most", most), self.conical_height.size)
-        axes = new_axes(1.5 + 1.1 * shown, 4.8) if ax is None else ax
+        axes = axes_or_new(ax, 1.5 + 1.1 * shown, 4.8)
         height = np.concatenate([[0.0], np.cumsum(self._length)])
         for k, shape in enumerate(self.shape[:shown]):
             axes.axvline(k * SPACING, color="0.8", linewidth=0.8, zorder=0)

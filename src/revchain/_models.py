@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, integer, one_positive, positive, real, shown
+from ._arguments import STANDARD_GRAVITY, Floats, integer, one_positive, positive, real, shown, word
 from ._arguments import count as checked_count
 from ._chain import Chain, compiled
 from ._results import Record
@@ -258,13 +258,11 @@ def solve(
         met = tolerance == 0 or bool(np.all(found.error_bound <= tolerance))
         status = found.status if found.status != "success" or met else "tolerance_not_met"
         return Solution(found.conical_height, found.error_bound, None, RIG_MODEL, status, tolerance, k, g)
-    core = compiled(place, hung)
+    core = compiled(place, hung, link_by_link=tolerance == 0)
     if model is None:
         answer = _core.solve(core, k, n, tolerance, lean, budget)
-    elif not isinstance(model, str) or model not in _core.MODELS:
-        raise ValueError(f"{place}: model must be one of {', '.join(_core.MODELS)}, got {shown(model)}")
     else:
-        answer = _core.solve_by(core, k, n, tolerance, lean, model)
+        answer = _core.solve_by(core, k, n, tolerance, lean, word(place, "model", model, _core.MODELS))
     return Solution(*answer, tolerance, k, g)
 
 
@@ -309,7 +307,7 @@ def explain(
         bound = 2.0**-50 if spinning else 2.0**-51  # foreseen: measured 3.5 ulp and 2
         row = ModelEstimate(RIG_MODEL, True, "", bound, 2.5e-5 + 1e-6 * hung.size * n * (1 + spinning), True)
         return Explanation((row,), tolerance == 0 or tolerance >= bound, tolerance)
-    rows, chosen, met = _core.select(compiled(place, hung), k, n, tolerance, lean, budget)
+    rows, chosen, met = _core.select(compiled(place, hung, link_by_link=False), k, n, tolerance, lean, budget)
     return Explanation(
         tuple(
             ModelEstimate(name, reason is None, reason or "", bound, cost, i == chosen and reason is None)

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._plots import keep_room, new_figure
+from ._arguments import shown
+from ._plots import checked_axes, keep_room, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,10 +19,15 @@ if TYPE_CHECKING:
 MOST_LETTERED = 8  # points of one kind with a letter each
 
 
-def _two_axes(width: float, height: float) -> tuple[Axes, Axes]:
-    """Side by side on a figure of their own."""
-    left, right = new_figure(width, height).subplots(1, 2)
-    return left, right
+def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tuple[Axes, Axes]:
+    """Those of the caller, or new ones side by side on a figure of their own."""
+    if axes is None:
+        left, right = new_figure(width, height).subplots(1, 2)
+        return left, right
+    two = list(axes) if isinstance(axes, Iterable) else []
+    if len(two) != 2:
+        raise TypeError(f"plot: axes must be two axes of matplotlib, got {shown(axes)}")
+    return checked_axes(two[0]), checked_axes(two[1])
 
 
 def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black") -> None:
@@ -47,7 +54,7 @@ def plot_force_diagram(
     diagram: ForceDiagram, axes: tuple[Axes, Axes] | None, *, length_unit: str, weight_unit: str
 ) -> tuple[Axes, Axes]:
     """See `ForceDiagram.plot`."""
-    figure, forces = axes if axes is not None else _two_axes(9.0, 5.5)
+    figure, forces = _two_axes(axes, 9.0, 5.5)
     pin, ray, reaction, load = diagram.pin, diagram.ray, diagram.reaction, diagram.load
     count, height = len(ray), diagram.conical_height
     lettered = count <= MOST_LETTERED
@@ -109,7 +116,7 @@ def plot_funicular_polygon(
     polygon: FunicularPolygon, axes: tuple[Axes, Axes] | None, *, length_unit: str, weight_unit: str
 ) -> tuple[Axes, Axes]:
     """See `FunicularPolygon.plot`."""
-    left, forces = axes if axes is not None else _two_axes(10.0, 4.5)
+    left, forces = _two_axes(axes, 10.0, 4.5)
     x, z, rise, pull = polygon.place, polygon.height, polygon.rise, polygon.horizontal_tension
     lettered = len(x) - 2 <= MOST_LETTERED
     line = max(float(z.max()), 0.0) + 0.12 * (float(x[-1] - x[0]))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import Numbers, Whole, integer, one_positive
+from ._arguments import Numbers, Whole, integer, listed, one_positive, refuse_beyond_memory, shown
 from ._extras import require
 from ._tables import digits
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from .governor import GovernorMotion
     from .ropes import SkippingRope, TortuousRope
 
+BYTES = 64  # of a point of a curve
 MOST_SHAPES = 6  # drawn unless asked: more do not stay legible side by side
 MOST_PINS_AS_DOTS = 40
 MOST_POINTS = 2000  # per curve: about the pixels of a large picture
@@ -40,9 +41,23 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
-def new_axes(width: float, height: float) -> Axes:
-    """Axes on a figure of their own."""
-    return new_figure(width, height).add_subplot()
+def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
+    """The axes of the caller, or new ones on a figure of their own."""
+    if ax is None:
+        return new_figure(width, height).add_subplot()
+    return checked_axes(ax)
+
+
+def checked_axes(ax: Axes) -> Axes:
+    """`ax`; a TypeError unless it is axes of matplotlib."""
+    if not isinstance(ax, require("matplotlib.axes", "plot", "plotting").Axes):
+        raise TypeError(f"plot: ax must be axes of matplotlib, got {shown(ax)}")
+    return ax
+
+
+def plain(text: str) -> str:
+    """`text` as matplotlib draws it letter by letter: what stands between two $ would be mathematics."""
+    return text.replace("$", r"\$")
 
 
 def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gravity: float, length_unit: str) -> Axes:
@@ -53,8 +68,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gr
     gravity = one_positive(place, "gravity", gravity)
     chosen = _chosen(place, modes.number, which)
     first = int(modes.number[0])
-    if ax is None:
-        ax = new_axes(max(4.0, 1.6 + 1.25 * len(chosen)), 6.0)
+    ax = axes_or_new(ax, max(4.0, 1.6 + 1.25 * len(chosen)), 6.0)
     lengths = modes.chain.length
     depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])  # of the pins, free end first
     speeds = modes.angular_speed(gravity)
@@ -108,8 +122,7 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gr
 
 def plot_chain(chain: Chain, ax: Axes | None, *, length_unit: str, weight_unit: str) -> Axes:
     """See `Chain.plot`."""
-    if ax is None:
-        ax = new_axes(5.0, 6.0)
+    ax = axes_or_new(ax, 5.0, 6.0)
     length = chain.length
     weight = chain.weight
     upper_pin = np.cumsum(length[::-1])[::-1] - length
@@ -179,7 +192,7 @@ def _chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[i
         raise ValueError(f"{place}: there are no modes")
     if which is None:
         return [int(number) for number in available[:MOST_SHAPES]]
-    chosen = [integer(place, "modes", mode) for mode in which]
+    chosen = [integer(place, "modes", mode) for mode in listed(place, "modes", which)]
     for mode in chosen:
         if not available[0] <= mode <= available[-1]:
             raise ValueError(f"{place}: mode must be from {available[0]} to {available[-1]}, got {mode}")
@@ -190,8 +203,8 @@ def _chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[i
 
 def plot_skipping_rope(rope: SkippingRope, ax: Axes | None, *, length_unit: str) -> Axes:
     """See `SkippingRope.plot`."""
-    if ax is None:
-        ax = new_axes(6.4, 4.0)
+    refuse_beyond_memory("revchain.SkippingRope.plot", "half_waves", rope.half_waves, 200 * BYTES)
+    ax = axes_or_new(ax, 6.4, 4.0)
     places = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
     ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
     label = f"{rope.angular_speed:.4g} rad/s" if rope.has_speed else f"length {rope.length:.4g}"
@@ -203,8 +216,8 @@ def plot_skipping_rope(rope: SkippingRope, ax: Axes | None, *, length_unit: str)
 
 def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None, half_waves: float, *, length_unit: str) -> Axes:
     """See `TortuousRope.plot`."""
-    if ax is None:
-        ax = new_axes(5.0, 5.0)
+    refuse_beyond_memory("revchain.TortuousRope.plot", "half_waves", int(half_waves), 200 * BYTES)
+    ax = axes_or_new(ax, 5.0, 5.0)
     places = rope.at(np.linspace(0.0, half_waves * rope.half_wave, 1 + int(200 * max(half_waves, 1.0))))
     round_ = np.linspace(0.0, 2 * np.pi, 200)
     for radius in {rope.least_radius, rope.greatest_radius} - {0.0}:
@@ -228,8 +241,7 @@ def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | Non
             raise ValueError(f"{place}: give duration: the motion never returns")
         duration = 2 * motion.period if motion.period > 0 else 1.0
     time = np.linspace(0.0, one_positive(place, "duration", duration), 801)
-    if ax is None:
-        ax = new_axes(6.4, 4.0)
+    ax = axes_or_new(ax, 6.4, 4.0)
     for angle in (motion.least_angle, motion.greatest_angle):
         if np.isfinite(angle):
             ax.axhline(np.degrees(angle), color="0.6", linestyle=":", linewidth=0.9, zorder=1)
@@ -260,8 +272,7 @@ def plot_shapes(
     shapes: Iterable[SteadyShape | ContinuousShape], ax: Axes | None, *, linked: bool, length_unit: str
 ) -> Axes:
     """See `SteadyShapes.plot` and `ContinuousShapes.plot`; dots mark the pins of linked shapes, else the free end."""
-    if ax is None:
-        ax = new_axes(5.0, 6.0)
+    ax = axes_or_new(ax, 5.0, 6.0)
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
     named: set[int] = set()
     for shape in shapes:
@@ -285,8 +296,7 @@ def plot_shapes(
 
 def plot_held_shapes(shapes: Sequence[_Held], ax: Axes | None, *, length_unit: str) -> Axes:
     """See `HeldShapes.plot`."""
-    if ax is None:
-        ax = new_axes(5.0, 6.0)
+    ax = axes_or_new(ax, 5.0, 6.0)
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
     named = set()
     for shape in shapes:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arguments import Floats, Numbers, real
+from ._arguments import Floats, Numbers, boolean, real
 from ._extras import require
 from ._modes import Certificate
 
@@ -25,6 +25,7 @@ LINK_COLUMNS = ("weight", "length", "centroid", "pendulum_length", "radius_of_gy
 def to_dict(modes: Modes, gravity: float, shapes: bool) -> dict[str, Any]:
     """See `Modes.to_dict`."""
     gravity = real("revchain.Modes.to_dict", "gravity", gravity)
+    shapes = boolean("revchain.Modes.to_dict", "shapes", shapes)
     height, low = two_floats(modes.conical_height, modes.conical_height_low)
     columns: dict[str, list[Any]] = {
         "mode": modes.number.tolist(),

@@ -15,6 +15,7 @@ from ._arguments import (
     STANDARD_GRAVITY,
     Floats,
     Whole,
+    array_of,
     floats,
     integer,
     limit,
@@ -104,13 +105,15 @@ class Response(Record):
         """Draw how far chosen pins are from the axis against the speed, the largest scale logarithmic.
 
         Dashed where a pin is on the side opposite to the support; vertical lines mark the resonances.
+        A response at one speed is drawn as a shape: the offsets of the pins against their depths.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
         pins : iterable of int, optional
-            Which pins of this result; the lowest, and up to three others evenly spaced, if left out.
+            Which pins of this result. If left out: the lowest and up to three others, evenly spaced; at one
+            speed all.
         resonances : bool
             Whether to mark the whirl speeds in the range of the plot; never done for a `Rig`.
 
@@ -121,7 +124,7 @@ class Response(Record):
         Raises
         ------
         ValueError
-            If `pins` names one that is not in this result, or there are less than two speeds.
+            If `pins` names one that is not in this result, or the result has no speed.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -264,7 +267,7 @@ def _pins(place: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[i
     """Numbers of the pins asked for, and the axis they make."""
     if pins is None:
         return np.arange(size + 1), (size + 1,)
-    asked = np.asarray(pins)
+    asked = array_of(pins)
     if asked.dtype.kind not in "iu" and asked.size:
         raise ValueError(f"{place}: pins must be whole numbers, got {shown(pins)}")
     if asked.ndim > 1:

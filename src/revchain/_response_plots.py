@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import integer, shown
+from ._arguments import boolean, integer, listed, word
 from ._chain import Chain
-from ._plots import MOST_PINS_AS_DOTS, new_axes, thinned
+from ._plots import MOST_PINS_AS_DOTS, axes_or_new, thinned
+from ._rig_plots import plot_carried
 from ._solve import count_modes, modes
 
 if TYPE_CHECKING:
@@ -26,15 +27,16 @@ MOST_RESONANCES = 60  # marked: more would blacken the plot
 def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, *, resonances: bool) -> Axes:
     """See `Response.plot`."""
     speed = found.angular_speed.reshape(-1)
-    if speed.size < 2:
-        raise ValueError("Response.plot: at least two speeds are needed")
+    available = np.atleast_1d(found.pins).tolist()
+    if speed.size == 0:
+        raise ValueError("Response.plot: the response has no speed to draw; it needs at least one")
+    if speed.size == 1:
+        return plot_carried(found, ax, available if pins is None else _known(pins, available))
     order = np.argsort(speed)
     speed = speed[order]
     offset = found.offset.reshape(speed.size, -1)[order]
-    available = np.atleast_1d(found.pins).tolist()
-    chosen = _spread(available, found.chain.size) if pins is None else [_known(pin, available) for pin in pins]
-    if ax is None:
-        ax = new_axes(7.0, 4.5)
+    chosen = _spread(available, found.chain.size) if pins is None else _known(pins, available)
+    ax = axes_or_new(ax, 7.0, 4.5)
     for number, pin in enumerate(chosen):
         y = offset[:, available.index(pin)]
         name = "free end" if pin == 0 else f"pin {pin}"
@@ -49,7 +51,7 @@ def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, 
                 label=name if side == 1 else None,
             )
     ax.axhline(found.support_radius, color="0.6", linewidth=0.8, zorder=0)
-    if resonances and isinstance(found.chain, Chain):
+    if boolean("Response.plot", "resonances", resonances) and isinstance(found.chain, Chain):
         for at in _resonances(found.chain, found, speed):
             ax.axvline(at, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
     ax.set_yscale("log")
@@ -92,11 +94,12 @@ def _spread(available: list[int], links: int) -> list[int]:
     return [free[place] for place in places]
 
 
-def _known(pin: int, available: list[int]) -> int:
-    number = integer("Response.plot", "pins", pin)
-    if number not in available:
-        raise ValueError(f"Response.plot: pins must be among those of this result, got {number}")
-    return number
+def _known(pins: Iterable[int], available: list[int]) -> list[int]:
+    numbers = [integer("Response.plot", "pins", pin) for pin in listed("Response.plot", "pins", pins)]
+    for number in numbers:
+        if number not in available:
+            raise ValueError(f"Response.plot: pins must be among those of this result, got {number}")
+    return numbers
 
 
 def plot_small_oscillation(
@@ -104,15 +107,13 @@ def plot_small_oscillation(
 ) -> Axes:
     """See `SmallOscillation.plot`."""
     place = "SmallOscillation.plot"
-    if kind not in ("shapes", "time"):
-        raise ValueError(f"{place}: kind must be 'shapes' or 'time', got {shown(kind)}")
+    word(place, "kind", kind, ("shapes", "time"))
     size = found.chain.size
-    chosen = [integer(place, "pins", pin) for pin in pins]
+    chosen = [integer(place, "pins", pin) for pin in listed(place, "pins", pins)]
     for pin in chosen:
         if not 0 <= pin <= size:
             raise ValueError(f"{place}: pins must be numbers from 0 to {size}, got {pin}")
-    if ax is None:
-        ax = new_axes(7.0, 4.0) if kind == "time" else new_axes(5.0, 6.0)
+    ax = axes_or_new(ax, *((7.0, 4.0) if kind == "time" else (5.0, 6.0)))
     order = np.argsort(found.time)
     if kind == "time":
         for number, pin in enumerate(chosen):

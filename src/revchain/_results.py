@@ -9,7 +9,7 @@ from typing import Any, Generic, Self, TypeVar, overload
 
 import numpy as np
 
-from ._arguments import read_only
+from ._arguments import integer, read_only, shown
 
 Compiled = TypeVar("Compiled")
 Given = TypeVar("Given")
@@ -45,6 +45,22 @@ class Results(Sequence[Item]):
 
     def __len__(self) -> int:
         return len(self._items)
+
+    def __contains__(self, value: object) -> bool:
+        return self.count(value) > 0
+
+    def count(self, value: object) -> int:
+        """How many of the results equal `value`."""
+        return sum(value is item or (type(value) is type(item) and value == item) for item in self)
+
+    def index(self, value: object, start: int = 0, stop: int | None = None) -> int:
+        """The place of the first result that equals `value`, from `start` on and before `stop`."""
+        place = f"{type(self).__name__}.index"
+        ends = integer(place, "start", start), None if stop is None else integer(place, "stop", stop)
+        for number in range(len(self))[slice(*ends)]:
+            if value is self[number] or (type(value) is type(self[number]) and value == self[number]):
+                return number
+        raise ValueError(f"{place}: none of the {len(self)} results is {shown(value)}")
 
     def __iter__(self) -> Iterator[Item]:
         return iter(self._items)

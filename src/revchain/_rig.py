@@ -13,6 +13,7 @@ from . import _core
 from ._arguments import (
     STANDARD_GRAVITY,
     Floats,
+    array_of,
     floats,
     numbers,
     positive,
@@ -21,6 +22,7 @@ from ._arguments import (
     refuse_where,
     shown,
     together,
+    word,
 )
 from ._chain import Chain, compiled
 from ._results import Unchangeable
@@ -130,8 +132,7 @@ class Rig(Unchangeable):
     ) -> None:
         place = "revchain.Rig"
         core = compiled(place, chain)
-        if fluid not in _FLUIDS:
-            raise ValueError(f"{place}: fluid must be one of {', '.join(_FLUIDS)}, got {shown(fluid)}")
+        word(place, "fluid", fluid, _FLUIDS)
         support = {
             "stiffness": real(place, "stiffness", stiffness),
             "carriage_weight": real(place, "carriage_weight", carriage_weight),
@@ -353,7 +354,7 @@ def _wheel(place: str, weight: ArrayLike, radius: ArrayLike, spin: ArrayLike, gr
 
 
 def _flags(place: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:
-    flags = np.asarray(value)
+    flags = array_of(value)
     if flags.dtype != np.bool_ or flags.ndim > 1 or (flags.ndim == 1 and flags.size != size):
         raise ValueError(
             f"{place}: standing must be True, False or an array of them, one for each of the {size} links, "

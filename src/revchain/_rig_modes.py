@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._arguments import Floats, Whole, positive, real, shown
+from ._arguments import Floats, Whole, boolean, positive, real, shown
 from ._rig import Rig
 
 if TYPE_CHECKING:
@@ -266,7 +266,7 @@ class RigModes:
         }
         if self.shape is not None and self.residual is not None:
             columns["residual"] = self.residual.tolist()
-            if shapes:
+            if boolean("revchain.RigModes.to_dict", "shapes", shapes):
                 columns["shape"] = self.shape.tolist()
         other = self.other
         others = zip(other.conical_height.tolist(), other.growth_rate.tolist(), other.error_bound.tolist(), strict=True)
@@ -392,7 +392,7 @@ def rig_modes(
     """The modes of a rig number `first` ... of each sense."""
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
     has_momentum, forward, backward, other, link, speed, complete, method, status = _core.rig_modes(
-        rig._compiled, first, count, g, bool(shapes), progress
+        rig._compiled, first, count, g, boolean(place, "shapes", shapes), progress
     )
     return RigModes(
         rig,

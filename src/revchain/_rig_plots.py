@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._arguments import integer, shown
-from ._plots import MOST_PINS_AS_DOTS, MOST_POINTS, SPACING, new_axes, thinned
+from ._plots import MOST_PINS_AS_DOTS, MOST_POINTS, SPACING, axes_or_new, thinned
+from ._response import Response
+from ._rig import Rig
 from ._tables import digits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ._arguments import Floats
-    from ._response import Response
-    from ._rig import Rig
     from ._rig_modes import RigModes
 
 FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
@@ -35,14 +35,13 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
     if drawn < min(1, len(modes)):
         raise ValueError(f"{place}: most must be at least 1, got {shown(most)}")
     rig = modes.rig
+    if carried is not None and not isinstance(carried, Response):
+        raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.chain != rig or carried.offset.shape != (rig.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
     before = 1 if carried is None else 2
-    if ax is None:
-        ax = new_axes(1.6 + 1.25 * (before + max(drawn, 2)), 6.0)
-    upwards = bool(rig.standing.all())
-    steps = rig.chain.length * np.where(rig.standing, -1.0, 1.0) * (-1.0 if upwards else 1.0)
-    level = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])  # of the pins, free end first
+    ax = axes_or_new(ax, 1.6 + 1.25 * (before + max(drawn, 2)), 6.0)
+    upwards, level = _levels(rig)
     _draw_at_rest(rig, ax, level)
     labels = ["at rest" + (f"\nin {rig.fluid} fluid" if rig.displaced_weight.any() else "")]
     if carried is not None:
@@ -73,10 +72,7 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
         ticks.append(SPACING * (before + 0.5))
     ax.set_xticks(ticks, labels, fontsize="x-small")
     ax.set_xlim(-SPACING / 2, SPACING * (max(drawn, 2) + before - 0.5))
-    margin = 0.04 * (level.max() - level.min())
-    ends = (level.min() - margin, level.max() + margin)
-    ax.set_ylim(*(ends if upwards else ends[::-1]))
-    ax.set_ylabel(f"{'height above' if upwards else 'depth below'} the support ({length_unit})")
+    _set_levels(ax, upwards, level, length_unit)
     if drawn or carried is not None:
         ax.set_xlabel("offset from the axis, own scale each", fontsize="small")
     if rig.displaced_weight.any():
@@ -84,6 +80,38 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
     for side in ("top", "right"):
         ax.spines[side].set_visible(False)
     return ax
+
+
+def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
+    """The response at one speed as a shape, the support on its circle."""
+    rig = found.chain if isinstance(found.chain, Rig) else Rig(found.chain)
+    upwards, level = _levels(rig)
+    offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
+    ax = axes_or_new(ax, 5.0, 6.0)
+    _draw_axis(ax, 0.0, level)
+    across = np.array([offset.get(pin, np.nan) if pin in pins else np.nan for pin in range(rig.size + 1)])
+    if len(pins) == level.size:
+        _draw_links(rig, ax, across, level, CARRIED)
+    else:
+        ax.plot(across, level, "o", color=CARRIED)
+    ax.plot([0.0, found.support_radius], [0.0, 0.0], **ARM)
+    _set_levels(ax, upwards, level, "m")
+    ax.set_xlabel(f"offset from the axis (m) at {digits(found.angular_speed.item(), 4)} rad/s")
+    return ax
+
+
+def _levels(rig: Rig) -> tuple[bool, Floats]:
+    """Whether all links stand, and the distances of the pins from the support along the axis, free end first."""
+    upwards = bool(rig.standing.all())
+    steps = rig.chain.length * np.where(rig.standing, -1.0, 1.0) * (-1.0 if upwards else 1.0)
+    return upwards, np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])
+
+
+def _set_levels(ax: Axes, upwards: bool, level: Floats, length_unit: str) -> None:
+    margin = 0.04 * (level.max() - level.min())
+    ends = (level.min() - margin, level.max() + margin)
+    ax.set_ylim(*(ends if upwards else ends[::-1]))
+    ax.set_ylabel(f"{'height above' if upwards else 'depth below'} the support ({length_unit})")
 
 
 def _draw_axis(ax: Axes, at: float, level: Floats) -> None:

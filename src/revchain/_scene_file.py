@@ -9,30 +9,31 @@ import re
 import tomllib
 from collections.abc import Iterator
 from difflib import get_close_matches
-from functools import cache
 from pathlib import Path
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import msgspec
 
-from ._arguments import shown
+from ._arguments import file_path, shown
 from ._scene_error import SceneError
+from ._scene_tables import fields_of
 from ._units import SI
 
 Kind = TypeVar("Kind")
+MOST_DIGITS = 400  # more than the largest float has
 
 
 def read(path: str | os.PathLike[str]) -> Any:
     """The raw content of a .toml or .json file."""
-    source = os.fspath(path)
+    source = file_path("revchain", "the scene or study", path)
     try:
-        text = Path(path).read_text(encoding="utf-8-sig")
+        text = Path(source).read_text(encoding="utf-8-sig")
     except OSError as error:
         raise SceneError(source, "", f"cannot be read: {error.strerror}") from None
     except UnicodeDecodeError as error:
         raise SceneError(source, "", f"is not UTF-8 text (byte {error.start + 1})") from None
     try:
-        return json.loads(text) if source.lower().endswith(".json") else tomllib.loads(text)
+        return json.loads(text, parse_int=_whole) if source.lower().endswith(".json") else tomllib.loads(text)
     except json.JSONDecodeError as error:
         raise SceneError(source, f"line {error.lineno}, column {error.colno}", error.msg) from None
     except tomllib.TOMLDecodeError as error:
@@ -42,10 +43,22 @@ def read(path: str | os.PathLike[str]) -> Any:
         raise SceneError(source, "", f"cannot be read: {error}") from None
 
 
+def _whole(text: str) -> int:
+    """A whole number of a JSON file; Python needs minutes for one of a million digits."""
+    if len(text) > MOST_DIGITS:
+        raise ValueError(f"a whole number has {len(text):,} digits; at most {MOST_DIGITS} are allowed")
+    return int(text)
+
+
 def convert(raw: Any, kind: type[Kind], source: str) -> Kind:
     """`raw` as `kind`, a msgspec Struct; a SceneError where it does not fit."""
     try:
-        return msgspec.convert(raw, kind)
+        converted = msgspec.convert(raw, kind)
+        msgspec.json.encode(converted)
+        return converted
+    except UnicodeEncodeError as error:
+        reason = f"has text that is not Unicode: a lone surrogate in {shown(error.object)}; remove it"
+        raise SceneError(source, "", reason) from None
     except msgspec.ValidationError as error:
         key, reason = _explained(str(error), raw, kind)
         raise SceneError(source, key, reason) from None
@@ -93,7 +106,7 @@ def _explained(message: str, raw: Any, kind: type) -> tuple[str, str]:
 def _choice(words: list[str], or_number: bool, value: Any) -> str:
     """The sentence for a value that is not among the words allowed."""
     allowed = words[0] if len(words) == 1 else "one of " + ", ".join(words)
-    near = get_close_matches(str(value), words, n=1)
+    near = get_close_matches(shown(value).strip("'"), words, n=1)
     hint = f"; did you mean {near[0]}?" if near else ""
     return f"must be {'a whole number or ' if or_number else ''}{allowed}, got {shown(value)}{hint}"
 
@@ -129,14 +142,11 @@ def _known_keys(kind: type, key: str) -> list[str]:
 def _fields_at(kind: type, key: str) -> tuple[Any, ...]:
     """The fields of the table at `key`, found by walking the structs along the path."""
     for name in re.findall(r"[^.\[\]]+", re.sub(r"\[\d+\]", "", key)):
-        for field in _fields_of(kind):
+        for field in fields_of(kind):
             if field.encode_name == name:
                 structs = (part for part in _parts_of(field.type) if isinstance(part, type))
                 kind = next((part for part in structs if issubclass(part, msgspec.Struct)), kind)
-    return _fields_of(kind)
-
-
-_fields_of = cache(msgspec.structs.fields)  # which evaluates annotations anew each time, in a millisecond
+    return fields_of(kind)
 
 
 def _annotation_at(kind: type, key: str) -> Any:

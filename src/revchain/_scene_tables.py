@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from functools import cache, partial
+from typing import Annotated, Any, Literal
 
 from msgspec import UNSET, Meta, Struct, UnsetType
+from msgspec.structs import fields
 
 from ._units import PATTERN
 
@@ -19,8 +21,19 @@ AnySign = float | WithUnit
 Count = Annotated[int, Meta(ge=1, le=MOST_LINKS)]
 
 
+fields_of = cache(fields)  # which evaluates annotations anew each time, in a millisecond
+
+
 class Table(Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True, repr_omit_defaults=True, kw_only=True):
     """What all tables of a scene share: fixed keys, no positional arguments."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle what was given only: msgspec knows defaults, which `to_dict` leaves out, by their identity."""
+        given = {}
+        for field in fields_of(type(self)):
+            if (value := getattr(self, field.name)) is not field.default:
+                given[field.name] = value
+        return partial(type(self), **given), ()
 
 
 class Flywheel(Table, frozen=True):

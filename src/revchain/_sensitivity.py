@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, count, floats, positive, read_only, real, shown
+from ._arguments import STANDARD_GRAVITY, Floats, count, floats, positive, read_only, real, shown, together
 from ._results import Record
 from ._rig import Rig
 
@@ -160,8 +160,10 @@ class Uncertainty(Record):
         ...     length_in_proportion=0.024525).angular_speed(gravity=9.81).round(12)
         array([0.01])
         """
-        g = positive("revchain.Uncertainty.angular_speed", "gravity", gravity)
-        return np.asarray(0.5 * self.relative * np.sqrt(g) / np.sqrt(self._height))
+        place = "revchain.Uncertainty.angular_speed"
+        g = positive(place, "gravity", gravity)
+        relative, height, g = together(place, relative=self.relative, height=self._height, gravity=g)
+        return np.asarray(0.5 * relative * np.sqrt(g) / np.sqrt(height))
 
 
 def of_modes(modes: Modes) -> Sensitivity:

@@ -9,8 +9,9 @@ from typing import Any, overload
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, floats, integer, positive, real, shown, together
+from ._arguments import STANDARD_GRAVITY, Floats, boolean, floats, integer, positive, real, shown, together
 from ._arguments import count as checked_count
+from ._arguments import word as checked_word
 from ._chain import Chain, compiled
 from ._modes import Certificate, Modes
 from ._rig import Rig
@@ -213,10 +214,9 @@ def solve(
     if rtol is not None:
         rtol = real(place, "rtol", rtol)
     for name, word, known in (("method", method, _core.METHODS), ("precision", precision, _core.PRECISIONS)):
-        if word not in known:
-            raise ValueError(f"{place}: {name} must be one of {', '.join(known)}, got {shown(word)}")
+        checked_word(place, name, word, known)
     number, height, low, bound, shape, residual, nodes, proof, used, status = _core.modes(
-        core, first, count, heights, speeds, rtol, bool(shapes), bool(certify), precision, method, progress
+        core, first, count, heights, speeds, rtol, boolean(place, "shapes", shapes), boolean(place, "certify", certify), precision, method, progress
     )
     certificate = None if proof is None else Certificate(*proof)
     return Modes(chain, number, height, bound, shape, residual, nodes, used, status, precision, certificate, low)

@@ -4,18 +4,19 @@
 from __future__ import annotations
 
 import os
-import zipfile
+import zlib
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
 from . import _core
+from ._arguments import file_path
 from ._chain import Chain
 from ._extras import require
-from ._files import OutputError, written_aside
+from ._files import hdf5_file, naming, written_aside
 from ._modes import Modes
 from ._record import extra_columns, extra_fields, to_xarray
 from ._rig import Rig
@@ -25,25 +26,26 @@ KIND = "revchain modes 1"
 RIG_KIND = "revchain rig modes 1"
 STATE = "chain_state_"
 RIGGING = "rig_"
+SEAL = b"revchain"  # then the CRC-32 of all bytes before it
 
 
 def save(modes: Modes | RigModes, path: str | os.PathLike[str]) -> None:
     """See `Modes.save`, `RigModes.save`."""
-    ending = _ending(path)
+    ending = _ending(f"revchain.{type(modes).__name__}.save", path)
     if isinstance(modes, RigModes) and ending != ".npz":
         raise ValueError(f"modes of a rig are kept in .npz files, got {os.fspath(path)}")
     dataset = _dataset(modes) if isinstance(modes, Modes) and ending == ".nc" else None
-    try:
-        with written_aside(path) as [aside]:
-            if dataset is not None:
-                dataset.to_netcdf(aside, engine="h5netcdf")
-            else:
-                with open(aside, "wb") as file:  # given a name, numpy may add to it
-                    np.savez(
-                        file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes))
-                    )
-    except OSError as error:
-        raise OutputError(error.errno, error.strerror or str(error), os.fspath(path)) from error
+    with naming(path), written_aside(path) as [aside]:
+        if dataset is not None:
+            _write_netcdf(dataset, aside)
+        else:
+            with open(aside, "wb") as file:  # given a name, numpy may add to it
+                np.savez(
+                    file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes))
+                )
+        if aside.is_file():
+            with open(aside, "r+b") as whole:
+                whole.write(_seal(whole))
 
 
 def load(path: str | os.PathLike[str]) -> Modes | RigModes:
@@ -62,7 +64,7 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
     Raises
     ------
     ValueError
-        If the path has another ending or the file holds something else.
+        If the path has another ending, or the file holds something else or is damaged: its checksum tells.
     ImportError
         If what ``.nc`` needs is not installed; the message says how to install it.
     OSError
@@ -77,17 +79,35 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
     >>> rc.load(path).chain == chain
     True
     """
-    ending = _ending(path)
+    ending = _ending("revchain.load", path)
     if ending == ".nc":
         xarray = _netcdf("reading .nc files")
     with open(path, "rb") as file:  # the ordinary OSError where it cannot be read
-        try:
-            if ending == ".npz":
-                return _from_arrays(dict(np.load(file, allow_pickle=False)))
-            with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-                return _from_dataset(dataset.load())
-        except (KeyError, ValueError, TypeError, AttributeError, EOFError, OSError, zipfile.BadZipFile) as error:
-            raise ValueError(f"{os.fspath(path)}: not a result that revchain saved ({error})") from None
+        size = max(os.fstat(file.fileno()).st_size - len(SEAL) - 4, 0)
+        if _seal(file, size) != file.read():
+            reason = "not a result that revchain saved, or damaged since; compute and save it again"
+            raise ValueError(f"{os.fspath(path)}: {reason}")
+        if ending == ".npz":
+            return _from_arrays(dict(np.load(path, allow_pickle=False)))
+    with xarray.open_dataset(path, engine="h5netcdf") as dataset:
+        return _from_dataset(dataset.load())
+
+
+def _seal(file: IO[bytes], size: int | None = None) -> bytes:
+    """What ends a file of ours, by its first `size` bytes. Readers of .npz and .nc files pass over it."""
+    checksum = 0
+    while chunk := file.read(2**20 if size is None else min(2**20, size)):
+        checksum = zlib.crc32(chunk, checksum)
+        size = None if size is None else size - len(chunk)
+    return SEAL + checksum.to_bytes(4, "little")
+
+
+def _write_netcdf(dataset: Any, path: Path) -> None:
+    from h5netcdf import File
+    from xarray.backends import H5NetCDFStore
+
+    with hdf5_file(path) as file, File(file, "w") as target:
+        dataset.dump_to_store(H5NetCDFStore(target))
 
 
 def _netcdf(purpose: str) -> Any:
@@ -97,8 +117,8 @@ def _netcdf(purpose: str) -> Any:
     return require("xarray", "netcdf", purpose)
 
 
-def _ending(path: str | os.PathLike[str]) -> str:
-    ending = Path(path).suffix.lower()
+def _ending(place: str, path: str | os.PathLike[str]) -> str:
+    ending = Path(file_path(place, "path", path)).suffix.lower()
     if ending not in (".npz", ".nc"):
         raise ValueError(f"results are kept in .npz or .nc files, got {os.fspath(path)}")
     return ending

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import shutil
@@ -18,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._files import OutputError, write_fully
+from ._files import OutputError, naming, write_fully
 from ._study_find import Arrays
 from ._study_plan import Plan, Stretch
 
@@ -37,7 +38,7 @@ class Journal:
     ``points`` has all arrays behind one another, with holes where nothing is finished; ``index`` a record for each
     finished stretch, written after its numbers. A process killed at any moment leaves whole records, and at most a
     piece of one, which is dropped. Records whose numbers a failing disk or power damaged are known by their
-    checksums, and their points computed again.
+    checksums, and their points computed again; `damage` says so.
     """
 
     def __init__(self, output: str | os.PathLike[str], plan: Plan) -> None:
@@ -46,6 +47,7 @@ class Journal:
         self.plan = plan
         self.fingerprint = plan.fingerprint()
         self.kept: list[tuple[int, int]] = []
+        self.damage = ""
         self._layout: dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]] = {}
         self._size = 0
         for name, kind, columns in [*((b.name, b.kind, b.each) for b in plan.stored), (STATUS, "u1", ())]:
@@ -67,11 +69,16 @@ class Journal:
         self._lock = os.open(self.folder, os.O_RDONLY)
         try:
             _only_one(self._lock, self.output)
+            for path in self.folder.iterdir():
+                if path.is_symlink():
+                    reason = f"{path} is a symbolic link; remove it or write elsewhere"
+                    raise OutputError(errno.ELOOP, reason, os.fspath(self.output))
             head = self.folder / _HEAD
             if head.exists():
                 self._same(head)
             else:
-                self._begin(head)
+                with naming(self.output):
+                    self._begin(head)
             self._ours = True
             for left in self.folder.glob(".*.writing*"):
                 left.unlink()
@@ -105,9 +112,10 @@ class Journal:
 
     def _same(self, head: Path) -> None:
         try:
-            known = json.loads(head.read_text(encoding="utf-8"))["fingerprint"]
-        except (ValueError, KeyError, TypeError):
-            known = None
+            known = str(json.loads(head.read_text(encoding="utf-8"))["fingerprint"])
+        except (ValueError, KeyError, TypeError, RecursionError):
+            reason = f"{head} is damaged: it does not say of which study; remove {self.folder} or write elsewhere"
+            raise OutputError(errno.EEXIST, reason, os.fspath(self.output)) from None
         if known != self.fingerprint:
             reason = f"{self.folder} holds points of another study, or of another version; remove it or write elsewhere"
             raise OutputError(17, reason, os.fspath(self.output))
@@ -125,7 +133,9 @@ class Journal:
     def _open(self) -> None:
         for name in (_POINTS, _INDEX):
             path = self.folder / name
-            path.touch()
+            if not path.exists():
+                self.damage = f"{path} is missing; the points it told of are computed again"
+                path.touch()
             self._files.append(FileIO(path, "r+"))
         if os.fstat(self._files[0].fileno()).st_size < self._size:
             try:
@@ -151,6 +161,11 @@ class Journal:
             if good and _checksum([array[start:stop] for array in arrays.values()]) == checksum:
                 whole.append(data[place : place + _LENGTH])
                 self.kept.insert(place_among, (start, stop))
+        if (damaged := len(data) // _LENGTH - len(whole)) > 0:
+            self.damage = (
+                f"{self.folder}: {damaged:,} of {len(data) // _LENGTH:,} records of finished points are damaged; "
+                f"{sum(stop - start for start, stop in self.kept):,} points are kept, all others are computed again"
+            )
         if data != b"".join(whole):
             self._files.pop().close()
             _write_whole(self.folder / _INDEX, *whole)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import closing
@@ -14,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from ._arguments import count as checked_count
+from ._arguments import shown
 from ._extras import require
 from ._study_axes import BLOCK
 from ._study_find import Arrays
@@ -79,6 +81,11 @@ def sweep(
     ImportError
         If a package that writes `out` is missing; the message says how to install it.
 
+    Warns
+    -----
+    RuntimeWarning
+        If the partial folder is damaged: how many of its records are dropped.
+
     Notes
     -----
     Plain chains of up to 100 links whose weights, lengths, centroids and radii vary go to
@@ -101,6 +108,10 @@ def sweep(
         study = load_study(study)
     if executor is not None and threads is not None:
         raise ValueError(f"{_PLACE}: threads does not go with executor, which has its own")
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise TypeError(f"{_PLACE}: executor must be a concurrent.futures.Executor, got {shown(executor)}")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"{_PLACE}: progress must be a function of two numbers, got {shown(progress)}")
     chunk = None if chunk is None else checked_count(_PLACE, "chunk", chunk)
     workers = _processors() if threads is None else checked_count(_PLACE, "threads", threads)
     plan = study._plan("study")
@@ -114,6 +125,8 @@ def sweep(
         stored = journal.map()
         result = SweepResult._of(study, plan, stored)
         result._resumed = sum(stop - start for start, stop in journal.kept)
+        if journal.damage:
+            warnings.warn(journal.damage, RuntimeWarning, stacklevel=2)
         with closing(Keeper(journal, partial(writer, journal.aside, study, plan), stored)) as keeper:
             _Run(plan, keeper, chunk, progress).anywhere(executor, workers)
         journal.finish()

@@ -9,6 +9,7 @@ from contextlib import suppress
 from queue import Empty, Queue
 from threading import Thread
 
+from ._files import naming
 from ._study_find import Arrays
 from ._study_journal import Journal
 from ._study_plan import Stretch
@@ -67,12 +68,13 @@ class Keeper:
 
     def _raise(self) -> None:
         if self._failed is not None:
-            raise self._failed
+            with naming(self._journal.output):
+                raise self._failed
 
     def _run(self) -> None:
         while (stretch := self._next()) is not None:
             self._try(stretch)
-        while not self._given_up and self._written < self._whole:
+        while not self._given_up and self._ready:
             self._try(None)
         try:
             if self._writer is not None:
@@ -85,7 +87,7 @@ class Keeper:
 
     def _next(self) -> Stretch | None:
         """The next stretch to be kept; meanwhile the output is written."""
-        while self._written < self._whole and not self._given_up:
+        while self._ready and not self._given_up:
             try:
                 return self._queue.get_nowait()
             except Empty:
@@ -110,8 +112,19 @@ class Keeper:
         while (stop := self._beyond.pop(self._whole, None)) is not None:
             self._whole = stop
 
+    @property
+    def _piece(self) -> tuple[int, int]:
+        """The next points of the output: always `ROWS`, but for the last. Pieces do not depend on when points come."""
+        return self._written, min(self._written + ROWS, self._journal.plan.points)
+
+    @property
+    def _ready(self) -> bool:
+        """Whether these points are kept."""
+        start, stop = self._piece
+        return start < stop <= self._whole
+
     def _write(self) -> None:
-        start, stop = self._written, min(self._written + ROWS, self._whole)
+        start, stop = self._piece
         if self._writer is None:
             self._writer = self._make()
         pieces = pieces_of(self._journal.plan, self._reader, self._stored, start, stop)

@@ -18,8 +18,9 @@ from msgspec import Raw
 from msgspec.json import Encoder
 from numpy.typing import NDArray
 
+from ._arguments import file_path
 from ._extras import require
-from ._files import write_fully
+from ._files import hdf5_file, write_fully
 from ._study_axes import Axis, Reader
 from ._study_find import STATUS, Arrays
 from ._study_plan import Plan
@@ -48,7 +49,7 @@ class Writer(Protocol):
 
 def writer_of(path: str | os.PathLike[str]) -> type[_Csv] | type[_Parquet] | type[_NetCdf]:
     """What writes a file with this ending; that its packages are there is found out at once."""
-    ending = Path(path).suffix.lower()
+    ending = Path(file_path("revchain.sweep", "the output", path)).suffix.lower()
     if ending not in ENDINGS:
         raise ValueError(f"{os.fspath(path)} must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}")
     if ending == ".parquet":
@@ -77,10 +78,12 @@ def pieces_of(plan: Plan, reader: Reader, stored: Arrays, start: int, stop: int)
 def write_all(writer: Writer, plan: Plan, stored: Arrays) -> None:
     """Everything that is there already."""
     reader = plan.reader()
-    for start in range(0, plan.points, ROWS):
-        stop = min(start + ROWS, plan.points)
-        writer.add(start, stop, pieces_of(plan, reader, stored, start, stop))
-    writer.close()
+    try:
+        for start in range(0, plan.points, ROWS):
+            stop = min(start + ROWS, plan.points)
+            writer.add(start, stop, pieces_of(plan, reader, stored, start, stop))
+    finally:
+        writer.close()
 
 
 def columns_of(plan: Plan, pieces: Arrays, start: int, stop: int) -> dict[str, NDArray[Any]]:
@@ -213,7 +216,8 @@ class _Parquet:
         self._writer.write_table(table.replace_schema_metadata(self._metadata))
 
     def close(self) -> None:
-        self._writer.close()
+        if self._writer is not None:
+            self._writer.close()
 
 
 class _NetCdf:
@@ -222,7 +226,17 @@ class _NetCdf:
     def __init__(self, path: Path, study: Study, plan: Plan) -> None:
         h5netcdf = require("h5netcdf", "sweep", "a .nc file")
         h5py = require("h5py", "sweep", "a .nc file")
-        with h5netcdf.File(path, "w") as file:
+        with hdf5_file(path) as whole:
+            self._make(h5netcdf, h5py, whole, study, plan)
+        with hdf5_file(path, "r+") as whole, h5py.File(whole, "r+") as file:
+            for name, *_ in _variables(plan):
+                file[name][(0,) * file[name].ndim] = 0  # now it has its place
+            self._places = {name: file[name].id.get_offset() for name, *_ in _variables(plan)}
+        self._file = FileIO(path, "r+")
+
+    def _make(self, h5netcdf: Any, h5py: Any, whole: FileIO, study: Study, plan: Plan) -> None:
+        """Everything but the results."""
+        with h5netcdf.File(whole, "w") as file:
             dimensions = _dimensions(plan)
             file.dimensions = dict(zip(dimensions, plan.shape, strict=True))
             for name, values, about in _coordinates(plan):
@@ -242,11 +256,6 @@ class _NetCdf:
                 made = file.create_variable(name, place, _on_disk(dtype), dcpl=unfilled, **_filled(dtype))
                 made.attrs.update({**about, **_marked(dtype)})
             file.attrs.update(_about(study))
-        with h5py.File(path, "r+") as file:
-            for name, *_ in _variables(plan):
-                file[name][(0,) * file[name].ndim] = 0  # now it has its place
-            self._places = {name: file[name].id.get_offset() for name, *_ in _variables(plan)}
-        self._file = FileIO(path, "r+")
 
     def add(self, start: int, stop: int, pieces: Arrays) -> None:
         for name, place in self._places.items():

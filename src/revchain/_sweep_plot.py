@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._extras import require
+from ._arguments import word
+from ._plots import axes_or_new, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ._study_find import Block
     from ._study_plan import Plan
     from ._sweep_result import SweepResult
 
@@ -21,50 +23,66 @@ MOST_CURVES = 10
 def why_not_drawn(plan: Plan) -> str:
     """A sentence where a study has no picture; known before anything is computed."""
     names = [axis.name for axis in plan.axes]
-    if len(names) > 2:
-        return f"draws one or two numbers, and {len(names)} vary: {', '.join(names)}"
+    if len(names) > 2 and plan.shape != (plan.samples,):
+        return f"draws one or two numbers, or random ones only, and {len(names)} vary: {', '.join(names)}"
     words = [axis.name for axis in plan.axes if axis.values is not None and axis.values.dtype.kind not in "fi"]
     return f"draws numbers, not words, and {words[0]} is one" if words else ""
 
 
 def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
-    """Curves over one number, dots over a random one, a map over two grids."""
-    pyplot = require("matplotlib.pyplot", "plot", "plotting")
+    """Curves over one number, dots over a random one, a map over two grids, a histogram of three or more random ones."""
     place = "revchain.SweepResult.plot"
     blocks = {block.name: block for block in result._plan.blocks}
     name = next(iter(blocks)) if name is None else name
-    if name not in blocks:
-        raise ValueError(f"{place}: name must be one of {', '.join(blocks)}, got {name!r}")
+    word(place, "name", name, blocks)
     axes = result._plan.axes
     if reason := why_not_drawn(result._plan):
         raise ValueError(f"{place}: {reason}")
     values = result[name].reshape(len(result), -1).astype(float)
-    if ax is None:
-        _, ax = pyplot.subplots(layout="constrained")
-        assert ax is not None
+    ax = axes_or_new(ax, 6.4, 4.8)
+    if len(axes) > 2:
+        return _histogram(values, _labels(blocks[name]), name, ax)
     one = axes[0]
-    ax.set_xlabel(one.name)
+    ax.set_xlabel(plain(one.name))
     if _log(one.values):
         ax.set_xscale("log")
     if len(axes) == 1:
         mark = "." if one.values is None else "-"
-        for k in range(min(values.shape[1], MOST_CURVES)):
-            label = f"{blocks[name].along} {blocks[name].labels[k]}" if blocks[name].along else name
+        for k, label in enumerate(_labels(blocks[name])):
             ax.plot(result[one.name], values[:, k], mark, label=label)
         ax.set_ylabel(name.replace("_", " "))
         if values.shape[1] > 1:
             ax.legend()
         return ax
     two = axes[1]
-    ax.set_ylabel(two.name)
+    ax.set_ylabel(plain(two.name))
     if _log(two.values):
         ax.set_yscale("log")
     if one.values is not None and two.values is not None:
         drawn = ax.pcolormesh(one.values, two.values, values[:, 0].reshape(result.shape).T, shading="nearest")
     else:
         drawn = ax.scatter(result[one.name], result[two.name], c=values[:, 0], s=6)
-    first = f"{name.replace('_', ' ')}, {blocks[name].along} {blocks[name].labels[0]}" if blocks[name].along else name
+    first = f"{name.replace('_', ' ')}, {_labels(blocks[name])[0]}" if blocks[name].along else name
     ax.figure.colorbar(drawn, ax=ax, label=first)
+    return ax
+
+
+def _labels(block: Block) -> list[str]:
+    """Of the curves that are drawn of it."""
+    return [f"{block.along} {label}" for label in block.labels[:MOST_CURVES]] if block.along else [block.name]
+
+
+def _histogram(values: np.ndarray, labels: list[str], name: str, ax: Axes) -> Axes:
+    """How each column scatters about its mean."""
+    for column, label in zip(values.T, labels, strict=False):
+        found = column[np.isfinite(column)]
+        if found.size and (mean := found.mean()):
+            deviation = 100 * (found / mean - 1)
+            bins = min(max(found.size // 100, 10), 120)
+            ax.hist(deviation, bins, density=True, histtype="step", label=f"{label}, mean {mean:.4g}")
+    ax.set(xlabel=f"{name.replace('_', ' ')}, % from its mean", ylabel="share of the points, 1/%")
+    if ax.has_data():
+        ax.legend()
     return ax
 
 

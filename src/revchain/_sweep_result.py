@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ._arguments import read_only
+from ._arguments import boolean, read_only, word
 from ._study_find import REFUSED, STATUS, Arrays
 from ._study_plan import Plan
 from .study import Study
@@ -118,9 +118,8 @@ class SweepResult:
         >>> rc.sweep({"scene": scene, "vary": vary, "samples": 1000}).count("success")
         1000
         """
-        if status not in STATUS:
-            raise ValueError(f"revchain.SweepResult.count: status must be one of {', '.join(STATUS)}, got {status!r}")
-        return int(np.count_nonzero(self._status == STATUS.index(status)))
+        known = word("revchain.SweepResult.count", "status", status, STATUS)
+        return int(np.count_nonzero(self._status == STATUS.index(known)))
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name in self._arrays:
@@ -170,7 +169,7 @@ class SweepResult:
 
         pieces = {name: self[name] for name in [*self.varied, *self.found]}
         columns = columns_of(self._plan, {**pieces, "status": self._status}, 0, len(self))
-        return {**columns, "status": self.status} if words else columns
+        return {**columns, "status": self.status} if boolean("revchain.SweepResult.columns", "words", words) else columns
 
     def to_dataframe(self) -> Any:
         """Return a pandas table with one row for each point.
@@ -244,16 +243,18 @@ class SweepResult:
         >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
         >>> rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}}).save("moon.csv")
         """
-        from ._files import written_aside
+        from ._files import naming, written_aside
         from ._sweep_output import write_all, writer_of
 
         writer = writer_of(path)
         stored = {block.name: self._arrays[block.name] for block in self._plan.stored}
-        with written_aside(path) as [aside]:
+        with naming(path), written_aside(path) as [aside]:
             write_all(writer(aside, self.study, self._plan), self._plan, {**stored, "status": self._status})
 
     def plot(self, name: str | None = None, ax: Axes | None = None) -> Axes:
         """Draw what was found against what varied: one number as curves, two grids as a map of the first.
+
+        Three or more numbers that are all random give a histogram: how what was found scatters about its mean.
 
         Parameters
         ----------
@@ -269,7 +270,7 @@ class SweepResult:
         Raises
         ------
         ValueError
-            If more than two numbers varied, or words.
+            If more than two numbers varied and not all are random, or if words varied.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, count, real, shown
+from ._arguments import STANDARD_GRAVITY, Floats, count, real, shown, word
 from ._chain import Chain, compiled
 
 
@@ -128,8 +128,7 @@ def tune(
     """
     place = "revchain.tune"
     core = compiled(place, chain)
-    if quantity not in _core.DATA:
-        raise ValueError(f"{place}: quantity must be one of {', '.join(_core.DATA)}, got {shown(quantity)}")
+    word(place, "quantity", quantity, _core.DATA)
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give either conical_height or angular_speed (not both)")
     low, high = (None, None) if between is None else _ends(place, between)

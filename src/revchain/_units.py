@@ -9,7 +9,7 @@ from typing import Any
 
 from ._extras import require
 
-_NUMBER = r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"
+_NUMBER = r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
 _UNIT = r"[a-zA-Zµμ°]+((\^|\*\*)-?\d)?"
 PATTERN = rf"^\s*{_NUMBER}\s*{_UNIT}((\s*[*/]\s*|\s+){_UNIT})*\s*$"
 """A number and a unit, such as ``39.1396 inch`` or ``9.81 m/s^2``.

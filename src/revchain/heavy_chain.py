@@ -62,7 +62,7 @@ def conical_heights(count: int, length: ArrayLike = 1.0) -> Floats:
     array([0.69166 , 0.131271, 0.053414])
     """
     place = "revchain.heavy_chain.conical_heights"
-    return _core.heavy_chain_conical_heights(checked_count(place, "count", count), positive(place, "length", length))
+    return _core.heavy_chain_conical_heights(checked_count(place, "count", count, each=8), positive(place, "length", length))
 
 
 def shape(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
@@ -278,7 +278,7 @@ def nodes(mode: int, length: float = 1.0) -> Floats:
     array([0.0772, 0.4069])
     """
     place = "revchain.heavy_chain.nodes"
-    return _core.heavy_chain_nodes(checked_count(place, "mode", mode), one_positive(place, "length", length))
+    return _core.heavy_chain_nodes(checked_count(place, "mode", mode, each=8), one_positive(place, "length", length))
 
 
 def vertical_points(mode: int, length: float = 1.0) -> Floats:
@@ -312,7 +312,7 @@ def vertical_points(mode: int, length: float = 1.0) -> Floats:
     array([0.1961, 0.6572])
     """
     place = "revchain.heavy_chain.vertical_points"
-    return _core.heavy_chain_vertical_points(checked_count(place, "mode", mode), one_positive(place, "length", length))
+    return _core.heavy_chain_vertical_points(checked_count(place, "mode", mode, each=8), one_positive(place, "length", length))
 
 
 def revolutions_per_second(count: int, length: ArrayLike = 1.0, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:
@@ -352,5 +352,5 @@ def revolutions_per_second(count: int, length: ArrayLike = 1.0, gravity: ArrayLi
     place = "revchain.heavy_chain.revolutions_per_second"
     g = positive(place, "gravity", gravity)
     long, g = together(place, length=positive(place, "length", length), gravity=g)
-    heights = _core.heavy_chain_conical_heights(checked_count(place, "count", count), long)
+    heights = _core.heavy_chain_conical_heights(checked_count(place, "count", count, each=8), long)
     return _core.conical_pendulum_revolutions_per_second(heights, g[..., np.newaxis])

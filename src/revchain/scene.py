@@ -9,8 +9,8 @@ from typing import Annotated, Any, Literal
 from msgspec import UNSET, Meta, UnsetType, json, to_builtins
 
 from . import _scene_file
-from ._arguments import STANDARD_GRAVITY
-from ._chain import Chain
+from ._arguments import STANDARD_GRAVITY, text
+from ._chain import Chain, compiled
 from ._held import HeldShape, HeldShapes, TautModes
 from ._modes import Modes
 from ._response import Response, SmallOscillation
@@ -134,6 +134,7 @@ class Scene(Table, frozen=True):
         >>> rc.Scene.from_dict({"uniform_chain": {"kind": "rods", "count": 5, "length": 1, "weight": 1}}).chain()
         Chain of 5 links, length 1, weight 1
         """
+        source = text("revchain.Scene.from_dict", "source", source)
         scene = _scene_file.convert(data, cls, source)
         scene._check(source)
         return scene
@@ -258,6 +259,7 @@ class Scene(Table, frozen=True):
         >>> scene.asked(scene.chain())
         {'modes': range(25, 31)}
         """
+        compiled("revchain.Scene.asked", chain, link_by_link=False)
         if self.is_held:
             raise SceneError(
                 "scene", "held", "is for shapes and modes: there is one model of it, `revchain.taut_modes`"

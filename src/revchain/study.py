@@ -11,6 +11,7 @@ import numpy as np
 from msgspec import UNSET, Meta, UnsetType, json, to_builtins
 
 from . import _scene_file
+from ._arguments import file_path, integer, text
 from ._scene_ask import DEFAULT_MODES
 from ._scene_error import SceneError
 from ._scene_tables import Table
@@ -118,8 +119,10 @@ class Study(Table, frozen=True):
         Traceback (most recent call last):
         revchain._scene_error.SceneError: study: vary."links[0].mas": unknown key; did you mean mass?
         """
+        source = text("revchain.Study.from_dict", "source", source)
         if isinstance(data, dict):
-            data = {**data, **_tables(data, source, Path(folder))}
+            folder = Path(file_path("revchain.Study.from_dict", "folder", folder))
+            data = {**data, **_tables(data, source, folder)}
         study = _scene_file.convert(data, cls, source)
         study._plan(source)
         return study
@@ -173,9 +176,10 @@ class Study(Table, frozen=True):
         >>> study.scene_at(1).chain()
         Chain of 1 link, length 0.2, weight 9.80665
         """
-        plan = self._plan("study")
+        plan, place = self._plan("study"), "revchain.Study.scene_at"
+        point = integer(place, "point", point)
         if not 0 <= point < plan.points:
-            raise IndexError(f"revchain.Study.scene_at: there are {plan.points} points from 0 on, got {point}")
+            raise IndexError(f"{place}: there are {plan.points} points from 0 on, got {point}")
         values = [column.tolist()[0] for column in plan.values(point, point + 1)]
         return Scene.from_dict(plan.scene_data(values))
 

@@ -61,7 +61,7 @@ def conical_heights(count: int, *, exponent: ArrayLike, length: ArrayLike = 1.0)
            [0.544886, 0.162541, 0.077295]])
     """
     place = "revchain.tapered_chain.conical_heights"
-    number = checked_count(place, "count", count)
+    number = checked_count(place, "count", count, each=8)
     long, other = together(place, **_chain(place, exponent, length))
     return _core.tapered_chain_conical_heights(number, long, other)
 
@@ -180,5 +180,5 @@ def nodes(mode: int, *, exponent: float, length: float = 1.0) -> Floats:
     """
     place = "revchain.tapered_chain.nodes"
     chain = _chain(place, real(place, "exponent", exponent), real(place, "length", length))
-    number = checked_count(place, "mode", mode)
+    number = checked_count(place, "mode", mode, each=8)
     return _core.tapered_chain_nodes(number, float(chain["length"]), float(chain["exponent"]))

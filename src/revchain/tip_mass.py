@@ -63,7 +63,7 @@ def conical_heights(count: int, *, tip: ArrayLike, length: ArrayLike = 1.0) -> F
            [9.99833e-01, 1.01000e-04, 2.50000e-05]])
     """
     place = "revchain.tip_mass.conical_heights"
-    number = checked_count(place, "count", count)
+    number = checked_count(place, "count", count, each=8)
     long, other = together(place, **_chain(place, tip, length))
     return _core.tip_mass_conical_heights(number, long, other)
 
@@ -183,4 +183,4 @@ def nodes(mode: int, *, tip: float, length: float = 1.0) -> Floats:
     """
     place = "revchain.tip_mass.nodes"
     chain = _chain(place, real(place, "tip", tip), real(place, "length", length))
-    return _core.tip_mass_nodes(checked_count(place, "mode", mode), float(chain["length"]), float(chain["tip"]))
+    return _core.tip_mass_nodes(checked_count(place, "mode", mode, each=8), float(chain["length"]), float(chain["tip"]))

@@ -263,6 +263,21 @@ def test_wrong_modes(chain, modes):
         rc.small_oscillation(chain, [0.1] * 5, None, 0.0, modes=modes)
 
 
+@pytest.mark.parametrize("rigged", [False, True])
+def test_a_response_at_one_speed_is_drawn_as_a_shape(chain, rigged):
+    pytest.importorskip("matplotlib")
+    hung = rc.Rig(chain, standing=True) if rigged else chain
+    found = rc.response(hung, conical_height=1.9, support_radius=0.1)
+    ax = found.plot()
+    x, y = ax.get_lines()[1].get_data()
+    assert np.array_equal(x, found.offset) and y[-1] == 0 and y[0] == pytest.approx(chain.length.sum())
+    assert ax.get_ylabel() == f"{'height above' if rigged else 'depth below'} the support (m)"
+    x, y = found.plot(pins=[2]).get_lines()[1].get_data()
+    assert np.flatnonzero(~np.isnan(x)).tolist() == [2] and x[2] == found.offset[2]
+    with pytest.raises(ValueError, match="pins must be among"):
+        found.plot(pins=[9])
+
+
 def test_plots(chain):
     pytest.importorskip("matplotlib")
     found = rc.response(chain, angular_speed=np.linspace(0.5, 12, 300))
@@ -274,8 +289,8 @@ def test_plots(chain):
     rc.response(chain, conical_height=[1.5, 2.0], pins=2).plot()
     with pytest.raises(ValueError, match="pins must be among"):
         found.plot(pins=[9])
-    with pytest.raises(ValueError, match="at least two speeds"):
-        rc.response(chain, conical_height=1.0).plot()
+    with pytest.raises(ValueError, match="no speed to draw"):
+        rc.response(chain, conical_height=[]).plot()
     swing = rc.small_oscillation(chain, [0.1] * 5, None, np.linspace(0, 2, 9))
     assert len(swing.plot().get_legend().get_texts()) == 9
     assert swing.plot(kind="time", pins=[0, 4]).get_ylabel() == "from the axis (m)"

@@ -205,7 +205,9 @@ def test_held_scenes_by_command(run, tmp_path):
     code, out, _ = run("shapes", path, "--angular-speed", 12.5, "--half-waves", 2, "--plot", tmp_path / "blade.png")
     assert code == 0 and "between two points of the axis" in out
     code, _, err = run("solve", path)
-    assert code == 3 and err.startswith(f"revchain: {path}: held.span: leaves the chain slack")
+    assert code == 2 and err == (
+        f"revchain: {path}: ask.shapes: is missing: say at which angular_speed or conical_height\n"
+    )
     code, _, err = run("shapes", path, "--angular-speed", 2.0)  # too slow: it folds along the axis
     assert code == 1 and "not proved" in err
     path = write(tmp_path, blade + 'tension = "500 N"\n')
@@ -224,7 +226,7 @@ def test_wrong_options(run, tmp_path):
     code, _, err = run("response", path, "--angular-speed", -1, 2)
     assert code == 2 and "angular_speed must be positive" in err
     code, _, err = run("swing", path)
-    assert code == 3 and f"{path}: ask.swing: is for a chain" in err
+    assert code == 2 and f"{path}: ask.swing: is for a chain" in err
     code, _, err = run("swing", write(tmp_path, SWING), "--until", "nan")
     assert code == 2 and "finite" in err
     code, _, err = run("swing", write(tmp_path, SWING), "--until", -1)

@@ -109,6 +109,70 @@ def test_truncated(tmp_path):
             rc.load(path)
 
 
+DAMAGED = "not a result that revchain saved, or damaged since; compute and save it again"
+
+
+@pytest.mark.parametrize("ending", [".npz", ".nc"])
+def test_every_byte_that_is_changed_is_found(tmp_path, ending):
+    path = tmp_path / f"result{ending}"
+    rc.modes(CHAIN, certify=True).save(path)
+    data = path.read_bytes()
+    for place in [*range(0, len(data), 97), *range(len(data) - 30, len(data))]:
+        for changed in (1, 0x80, 0xFF):
+            path.write_bytes(data[:place] + bytes([data[place] ^ changed]) + data[place + 1 :])
+            with pytest.raises(ValueError, match=DAMAGED):
+                rc.load(path)
+    path.write_bytes(data)
+    assert rc.load(path) == rc.modes(CHAIN, certify=True)
+
+
+@pytest.mark.parametrize("result", [rc.modes(CHAIN, certify=True), rc.modes(rc.Rig(CHAIN, stiffness=5.0))], ids=repr)
+def test_arrays_that_do_not_go_together(tmp_path, result):
+    path = tmp_path / "result.npz"
+    result.save(path)
+    with np.load(path) as file:
+        arrays = dict(file)
+    for name, array in arrays.items():
+        for other in (array[..., :-1] if array.ndim and array.size else np.zeros(7), array.astype("U"), -1 * np.ones(10**3)):
+            np.savez(path, **{**arrays, name: other})
+            with pytest.raises(ValueError, match=DAMAGED):
+                rc.load(path)
+        np.savez(path, **{other: arrays[other] for other in arrays if other != name})
+        with pytest.raises(ValueError, match=DAMAGED):
+            rc.load(path)
+
+
+@pytest.mark.parametrize("ending", [".npz", ".nc", ".sweep.nc", ".sweep.csv", ".sweep.parquet"])
+def test_a_full_disk(python, tmp_path, ending):
+    """Wherever it is full: an OSError that names the output, nothing left, and the process goes on to its end."""
+    program = """
+import errno, os, resource, sys
+import revchain as rc
+path, ending = "result" + sys.argv[1], sys.argv[1]
+if ending.startswith(".sweep"):
+    vary = {"links[0].mass": {"from": 1, "to": 2, "steps": 3000}}
+    result = rc.sweep({"scene": {"links": [{"mass": 1, "length": 1, "repeat": 5}]}, "vary": vary})
+else:
+    result = rc.modes(rc.Chain.uniform_rods(200), count=100)
+result.save(path)
+size = os.stat(path).st_size
+os.unlink(path)
+for limit in [0, 100, 2000, 10_000, size // 2, size - 1000, size - 1]:
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.RLIM_INFINITY))
+    try:
+        result.save(path)
+    except OSError as error:
+        assert isinstance(error, ValueError) and error.filename == path, repr(error)
+        assert str(error) == f"[Errno {errno.EFBIG}] {os.strerror(errno.EFBIG)}: {path!r}", error
+    else:
+        raise AssertionError(limit)
+    assert os.listdir() == [], os.listdir()
+print("alive")
+"""
+    done = python("-c", program, ending)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "alive\n", "")
+
+
 @pytest.mark.parametrize("place", ["missing/result.npz", "file/result.npz", "/proc/result.npz"])
 def test_folder_that_cannot_be_written(tmp_path, place):
     (tmp_path / "file").write_text("a file, no folder")
@@ -128,7 +192,7 @@ def test_failure_in_the_middle_leaves_the_old_file(tmp_path, monkeypatch, ending
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(_storage.np, "savez", broken)
-    monkeypatch.setattr("xarray.Dataset.to_netcdf", broken)
+    monkeypatch.setattr("xarray.Dataset.dump_to_store", broken)
     with pytest.raises(OSError, match="No space"):
         rc.modes(CHAINS["rods"]).save(path)
     assert path.read_bytes() == before

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import random
+import re
 import signal
 import struct
 import sys
@@ -22,6 +23,7 @@ import pytest
 import revchain as rc
 from revchain import _cli
 from revchain._study_journal import Journal
+from revchain._sweep_plot import why_not_drawn
 from revchain.scene import json_schema
 from revchain.study import Study, Vary, study_schema
 
@@ -390,6 +392,7 @@ def test_files_are_the_same_in_whatever_pieces(scene, vary, more, chunk, monkeyp
         pytest.importorskip(package)
     xarray = pytest.importorskip("xarray")
     import pandas
+    import pyarrow.parquet
 
     monkeypatch.setattr("revchain._sweep_keep.ROWS", 7)
     monkeypatch.setattr("revchain._sweep_output._LINES", 3)
@@ -406,6 +409,9 @@ def test_files_are_the_same_in_whatever_pieces(scene, vary, more, chunk, monkeyp
     rc.sweep(given, out="a.parquet", chunk=chunk)
     frame = pandas.read_parquet("a.parquet")
     pandas.testing.assert_frame_equal(frame, found.to_dataframe())
+    groups = pyarrow.parquet.ParquetFile("a.parquet").metadata
+    rows = [groups.row_group(k).num_rows for k in range(groups.num_row_groups)]
+    assert rows[:-1] == [7] * (len(rows) - 1) and 0 < rows[-1] <= 7  # whatever the chunk
     rc.sweep(given, out="a.csv", chunk=chunk)
     found.save("b.csv")
     assert Path("a.csv").read_bytes() == Path("b.csv").read_bytes()
@@ -569,7 +575,47 @@ def test_what_is_damaged_is_computed_again(ended):
     (folder / "points").write_bytes(points)
     (folder / "index").write_bytes(bytes(index) + data["index"][:24])  # and the first said twice
     (folder / ".output.writing.csv").write_bytes(b"half")
-    goes_on(given, 20)
+    words = "a.csv.partial: 5 of 7 records of finished points are damaged; 20 points are kept, all others are computed"
+    with pytest.warns(RuntimeWarning, match=re.escape(words)):
+        goes_on(given, 20)
+
+
+def test_the_command_tells_of_damage(ended, run):
+    given, folder, data = ended
+    Path("a.json").write_text(json.dumps(given.to_dict()))
+    (folder / "index").write_bytes(b"x" + data["index"][1:])
+    _, _, err = run("sweep", "a.json", "--out", "a.csv")
+    assert err.splitlines()[0].startswith("revchain: warning: ") and "1 of 6 records of finished points" in err
+
+
+def test_a_missing_index_is_told(ended):
+    given, folder, _ = ended
+    (folder / "index").unlink()
+    with pytest.warns(RuntimeWarning, match="index is missing"):
+        goes_on(given, 0)
+
+
+@pytest.mark.parametrize("text", [b"", b"{", b"[]", b"{}", b"\xff", b"[" * 10**5])
+def test_a_damaged_head_is_told(ended, text):
+    given, folder, _ = ended
+    (folder / "study.json").write_bytes(text)
+    with pytest.raises(OSError, match="study.json is damaged"):
+        rc.sweep(given, out="a.csv")
+
+
+@pytest.mark.parametrize("name", ["points", "index", "study.json", ".study.json.writing", ".output.writing.csv"])
+@pytest.mark.parametrize("begun", [False, True])
+def test_symbolic_links_in_the_folder_are_not_followed(ended, name, begun):
+    given, folder, _ = ended
+    Path("mine.txt").write_text("mine")
+    if not begun:
+        for path in folder.iterdir():
+            path.unlink()
+    (folder / name).unlink(missing_ok=True)
+    (folder / name).symlink_to(Path("mine.txt").resolve())
+    with pytest.raises(OSError, match=f"{re.escape(name)} is a symbolic link; remove it"):
+        rc.sweep(given, out="a.csv")
+    assert Path("mine.txt").read_text() == "mine"
 
 
 def test_a_journal_cut_anywhere_gives_what_is_whole(ended):
@@ -910,7 +956,7 @@ def test_how_the_command_ends(run):
     assert run("sweep", "a.toml", "--plot", "a.gif")[0] == 2
     assert run("sweep", "a.toml", "--out", "/proc/a.csv")[0] == 4
     toml('values = [1]\n[vary.gravity]\nvalues = [1]\n[vary."links[0].length"]\nvalues = [1]')
-    message = "revchain: --plot: draws one or two numbers, and 3 vary: links[0].mass, gravity, links[0].length\n"
+    message = "revchain: --plot: draws one or two numbers, or random ones only, and 3 vary: links[0].mass, gravity, links[0].length\n"
     assert run("sweep", "a.toml", "--plot", "a.png") == (2, "", message)
     toml("values = [1]")
     assert run("sweep", "a.toml", "--dask", "tcp://127.0.0.1:1", "--workers", "2")[0] == 2
@@ -928,6 +974,14 @@ def test_pictures():
     assert (ax.get_xscale(), len(ax.lines), ax.get_ylabel()) == ("log", 4, "angular speed")
     two = rc.sweep(study(BODIES, {"links[0].mass": {"values": [1, 2, 3]}, "gravity": {"values": [1, 2]}}))
     assert len(two.plot("conical_height").collections) == 1
+    law = {"normal": [1.0, 0.1], "name": "$% a $"}
+    random_ones = {"links[0].mass": law, "links[0].length": {"uniform": [1, 2]}, "gravity": {"uniform": [1, 2]}}
+    scattered = rc.sweep(study(BODIES, random_ones, samples=500))
+    ax = scattered.plot("conical_height")
+    assert ax.get_xlabel() == "conical height, % from its mean" and len(ax.get_legend().get_texts()) == 4
+    heights, edges = (ax.patches[0].get_xy()[:, k] for k in (1, 0))
+    assert np.sum(heights[1:-1:2] * np.diff(edges[1:-1:2], append=edges[-1])) == pytest.approx(1.0, rel=0.2)
+    rc.sweep(study(BODIES, {"links[0].mass": law}, samples=9)).plot().figure.savefig("a.png")
     words = rc.sweep(study(BODIES, {"links[1].kind": {"values": ["rod", "plummet"]}}))
     with pytest.raises(ValueError, match="not words"):
         words.plot()
@@ -962,6 +1016,8 @@ def test_the_page_and_its_examples(python, repository, run):
     assert Path("studies.png").stat().st_size < 60_000 and (repository / "docs/figures/studies.png").is_file()
     for path in (repository / "examples/studies").glob("*.toml"):
         assert run("sweep", path, "--check")[0] == 0
+        assert why_not_drawn(rc.load_study(path)._plan("")) == ""
+    assert run("sweep", repository / "examples/studies/crane_scatter.toml", "--plot", "crane.png")[0] == 0
     for name in (
         *(name for name in Vary.__struct_fields__ if name not in ("first", "last")),
         "samples",

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pickles: with every protocol each object either comes back equal or raises TypeError; none ends the process."""
+
+import copy
+import pickle
+
+import pytest
+
+import revchain as rc
+from revchain import _core
+
+CHAIN = rc.Chain(weight=[1.0, 2.0], length=[1.0, 0.5])
+PROTOCOLS = range(pickle.HIGHEST_PROTOCOL + 1)
+
+
+def compiled():
+    """One object of each compiled class that results hold."""
+    shapes = _core.steady_shapes(CHAIN._compiled, 0.3, 10_000, True)
+    yield CHAIN._compiled
+    yield shapes
+    yield shapes.shapes[0]
+    yield _core.stability(CHAIN._compiled, shapes.shapes[0], False)
+    yield _core.Progress()
+    yield rc.Rig(CHAIN, momentum=1.0)._compiled
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_compiled_objects(protocol):
+    for found in compiled():
+        if type(found) is _core.Chain:
+            assert pickle.loads(pickle.dumps(found, protocol)) == found
+        else:
+            with pytest.raises(TypeError, match=f"cannot pickle 'revchain._core.{type(found).__name__}' object"):
+                pickle.dumps(found, protocol)
+
+
+def test_every_compiled_class_refuses_the_old_protocols():
+    base = next(kind for kind in _core.Chain.__mro__ if kind.__name__ == "pybind11_object")
+    kinds = [kind for kind in base.__subclasses__() if kind.__module__ == "revchain._core"]
+    assert len(kinds) > 20
+    for kind in kinds:
+        assert "__reduce_ex__" in vars(kind), kind
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_public_results(protocol):
+    pytest.importorskip("msgspec")
+    rig = rc.Rig(CHAIN, stiffness=5.0)
+    results = [CHAIN, rig, rc.modes(CHAIN), rc.modes(rig), rc.explain(CHAIN), rc.solve(CHAIN)]
+    results += [rc.response(CHAIN, conical_height=4.0), rc.small_oscillation(CHAIN, [0.1, 0.0, 0.0], None, [0.0, 1.0])]
+    for found in results:
+        again = pickle.loads(pickle.dumps(found, protocol))
+        if isinstance(found, rc.RigModes):  # compares by identity
+            found, again = found.to_dict(), again.to_dict()
+        assert again == found
+    shape = rc.steady_shapes(CHAIN, conical_height=0.3)[0]
+    with pytest.raises(TypeError):
+        pickle.dumps(shape, protocol)
+
+
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+def test_scenes_and_studies(protocol, repository):
+    pytest.importorskip("msgspec")
+    given = [rc.load_scene(path) for path in (repository / "examples/scenes").glob("*.toml")]
+    given += [rc.load_study(path) for path in (repository / "examples/studies").glob("*.toml")]
+    given.append(rc.Scene.from_dict({"gravity": 9.80665, "links": [{"mass": 1, "length": 1}], "ask": {"method": "auto"}}))
+    assert len(given) > 15
+    for one in given:
+        for again in (pickle.loads(pickle.dumps(one, protocol)), copy.deepcopy(one)):
+            assert again == one and again.to_dict() == one.to_dict()
