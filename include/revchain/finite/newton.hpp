@@ -11,7 +11,7 @@ struct Balanced {
     std::vector<S> offset;
     std::vector<Posture> posture;  ///< of each link; empty where all hang
     bool converged = false;        ///< Newton's method, to the last digits of S
-    std::vector<S> tangent;        ///< of the links, where they are too near the horizontal for offsets; else empty
+    std::vector<S> tangent{};      ///< of the links, where they are too near the horizontal for offsets; else empty
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
 };
