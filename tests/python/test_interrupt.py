@@ -26,7 +26,7 @@ CALLS = {
     "sensitivity": "rc.modes(large, shapes=False).sensitivity",
     "tune": "rc.tune(rc.Chain.uniform_rods(20_000), mode=1, link=19_999, quantity='weight', conical_height=0.2)",
     "Chain": "rc.Chain(weight=1.0, length=np.ones(30_000_000), centroid=0.5, radius_of_gyration=0.3)",
-    "tapered": "rc.Chain.tapered(20_000_000, length=1.0, exponent=1.5)",
+    "tapered": "rc.Chain.tapered(5_000_000, length=1.0, exponent=1.5)",
     "GovernorMotion": "rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).angle(many)",
     "elliptic.jacobi": "rc.elliptic.jacobi(many, modulus=0.5)",
     "elliptic.incomplete_pi": "rc.elliptic.incomplete_pi(0.3, many, modulus=0.5)",
