@@ -238,6 +238,11 @@ def test_a_light_front_carriage_chatters():
     assert sum(blow.impulse for blow in impact.blows) == near(2e4, rel=0.1)
 
 
+def test_carriages_too_unlike_are_refused_soon() -> None:
+    with pytest.raises(ValueError, match="too unlike"):
+        rc.BufferImpact(front_mass=5e-212, rear_mass=6e18, buffer_stiffness=1, coupling_stiffness=1, speed=1)
+
+
 # The governor --------------------------------------------------------------------------------------------------------
 
 
@@ -329,11 +334,6 @@ def far_off(motion, swing, times, slack=None):
 
 
 @pytest.mark.parametrize("name", SWINGS)
-def test_carriages_too_unlike_are_refused_soon() -> None:
-    with pytest.raises(ValueError, match="too unlike"):
-        rc.BufferImpact(front_mass=5e-212, rear_mass=6e18, buffer_stiffness=1, coupling_stiffness=1, speed=1)
-
-
 def test_a_link_swings_as_its_equation_of_motion_says(name):
     motion, swing = rc.GovernorMotion(**SWINGS[name]), Swing(**SWINGS[name])
     assert motion.regime == name.partition(",")[0]

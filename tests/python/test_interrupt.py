@@ -10,7 +10,7 @@ CALLS = {
     "held_cord_shapes": "rc.held_cord_shapes(0.678, top_tension=0.861, angular_speed=0.693, most_half_waves=1000)",
     "held_shapes": "rc.held_shapes(rods, span=2.0, conical_height=0.1, most_half_waves=1000)",
     "taut_modes": "rc.taut_modes(rods, tension=1e3, count=2000)",
-    "BufferImpact.state": "rc.BufferImpact(1.0, 50.0, buffer_stiffness=1.0, coupling_stiffness=2.0, speed=1.0).state(many)",
+    "BufferImpact.state": "impact.state(many)",
     "steady_shapes": "rc.steady_shapes(rc.Chain.uniform_plummets(12), conical_height=1e-3, hanging_only=False)",
     "stability": "shape.stability()",
     "stability of a held shape": "held.stability()",
@@ -26,7 +26,7 @@ CALLS = {
     "sensitivity": "rc.modes(large, shapes=False).sensitivity",
     "tune": "rc.tune(rc.Chain.uniform_rods(20_000), mode=1, link=19_999, quantity='weight', conical_height=0.2)",
     "Chain": "rc.Chain(weight=1.0, length=np.ones(30_000_000), centroid=0.5, radius_of_gyration=0.3)",
-    "tapered": "rc.Chain.tapered(20_000_000, 1.0, 1.5)",
+    "tapered": "rc.Chain.tapered(5_000_000, length=1.0, exponent=1.5)",
     "GovernorMotion": "rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).angle(many)",
     "elliptic.jacobi": "rc.elliptic.jacobi(many, modulus=0.5)",
     "elliptic.incomplete_pi": "rc.elliptic.incomplete_pi(0.3, many, modulus=0.5)",
@@ -43,12 +43,15 @@ rods, large, many = rc.Chain.uniform_rods(2000, length=3.0), rc.Chain.uniform_ro
 loop = rc.Chain.uniform_rods(300, length=1.0)
 shape = rc.steady_shapes(loop, conical_height=0.5)[0]
 held = rc.held_shapes(loop, span=0.5, conical_height=0.1, prove=False)[0]
+impact = rc.BufferImpact(front_mass=1, rear_mass=50, buffer_stiffness=1, coupling_stiffness=2, speed=1)
 branch = rc.branch(rc.Chain.uniform_rods(60, length=1.0), 1, conical_height=0.2)
 for call in {calls!r}:
     print("call", flush=True)
     try:
         eval(call)
         print("finished", flush=True)
+    except Exception as error:
+        print(repr(error), flush=True)
     except KeyboardInterrupt:
         print("interrupted", flush=True)
 print(rc.modes(rc.Chain.uniform_rods(1)).conical_height.size)
