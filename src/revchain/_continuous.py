@@ -357,13 +357,12 @@ def continuous_critical_heights(
     Returns
     -------
     ndarray, shape (count,)
-        Descending, in the unit of `length`: those of small amplitude, within 4e-15 of themselves for tips up to 1e7
-        times the weight of the chain.
+        Descending, in the unit of `length`: those of small amplitude, within 4e-15 relative.
 
     Raises
     ------
     ValueError
-        If a number is out of range.
+        If a number is out of range, or a line density too rough or a tip too heavy to be followed that far.
     TypeError
         If `line_density` is not a function.
 

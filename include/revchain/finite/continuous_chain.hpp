@@ -164,7 +164,7 @@ inline ContinuousShapes continuous_shapes_at_speed(const ContinuousChain& chain,
 
 /// The `count` greatest conical heights at which shapes leave the vertical, descending: those of small amplitude, by the
 /// same series with T = V. Method: the place of crossing j of a chain that goes on beyond its support falls as the height
-/// does: bisection, then the secant within what is left. Accuracy: 4e-15 relative, of tips up to 1e7 times the chain's weight.
+/// does: bisection, then the secant within what is left. Accuracy: 4e-15 relative.
 /// Cost: ten paths each, but one for all where the chain is uniform without tip weight.
 /// Throws InvalidArgument as continuous_shapes does, and for a count below 1 or above 1e5.
 inline Vector<double> continuous_critical_heights(const ContinuousChain& chain, Index count) {
@@ -176,7 +176,11 @@ inline Vector<double> continuous_critical_heights(const ContinuousChain& chain, 
         const finite::Path path(finite::kind_of(chain, height, 0), 1,
                                 {.crossings = static_cast<int>(crossing), .with_change = false});
         if (static_cast<Index>(path.crossings().size()) < crossing)
-            detail::refuse(place, "the line density is too rough to follow up to critical height", crossing);
+            detail::refuse(place,
+                           chain.density != nullptr
+                               ? "the line density is too rough to follow up to critical height"
+                               : "the tip weight is too great beside the chain's to follow up to critical height",
+                           crossing);
         return path.crossings();
     };
     if (chain.density == nullptr && chain.tip_weight == 0) {

@@ -266,7 +266,7 @@ class PathSeries {
 };
 
 /// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so, to
-/// 2^-52 of the step: Newton's method held within the bracket. Unlike `zero_between` it does not go on to the last digit of
+/// 2^-52 of the step and 2^-51 of itself: Newton's method held within the bracket. Unlike `zero_between` it does not go on to the last digit of
 /// the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)` returns a pair.
 template <class F>
 double time_of_zero(double duration, double latest, const F& value_and_slope) {
@@ -275,7 +275,7 @@ double time_of_zero(double duration, double latest, const F& value_and_slope) {
         const auto [value, slope] = value_and_slope(t);
         (value < 0 ? low : high) = t;
         double next = t - value / slope;
-        if (std::abs(next - t) <= 0x1p-52 * duration) break;
+        if (std::abs(next - t) <= std::min(0x1p-52 * duration, 0x1p-51 * t)) break;
         if (!(next > low && next < high)) next = low + (high - low) / 2;
         if (next == low || next == high) break;
         t = next;
