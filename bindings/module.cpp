@@ -22,7 +22,7 @@ void refuse_old_pickles(const py::module_& module) {
 }
 
 /// Says in words of this package that memory is short, where neither Python nor pybind11 knows what for.
-void tell_of_memory(const std::exception_ptr& thrown) {
+void tell_of_memory(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11 wants it so
     const char* sentence = "revchain: the results do not fit in the memory; use fewer links or ask for fewer modes";
     try {
         if (thrown) std::rethrow_exception(thrown);
