@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, boolean, floats, numbers, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, boolean, floats, numbers, one_positive, positive, real
 from ._arguments import count as counted
 from ._chain import Chain, compiled
 from ._results import Results
@@ -331,7 +331,7 @@ def _speed(place: str, conical_height: float | None, angular_speed: float | None
     if g == 0:
         return _Speed(0.0, speed**2, (speed, 0.0))
     g = float(positive(place, "gravity", g))
-    height = g / speed / speed
+    height = one_positive(place, "gravity / angular_speed**2", g / speed / speed)
     return _Speed(height, 1 / height, (speed, g))
 
 
