@@ -382,4 +382,4 @@ def test_a_height_that_is_not_positive_is_shown():
     result = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0), method="dense")
     result = dataclasses.replace(result, conical_height=np.array([1.5, -1e-17]))
     for text in (repr(result), result._repr_html_()):
-        assert "-1e-17" in text and "nan" in text and "1.5" in text
+        assert "-1.00000000000e-17" in text and "nan" in text and "1.5" in text
