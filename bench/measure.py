@@ -425,6 +425,9 @@ def main():
     parser.add_argument("--only", default="", help="tasks whose description contains this")
     options = parser.parse_args()
     plan = options.plan
+    tasks = [task for task in plan.tasks if options.only in str(task)]
+    if not tasks:
+        parser.error(f"--only: no task's description contains {options.only!r}; one is {str(plan.tasks[0])!r}")
     today = f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d}"
     folder = options.into or (ROOT / "bench" / "results" / today if plan.final else ROOT / "out" / "bench")
     folder.mkdir(parents=True, exist_ok=True)
@@ -438,7 +441,6 @@ def main():
         about = heading(plan, workers, missing)
         print("\n".join(about))
         bench.check_the_checks()
-        tasks = [task for task in plan.tasks if options.only in str(task)]
         for number, task in enumerate(tasks, 1):
             print(f"[{number}/{len(tasks)}, {time.monotonic() - start:.0f} s] {task}", flush=True)
             bench.measure(task)

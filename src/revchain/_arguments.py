@@ -54,16 +54,17 @@ def integer(place: str, name: str, value: object) -> int:
     """`value` as an int that the compiled module can hold; a float, a bool or a string is refused with a ValueError."""
     number = _whole(place, name, value)
     if not -LARGEST <= number <= LARGEST:
-        size = "large" if number > 0 else "small"
-        raise ValueError(f"{place}: {name} is too {size}, got {shown(number)}; it must be within 2**63 of 0")
+        raise ValueError(f"{place}: {name} must be a number of less than 64 bits, got {shown(number)}")
     return number
 
 
 def count(place: str, name: str, value: object, each: int = 0) -> int:
     """`value` as an int from 1 on; a ValueError where so many results of `each` bytes do not fit in the memory."""
-    number = integer(place, name, value)
+    number = _whole(place, name, value)
     if number < 1:
         raise ValueError(f"{place}: {name} must be at least 1, got {shown(number)}")
+    if number > LARGEST:
+        raise ValueError(f"{place}: {name} is too large, got {shown(number)}")
     refuse_beyond_memory(place, name, number, each)
     return number
 

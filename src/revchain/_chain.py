@@ -442,7 +442,7 @@ def _check_shapes(columns: dict[str, Floats]) -> None:
 
 
 def compiled(place: str, chain: Chain, link_by_link: bool = True) -> _core.Chain:
-    """What the compiled module takes; a TypeError for anything but a chain, a ValueError where its links are too many."""
+    """What the compiled module takes; a TypeError for anything but a chain, a ValueError for too many links."""
     if not isinstance(chain, Chain):
         raise TypeError(f"{place}: chain must be a revchain.Chain, got {shown(chain)}")
     if link_by_link:

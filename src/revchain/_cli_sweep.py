@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import sys
 import time
-import warnings
 from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import ExitStack
@@ -73,9 +72,6 @@ def sweep(
         executor = None if dask is None else _executor(dask, workers, stack)
         told = _bar(stack, given.points, quiet)
         threads = None if executor is not None else workers
-        stack.enter_context(warnings.catch_warnings())
-        warnings.filterwarnings("always", ".*computed again", RuntimeWarning)
-        warnings.showwarning = lambda message, *_, **__: print(f"revchain: warning: {message}", file=sys.stderr)
         try:
             found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
         except KeyboardInterrupt:
@@ -86,6 +82,8 @@ def sweep(
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
         if picture is not None:
             _draw(found, picture, given.title or study.stem)
+    if found.damage:
+        print(f"revchain: warning: {found.damage}", file=sys.stderr)
     if not quiet:
         there = f", {found.resumed:,} of them from before" if found.resumed else ""
         print(f"wrote {out}: {len(found):,} points in {time.perf_counter() - began:.3g} s{there}")

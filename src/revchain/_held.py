@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from ._arguments import STANDARD_GRAVITY, Floats, boolean, floats, numbers, positive, real
+from ._arguments import STANDARD_GRAVITY, Floats, boolean, floats, numbers, one_positive, positive, real
 from ._arguments import count as counted
 from ._chain import Chain, compiled
 from ._results import Results

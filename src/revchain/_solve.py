@@ -215,8 +215,9 @@ def solve(
         rtol = real(place, "rtol", rtol)
     for name, word, known in (("method", method, _core.METHODS), ("precision", precision, _core.PRECISIONS)):
         checked_word(place, name, word, known)
+    shapes, certify = boolean(place, "shapes", shapes), boolean(place, "certify", certify)
     number, height, low, bound, shape, residual, nodes, proof, used, status = _core.modes(
-        core, first, count, heights, speeds, rtol, boolean(place, "shapes", shapes), boolean(place, "certify", certify), precision, method, progress
+        core, first, count, heights, speeds, rtol, shapes, certify, precision, method, progress
     )
     certificate = None if proof is None else Certificate(*proof)
     return Modes(chain, number, height, bound, shape, residual, nodes, used, status, precision, certificate, low)

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import closing
@@ -81,11 +80,6 @@ def sweep(
     ImportError
         If a package that writes `out` is missing; the message says how to install it.
 
-    Warns
-    -----
-    RuntimeWarning
-        If the partial folder is damaged: how many of its records are dropped.
-
     Notes
     -----
     Plain chains of up to 100 links whose weights, lengths, centroids and radii vary go to
@@ -125,8 +119,7 @@ def sweep(
         stored = journal.map()
         result = SweepResult._of(study, plan, stored)
         result._resumed = sum(stop - start for start, stop in journal.kept)
-        if journal.damage:
-            warnings.warn(journal.damage, RuntimeWarning, stacklevel=2)
+        result._damage = journal.damage
         with closing(Keeper(journal, partial(writer, journal.aside, study, plan), stored)) as keeper:
             _Run(plan, keeper, chunk, progress).anywhere(executor, workers)
         journal.finish()

@@ -30,7 +30,7 @@ def why_not_drawn(plan: Plan) -> str:
 
 
 def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
-    """Curves over one number, dots over a random one, a map over two grids, a histogram of three or more random ones."""
+    """Curves over one number, dots over a random one, a map over two grids, a histogram of more random ones."""
     place = "revchain.SweepResult.plot"
     blocks = {block.name: block for block in result._plan.blocks}
     name = next(iter(blocks)) if name is None else name

@@ -50,12 +50,13 @@ class SweepResult:
     _arrays: Arrays
     _status: NDArray[np.uint8]
     _resumed: int
+    _damage: str
 
     @classmethod
     def _of(cls, study: Study, plan: Plan, stored: Arrays) -> SweepResult:
         """With arrays for all points, of what is computed and of the status."""
         result = cls.__new__(cls)
-        result.study, result._plan, result._resumed = study, plan, 0
+        result.study, result._plan, result._resumed, result._damage = study, plan, 0, ""
         result._arrays = {name: array for name, array in stored.items() if name != "status"}
         result._status = stored["status"]
         return result
@@ -67,6 +68,11 @@ class SweepResult:
     def resumed(self) -> int:
         """How many of the points were there already, from a run that was ended."""
         return self._resumed
+
+    @property
+    def damage(self) -> str:
+        """What was damaged of the points kept from a run that was ended, and computed again; empty if nothing was."""
+        return self._damage
 
     @property
     def varied(self) -> list[str]:
@@ -169,7 +175,8 @@ class SweepResult:
 
         pieces = {name: self[name] for name in [*self.varied, *self.found]}
         columns = columns_of(self._plan, {**pieces, "status": self._status}, 0, len(self))
-        return {**columns, "status": self.status} if boolean("revchain.SweepResult.columns", "words", words) else columns
+        in_words = boolean("revchain.SweepResult.columns", "words", words)
+        return {**columns, "status": self.status} if in_words else columns
 
     def to_dataframe(self) -> Any:
         """Return a pandas table with one row for each point.
@@ -288,4 +295,6 @@ class SweepResult:
 
     def __repr__(self) -> str:
         refused = f"; {count:,} refused" if (count := self.count("refused")) else ""
-        return f"SweepResult: {len(self):,} points of {', '.join(self.varied)}; {', '.join(self.found)}{refused}"
+        damage = f"; {self.damage}" if self.damage else ""
+        found = ", ".join(self.found)
+        return f"SweepResult: {len(self):,} points of {', '.join(self.varied)}; {found}{refused}{damage}"

@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from html import escape
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from ._arguments import STANDARD_GRAVITY
 
@@ -37,8 +40,10 @@ def which(modes: Modes) -> str:
 
 def rows(modes: Modes) -> list[tuple[str, ...]]:
     """The first rows as text, in the order of HEADINGS."""
-    speeds = modes.angular_speed()
-    turns = 60 * modes.revolutions_per_second()
+    has_speed = modes.conical_height > 0  # of method="dense" rounding may leave others
+    known = replace(modes, conical_height=np.where(has_speed, modes.conical_height, modes.conical_height.dtype.type(1)))
+    speeds = np.where(has_speed, known.angular_speed(), np.nan)
+    turns = np.where(has_speed, 60 * known.revolutions_per_second(), np.nan)
     table: list[tuple[str, ...]] = []
     for k in range(min(len(modes), MOST_ROWS)):
         nodes = "-" if modes.nodes is None else f"{modes.nodes[k].size:,}"

@@ -62,7 +62,8 @@ def conical_heights(count: int, length: ArrayLike = 1.0) -> Floats:
     array([0.69166 , 0.131271, 0.053414])
     """
     place = "revchain.heavy_chain.conical_heights"
-    return _core.heavy_chain_conical_heights(checked_count(place, "count", count, each=8), positive(place, "length", length))
+    number = checked_count(place, "count", count, each=8)
+    return _core.heavy_chain_conical_heights(number, positive(place, "length", length))
 
 
 def shape(x: ArrayLike, mode: ArrayLike, length: ArrayLike = 1.0) -> Any:
@@ -312,7 +313,8 @@ def vertical_points(mode: int, length: float = 1.0) -> Floats:
     array([0.1961, 0.6572])
     """
     place = "revchain.heavy_chain.vertical_points"
-    return _core.heavy_chain_vertical_points(checked_count(place, "mode", mode, each=8), one_positive(place, "length", length))
+    number = checked_count(place, "mode", mode, each=8)
+    return _core.heavy_chain_vertical_points(number, one_positive(place, "length", length))
 
 
 def revolutions_per_second(count: int, length: ArrayLike = 1.0, gravity: ArrayLike = STANDARD_GRAVITY) -> Floats:

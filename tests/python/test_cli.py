@@ -608,3 +608,38 @@ def test_a_scene_that_asks_for_a_window_gives_way_to_options(run):
     assert all(0.01 < mode["conical_height"] <= 0.02 and "certificate" in mode for mode in inside) and inside
     slowest = json.loads(run("solve", "window.toml", "--modes", 2, "--json", "-")[1])["modes"]
     assert [mode["mode"] for mode in slowest] == [1, 2]
+
+
+@pytest.mark.parametrize("title", ["100 $% a $", r"\\frac{ $x_{$ $$"])
+def test_a_title_is_no_mathematics(run, title):
+    Path("a.toml").write_text(f'title = "{title}"\n[[links]]\nmass = 1\nlength = 1\n')
+    assert run("solve", "a.toml", "--plot", "a.png")[0] == 0
+
+
+def test_a_title_that_is_not_unicode(run):
+    Path("a.json").write_text(r'{"title": "x \ud800 y", "links": [{"mass": 1, "length": 1}]}')
+    ends_in_one_sentence(run("solve", "a.json", "--plot", "a.png"), ExitCode.SCENE_INVALID, "is not Unicode")
+
+
+def test_numbers_of_very_many_digits(run):
+    began = time.monotonic()
+    for name, mass in (("a.json", "1" * 10**5), ("a.toml", "0x" + "f" * 10**4), ("a.toml", f'"{"1" * 20_000} kg!"')):
+        link = f'{{"mass": {mass}, "length": 1}}' if name == "a.json" else f"{{mass = {mass}, length = 1}}"
+        Path(name).write_text(f'{{"links": [{link}]}}' if name == "a.json" else f"links = [{link}]")
+        ends_in_one_sentence(run("solve", name), ExitCode.SCENE_INVALID, name)
+    assert time.monotonic() - began < 5
+
+
+@pytest.mark.parametrize("name", ["swing_carousel", "broomstick"])
+def test_the_response_at_one_speed_has_a_picture(run, repository, name):
+    assert run("response", repository / f"examples/scenes/{name}.toml", "--plot", "a.png")[0] == 0
+
+
+def test_every_shipped_scene_is_solved(run, repository):
+    for path in (repository / "examples/scenes").glob("*.toml"):
+        assert run("solve", path)[0] == 0, path
+
+
+def test_a_benchmark_that_is_not_there(python, repository):
+    done = python(repository / "bench/measure.py", "--only", "nothing of the kind")
+    assert done.returncode == 2 and "no task's description contains 'nothing of the kind'" in done.stderr

@@ -135,3 +135,8 @@ def test_plots() -> None:
     assert ax.get_ylabel() == "above the lower end (ft)"
     assert len(ax.get_legend().get_texts()) == 2
     assert shapes[0].plot().get_aspect() == 1.0
+
+
+def test_speeds_whose_square_overflows():
+    with pytest.raises(ValueError, match=r"gravity / angular_speed\*\*2 must be positive and finite, got 0"):
+        rc.held_shapes(rc.Chain.uniform_rods(3), span=0.5, angular_speed=1e170)

@@ -375,3 +375,11 @@ def test_a_light_link_below_a_heavy_one():
     result = rc.modes(rc.Chain(weight=[1, 1e12], length=lengths))
     height = result.conical_height[1]
     assert result.shape[1, 1] == pytest.approx(1 - lengths[0] / height, rel=1e-14)  # the moment about the upper pin
+
+
+def test_a_height_that_is_not_positive_is_shown():
+    """As rounding may leave it with method="dense"."""
+    result = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0), method="dense")
+    result = dataclasses.replace(result, conical_height=np.array([1.5, -1e-17]))
+    for text in (repr(result), result._repr_html_()):
+        assert "-1.00000000000e-17" in text and "nan" in text and "1.5" in text

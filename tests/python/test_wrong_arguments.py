@@ -36,10 +36,10 @@ WRONG = {
     "nans": [float("nan"), 1.0],
 }
 FOREIGN = re.compile(
-    r"incompatible (function|constructor) arguments|setting an array element|truth value|vector::|embedded null|bad_alloc"
-    r"|unable to cast|must be real number, not|object of type|unsupported operand|not supported between|cannot convert"
-    r"|could not convert|only (0-dimensional|length-1|integer)|inhomogeneous|cannot unpack|not enough values|too many values"
-    r"|invalid literal|has no attribute|int too large|out of bounds|broadcast together|slice indices|is not iterable"
+    r"incompatible (function|constructor) arguments|setting an array element|truth value|vector::|embedded null"
+    r"|bad_alloc|unable to cast|must be real number, not|object of type|unsupported operand|not supported between|cannot convert"
+    r"|could not convert|only (0-dimensional|length-1|integer)|inhomogeneous|cannot unpack|not enough values"
+    r"|too many values|invalid literal|has no attribute|int too large|out of bounds|broadcast together|slice indices|is not iterable"
     r"|not callable|exceeds the limit|cannot be interpreted|not subscriptable|array is too big|maximum allowed"
     r"|too many indices|ufunc|is not in (list|tuple)|does not support|unhashable|expected str",
     re.IGNORECASE,
@@ -50,7 +50,7 @@ RIG = rc.Rig(rc.Chain.uniform_rods(3, length=2.0, weight=3.0), stiffness=5.0)
 ASK = {"shapes": {"conical_height": 0.4}, "response": {"conical_height": [0.4]}, "swing": {"offset": [0.1, 0.1, 0.1]}}
 SCENE = {"links": [{"mass": 1, "length": 1, "repeat": 3}], "ask": ASK}
 STUDY = {"find": ["modes"], "scene": SCENE, "vary": {"gravity": {"values": [9.0, 10.0]}}}
-"""What a parameter of that name is given where it must be given; by function where another is needed or one of several."""
+# What a parameter of that name is given where it must be given; by function where another is needed or one of several.
 GIVEN = {
     "chain": CHAIN,
     "what": CHAIN,
