@@ -8,6 +8,7 @@ import json as json_module
 import os
 import re
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -88,7 +89,8 @@ def solve(
 
         of_others = {**chosen, **overriding, "out": out, "certify": certify or None}
         refuse_any(of_others, "a chain held at both ends")
-        find = Scene.modes if given.held.span is UNSET else Scene.steady_shapes
+        slack = given.held.span is not UNSET
+        find: Callable[[Scene], Any] = Scene.steady_shapes if slack else Scene.modes
         return answer(scene, find, Wanted(plot, json, csv, quiet))
     hung, gravity = given._hung(str(scene)), given.gravity_value()
     asked = given.asked(base_chain(hung))
@@ -103,12 +105,12 @@ def solve(
     if certify:
         asked["certify"] = True
 
-    def find() -> _Solved:
+    def solved() -> _Solved:
         carried = given.response() if given.is_carried else None
         found = watched(lambda progress: solve_chain(hung, **asked, progress=progress), Console(stderr=True), quiet)
         return _Solved(found, given.title or scene.stem, gravity, carried)
 
-    found = answered(scene, find, Wanted(plot, json, csv, quiet, out)).found
+    found = answered(scene, solved, Wanted(plot, json, csv, quiet, out)).found
     if found.status != "success":
         wanted = asked.get("rtol")
         asked_for = "" if wanted is None else f": asked {wanted:g}, reached {found.error_bound.max():.1e}"

@@ -43,14 +43,14 @@ def new_figure(width: float, height: float) -> Figure:
 
 def axes_or_new(ax: Axes | None, width: float, height: float) -> Axes:
     """The axes of the caller, or new ones on a figure of their own."""
-    if ax is None:
-        return new_figure(width, height).add_subplot()
-    return checked_axes(ax)
+    axes: Axes = new_figure(width, height).add_subplot() if ax is None else checked_axes(ax)
+    return axes
 
 
 def checked_axes(ax: Axes) -> Axes:
     """`ax`; a TypeError unless it is axes of matplotlib."""
-    if not isinstance(ax, require("matplotlib.axes", "plot", "plotting").Axes):
+    kind: type[Axes] = require("matplotlib.axes", "plot", "plotting").Axes
+    if not isinstance(ax, kind):
         raise TypeError(f"plot: ax must be axes of matplotlib, got {shown(ax)}")
     return ax
 

@@ -103,10 +103,10 @@ def _seal(file: IO[bytes], size: int | None = None) -> bytes:
 
 
 def _write_netcdf(dataset: Any, path: Path) -> None:
-    from h5netcdf import File
     from xarray.backends import H5NetCDFStore
 
-    with hdf5_file(path) as file, File(file, "w") as target:
+    h5netcdf = require("h5netcdf", "netcdf", "saving .nc files")
+    with hdf5_file(path) as file, h5netcdf.File(file, "w") as target:
         dataset.dump_to_store(H5NetCDFStore(target))
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -58,6 +58,7 @@ def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
     ax.set_ylabel(plain(two.name))
     if _log(two.values):
         ax.set_yscale("log")
+    drawn: Any
     if one.values is not None and two.values is not None:
         drawn = ax.pcolormesh(one.values, two.values, values[:, 0].reshape(result.shape).T, shading="nearest")
     else:
