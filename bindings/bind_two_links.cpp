@@ -26,10 +26,10 @@ void bind_two_links(py::module_& module) {
     module.def(
         "swung_link",
         [](const Array& centroid, const Array& radius_of_gyration, const Array& height) {
-            return columns<3>(
+            return columns<4>(
                 [](double h, double k, double lambda) {
                     const auto s = revchain::swung_link(Link{h, k}, lambda);
-                    return std::array<double, 3>{s.inclination, s.reaction, s.reaction_inclination};
+                    return std::array<double, 4>{s.inclination, s.reaction, s.reaction_inclination, s.condition};
                 },
                 centroid, radius_of_gyration, height);
         },

@@ -55,7 +55,7 @@ for turns in (0.4, 0.7, 0.9, 1.1, 1.5, 2.0, 2.5):
 print("plummet on 0.36 m, hand on a circle of radius 5 mm, all steady inclinations, degrees:")
 for turns in (0.7, 0.83, 0.9, 1.0):
     found = rc.plummet.carried_inclinations(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns), HAND)
-    print(f"{turns:14.2f}  ", *(f"{x:8.2f}" for x in np.degrees(found[~np.isnan(found)])))
+    print(f"{turns:14.2f}  ", *(f"{x:8.2f}" for x in np.degrees(found)))
 print(f"chain of {LINKS} links on the same circle, tip from the axis in every steady shape, mm:")
 for turns in (0.7, 0.9, 1.0, 1.1, 1.5, 2.0, 2.5, 3.0):
     print(f"{turns:14.2f}  ", *(f"{1000 * x:8.2f}" for x in sorted(s.offset[0] for s in at_any_inclination(turns))))

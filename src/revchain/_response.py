@@ -235,7 +235,7 @@ def response(
             refuse_where(wrong, given, f"{place}: angular_speed must be finite and not 0")
         else:
             positive(place, "angular_speed", given)
-        height, speed = np.asarray(g / given / given), given
+        height, speed = np.asarray(_core.conical_pendulum_height(np.abs(given), np.full(given.shape, g))), given
     which, axis = _pins(place, pins, chain.size)
     asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g)
     if isinstance(chain, Rig):

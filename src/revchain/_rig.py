@@ -299,8 +299,7 @@ def free_flywheel(
     >>> float(rc.free_flywheel(weight=9.80665, radius_of_gyration=0.3, spin=100.0)["momentum"])
     9.0
     """
-    moment, turns, g = _wheel("revchain.free_flywheel", weight, radius_of_gyration, spin, gravity)
-    return {"momentum": moment / g * turns}
+    return {"momentum": _wheel("revchain.free_flywheel", weight, radius_of_gyration, spin, gravity)[0]}
 
 
 def driven_flywheel(
@@ -329,11 +328,12 @@ def driven_flywheel(
     >>> {name: float(x) for name, x in rc.driven_flywheel(weight=9.80665, radius_of_gyration=0.3, spin=100.0).items()}
     {'momentum': 9.0, 'axial_moment': 0.8825985}
     """
-    moment, turns, g = _wheel("revchain.driven_flywheel", weight, radius_of_gyration, spin, gravity)
-    return {"momentum": moment / g * turns, "axial_moment": moment}
+    momentum, moment = _wheel("revchain.driven_flywheel", weight, radius_of_gyration, spin, gravity)
+    return {"momentum": momentum, "axial_moment": moment}
 
 
 def _wheel(place: str, weight: ArrayLike, radius: ArrayLike, spin: ArrayLike, gravity: float) -> list[Floats]:
+    """Angular momentum and axial moment."""
     given = {"weight": weight, "radius_of_gyration": radius, "spin": spin}
     arrays = {name: floats(place, name, value) for name, value in given.items()}
     for name, array in arrays.items():
@@ -341,7 +341,15 @@ def _wheel(place: str, weight: ArrayLike, radius: ArrayLike, spin: ArrayLike, gr
         if name != "spin":
             refuse_where(array < 0, array, f"{place}: {name} must not be negative")
     w, k, turns, g = together(place, **arrays, gravity=positive(place, "gravity", gravity))
-    return list(numbers([w * k * k, turns, g]))
+    with np.errstate(over="ignore", invalid="ignore"):
+        moment = np.asarray(w * k * k)
+        momentum = np.asarray(moment / g * turns)
+    refuse_where(
+        ~(np.isfinite(moment) & np.isfinite(momentum)),
+        k,
+        f"{place}: weight * radius_of_gyration**2 * spin / gravity must be finite, give a smaller radius_of_gyration",
+    )
+    return list(numbers([momentum, moment]))
 
 
 def _flags(place: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:

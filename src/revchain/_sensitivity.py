@@ -268,7 +268,8 @@ def rig_sensitivity(
     Raises
     ------
     ValueError
-        If a speed is 0 or not finite, gravity not positive, or there are not N + 1 offsets for each speed.
+        If a speed is 0 or not finite, gravity not positive, or there are not N + 1 finite offsets for each speed;
+        where the offsets move no weight and tilt no flywheel.
     TypeError
         If `rig` is not a `Rig`.
 
@@ -321,12 +322,13 @@ def momentum_for_speed(rig: Rig, angular_speed: float, *, link: int, gravity: fl
     Returns
     -------
     float
-        The only one there is, of whichever mode. Infinite or NaN where none does.
+        The only one there is, of whichever mode.
 
     Raises
     ------
     ValueError
-        If the speed is 0 or not finite, gravity not positive, or there is no such link.
+        If the speed is 0 or not finite, gravity not positive, or there is no such link; where no finite momentum of
+        the link makes the speed a whirl speed.
     TypeError
         If `rig` is not a `Rig`.
 

@@ -22,11 +22,11 @@ class Tuned:
         that there is none could not be shown.
     chain : Chain or None
         The chain with `value` in place.
-    value : float
+    value : float or None
         The one nearest to the present value (of weights, in ratio, and but for others within a few per cent of
-        it); NaN where none was found.
-    error_bound : float
-        Absolute, proved: `value` is that near to one that does exactly.
+        it); None where none was found.
+    error_bound : float or None
+        Absolute, proved: `value` is that near to one that does exactly; None where none was found.
     values : ndarray
         Those found in the range, ascending.
     complete : bool
@@ -49,8 +49,8 @@ class Tuned:
 
     status: str
     chain: Chain | None
-    value: float
-    error_bound: float
+    value: float | None
+    error_bound: float | None
     values: Floats
     complete: bool
     present: float
@@ -147,8 +147,8 @@ def tune(
     return Tuned(
         status,
         None if found is None else Chain._wrap(found),
-        value,
-        bound,
+        None if found is None else value,
+        None if found is None else bound,
         values,
         complete,
         present,

@@ -129,7 +129,8 @@ def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus:
     -------
     Jacobi
         Each of the shape of `u`, with an error of at most ``1e-15 * (|f| + |u df/du|)``, for
-        complementary moduli from 1e-150 to 1. Cost 0.1 microseconds a number.
+        complementary moduli from 1e-150 to 1. Where ``abs(u)`` exceeds 1e15 this leaves no digit of sn, cn and dn:
+        they are those of some argument. Cost 0.1 microseconds a number.
 
     Raises
     ------

@@ -259,7 +259,7 @@ def carried_response(length: ArrayLike, height: ArrayLike) -> Any:
     return _core.carried_response(*positives("revchain.plummet.carried_response", length=length, height=height))
 
 
-def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Floats:
+def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Floats | list[Floats]:
     """Return all steady inclinations of a plummet whose support is carried round a circle.
 
     Parameters
@@ -273,9 +273,10 @@ def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike
 
     Returns
     -------
-    ndarray, shape (..., 3)
-        Between -pi/2 and pi/2 rad, outwards positive, ascending: one, or three where
-        ``radius**(2/3) <= length**(2/3) - height**(2/3)``; the rest is nan. Within 4 ulp, times
+    ndarray, or list of ndarray
+        Of numbers an array of the inclinations, of arrays a list with one for each element of the broadcast shape, in
+        C order. Inclinations lie between -pi/2 and pi/2 rad, outwards positive, and ascend: one, or three where
+        ``radius**(2/3) <= length**(2/3) - height**(2/3)``. Within 4 ulp, times
         ``1 / (1 - (cos at which two meet / cos of the root)**3)`` next to where two meet. Cost 1 microsecond a number.
 
     Raises
@@ -296,4 +297,6 @@ def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike
     """
     place = "revchain.plummet.carried_inclinations"
     given = positives(place, length=length, height=height, radius=radius)
-    return np.stack(_core.carried_inclinations(*given), axis=-1)
+    padded = np.stack(_core.carried_inclinations(*given), axis=-1)
+    found = [row[~np.isnan(row)] for row in padded.reshape(-1, 3)]
+    return found if padded.ndim > 1 else found[0]

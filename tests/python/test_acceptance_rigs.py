@@ -456,7 +456,7 @@ def test_carousel_chair_all_its_figures(radius, height):
     assert shapes.complete
     assert got == pytest.approx(want, abs=2e-13)
     closed = rc.plummet.carried_inclinations(4.0, height=height, radius=radius)
-    assert sorted(closed[np.isfinite(closed)]) == pytest.approx(got, abs=1e-13)
+    assert sorted(closed) == pytest.approx(got, abs=1e-13)
     assert all(s.offset[-1] == radius for s in shapes)
     tension = [800.0 / math.cos(d) for d in got]
     assert sorted(s.tension[0] for s in shapes) == pytest.approx(sorted(tension), rel=1e-10)
@@ -1610,7 +1610,7 @@ def test_tuning_what_cannot_be():
     chain = rc.Chain(weight=[1.0, 3.0], length=1.0)
     tuned = rc.tune(chain, link=1, quantity="weight", conical_height=2.5)  # never above 2
     assert tuned.status == "no_value"
-    assert math.isnan(tuned.value)
+    assert tuned.value is None and tuned.error_bound is None
     assert tuned.chain is None
     assert tuned.reachable[1] < 2.0
     for bad in (

@@ -958,6 +958,66 @@ def test_radii_that_cannot_be(radii):
         rc.TortuousRope(least_radius=radii[0], greatest_radius=radii[1], angular_speed=5.0, tension=2.0)
 
 
+RANGE = st.integers(-300, 300).map(lambda e: 10.0**e)
+
+
+@given(*[RANGE] * 6)
+@settings(max_examples=150, deadline=None)
+def test_extreme_motions_have_numbers_or_are_refused(a, b, c, d, e, t):
+    def finite(make):
+        try:
+            values = make()
+        except ValueError as refusal:
+            assert "must" in str(refusal) and ", got " in str(refusal)
+            return
+        assert np.isfinite(np.array(values, dtype=float)).all(), values
+
+    finite(lambda: rc.GovernorMotion(angular_speed=a, pendulum_length=b, angle=c, angle_rate=d, gravity=e).state(t))
+    finite(lambda: rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=c).state(t))
+    finite(lambda: rc.GovernorMotion(angular_speed=0.0, pendulum_length=b, angle=1.0, gravity=e).state(t))
+
+    def blows():
+        impact = rc.BufferImpact(front_mass=a, rear_mass=b, buffer_stiffness=c, coupling_stiffness=d, speed=e)
+        return [*np.ravel(impact.blows), *impact.state(t)]
+
+    finite(blows)
+    try:
+        rope = rc.TortuousRope(least_radius=min(a, b), greatest_radius=max(a, b), angular_speed=c, tension=d)
+        point = rope.at([0.0, 0.3 * rope.half_wave, rope.half_wave, t])
+    except ValueError as refusal:
+        assert "must" in str(refusal) and ", got " in str(refusal)
+    else:
+        assert not any(np.isnan(each).any() for each in point)
+
+
+@pytest.mark.parametrize("time", [1e15, 1e18, 1e100, 1e300])
+def test_a_motion_stays_between_its_turning_angles_at_any_time(time):
+    swing = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
+    assert swing.least_angle - 1e-12 <= swing.angle(time) <= swing.greatest_angle + 1e-12
+    far = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1e160)
+    assert np.isfinite(far.state(1.0)).all()
+
+
+def test_carriages_that_swing_for_ever_between_two_blows_are_refused():
+    """A light front carriage on a stiff coupling: 1e100 swings before the buffer is left."""
+    with pytest.raises(ValueError, match=r"BufferImpact: (masses|speed)"):
+        rc.BufferImpact(front_mass=5e-212, rear_mass=6e18, buffer_stiffness=1.0, coupling_stiffness=1.0, speed=1.0)
+
+
+@pytest.mark.parametrize("ratio", [1e-19, 1e-21, 1e-50, 1e-100, 1e-101, 1e-200])
+def test_a_tortuous_rope_of_any_ratio_of_radii(ratio):
+    """The slope of the angle is that of the areas: radius^2 d angle / dx is the same everywhere."""
+    rope = rc.TortuousRope(least_radius=ratio, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
+    point = rope.at(np.array([ratio, 0.1, 0.5, 1.0]) * rope.half_wave)
+    areas = point.radius**2 * point.angle_slope
+    np.testing.assert_allclose(areas, areas[-1], rtol=1e-13)
+    assert areas[-1] > 0
+    plane = rc.TortuousRope(least_radius=0.0, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
+    there = plane.at(np.array([0.1, 0.5]) * rope.half_wave)
+    np.testing.assert_allclose(point.angle[1:3], there.angle, rtol=1e-13)
+    np.testing.assert_allclose(point.radius_slope[1:3], there.radius_slope, rtol=1e-12, atol=1e-12)
+
+
 @pytest.mark.parametrize("kind", MADE)
 def test_a_motion_prints_as_itself(kind):
     assert repr(getattr(rc, kind)(**MADE[kind])).startswith(kind)

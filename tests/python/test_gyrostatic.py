@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import pickle
 
+import mpmath as mp
 import numpy as np
 import pytest
 from scipy.linalg import solve_banded
@@ -84,6 +85,50 @@ def test_a_string_is_a_value():
     assert (given.weight, given.length, given.tension, given.momentum) == (15.0, 0.1, 2000.0, 0.5)
     with pytest.raises(AttributeError, match="cannot be changed"):
         given.momentum = 1.0
+
+
+@pytest.mark.parametrize("speed", [1e-300, 1e-160, 1e-20, 20.0, 1e5, 1e160, 1e300])
+@pytest.mark.parametrize("scale", [1e-290, 1e-100, 1.0, 1e100, 1e290])
+def test_extreme_strings_have_phases_and_speeds(speed, scale):
+    """Against the same formulas in 60 digits and any exponent."""
+    with mp.workdps(60):
+        W, a, T, rho, H, g = map(mp.mpf, (15.0 * scale, 0.1, 2000.0 / scale, 0.2, 0.5, 9.80665))
+        given = string(weight=15.0 * scale, tension=2000.0 / scale)
+        share = mp.mpf(0.05) / a * (1 - mp.mpf(0.05) / a) - (rho / a) ** 2
+        sines = []
+        for n in (mp.mpf(speed), -mp.mpf(speed)):
+            stiffness = (T + n * H / a) / a + n**2 / g * W * share
+            sines.append(n**2 / g * W / (4 * stiffness))
+            phase, attenuation = given.phase(float(n)), given.attenuation(float(n))
+            exact = 2 * mp.asin(mp.sqrt(sines[-1])) if 0 <= sines[-1] <= 1 else mp.pi if sines[-1] > 1 else 0
+            assert phase == pytest.approx(float(exact), rel=1e-13, abs=0)
+            decay = 0 if 0 <= sines[-1] <= 1 else 2 * mp.asinh(mp.sqrt(max(-sines[-1], sines[-1] - 1)))
+            assert attenuation == pytest.approx(float(decay), rel=1e-13, abs=0)
+        turn = given.plane_rotation(speed)
+        if all(0 <= sine < 1 for sine in sines):
+            ahead, back = (mp.asin(mp.sqrt(sine)) for sine in sines)
+            assert turn == pytest.approx(float(back - ahead), rel=1e-12, abs=0)
+        else:
+            assert np.isnan(turn)  # one of the two waves does not pass
+        for angle in (5e-324, 1e-200, 1e-3, 1.0, np.pi):
+            chord = 2 * mp.sin(mp.mpf(angle) / 2)
+            A, B, C = W / g * (1 - chord**2 * share), H / a**2 * chord**2, T / a * chord**2
+            root = mp.sqrt(B**2 + 4 * A * C)
+            found = given.angular_speeds(angle)
+            for speed_found, exact in zip(found, ((B + root) / (2 * A), -2 * C / (B + root)), strict=True):
+                if abs(exact) > 1e-290 and abs(exact) < 1e308:
+                    assert speed_found == pytest.approx(float(exact), rel=1e-13, abs=0)
+                assert not np.isnan(speed_found)
+
+
+def test_a_string_of_point_masses_has_no_bound_at_half_a_turn():
+    found = string(0.0, radius_of_gyration=0.0).angular_speeds(np.pi)
+    assert (found.forward, found.backward) == (np.inf, -np.inf)
+
+
+def test_a_length_too_small_for_its_centroid_is_refused():
+    with pytest.raises(ValueError, match="length must not be so small"):
+        string(length=1e-200, radius_of_gyration=1.0)
 
 
 @pytest.mark.parametrize("name", ["weight", "length", "tension", "gravity"])

@@ -116,3 +116,7 @@ def test_flywheels():
         for make in (rc.free_flywheel, rc.driven_flywheel):
             with pytest.raises(ValueError, match=name):
                 make(**wheel)
+    for make in (rc.free_flywheel, rc.driven_flywheel):
+        for huge in ({"weight": 1e200, "radius_of_gyration": 1e100, "spin": 0.0}, {"spin": 1e300, "weight": 1e20}):
+            with pytest.raises(ValueError, match="must be finite, give a smaller radius_of_gyration, got"):
+                make(**{"radius_of_gyration": 1.0, **huge})

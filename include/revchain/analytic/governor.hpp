@@ -228,13 +228,14 @@ inline GovernorState GovernorMotion::operator()(double time) const {
     if (!std::isfinite(time)) revchain::detail::refuse("analytic::GovernorMotion", "time must be finite", time);
     if (form_ == Form::constant) return {angle_, 0};
     const double u = phase_ + rate_ * time;
-    if (!std::isfinite(u))
-        revchain::detail::refuse("analytic::GovernorMotion", "time must be so small that the angle does not overflow", time);
-    const Half half = half_at(u);
+    const Half half = half_at(std::isfinite(u) ? u : 0);
     const double scale = form_ == Form::growing ? half.opposite * half.adjacent : opposite_ * adjacent_;
     const double whole = std::hypot(half.opposite, half.adjacent);
     const double rate = 2 * half.rate * (scale / whole / whole);
-    return {unfolded(half), upside_down_ ? -rate : rate};
+    const GovernorState state{unfolded(half), upside_down_ ? -rate : rate};
+    if (!std::isfinite(u) || !std::isfinite(state.angle))
+        revchain::detail::refuse("analytic::GovernorMotion", "time must be so small that the angle does not overflow", time);
+    return state;
 }
 
 }  // namespace revchain::analytic

@@ -98,7 +98,9 @@ inline double TortuousRope::half_wave_angle() const {
 }
 
 inline TortuousPoint TortuousRope::at(double x) const {
-    if (!std::isfinite(x)) revchain::detail::refuse("analytic::TortuousRope::at", "x must be finite", x);
+    if (!std::isfinite(x / scale_))
+        revchain::detail::refuse("analytic::TortuousRope::at",
+                                 "x must be finite, and so small that the number of half waves does not overflow", x);
     const JacobiValues f = functions_(x / scale_);
     TortuousPoint point{
         x, d_ * f.epsilon - root_ / d_ * (x / scale_), std::hypot(first_ * f.cn, second_ * f.sn), 0, 0, 0, 0};

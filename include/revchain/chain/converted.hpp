@@ -21,19 +21,29 @@ To from_words(const From& x) {
     }
 }
 
+/// Throws InvalidArgument where a number that is not 0 becomes 0, or one that is finite infinite.
 template <class To, class From>
 Column<To> converted(const Column<From>& column) {
-    if (column.is_scalar()) return Column<To>(from_words<To>(column[0]));
+    using std::isfinite;
     std::vector<To> values;
     values.reserve(column.stored());
-    for (std::size_t m = 0; m < column.stored(); ++m) values.push_back(from_words<To>(column.data()[m]));
+    for (std::size_t m = 0; m < column.stored(); ++m) {
+        const From& x = column.data()[m];
+        values.push_back(from_words<To>(x));
+        if ((values.back() == To(0)) != (x == From(0)) || !isfinite(values.back()))
+            refuse("Chain",
+                   "link " + std::to_string(m + 1) +
+                       ": numbers must lie in the range of the precision; use a wider one, or other units",
+                   static_cast<double>(x));
+    }
+    if (column.is_scalar()) return Column<To>(values[0]);
     return values;
 }
 
 }  // namespace detail
 
 /// The chain whose numbers are those of `chain` in another scalar: the same where it is wider, else rounded. Cost O(N).
-/// Throws InvalidArgument where rounding leaves no chain.
+/// Throws InvalidArgument where a number leaves the range of `To`.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
     return Chain<To>(chain.size(), detail::converted<To>(chain.weight()), detail::converted<To>(chain.length()),

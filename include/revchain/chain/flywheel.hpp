@@ -19,15 +19,18 @@ struct Flywheel {
 };
 
 namespace detail {
-inline double axial_moment(std::string_view place, double weight, double radius_of_gyration, double spin,
-                           double gravity) {
+inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration, double spin,
+                                double gravity) {
     const auto not_negative = [&](std::string_view name, double x) {
         if (!(x >= 0) || !std::isfinite(x)) refuse(place, std::string(name) + " must be finite and not negative", x);
     };
     not_negative("weight", weight), not_negative("radius of gyration", radius_of_gyration);
     if (!std::isfinite(spin)) refuse(place, "spin must be finite", spin);
     require_positive(place, "gravity", gravity);
-    return weight * radius_of_gyration * radius_of_gyration;
+    const double moment = weight * radius_of_gyration * radius_of_gyration, momentum = moment / gravity * spin;
+    if (!std::isfinite(moment) || !std::isfinite(momentum))
+        refuse(place, "weight radius of gyration^2 spin / gravity must be finite; radius of gyration", radius_of_gyration);
+    return {momentum, moment};
 }
 }  // namespace detail
 
@@ -35,15 +38,14 @@ inline double axial_moment(std::string_view place, double weight, double radius_
 /// Throws InvalidArgument for negative weight or radius of gyration, gravity not positive, numbers not finite.
 inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
                               double gravity = conical_pendulum::standard_gravity) {
-    return {detail::axial_moment("free_flywheel", weight, radius_of_gyration, spin, gravity) / gravity * spin, 0};
+    return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity).momentum, 0};
 }
 
 /// A wheel that a motor turns with `spin` rad/s relative to a link, which itself turns about its axis with the whole.
 /// Throws as free_flywheel does.
 inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
                                 double gravity = conical_pendulum::standard_gravity) {
-    const double moment = detail::axial_moment("driven_flywheel", weight, radius_of_gyration, spin, gravity);
-    return {moment / gravity * spin, moment};
+    return detail::turned_flywheel("driven_flywheel", weight, radius_of_gyration, spin, gravity);
 }
 
 }  // namespace revchain

@@ -20,11 +20,16 @@ struct CompoundLink {
     T radius_of_gyration;  ///< k >= 0; 0 is a plummet
 
     /// l = h + k^2/h, of the equivalent simple pendulum; also the distance of the centre of oscillation from the pin.
-    T pendulum_length() const { return centroid + square_over_centroid(); }
+    T pendulum_length() const {
+        using std::isfinite;
+        const T length = static_cast<T>(Wide<T>(centroid) + squares_over_centroid().value());
+        return isfinite(length) ? length : centroid + square_over_centroid();  // infinite where it overflows
+    }
     /// k^2/h: the centroid from the centre of oscillation; hung from there the two change places, §6.
-    T square_over_centroid() const { return squares_over_centroid().value(); }
-    detail::Product<T> squares_over_centroid() const {
-        return detail::Product<T>{}.times(radius_of_gyration).times(radius_of_gyration).over(centroid);
+    T square_over_centroid() const { return static_cast<T>(squares_over_centroid().value()); }
+    detail::Product<Wide<T>> squares_over_centroid() const {
+        const Wide<T> k(radius_of_gyration);
+        return detail::Product<Wide<T>>{}.times(k).times(k).over(centroid);
     }
     /// Of Maxwell's two particles that move as the link does, the share of its weight at the centre of oscillation, h/l;
     /// the rest is at the pin. §6.
@@ -105,10 +110,10 @@ SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
     using std::tan;
     detail::check("swung_link", link);
     detail::require_positive("swung_link", "height", height);
-    const T h = link.centroid, k = link.radius_of_gyration, length = link.pendulum_length();
-    // (l - height)/h = (h - height)/h + (k/h)^2, where it is no difference without the squares, which may underflow
-    const T longer = height <= h ? hypot(sqrt((h - height) / h), k / h) * (sqrt(h) / sqrt(length))
-                                 : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
+    const T h = link.centroid, length = link.pendulum_length();
+    const T longer = height <= h
+                         ? static_cast<T>(link.squares_over_centroid().plus(h - height).over(length).root().value())
+                         : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
     if (!(longer > T(0))) return {T(0), T(1), T(0), T(0)};
     const T inclination = T(2) * asin(longer / sqrt(T(2)));
     const T outwards = h / height * (longer * sqrt(T(1) + height / length));

@@ -58,6 +58,9 @@ inline RigSensitivity rig_sensitivity(const Rig& rig, double angular_speed, cons
     if (!support.is_firm())
         inertia = inertia + S(std::ldexp(support.carriage_weight, -units.weight_exponent)) * top * top;
     const S denominator = momentum - S(2.0) * turning * inertia / n;
+    if (!isfinite(denominator) || denominator == S(0.0))
+        detail::refuse(place, "offsets must be finite and move a weight or tilt a flywheel at the angular speed",
+                       angular_speed);
     const auto rate = [&](const S& x) { return static_cast<double>(-x / denominator); };
 
     RigSensitivity result{};
@@ -119,9 +122,10 @@ inline RigSensitivity rig_sensitivity(const Rig& rig, double angular_speed, cons
 
 /// The momentum of the flywheel of link number `link` (from 1 for the lowest), all else held, with which `angular_speed` is a
 /// whirl speed, of whichever mode. There is one: momentum adds to the tension, and what hangs below and what holds above are
-/// springs at the link's pins at that speed. Infinite or NaN where neither yields to it. `stiffness`-like numbers in two
-/// words: relative error 1e-15 beside the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
-/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link that is none.
+/// springs at the link's pins at that speed. `stiffness`-like numbers in two words: relative error 1e-15 beside the tension
+/// (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
+/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link that is none, and where no finite
+/// momentum has that effect.
 inline double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                                  double gravity = conical_pendulum::standard_gravity) {
     using S = Wide<double>;
@@ -157,8 +161,12 @@ inline double momentum_for_speed(const Rig& rig, Index link, double angular_spee
     const S p = below - turning * it.lower, q = above - turning * it.upper, x = turning * it.cross;
     const S k = held ? -p : (x * x - p * q) / (p + q - x - x);
     const S tension = (rig.stands(link - 1) ? -k : k) * it.length;
-    return std::ldexp(static_cast<double>((tension - it.tension) * it.length / n),
-                      units.weight_exponent + units.length_exponent);
+    const double needed = std::ldexp(static_cast<double>((tension - it.tension) * it.length / n),
+                                     units.weight_exponent + units.length_exponent);
+    if (!std::isfinite(needed))
+        detail::refuse(place, "no finite momentum of link " + std::to_string(link) + " makes this a whirl speed; choose "
+                       "another link or angular speed", angular_speed);
+    return needed;
 }
 
 }  // namespace revchain

@@ -41,32 +41,34 @@ HeightPair<T> coupled_roots(const T& p, const T& q, const T& coupling, const T& 
 
 /// The same of numbers whose products may leave the range.
 template <Real T>
-HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, const Product<T>& coupling,
-                            const Product<T>& rest) {
+HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, const Product<Wide<T>>& coupling,
+                            const Product<Wide<T>>& rest) {
     using std::abs;
     using std::hypot;
     using std::max;
-    const T half_difference = abs(p - q) / T(2), root = coupling.root().value();
-    const T larger = max(p, q) + root * (root / (half_difference + hypot(half_difference, root)));
+    const T half_difference = abs(p - q) / T(2), root = static_cast<T>(coupling.root().value());
+    const Wide<T> divisor(half_difference + hypot(half_difference, root));
+    const T larger = max(p, q) + static_cast<T>(coupling.over(divisor).value());
     require_positive(place, "the larger height", larger);
-    return {larger, rest.over(larger).value()};
+    return {larger, static_cast<T>(rest.over(larger).value())};
 }
 
 /// The positive root of (p + lambda)(q - lambda) = coupling,  rest = p q - coupling > 0.
 template <Real T>
-T standing_root(const T& p_less_q, const Product<T>& rest) {
+T standing_root(const T& p_less_q, const Product<Wide<T>>& rest) {
     using std::hypot;
-    const T b = p_less_q / T(2), root = hypot(b, rest.root().value());
-    return b > T(0) ? rest.over(b + root).value() : root - b;
+    const T b = p_less_q / T(2), root = hypot(b, static_cast<T>(rest.root().value()));
+    return b > T(0) ? static_cast<T>(rest.over(b + root).value()) : root - b;
 }
 
 /// The upper one's share of both weights, times both threads.
 template <Real T>
-Product<T> upper_share(const T& lower_weight, const T& lower_thread, const T& upper_weight, const T& upper_thread) {
-    using std::max;
-    const T unit = inverse_power_near(max(lower_weight, upper_weight));
-    const auto rest = Product<T>{}.times(upper_weight).times(lower_thread).times(upper_thread);
-    return rest.times(unit).over(lower_weight * unit + upper_weight * unit);
+Product<Wide<T>> upper_share(const T& lower_weight, const T& lower_thread, const T& upper_weight,
+                             const T& upper_thread) {
+    using S = Wide<T>;
+    using P = Product<S>;
+    const P both = P::of(S(lower_weight)).plus(upper_weight);
+    return P::of(S(upper_weight)).times(lower_thread).times(upper_thread).over(both);
 }
 
 /// Refuses two plummets as they are asked with: `names` are of the lower weight and thread, then the upper ones.
@@ -131,8 +133,8 @@ template <Real T>
 HeightPair<T> hung_link(std::string_view place, std::string_view name, const T& thread, const CompoundLink<T>& link) {
     require_positive(place, name, thread);
     check(place, link);
-    return coupled_roots(place, link.pendulum_length(), thread, Product<T>{}.times(thread).times(link.centroid),
-                         link.squares_over_centroid().times(thread));
+    const auto coupling = Product<Wide<T>>{}.times(thread).times(link.centroid);
+    return coupled_roots(place, link.pendulum_length(), thread, coupling, link.squares_over_centroid().times(thread));
 }
 }  // namespace detail
 
@@ -158,8 +160,9 @@ template <Real T>
 T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
     detail::require_positive("thread_of_standing_link", "height", height);
     detail::check("thread_of_standing_link", link);
-    const T rest = link.square_over_centroid() + height;
-    return height * ((rest + link.centroid) / rest);
+    const Wide<T> rest = link.squares_over_centroid().value() + Wide<T>(height);
+    using P = detail::Product<Wide<T>>;
+    return static_cast<T>(P::of(rest + Wide<T>(link.centroid)).over(rest).times(height).value());
 }
 
 /// Height of a plummet that stands above another on a stiff weightless rod, the lower one hung by a thread:
