@@ -559,13 +559,15 @@ def test_all_figures_of_two_plummets(pair):
             np.testing.assert_allclose(y1 - y2, l1 * math.sin(d1), rtol=1e-12)
 
 
-@pytest.mark.parametrize("pair", [(1, 2, 3, 1), (1, 3, 5, 0.7)])
+@pytest.mark.parametrize(
+    ("pair", "guess"),
+    [((1, 2, 3, 1), (5.0, 0.2325)), ((1, 3, 5, 0.7), (37.64, 0.06318)), ((1, 4, 20, 3), (2.15, 0.29955))],
+)
 @pytest.mark.parametrize("below", [0, 1, 2, 5, 100, 1e5, 1e9])
-def test_figures_next_to_a_fold_within_4_ulp(pair, below):
+def test_figures_next_to_a_fold_within_4_ulp(pair, guess, below):
     """`below`: steps of the height from the last one at which the fold's two figures exist."""
     names = ("lower_weight", "lower_thread", "upper_weight", "upper_thread")
     value = lambda p, x: TwoPlummets(*pair, x).residual(p, (*exactly(*pair), x), mp.sqrt)  # noqa: E731
-    guess = {2: (5.0, 0.2325), 3: (5.0, 0.15)}[pair[1]]
     fold = mp.findroot(lambda p, x: [value(p, x), mp.diff(lambda q: value(q, x), p)], guess)
     height = float(fold[1])
     height = (height if height < fold[1] else math.nextafter(height, 0)) - below * math.ulp(float(fold[1]))

@@ -138,6 +138,8 @@ def test_rig(chain):
         ({"angular_speed": -1.0}, "angular_speed must be positive"),
         ({"conical_height": "1"}, "conical_height must be a real number"),
         ({"conical_height": 1e200}, "must not be that far from the chain's own"),
+        ({"angular_speed": 1e-200}, "must not be that far from the chain's own"),
+        ({"angular_speed": 1e200}, "must not be that far from the chain's own"),
         ({"conical_height": 1.0, "support_radius": 0.0}, "support_radius must be positive"),
         ({"conical_height": 1.0, "gravity": -1.0}, "gravity must be positive"),
         ({"conical_height": 1.0, "pins": [6]}, "pins must be numbers from 0 to 5, got 6"),

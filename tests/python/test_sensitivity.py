@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Derivatives, uncertainties, inverse questions, attached weights and bells from Python, against independent figures."""
 
+import math
 import pickle
 
 import mpmath as mp
@@ -245,6 +246,17 @@ def test_what_a_flywheel_does_to_a_speed():
         rc.rig_sensitivity(rig.chain, 5.0, [1.0, 0.0])
     with pytest.raises(ValueError, match="2 offsets"):
         rc.rig_sensitivity(rig, 5.0, [1.0, 0.0, 0.0])
+    for still in ([0.0, 0.0], [math.nan, 0.0], [math.inf, 0.0]):
+        with pytest.raises(ValueError, match="offsets must be finite and move a weight .*, got 5"):
+            rc.rig_sensitivity(rig, 5.0, still)
+
+
+def test_no_momentum_serves_at_the_speed_of_the_thread_above():
+    """n^2 / g = 1 / a of the massless thread: what holds the upper pin of the plummet is then no spring at all."""
+    rig = rc.Rig(Chain(weight=[1.0, 0.0], length=1.0))
+    with pytest.raises(ValueError, match="no finite momentum of link 1 makes this a whirl speed; .*, got 2"):
+        rc.momentum_for_speed(rig, 2.0, link=1, gravity=4.0)
+    assert math.isfinite(rc.momentum_for_speed(rig, 2.001, link=1, gravity=4.0))
 
 
 @pytest.mark.parametrize("fluid", ["still", "turning"])
