@@ -323,6 +323,7 @@ def test_a_swung_link_within_4_ulp(centroid, excess, gyration):
     check_swung_link(centroid, gyration, height)
 
 
+@mp.workdps(500)
 def check_swung_link(centroid, gyration, height):
     h, k, x = exactly(centroid, gyration, height)
     l = pendulum(centroid, gyration)  # noqa: E741
@@ -338,14 +339,16 @@ def check_swung_link(centroid, gyration, height):
     assert ulps(found.reaction_inclination, mp.atan(outward)) <= 4
     # cos(angle) = x / l, differentiated by the logarithms of x, h and k
     slope = x / l / (sine * angle)
-    assert found.condition == near(slope * (1 + abs(h - k**2 / h) / l + 2 * k**2 / h / l), rel=1e-13)
+    condition = slope * (1 + abs(h - k**2 / h) / l + 2 * k**2 / h / l)
+    assert found.condition == (near(float(condition), rel=1e-13) if condition < 1e308 else INF)
 
 
 @pytest.mark.parametrize("centroid", [1.0583581553575252, 1.0, 3e-9, 1e5])
 @pytest.mark.parametrize("gyration", [0.0, 1e-200, 1e-9, 3.1270066311776654, 7e30])
 @pytest.mark.parametrize("steps", [-3, -1, 0, 1, 2, 40])
 def test_a_swung_link_next_to_the_vertical_within_4_ulp(centroid, gyration, steps):
-    height = float(pendulum(centroid, gyration))
+    with mp.workdps(500):
+        height = float(pendulum(centroid, gyration))
     check_swung_link(centroid, gyration, height - steps * math.ulp(height))
 
 
@@ -374,6 +377,8 @@ def test_heights_of_extreme_lengths_and_weights(w1, l1, w2, l2, factor):
             cases.append((two_links.link_on_thread(l1, l2, gyration), roots_of(b + h + k * k / h, b * k * k / h)))
             lift = [max(roots_of(b - h - k * k / h, -b * k * k / h))]
             cases.append(([two_links.standing_link(l1, l2, gyration)], lift))
+            thread = b * (h + k * k / h + b) / (k * k / h + b)
+            cases.append(([two_links.thread_of_standing_link(l1, l2, gyration)], [thread]))
         for found, exact in cases:
             for f, e in zip(found, exact, strict=True):
                 if e > 1e-290:
@@ -388,7 +393,8 @@ def test_heights_of_equal_lengths_at_the_ends_of_the_range(length):
         assert length > 1.1e308 and "larger height" in str(refusal)
     else:
         np.testing.assert_allclose(pair, [1.5 * length, 0.5 * length], rtol=4 * ULP, atol=5e-324)
-    assert 0 < two_links.standing_link(length, length, length) <= length
+    gyration = length if length < 1 else length / 8
+    assert 0 < two_links.standing_link(length, length, gyration) <= length
 
 
 @given(ratios, ratios, st.one_of(st.just(0.0), ratios), st.one_of(st.just(0.0), ratios), st.integers(1, 60))
@@ -432,7 +438,8 @@ def check_seconds_lost(deflection, centroid, gyration):
         l = pendulum(centroid, gyration)  # noqa: E741
         x = roots_of(c + l, c * (l - h))[0]
         lost = 86400 * (1 - mp.sqrt(l / x))
-        assert ulps(two_links.seconds_lost_per_day(deflection, centroid, gyration), lost) <= 8
+        if lost > 1e-300:
+            assert ulps(two_links.seconds_lost_per_day(deflection, centroid, gyration), lost) <= 8
 
 
 def test_a_spring_moves_as_a_thread():
@@ -887,7 +894,7 @@ def test_amplitude_inverts_the_first_integral(u, modulus):
     assert integral.F == pytest.approx(u, abs=slack) and integral.E == pytest.approx(f.epsilon, abs=slack)
 
 
-@pytest.mark.parametrize("u", [1e15, -1e20, -1e50, 1e100, 1.7e308])
+@pytest.mark.parametrize("u", [1e15, -1e20, -1e50, 1e100, 1e308])
 @pytest.mark.parametrize("moduli", [dict(modulus=0.0), dict(modulus=0.3), dict(modulus=0.85), dict(modulus=1.0)])
 def test_jacobi_far_out(u, moduli):
     """Where no digit is left the functions are still those of some argument, and the amplitude grows as it must."""

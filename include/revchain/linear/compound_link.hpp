@@ -107,7 +107,6 @@ SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
     using std::atan;
     using std::hypot;
     using std::sqrt;
-    using std::tan;
     detail::check("swung_link", link);
     detail::require_positive("swung_link", "height", height);
     const T h = link.centroid, length = link.pendulum_length();
@@ -116,10 +115,10 @@ SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
                          : sqrt(detail::pendulum_difference(link, CompoundLink<T>{height, T(0)}) / length);
     if (!(longer > T(0))) return {T(0), T(1), T(0), T(0)};
     const T inclination = T(2) * asin(longer / sqrt(T(2)));
-    const T outwards = h / height * (longer * sqrt(T(1) + height / length));
+    const T sine = longer * sqrt(T(1) + height / length), outwards = h / height * sine;
     const T arm = link.square_over_centroid();
     return {inclination, hypot(T(1), outwards), atan(outwards),
-            (T(1) + (abs(h - arm) + T(2) * arm) / length) / (tan(inclination) * inclination)};
+            (T(1) + (abs(h - arm) + T(2) * arm) / length) * (height / length) / sine / inclination};
 }
 
 }  // namespace revchain

@@ -83,14 +83,12 @@ LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_spee
     using std::asinh;
     using std::atan2;
     using std::isfinite;
-    using std::sqrt;
     detail::check("link_phase", string);
     if (!isfinite(angular_speed)) detail::refuse("link_phase", "angular speed must be finite", angular_speed);
-    const auto [sine_square, cosine_square] = detail::half_phase(string, angular_speed);
-    const T sine = sine_square.value(), cosine = cosine_square.value();
-    if (sine < T(0)) return {T(0), T(2) * asinh(sqrt(-sine))};
-    if (cosine < T(0)) return {T(4) * atan2(T(1), T(1)), T(2) * asinh(sqrt(-cosine))};
-    return {T(2) * atan2(sqrt(sine), sqrt(cosine)), T(0)};
+    const auto [sine, cosine] = detail::half_phase(string, angular_speed);
+    if (sine.fraction < T(0)) return {T(0), T(2) * asinh(sine.times(T(-1)).root().value())};
+    if (cosine.fraction < T(0)) return {std::numbers::pi_v<T>, T(2) * asinh(cosine.times(T(-1)).root().value())};
+    return {T(2) * atan2(sine.root().value(), cosine.root().value()), T(0)};
 }
 
 /// The two speeds of a circular wave with a phase: forward (positive) and backward. Accuracy: 4 ulp, with one more for

@@ -47,8 +47,8 @@ HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, cons
     using std::hypot;
     using std::max;
     const T half_difference = abs(p - q) / T(2), root = static_cast<T>(coupling.root().value());
-    const Wide<T> divisor(half_difference + hypot(half_difference, root));
-    const T larger = max(p, q) + static_cast<T>(coupling.over(divisor).value());
+    const T divisor = half_difference + hypot(half_difference, root);  // 0 where all is next to nothing
+    const T larger = max(p, q) + (divisor > T(0) ? static_cast<T>(coupling.over(divisor).value()) : root);
     require_positive(place, "the larger height", larger);
     return {larger, static_cast<T>(rest.over(larger).value())};
 }
