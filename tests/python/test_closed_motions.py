@@ -1009,7 +1009,7 @@ def test_a_tortuous_rope_of_any_ratio_of_radii(ratio):
     """The slope of the angle is that of the areas: radius^2 d angle / dx is the same everywhere."""
     rope = rc.TortuousRope(least_radius=ratio, greatest_radius=1.0, angular_speed=5.0, tension=2.0)
     point = rope.at(np.array([ratio, 0.1, 0.5, 1.0]) * rope.half_wave)
-    areas = point.radius**2 * point.angle_slope
+    areas = point.radius * point.angle_slope * point.radius
     np.testing.assert_allclose(areas, areas[-1], rtol=1e-13)
     assert areas[-1] > 0
     plane = rc.TortuousRope(least_radius=0.0, greatest_radius=1.0, angular_speed=5.0, tension=2.0)

@@ -193,7 +193,7 @@ def test_refused(arguments, message):
 def test_weights_beyond_the_range_of_a_precision_are_refused(weight):
     chain = rc.Chain(weight=weight, length=1.0) if np.ndim(weight) else rc.Chain(weight=[weight] * 3, length=1.0)
     assert rc.modes(chain).conical_height.size == chain.mode_count == 3
-    with pytest.raises(ValueError, match=r"link \d: numbers must lie in the range of the precision; use a wider one"):
+    with pytest.raises(ValueError, match=r"link \d: weight must lie in the range of the precision; use a wider one"):
         rc.modes(chain, precision="single")
     zeros = rc.Chain(weight=[1.0, 0.0, 1.0], length=1.0)
     assert rc.modes(zeros, precision="single").conical_height.size == zeros.mode_count == 2

@@ -23,7 +23,7 @@ To from_words(const From& x) {
 
 /// Throws InvalidArgument where a number that is not 0 becomes 0, or one that is finite infinite.
 template <class To, class From>
-Column<To> converted(const Column<From>& column) {
+Column<To> converted(std::string_view name, const Column<From>& column) {
     using std::isfinite;
     std::vector<To> values;
     values.reserve(column.stored());
@@ -32,8 +32,8 @@ Column<To> converted(const Column<From>& column) {
         values.push_back(from_words<To>(x));
         if ((values.back() == To(0)) != (x == From(0)) || !isfinite(values.back()))
             refuse("Chain",
-                   "link " + std::to_string(m + 1) +
-                       ": numbers must lie in the range of the precision; use a wider one, or other units",
+                   "link " + std::to_string(m + 1) + ": " + std::string(name) +
+                       " must lie in the range of the precision; use a wider one, or another unit",
                    static_cast<double>(x));
     }
     if (column.is_scalar()) return Column<To>(values[0]);
@@ -46,8 +46,10 @@ Column<To> converted(const Column<From>& column) {
 /// Throws InvalidArgument where a number leaves the range of `To`.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
-    return Chain<To>(chain.size(), detail::converted<To>(chain.weight()), detail::converted<To>(chain.length()),
-                     detail::converted<To>(chain.centroid()), detail::converted<Wide<To>>(chain.gyration_ratio()));
+    return Chain<To>(chain.size(), detail::converted<To>("weight", chain.weight()),
+                     detail::converted<To>("length", chain.length()),
+                     detail::converted<To>("centroid", chain.centroid()),
+                     detail::converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
 }
 
 }  // namespace revchain
