@@ -46,9 +46,11 @@ Column<To> converted(std::string_view name, const Column<From>& column) {
 /// Throws InvalidArgument where a number leaves the range of `To`.
 template <Real To, Real From>
 Chain<To> converted(const Chain<From>& chain) {
-    return Chain<To>(chain.size(), detail::converted<To>("weight", chain.weight()),
-                     detail::converted<To>("length", chain.length()),
-                     detail::converted<To>("centroid", chain.centroid()),
+    // in this order, so that the refusal names the first
+    const auto weight = detail::converted<To>("weight", chain.weight());
+    const auto length = detail::converted<To>("length", chain.length());
+    const auto centroid = detail::converted<To>("centroid", chain.centroid());
+    return Chain<To>(chain.size(), weight, length, centroid,
                      detail::converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
 }
 
