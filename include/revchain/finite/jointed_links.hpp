@@ -12,7 +12,7 @@ namespace revchain {
 /// three to both sides where it lies below the second; no more exist, whatever l2 and a2 are.
 /// By half waves, then inclination of the lower link. offset[0] is that of the lower link's centre of oscillation; tension
 /// the size of the reaction at each upper pin over the whole weight.
-/// Accuracy: 8 ulp of every inclination (measured; tests/cpp/finite/jointed_links.cpp).
+/// Accuracy: 8 ulp of every inclination where figures are not about to meet (measured; tests/cpp/finite/jointed_links.cpp).
 /// Throws InvalidArgument as `jointed_links` does, and where lengths are more than a third of the range above the height.
 template <Real T>
 std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, const T& height) {

@@ -70,7 +70,7 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
 
 /// Both conical heights of two jointed links: of a2 h1/(lambda - l1) = (m + 1)(lambda - l2) + l2 - a2, §8 (14), and where
 /// l2 = a2, of (lambda - l1)(lambda - l2) = l2 h1/(m + 1), (15). The lower is 0 where neither link has a radius of gyration
-/// and the upper one's centroid is at its support. Accuracy: 1 ulp for every root, measured
+/// and the upper one's centroid is at its support. Accuracy: 3 ulp for every root, measured
 /// (tests/cpp/finite/jointed_links.cpp).
 /// Throws InvalidArgument for numbers out of range, lengths or weights more than 1e77 apart (in double), and where
 /// W2 h2 + W1 a2 is not positive.
@@ -86,7 +86,7 @@ HeightPair<T> jointed_links(const JointedLinks<T>& links) {
 /// line as if clamped, and the bell never rings:  h1 = (m + 1) l1 + m (a2 - l2), §8 (16), is
 /// a2 = w (l2 - l1)/(w + l1 - h1),  w = W2 h2/W1. The height of that motion is l1 + a2.
 /// Accuracy: 4 ulp, for the data as given, however near l1 and l2 are; the pin changes by up to
-/// 4 (l1 + l2)/(l2 - l1) times as much as the data, in ratio. Throws InvalidArgument for numbers out of range, and where the
+/// 3 (l1 + l2)/(l2 - l1) + 6 times as much as the data, in ratio. Throws InvalidArgument for numbers out of range, and where the
 /// clapper's pendulum length is not the shorter: then every pin lets it ring.
 template <Real T>
 T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const T& clapper_weight,
