@@ -101,8 +101,8 @@ void bind_branches(py::module_& module) {
         "stability_windows",
         [](const Chain& chain, const Branch& branch, bool driven, double tolerance, int samples) {
             using revchain::StabilityFrame;
-            const revchain::StabilityWindowsOptions options{
-                driven ? StabilityFrame::driven : StabilityFrame::free, tolerance, samples};
+            const revchain::StabilityWindowsOptions options{driven ? StabilityFrame::driven : StabilityFrame::free,
+                                                            tolerance, samples};
             const auto found = aside(chain, nullptr, [branch, options](const Chain& own) {
                 return revchain::stability_windows(own, branch, options);
             });

@@ -48,11 +48,10 @@ void bind_core(py::module_& module) {
                vectorized([](double speed, double gravity) { return pendulum::height(speed, gravity); }),
                "angular_speed"_a, "gravity"_a);
     module.def("conical_pendulum_period",
-               vectorized([](double height, double gravity) { return pendulum::period(height, gravity); }),
-               "height"_a, "gravity"_a);
-    module.def("conical_pendulum_height_from_period", vectorized([](double period, double gravity) {
-                   return pendulum::height_from_period(period, gravity);
-               }),
+               vectorized([](double height, double gravity) { return pendulum::period(height, gravity); }), "height"_a,
+               "gravity"_a);
+    module.def("conical_pendulum_height_from_period",
+               vectorized([](double period, double gravity) { return pendulum::height_from_period(period, gravity); }),
                "period"_a, "gravity"_a);
     module.def("conical_pendulum_revolutions_per_second", vectorized([](double height, double gravity) {
                    return pendulum::revolutions_per_second(height, gravity);
@@ -64,13 +63,11 @@ void bind_core(py::module_& module) {
                }),
                "revolutions_per_second"_a, "gravity"_a);
     module.def("conical_pendulum_gravity",
-               vectorized([](double length, double period) { return pendulum::gravity(length, period); }),
-               "length"_a, "period"_a);
+               vectorized([](double length, double period) { return pendulum::gravity(length, period); }), "length"_a,
+               "period"_a);
     module.def("conical_pendulum_gravity_from_seconds_pendulum",
-               vectorized([](double length) { return pendulum::gravity_from_seconds_pendulum(length); }),
-               "length"_a);
-    module.def("conical_pendulum_height_from_seconds_pendulum",
-               vectorized([](double seconds_pendulum, double period) {
+               vectorized([](double length) { return pendulum::gravity_from_seconds_pendulum(length); }), "length"_a);
+    module.def("conical_pendulum_height_from_seconds_pendulum", vectorized([](double seconds_pendulum, double period) {
                    return pendulum::height_from_seconds_pendulum(seconds_pendulum, period);
                }),
                "seconds_pendulum"_a, "period"_a);
@@ -122,12 +119,10 @@ void bind_core(py::module_& module) {
         "length"_a, "height"_a, "radius"_a);
 
     namespace hoop = revchain::hoop;
-    module.def("hoop_tension",
-               vectorized([](double speed, double gravity) { return hoop::tension(speed, gravity); }), "speed"_a,
-               "gravity"_a);
-    module.def("hoop_speed",
-               vectorized([](double tension, double gravity) { return hoop::speed(tension, gravity); }), "tension"_a,
-               "gravity"_a);
+    module.def("hoop_tension", vectorized([](double speed, double gravity) { return hoop::tension(speed, gravity); }),
+               "speed"_a, "gravity"_a);
+    module.def("hoop_speed", vectorized([](double tension, double gravity) { return hoop::speed(tension, gravity); }),
+               "tension"_a, "gravity"_a);
     module.def(
         "hoop_wave_speeds",
         [](const Array& speed) {

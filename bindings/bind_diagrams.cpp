@@ -76,7 +76,7 @@ void bind_diagrams(py::module_& module) {
         "upper_centroid"_a, "upper_radius_of_gyration"_a, "height"_a);
     module.def("pin_of_silent_clapper",
                vectorized([](double bell_weight, double bell_centroid, double bell_radius, double clapper_weight,
-                                double clapper_centroid, double clapper_radius) {
+                             double clapper_centroid, double clapper_radius) {
                    return revchain::pin_of_silent_clapper<double>(bell_weight, {bell_centroid, bell_radius},
                                                                   clapper_weight, {clapper_centroid, clapper_radius});
                }),

@@ -73,8 +73,8 @@ void bind_two_links(py::module_& module) {
                }),
                "standing_weight"_a, "rod"_a, "hung_weight"_a, "thread"_a);
     module.def("spring_deflection",
-               vectorized([](double weight, double e) { return revchain::spring_deflection(weight, e); }),
-               "weight"_a, "stiffness"_a);
+               vectorized([](double weight, double e) { return revchain::spring_deflection(weight, e); }), "weight"_a,
+               "stiffness"_a);
     module.def("seconds_lost_per_day", vectorized([](double c, double h, double k) {
                    return revchain::seconds_lost_per_day(c, Link{h, k});
                }),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fuzz.hpp"
 #include "revchain/analytic.hpp"
+#include "fuzz.hpp"
 #include "revchain/analytic/incomplete_elliptic.hpp"
 
 namespace {
@@ -46,8 +46,12 @@ void fuzz::analytic(Random& random) {
     const double length = random.number(), x = random.one_in(9) ? random.number() : length * random.between(0, 1);
     const Index count = random.count(random.one_in(9) ? 3000 : 30);
     switch (random.below(7)) {
-        case 0: elliptic(random); break;
-        case 1: ropes(random); break;
+        case 0:
+            elliptic(random);
+            break;
+        case 1:
+            ropes(random);
+            break;
         case 2: {
             const library::GovernorMotion motion({random.number(), random.number(), random.number(), random.number(),
                                                   random.number(), random.between(0, 1)});

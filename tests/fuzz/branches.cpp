@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fuzz.hpp"
 #include "revchain/finite/branches.hpp"
+#include "fuzz.hpp"
 #include "revchain/finite/shape_on_branch.hpp"
 #include "revchain/finite/stability_windows.hpp"
 

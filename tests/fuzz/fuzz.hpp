@@ -32,12 +32,18 @@ class Random {
     double number() {
         if (!wild) return one_in(3) ? power(3) : between(0.1, 2);
         switch (below(8)) {
-            case 0: return power(300);
-            case 1: return power(30);
-            case 2: return -power(10);
-            case 3: return pick({0.0, -0.0, 1.0, 5e-324, 2e-308, 1e308, -1.0, 1e154, 1e-154});
-            case 4: return one_in(4) ? pick({HUGE_VAL - HUGE_VAL, HUGE_VAL, -HUGE_VAL}) : power(100);
-            default: return between(0.1, 2);
+            case 0:
+                return power(300);
+            case 1:
+                return power(30);
+            case 2:
+                return -power(10);
+            case 3:
+                return pick({0.0, -0.0, 1.0, 5e-324, 2e-308, 1e308, -1.0, 1e154, 1e-154});
+            case 4:
+                return one_in(4) ? pick({HUGE_VAL - HUGE_VAL, HUGE_VAL, -HUGE_VAL}) : power(100);
+            default:
+                return between(0.1, 2);
         }
     }
     std::vector<double> numbers(std::size_t count) {

@@ -44,7 +44,9 @@ void fuzz::linear(Random& random) {
         (void)revchain::response(hung, random.numbers(5), {.support_radius = random.number()});
     } else if (kind == 3) {
         const auto datum = static_cast<revchain::Datum>(random.below(revchain::datum_names.size()));
-        (void)revchain::tune(hung, {.mode = random.count(3), .link = random.count(hung.size()), .datum = datum,
+        (void)revchain::tune(hung, {.mode = random.count(3),
+                                    .link = random.count(hung.size()),
+                                    .datum = datum,
                                     .conical_height = random.number()});
     } else if (kind == 4 && hung.size() < 20) {
         const auto column = [&] {

@@ -234,7 +234,8 @@ inline GovernorState GovernorMotion::operator()(double time) const {
     const double rate = 2 * half.rate * (scale / whole / whole);
     const GovernorState state{unfolded(half), upside_down_ ? -rate : rate};
     if (!std::isfinite(u) || !std::isfinite(state.angle))
-        revchain::detail::refuse("analytic::GovernorMotion", "time must be so small that the angle does not overflow", time);
+        revchain::detail::refuse("analytic::GovernorMotion", "time must be so small that the angle does not overflow",
+                                 time);
     return state;
 }
 

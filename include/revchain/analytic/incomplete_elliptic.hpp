@@ -75,7 +75,8 @@ struct Amplitude {
         keep_within();
     }
     /// Next to a quarter turn the amplitude, rounded, does not say on which side of it: cn does.
-    explicit Amplitude(const JacobiValues& f) : delta(f.dn), half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
+    explicit Amplitude(const JacobiValues& f)
+        : delta(f.dn), half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
         const bool odd = std::fmod(half_turns, 2.0) != 0;
         sine = odd ? -f.sn : f.sn, cosine = odd ? -f.cn : f.cn;
         keep_within();

@@ -120,8 +120,8 @@ inline TortuousPoint TortuousRope::at(double x) const {
         point.angle_slope = first_ / point.radius * (second_ / point.radius) * (third_ / (2 * strength2_));
     }
     if (!std::isfinite(point.arc))
-        revchain::detail::refuse("analytic::TortuousRope::at", "x must be so small that the rope up to it does not overflow",
-                                 x);
+        revchain::detail::refuse("analytic::TortuousRope::at",
+                                 "x must be so small that the rope up to it does not overflow", x);
     // (R1 + R2 + r - R) / 2 c^2
     point.tension_ratio = (std::pow(std::hypot(first_ * f.sn, second_ * f.cn), 2) + root_) / (2 * strength2_);
     return point;

@@ -29,7 +29,8 @@ inline Flywheel turned_flywheel(std::string_view place, double weight, double ra
     require_positive(place, "gravity", gravity);
     const double moment = weight * radius_of_gyration * radius_of_gyration, momentum = moment / gravity * spin;
     if (!std::isfinite(moment) || !std::isfinite(momentum))
-        refuse(place, "weight radius of gyration^2 spin / gravity must be finite; radius of gyration", radius_of_gyration);
+        refuse(place, "weight radius of gyration^2 spin / gravity must be finite; radius of gyration",
+               radius_of_gyration);
     return {momentum, moment};
 }
 }  // namespace detail

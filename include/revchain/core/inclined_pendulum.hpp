@@ -73,7 +73,8 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     int unit = 0;
     frexp(a, &unit);
     const auto wide = [](const T& x, int power) { return S(static_cast<Narrow<S>>(ldexp(x, power))); };
-    const S u = wide(upper_thread, -unit), l = wide(lower_thread, -unit), d = wide(distance, -unit), x = wide(height, 0);
+    const S u = wide(upper_thread, -unit), l = wide(lower_thread, -unit), d = wide(distance, -unit),
+            x = wide(height, 0);
     const S along = (u - l) / d * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
     const T upper = upper_thread / distance * (static_cast<T>(S(x - above_lower)) / height);
     const T lower = lower_thread / distance * (static_cast<T>(S(depth - x)) / height);

@@ -35,8 +35,7 @@ struct Pack {
     typedef T InMemory __attribute__((vector_size(Width * sizeof(T)), aligned(sizeof(T)), may_alias));
     typedef Integer Integers __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     using Natural = std::make_unsigned_t<Integer>;
-    typedef Natural Naturals
-        __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
+    typedef Natural Naturals __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     // NOLINTEND(modernize-use-using)
     static_assert(alignof(Register) == Width * sizeof(T));
     static constexpr std::size_t size = Width * Count;

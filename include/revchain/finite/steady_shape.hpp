@@ -93,8 +93,7 @@ SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& heig
         const double inclination = std::atan(static_cast<double>(tangent));
         shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
         // the moment about the upper pin of all that hangs there, over the length, times lambda
-        const S left =
-            height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
+        const S left = height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
         worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));
         reach += static_cast<double>(link.length);
         sideways = sideways + link.moment * lower + link.rest * upper;

@@ -268,9 +268,8 @@ template <class AnyLinks>
 SteadyShapes listed(const AnyLinks& links, const Wide<double>& scaled, const SteadyShapesOptions& options) {
     SteadyShapes result;
     // A little beyond: a link all but horizontal is at the end itself, to rounding.
-    const double last =
-        1.0625 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled), !options.hanging_only,
-                                  enclosed<double>(support_of(links)));
+    const double last = 1.0625 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
+                                                  !options.hanging_only, enclosed<double>(support_of(links)));
     if (!(static_cast<double>(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;

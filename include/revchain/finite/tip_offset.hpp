@@ -99,10 +99,8 @@ template <class F>
 double height_where(const F& excess, double from) {
     const auto value_at = [&](double x) { return excess(from * std::exp(x)); };
     double high = 0, low = high, at_high = value_at(0), at_low = at_high;
-    for (int i = 0; i < 1000 && at_high < 0; ++i)
-        low = high, at_low = at_high, high += 0.7, at_high = value_at(high);
-    for (int i = 0; i < 1000 && at_low > 0; ++i)
-        high = low, at_high = at_low, low -= 0.7, at_low = value_at(low);
+    for (int i = 0; i < 1000 && at_high < 0; ++i) low = high, at_low = at_high, high += 0.7, at_high = value_at(high);
+    for (int i = 0; i < 1000 && at_low > 0; ++i) high = low, at_high = at_low, low -= 0.7, at_low = value_at(low);
     double x = low;
     for (int round = 0; round < 200 && high - low > 0; ++round) {
         x = low - at_low * (high - low) / (at_high - at_low);

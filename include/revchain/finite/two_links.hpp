@@ -282,8 +282,8 @@ std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundL
 template <Real T>
 std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, const T& rod, const T& hung_weight,
                                                    const T& thread, const T& height) {
-    return detail::standing_shape(detail::pair_of("standing_plummet_shape", detail::standing_names, standing_weight, rod,
-                                                  hung_weight, thread, height),
+    return detail::standing_shape(detail::pair_of("standing_plummet_shape", detail::standing_names, standing_weight,
+                                                  rod, hung_weight, thread, height),
                                   height);
 }
 

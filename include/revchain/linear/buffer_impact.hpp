@@ -82,10 +82,11 @@ inline double BufferImpact::Phase::first_zero(double sign, double end, long& ste
     while (t <= end) {
         if (++steps % 1024 == 0) detail::look();
         if (steps > most_steps)
-            detail::refuse("BufferImpact",
-                           "masses and stiffnesses must be nearer each other: the times of the blows take too many steps; "
-                           "angular frequency of the faster swing",
-                           *std::max_element(frequency.begin(), frequency.end()));
+            detail::refuse(
+                "BufferImpact",
+                "masses and stiffnesses must be nearer each other: the times of the blows take too many steps; "
+                "angular frequency of the faster swing",
+                *std::max_element(frequency.begin(), frequency.end()));
         const CarriageState s = at(t);
         const double offset = t == 0 ? 0 : std::max(0.0, sign * s.front), speed = sign * s.front_speed;
         const double root = std::sqrt(speed * speed + 2 * largest * offset);
@@ -132,7 +133,7 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
     const double half = (l2 - l1) / 2, share = given.rear_mass / (given.front_mass + given.rear_mass);
     const double coupling = std::sqrt(share) * std::sqrt(l1) * std::sqrt(l2), root = std::hypot(half, coupling);
     const double above = half > 0 ? half + root : coupling * (coupling / (root - half));  // first height over l1
-    const double ratio = height[0] / above;                         // l / (l - l1)
+    const double ratio = height[0] / above;                                               // l / (l - l1)
     ratio_ = {ratio, -(given.front_mass / given.rear_mass) / ratio};  // modes are orthogonal in the masses
     frequency_ = {1 / std::sqrt(height[0]), 1 / std::sqrt(height[1])};
 
@@ -150,8 +151,10 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
             {time, time + lasts,
              given.speed * (inwards - given.front_mass * state.front_speed - given.rear_mass * state.rear_speed)});
         if (!std::isfinite(blows_.back().impulse) || !std::isfinite(blows_.back().end))
-            detail::refuse("BufferImpact", "speed, masses and stiffnesses must be so near 1 that impulses and times do not "
-                           "overflow; speed", given.speed);
+            detail::refuse("BufferImpact",
+                           "speed, masses and stiffnesses must be so near 1 that impulses and times do not "
+                           "overflow; speed",
+                           given.speed);
         time += lasts;
         phases_.push_back(freedom(time, state));
         const Phase& free = phases_.back();
@@ -163,8 +166,10 @@ inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
         state = free.at(away);
         time += away;
     }
-    detail::refuse("BufferImpact", "masses must be so near each other that there are at most 100,000 blows; rear over front "
-                   "mass", given.rear_mass / given.front_mass);
+    detail::refuse("BufferImpact",
+                   "masses must be so near each other that there are at most 100,000 blows; rear over front "
+                   "mass",
+                   given.rear_mass / given.front_mass);
 }
 
 inline CarriageState BufferImpact::operator()(double time) const {

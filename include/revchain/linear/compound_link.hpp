@@ -61,8 +61,7 @@ T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other)
         std::frexp(std::max(link.pendulum_length(), other.pendulum_length()), &power);
         const T h = std::ldexp(link.centroid, -power), k = std::ldexp(link.radius_of_gyration, -power);
         const T h0 = std::ldexp(other.centroid, -power), k0 = std::ldexp(other.radius_of_gyration, -power);
-        const S whole =
-            CompoundLink<S>{S(h), S(k)}.pendulum_length() - CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
+        const S whole = CompoundLink<S>{S(h), S(k)}.pendulum_length() - CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
         if (std::abs(static_cast<T>(whole)) > T(0x1p-20)) return std::ldexp(static_cast<T>(whole), power);
         // h h0 times the difference: a sum of products of three numbers, each four words, exact
         std::array<T, 16> terms;
@@ -75,7 +74,8 @@ T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other)
             }
         };
         add(h, h, h0), add(k, k, h0), add(h0, h0, T(-h)), add(k0, k0, T(-h));
-        for (std::size_t pass = 1; pass < size; ++pass)  // no digit is lost: each pass moves what sums leave over downwards
+        for (std::size_t pass = 1; pass < size;
+             ++pass)  // no digit is lost: each pass moves what sums leave over downwards
             for (std::size_t i = 1; i < size; ++i) {
                 const DoubleWord<T> sum = two_sum(terms[i], terms[i - 1]);
                 terms[i] = sum.high, terms[i - 1] = sum.low;

@@ -99,8 +99,8 @@ inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const R
     const MasslessForm& form = pencil.massless_stiffness;
     const bool ranked = pencil.mass_not_negative && form.certain && form.zero == 0;
     const Index size = pencil.pencil.size();
-    const auto available = ranked ? CountedRoots::Available{size - form.size + form.negative - before, true}
-                                  : roots.available();
+    const auto available =
+        ranked ? CountedRoots::Available{size - form.size + form.negative - before, true} : roots.available();
     const bool modes_proved = count_modes_of(result.forward, rig, pencil, roots, available.count, options, 0, 0.9);
     Index negative = 0;
     bool others_proved = true;
@@ -147,8 +147,8 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Ri
     result.has_momentum = pencil.pencil.quadratic, result.method = "discs";
     // A massless coordinate has a root x = 0, and two where no momentum acts on it.
     const Index zeros = pencil.massless_spin.size + (pencil.pencil.quadratic ? pencil.massless_spin.zero : 0);
-    const linalg::ComplexSpectrum spectrum = linalg::complex_spectrum(
-        pencil.pencil, zeros, [&](double share) { advance(options.progress, 0.9 * share); });
+    const linalg::ComplexSpectrum spectrum =
+        linalg::complex_spectrum(pencil.pencil, zeros, [&](double share) { advance(options.progress, 0.9 * share); });
     result.complete = spectrum.proved;
     if (!spectrum.proved) result.status = Status::tolerance_not_met;
     std::vector<FoundRoot> forward, backward;

@@ -10,10 +10,10 @@ namespace revchain {
 
 /// Signs of a quadratic form on the motions that carry no inertia.
 struct MasslessForm {
-    Index size = 0;      ///< independent motions: M has so many zeros, at least
-    Index negative = 0;  ///< negative eigenvalues of the form
-    Index zero = 0;      ///< eigenvalues that are 0
-    bool certain = true; ///< whether rounding leaves no doubt of any sign
+    Index size = 0;       ///< independent motions: M has so many zeros, at least
+    Index negative = 0;   ///< negative eigenvalues of the form
+    Index zero = 0;       ///< eigenvalues that are 0
+    bool certain = true;  ///< whether rounding leaves no doubt of any sign
 };
 
 /// The small theory of a rig as elements: for each link stiffness sign (tension + n spin)/length, sign -1 where it
@@ -35,7 +35,7 @@ struct RigPencil {
     Index neutral = 0;        ///< of these, elements that have none, for certain: each lets the rest lean at no speed
     bool mass_not_negative;   ///< every element's mass is positive or 0 for certain, so that M >= 0
     MasslessForm massless_stiffness, massless_spin;  ///< K, and G, on the motions that carry no inertia
-    Index idle = 0;           ///< lowest links left out: nothing on them bears, spins or moves
+    Index idle = 0;                                  ///< lowest links left out: nothing on them bears, spins or moves
 };
 
 namespace detail {
@@ -157,9 +157,8 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
     }
     using E = linalg::SignedElement<S>;
     using Off = linalg::SignedElementError<double>;
-    result.massless_stiffness = detail::massless_form(result.pencil, held, [](const E& e, const Off& off) {
-        return detail::around(e.stiffness, off.stiffness);
-    });
+    result.massless_stiffness = detail::massless_form(
+        result.pencil, held, [](const E& e, const Off& off) { return detail::around(e.stiffness, off.stiffness); });
     result.massless_spin = detail::massless_form(
         result.pencil, held, [](const E& e, const Off& off) { return detail::around(e.spin, off.spin); });
     return result;

@@ -164,8 +164,11 @@ inline double momentum_for_speed(const Rig& rig, Index link, double angular_spee
     const double needed = std::ldexp(static_cast<double>((tension - it.tension) * it.length / n),
                                      units.weight_exponent + units.length_exponent);
     if (!std::isfinite(needed))
-        detail::refuse(place, "no finite momentum of link " + std::to_string(link) + " makes this a whirl speed; choose "
-                       "another link or angular speed", angular_speed);
+        detail::refuse(place,
+                       "no finite momentum of link " + std::to_string(link) +
+                           " makes this a whirl speed; choose "
+                           "another link or angular speed",
+                       angular_speed);
     return needed;
 }
 

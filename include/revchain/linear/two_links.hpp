@@ -84,7 +84,6 @@ inline constexpr std::array<std::string_view, 4> plummet_names{"lower weight", "
                                                                "upper thread"};
 inline constexpr std::array<std::string_view, 4> standing_names{"standing weight", "rod", "hung weight", "thread"};
 
-
 }  // namespace detail
 
 /// Both heights of two plummets, the lower of weight `lower_weight` on `lower_thread`. (lambda - l1)(lambda - l2) =
@@ -95,7 +94,7 @@ HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread, const T
     detail::check_plummets(place, detail::plummet_names, lower_weight, lower_thread, upper_weight, upper_thread);
     const auto coupling = detail::upper_share(upper_weight, upper_thread, lower_weight, lower_thread);
     return detail::coupled_roots(place, lower_thread, upper_thread, coupling,
-                              detail::upper_share(lower_weight, lower_thread, upper_weight, upper_thread));
+                                 detail::upper_share(lower_weight, lower_thread, upper_weight, upper_thread));
 }
 
 /// The same from the total length of thread 2 a, the distance x of the upper plummet from its middle (either side) and

@@ -43,30 +43,30 @@ struct Answer {
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
-    bool equal = false;            ///< one number of each kind serves all links
-    bool plummets = false;         ///< equal plummets
-    bool rods = false;             ///< equal uniform rods
-    double length = 0;             ///< of the whole chain
-    std::optional<double> taper;   ///< `Chain::taper`
+    bool equal = false;           ///< one number of each kind serves all links
+    bool plummets = false;        ///< equal plummets
+    bool rods = false;            ///< equal uniform rods
+    double length = 0;            ///< of the whole chain
+    std::optional<double> taper;  ///< `Chain::taper`
     // of the links looked at
-    bool centroids_below = true;    ///< none lies above its pin
-    bool short_pendulums = false;   ///< all are plummets, or all pendulum lengths below the links'
-    bool point_masses = true;       ///< all are plummets
-    double long_pendulums = 0;      ///< share of links whose pendulum is longer than they, or whose centroid is above
+    bool centroids_below = true;   ///< none lies above its pin
+    bool short_pendulums = false;  ///< all are plummets, or all pendulum lengths below the links'
+    bool point_masses = true;      ///< all are plummets
+    double long_pendulums = 0;     ///< share of links whose pendulum is longer than they, or whose centroid is above
     // of unlike links
     bool negative_pins = false;  ///< of two neighbours looked at, so much weight lies beyond their pin that less than
                                  ///< nothing is left on it
-    double growth = 0;           ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
-    Index light = 0;  ///< links at the top that weigh less than 2e-14 of what hangs below them, about
+    double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
+    Index light = 0;    ///< links at the top that weigh less than 2e-14 of what hangs below them, about
     /// Up to 32 stretches of the chain, lowest first: the phase that a wave of conical height 1 passes through in each,
     /// the integral of sqrt(dW ds / S), S the weight below.
     std::array<double, 32> phase{};
     Index stretches = 0;
     double links_per_stretch = 0;
-    double tip_share = 0;     ///< weight of the lowest link over that of the chain
-    double greatest_pull = 0; ///< largest S / W of a link, of means over stretches
-    double range = 0;         ///< mean of log2 of greatest_pull W / S
-    double tilt = 0;          ///< conical height of the chain turning as if it were one rigid link: less than the largest
+    double tip_share = 0;      ///< weight of the lowest link over that of the chain
+    double greatest_pull = 0;  ///< largest S / W of a link, of means over stretches
+    double range = 0;          ///< mean of log2 of greatest_pull W / S
+    double tilt = 0;  ///< conical height of the chain turning as if it were one rigid link: less than the largest
 
    private:
     template <class V>
@@ -113,7 +113,8 @@ struct ChainKind {
             }
             // the lowest link is a weight at the tip
             const double least = std::max(below, tip), weight = above - least, links = static_cast<double>(end - first);
-            phase[static_cast<std::size_t>(stretches)] = 2 * std::sqrt(run * weight) / (std::sqrt(above) + std::sqrt(least));
+            phase[static_cast<std::size_t>(stretches)] =
+                2 * std::sqrt(run * weight) / (std::sqrt(above) + std::sqrt(least));
             const double outside = 1 - (at + run / 2) / length, pull = links * above / (above - below);
             inertia += (above - below) * outside * outside, stiffness += (above + below) / 2 * run;
             greatest_pull = std::max(greatest_pull, pull);

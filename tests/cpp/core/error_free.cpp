@@ -125,7 +125,8 @@ template <class V>
         else
             low = std::rint(rest(0));
         const V thousand(1024.0);
-        const DoubleWord<V> x = revchain::fast_two_sum(a * thousand, low), y = revchain::fast_two_sum(b * thousand, -low);
+        const DoubleWord<V> x = revchain::fast_two_sum(a * thousand, low),
+                            y = revchain::fast_two_sum(b * thousand, -low);
         const DoubleWord<V> product = x * y, scaled = x * b, sum = x + y, difference = x - y, more = x + a * b;
         for (std::size_t i = 0; i < size; ++i) {
             const auto value = [&](const DoubleWord<V>& w) __attribute__((always_inline)) {
@@ -181,7 +182,7 @@ template <class T>
 void check_numbers() {
     const auto all = cases<T>(400'000);
     in_each_kind([&](auto registers) __attribute__((always_inline)) {
-        return wrong_transformations<T, std::floating_point<T> && registers.fused && sizeof(T) <= 8>(all);
+        return wrong_transformations < T, std::floating_point<T> && registers.fused && sizeof(T) <= 8 > (all);
     });
 }
 
@@ -210,7 +211,6 @@ TEST_CASE("error-free transformations of packs are exact in every target", "[cor
 TEST_CASE("double words and intervals keep their bounds in every target", "[core]") {
     const auto all = cases<double>(200'000);
     in_each_kind([&](auto) __attribute__((always_inline)) { return wrong_words<double>(all); });
-    in_each_kind([&](auto registers) __attribute__((always_inline)) {
-        return wrong_words<Pack<double, registers.doubles>>(all);
-    });
+    in_each_kind([&](auto registers)
+                     __attribute__((always_inline)) { return wrong_words<Pack<double, registers.doubles>>(all); });
 }

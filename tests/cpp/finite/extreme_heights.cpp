@@ -31,8 +31,8 @@ TEST_CASE("one link at every height: one shape below its pendulum length, none a
         const double ratio = i % 3 == 2 ? 4 * share(random) : 0;
         const Chain<double> chain(Links{{1.0, a, h, Wide<double>(ratio)}});
         const double pendulum = h + ratio * a * a / h, height = std::pow(10, i % 4 == 0   ? exponent(random)
-                                                                               : i % 4 == 1 ? exponent(random) / 20
-                                                                                            : unit(random));
+                                                                             : i % 4 == 1 ? exponent(random) / 20
+                                                                                          : unit(random));
         if (std::abs(height / pendulum - 1) < 1e-6) continue;
         const auto found = steady_shapes(chain, height, {.hanging_only = i % 5 != 0});
         INFO("length " << a << ", pendulum length " << pendulum << ", height " << height);

@@ -302,7 +302,8 @@ TEST_CASE("response: 100,000 random drives keep their bound, any radius", "[line
             const double ratio = error_over_bound(found, row, exact, radius);
             const Quad force = exact.force * Quad(radius) / height;
             beyond += ratio > 1;
-            beyond += static_cast<double>(fabsq(Quad(found.support_force[row]) - force)) > found.support_force_error[row];
+            beyond +=
+                static_cast<double>(fabsq(Quad(found.support_force[row]) - force)) > found.support_force_error[row];
             worst = std::max(worst, ratio);
         }
     }

@@ -524,15 +524,14 @@ TEST_CASE("coordinates without inertia: speeds as many as there are, each proved
     CHECK(m.status == Status::success);
     CHECK(m.complete);
     CHECK(worst_error(RigTruth(three), m) <= 1.5);
-    const Rig spun(Chain<double>({link(1, 1, 0.1, 0)}),
-                   {.support = horizontal_spring(5, 0), .flywheels = {{0.3, 0}}});
+    const Rig spun(Chain<double>({link(1, 1, 0.1, 0)}), {.support = horizontal_spring(5, 0), .flywheels = {{0.3, 0}}});
     const auto s = rig_modes(spun);
     CHECK(s.forward.size() == 1);
     CHECK(s.backward.size() == 2);
     CHECK(s.status == Status::success);
     CHECK(worst_error(RigTruth(spun), s) <= 1);
-    const auto upright = rig_modes(Rig(Chain<double>({link(1, 1, 0.5, 0)}),
-                                       {.support = horizontal_spring(5, 0), .posture = {Posture::stands}}));
+    const auto upright = rig_modes(
+        Rig(Chain<double>({link(1, 1, 0.5, 0)}), {.support = horizontal_spring(5, 0), .posture = {Posture::stands}}));
     CHECK(upright.forward.size() == 0);
     CHECK(upright.other.size() == 1);
     CHECK(upright.status == Status::success);

@@ -165,7 +165,9 @@ struct Data {
     bool firm = true, turning = false, fluid = false;
 
     Data(support::Random& random, std::size_t n) {
-        const auto number = [&](double low, double high) { return std::ldexp(std::rint(random.log_between(low, high) * 1024), -10); };
+        const auto number = [&](double low, double high) {
+            return std::ldexp(std::rint(random.log_between(low, high) * 1024), -10);
+        };
         firm = random() < 0.5, fluid = random() < 0.5, turning = random() < 0.5;
         const bool spins = random() < 0.6;
         stiffness = number(1, 100), carriage = number(0.1, 2);
@@ -186,10 +188,8 @@ struct Data {
         revchain::Rigging with{.fluid = turning ? revchain::Fluid::turning : revchain::Fluid::still};
         if (!firm) with.support = revchain::horizontal_spring(stiffness, carriage);
         for (std::size_t m = 0; m < weight.size(); ++m) {
-            links.push_back(revchain::compound_pendulum<double>({.weight = weight[m],
-                                                                 .length = length[m],
-                                                                 .centroid = centroid[m],
-                                                                 .radius_of_gyration = radius[m]}));
+            links.push_back(revchain::compound_pendulum<double>(
+                {.weight = weight[m], .length = length[m], .centroid = centroid[m], .radius_of_gyration = radius[m]}));
             with.flywheels.push_back({momentum[m], 0});
             const revchain::Wide<double> ratio =
                 revchain::detail::gyration_from_radius<double>("test", length[m], buoyancy_radius[m]);
@@ -250,8 +250,10 @@ TEST_CASE("10,000 random rigs: bounds of speeds, and derivatives against differe
                 return Data::determinant(data.rig(false), exact);
             };
             // what cannot be negative is varied to one side of 0
-            const Quad h = unit, change = was != 0 ? fourth(f, h)
-                                                   : (48 * f(h) - 25 * f(0) - 36 * f(2 * h) + 16 * f(3 * h) - 3 * f(4 * h)) / (12 * h);
+            const Quad h = unit,
+                       change = was != 0
+                                    ? fourth(f, h)
+                                    : (48 * f(h) - 25 * f(0) - 36 * f(2 * h) + 16 * f(3 * h) - 3 * f(4 * h)) / (12 * h);
             datum = was;
             pairs.emplace_back(value * size, static_cast<double>(-change / slope * size));
         };

@@ -170,7 +170,8 @@ TEMPLATE_TEST_CASE("§6 (1), (2): a link swings round its axle as a plummet at L
         const T gap = static_cast<T>(i % 2 == 0 ? random.log_between(1e-6, 2.0) : 1 - random.log_between(nearest, 1.0));
         const T height = link.pendulum_length() * gap;
         const auto found = revchain::swung_link(link, height);
-        const Quad h = link.centroid, l = h + Quad(link.radius_of_gyration) * link.radius_of_gyration / h, lambda = height;
+        const Quad h = link.centroid, l = h + Quad(link.radius_of_gyration) * link.radius_of_gyration / h,
+                   lambda = height;
         const Quad cosine = lambda < l ? lambda / l : Quad(1), sine = sqrtq((1 - cosine) * (1 + cosine));
         const Quad outwards = h / lambda * sine;
         worst = std::max({worst, paper::error_in_ulp(found.inclination, atan2q(sine, cosine)),
@@ -276,9 +277,8 @@ TEST_CASE("§2 text and §6: a support that yields, and the clock that hangs fro
         const Quad half = (l - C) / 2, root = sqrtq(half * half + C * h);
         const Quad longer = half > 0 ? C * h / (half + root) : root - half, height = l + longer;
         const double condition = 1 + static_cast<double>(l / root);  // what rounded data leave
-        const double error =
-            paper::error_in_ulp(revchain::seconds_lost_per_day(c, link),
-                                86400 * longer / (sqrtq(height) * (sqrtq(height) + sqrtq(l))));
+        const double error = paper::error_in_ulp(revchain::seconds_lost_per_day(c, link),
+                                                 86400 * longer / (sqrtq(height) * (sqrtq(height) + sqrtq(l))));
         worst = std::max(worst, error), conditioned = std::max(conditioned, error / condition);
     }
     CAPTURE(worst, conditioned);

@@ -53,7 +53,8 @@ struct CoarseChain {
             Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
             for (Index i = 0; i < question.count && answer.found; ++i) {
                 const auto& bracket = brackets[static_cast<std::size_t>(i)];
-                const double start = linalg::between(bracket.lower, bracket.upper), margin = 0.15 * detail::goal(question);
+                const double start = linalg::between(bracket.lower, bracket.upper),
+                             margin = 0.15 * detail::goal(question);
                 answer.found = start > last / 2 &&
                                linalg::lies_within<double>(coarse.pencil, question.first - 1 + i, start, margin);
                 const double low = start * (1 - margin), high = start * (1 + margin) + coarse.spread;
@@ -73,7 +74,8 @@ struct CoarseChain {
         const bool heavy_tip = kind.tip_share > 0.5;
         double phase = 2 * std::sqrt(kind.length);
         if (!kind.equal) phase = std::accumulate(kind.phase.begin(), kind.phase.end(), 0.0);
-        const double wave = phase / (heavy_tip && last > 1 ? std::numbers::pi * detail::real(last - 1) : zero_of_j0(last));
+        const double wave =
+            phase / (heavy_tip && last > 1 ? std::numbers::pi * detail::real(last - 1) : zero_of_j0(last));
         return last == 1 ? std::max(kind.tilt, wave * wave) : wave * wave;
     }
     /// A group of phase x has a height of x^2/6 between held ends at most, which may be 1.2 rtol of the least height.

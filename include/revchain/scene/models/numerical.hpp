@@ -116,9 +116,10 @@ struct Blocks {
         // high number, have short waves, so there are many blocks.
         const double few = kind.growth < -5 && kind.size < 2000 ? 0.35 : 1;
         return 3e-5 + 1.7e-9 * detail::real(kind.size) +
-               detail::real(kind.size) * (1e-6 + 2e-7 * count) * kind.long_pendulums +
-               3e-7 * detail::real(kind.light) + 2e-5 * std::max(0.0, kind.growth) +
-               few * (5e-5 * count * (1 + count / 20) + 7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
+               detail::real(kind.size) * (1e-6 + 2e-7 * count) * kind.long_pendulums + 3e-7 * detail::real(kind.light) +
+               2e-5 * std::max(0.0, kind.growth) +
+               few *
+                   (5e-5 * count * (1 + count / 20) + 7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         const auto found = revchain::detail::heights_by_compression(chain, detail::range_of(question),
@@ -140,8 +141,8 @@ struct AllTogether {
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
         // measured, one heavy tip and weights graded from the tip up: numbers then leave the range of double
         const double n = detail::real(kind.size);
-        const bool far_apart = kind.point_masses ? kind.range > 19.5 || n * kind.range > 790
-                                                           : kind.greatest_pull * std::pow(n, 1.5) > 3e8;
+        const bool far_apart =
+            kind.point_masses ? kind.range > 19.5 || n * kind.range > 790 : kind.greatest_pull * std::pow(n, 1.5) > 3e8;
         if (!kind.equal && far_apart) return Fit::no("links that weigh too little beside what hangs below them");
         return {};
     }
