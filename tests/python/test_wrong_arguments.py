@@ -164,7 +164,7 @@ def baseline(name, function):
     parameters = inspect.signature(function).parameters.values()
     named = [one.name for one in parameters if one.kind not in (one.VAR_KEYWORD, one.VAR_POSITIONAL)]
     needed = [one.name for one in parameters if one.default is one.empty and one.name in named]
-    extra = ONE_OF.get(name, {})
+    extra = ONE_OF.get(name, ONE_OF.get(name.removeprefix("study."), {}))
     known = {**{one: GIVEN.get(one, 1.0) for one in needed}, **extra}
     if name in ("elliptic.complete", "elliptic.complete_pi", "elliptic.incomplete", "elliptic.incomplete_pi", "elliptic.jacobi"):
         known["modulus"] = 0.5

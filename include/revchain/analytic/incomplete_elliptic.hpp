@@ -67,8 +67,11 @@ struct Amplitude {
     double sine, cosine, delta, half_turns;
 
     Amplitude(double angle, const EllipticModulus& modulus) : half_turns(std::nearbyint(angle / std::numbers::pi)) {
-        // In two words: next to an odd number of quarter turns the cosine is a difference of the two.
-        const DoubleDouble within = DoubleDouble(angle) - DoubleDouble(half_turns) * std::numbers::pi_v<DoubleDouble>;
+        // In two words: next to an odd number of quarter turns the cosine is a difference of the two. Beside 2^60 half
+        // turns the rest is below the last digit.
+        DoubleDouble within(0);
+        if (std::abs(half_turns) < 0x1p60)
+            within = DoubleDouble(angle) - DoubleDouble(half_turns) * std::numbers::pi_v<DoubleDouble>;
         const double s = std::sin(within.high()), c = std::cos(within.high());
         sine = s + within.low() * c, cosine = c - within.low() * s;
         delta = std::hypot(cosine, modulus.complementary_modulus() * sine);

@@ -70,12 +70,13 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     using S = Wide<T>;
     using std::frexp;
     using std::ldexp;
-    int unit = 0;
-    frexp(a, &unit);
+    int unit = 0, short_unit = 0;
+    frexp(a, &unit), frexp(distance, &short_unit);
     const auto wide = [](const T& x, int power) { return S(static_cast<Narrow<S>>(ldexp(x, power))); };
     const S u = wide(upper_thread, -unit), l = wide(lower_thread, -unit), d = wide(distance, -unit),
             x = wide(height, 0);
-    const S along = (u - l) / d * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
+    const S rise = ldexp(wide(upper_thread, 0) - wide(lower_thread, 0), -short_unit) / wide(distance, -short_unit);
+    const S along = rise * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
     const T upper = upper_thread / distance * (static_cast<T>(S(x - above_lower)) / height);
     const T lower = lower_thread / distance * (static_cast<T>(S(depth - x)) / height);
     return {radius, static_cast<T>(depth), upper, lower, upper >= T(0), lower >= T(0)};

@@ -96,7 +96,10 @@ MasslessForm massless_form(const linalg::SignedPencil<Wide<double>>& pencil, con
             eliminate(pivot);
             form.certain = form.certain && (!is_zero(pivot) || is_zero(c));
         }
-        below = !free || held[m] == Held::lower ? c : is_zero(pivot) ? I() : product(c, below) / pivot;
+        if (!free || held[m] == Held::lower)
+            below = c;
+        else
+            below = is_zero(below) || is_zero(c) ? I() : c * below / pivot;
         free = held[m] == Held::nothing || held[m] == Held::lower;
     }
     return form;
