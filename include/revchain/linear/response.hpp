@@ -180,7 +180,7 @@ Response responses(const Carried& carried, const std::vector<double>& given, boo
 /// Method: the dynamic stiffness of what hangs below a pin is carried up in words of two doubles, several speeds to a
 /// pass, and with it a bound of its error; ratios of neighbouring offsets lead down again. What that leaves in doubt, next
 /// to a resonance or where a pin is all but a node, is done once more by intervals.
-/// Accuracy: offsets half an ulp of themselves until within 1e-14 or so of a resonance, `error_bound` proved whatever the
+/// Accuracy: offsets half an ulp of themselves until within 1e-12 or so of a resonance, `error_bound` proved whatever the
 /// chain. Counts of modes are proved with them: below every resonance a chain goes with its support, and each one passed
 /// turns it round.
 /// Cost: 10 to 40 ns for each link and speed where registers hold eight doubles, twice that where two (bench/response.cpp:
