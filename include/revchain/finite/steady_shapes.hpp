@@ -168,24 +168,33 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
     }
 }
 
-/// The same where links are too near the horizontal for that: from the tangents of all links, in a narrower bracket.
+/// A bracket of a shape halved by proved signs as often as rounding lets it.
 template <class AnyLinks>
-std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
-                                            const Bracket<DoubleDouble>& bracket) {
+Bracket<DoubleDouble> narrowed(const AnyLinks& chain, const Wide<double>& height, Bracket<DoubleDouble> bracket) {
     using Far = DoubleDouble;
     const auto links = swept_links<Far>(chain);
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
-    Interval<Far> lowest(bracket.low, bracket.high);
-    const int low_sign = detail::sign_at(links, lambda, lowest.low, support);
+    const int low_sign = detail::sign_at(links, lambda, bracket.low, support);
     for (int round = 0; round < 200; ++round) {
-        const Far middle = lowest.middle();
+        const Far middle = Interval<Far>(bracket.low, bracket.high).middle();
         const int sign = detail::sign_at(links, lambda, middle, support);
-        if (sign == 0 || !(lowest.low < middle && middle < lowest.high)) break;
-        (sign == low_sign ? lowest.low : lowest.high) = middle;
+        if (sign == 0 || !(bracket.low < middle && middle < bracket.high)) break;
+        (sign == low_sign ? bracket.low : bracket.high) = middle;
     }
+    return bracket;
+}
+
+/// The same where links are too near the horizontal for that: from the tangents of all links, in a `part` of the bracket.
+template <class AnyLinks>
+std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
+                                            const Bracket<DoubleDouble>& bracket, const Bracket<DoubleDouble>& part) {
+    using Far = DoubleDouble;
+    const auto links = swept_links<Far>(chain);
+    const auto lambda = enclosed<Far>(height);
+    const auto support = enclosed<Far>(support_of(chain));
     Box<Far> near;
-    detail::support_offset(links, lambda, lowest, &near, support);
+    detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), &near, support);
     const WholeBalance balance(links, lambda, posture_of(chain), support);
     auto found = detail::settled(chain, height, balance, near);
     if (!found) return std::nullopt;
@@ -230,11 +239,12 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
             if (shape.error_bound < 0x1p-48) continue;
         }
         // or the tangents
-        if (const auto settled = finished_by_tangents(links, height, bracket)) {
+        const auto part = narrowed(links, height, bracket);
+        if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
             result.shapes.resize(before);
             add(links, height, *settled, result);
         } else if (result.shapes.size() == before) {
-            leave_open(bracket);
+            leave_open(part);
         }
     }
 }
@@ -268,8 +278,8 @@ template <class AnyLinks>
 SteadyShapes listed(const AnyLinks& links, const Wide<double>& scaled, const SteadyShapesOptions& options) {
     SteadyShapes result;
     // A little beyond: a link all but horizontal is at the end itself, to rounding.
-    const double last = 1.0625 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
-                                                  !options.hanging_only, enclosed<double>(support_of(links)));
+    const double last = 1.01 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
+                                                !options.hanging_only, enclosed<double>(support_of(links)));
     if (!(static_cast<double>(scaled) >= 0x1p-50 && last < 0x1p960)) {
         result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
         return result;
