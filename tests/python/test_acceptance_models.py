@@ -1149,7 +1149,7 @@ SLOW = {
         "ask": {"modes": 2},
     },
     "vary": {"links[0].mass": {"log_uniform": [0.1, 10]}, "links[1].length": {"values": [0.5, 1.0]}},
-    "samples": 1800,
+    "samples": 3600,
     "error_bounds": True,
 }
 
@@ -1182,7 +1182,7 @@ def test_killed_again_and_again_a_study_goes_on(tmp_path, ending):
     assert kills >= 3
     assert sizes == sorted(sizes)  # nothing lost
     last = rc.sweep(study, out=out, chunk=50)
-    assert 0 < last.resumed < 3600  # nothing repeated that was kept
+    assert 0 < last.resumed < 7200  # nothing repeated that was kept
     if ending == "csv":
         assert out.read_bytes() == whole.read_bytes()
     fresh = rc.sweep(study)

@@ -164,7 +164,7 @@ def baseline(name, function):
     parameters = inspect.signature(function).parameters.values()
     named = [one.name for one in parameters if one.kind not in (one.VAR_KEYWORD, one.VAR_POSITIONAL)]
     needed = [one.name for one in parameters if one.default is one.empty and one.name in named]
-    extra = ONE_OF.get(name, ONE_OF.get(name.removeprefix("study."), {}))
+    extra = ONE_OF.get(name, {})
     known = {**{one: GIVEN.get(one, 1.0) for one in needed}, **extra}
     if name in ("elliptic.complete", "elliptic.complete_pi", "elliptic.incomplete", "elliptic.incomplete_pi", "elliptic.jacobi"):
         known["modulus"] = 0.5
@@ -215,6 +215,8 @@ def test_the_calls_without_a_wrong_argument_are_right(tmp_path, monkeypatch):
     for name, function in CALLABLES.items():
         if name not in files and not name.endswith((".index", "pin_of_silent_clapper")):
             function(**baseline(name, function)[0])
+        if pyplot := sys.modules.get("matplotlib.pyplot"):
+            pyplot.close("all")
 
 
 @pytest.mark.parametrize("count", [4 * 10**18, 10**18])
