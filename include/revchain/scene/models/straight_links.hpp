@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "revchain/core/bessel_ratio.hpp"
+#include "revchain/scene/model.hpp"
 
 /// How the heights of N equally long links, cut out of a cord whose line density is as x^p, fall short of the cord's.
 /// Links are the cord held straight piece by piece, so that each height is below the cord's (Rayleigh, Ritz):
