@@ -30,7 +30,6 @@ py::array column(const Items& items, const Number& number) {
 
 py::tuple solve(const Rig& rig, Index first, std::optional<Index> count, double gravity, bool shapes,
                 revchain::Progress* progress) {
-    // 1 microsecond per link and mode, both senses; the dense way is 200 (2N)^3 nanoseconds and more.
     const RigModes m = without_lock([&] {
         return revchain::rig_modes(
             rig, {.first = first, .count = count, .gravity = gravity, .shapes = shapes, .progress = progress});

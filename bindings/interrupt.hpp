@@ -12,13 +12,14 @@
 // Python notes Ctrl-C but hears it only when asked. The library calls `interrupt` from all its long loops, whichever
 // function was bound: it asks there. See bind_core.cpp.
 
-/// What ends a computation that `aside` started; none in other threads.
+/// Becomes true when the caller of `aside` has left; the computation on this thread then stops at its next look. Null
+/// on other threads.
 inline thread_local const std::atomic<bool>* abandoned = nullptr;
 
-/// solve(chain) in a thread of its own, for solvers of Eigen, which cannot be interrupted; on this thread where links are
-/// so few that they take less than 0.1 s, or too many for a dense matrix. After Ctrl-C, or where `progress` is cancelled,
-/// the caller goes on at once. The thread ends at its next look or with the solver's result, which nobody reads. It has a
-/// copy of the chain; `solve` owns all else it uses.
+/// solve(chain) in a thread of its own, for solvers of Eigen, which cannot be interrupted; on this thread where links
+/// are so few that they take less than 0.1 s, or too many for a dense matrix. After Ctrl-C, or where `progress` is
+/// cancelled, the caller goes on at once. The thread ends at its next look or with the solver's result, which nobody
+/// reads. It has a copy of the chain; `solve` owns all else it uses.
 template <class Solve>
 auto aside(const revchain::Chain<double>& chain, const revchain::Progress* progress, Solve solve) {
     if (chain.size() <= 40 || chain.size() > 20'000) return without_lock([&] { return solve(chain); });

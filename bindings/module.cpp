@@ -21,7 +21,7 @@ void refuse_old_pickles(const py::module_& module) {
             value.attr("__reduce_ex__") = py::cpp_function(reduce, py::name("__reduce_ex__"), py::is_method(value));
 }
 
-/// Says in words of this package that memory is short, where neither Python nor pybind11 knows what for.
+/// Turns the memory errors of C++ into a message that says what to reduce.
 void tell_of_memory(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11 wants it so
     const char* sentence = "revchain: the results do not fit in the memory; use fewer links or ask for fewer modes";
     try {

@@ -7,6 +7,7 @@ import math
 import mpmath as mp
 import numpy as np
 import pytest
+from exact import jacobi
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -830,23 +831,6 @@ def test_incomplete_integral_of_the_third_kind_within_3e_15(characteristic, comp
             if error > 3e-15:
                 worst[amplitude] = error
     assert not worst
-
-
-def jacobi(u, complementary):
-    """am, sn, cn, dn, epsilon and their derivatives by descending arithmetic-geometric means."""
-    u, kc = mp.mpf(u), mp.mpf(complementary)
-    a, b, c = [mp.mpf(1)], kc, [mp.sqrt(1 - kc**2)]
-    total = c[0] ** 2 / 2
-    while abs(c[-1]) > mp.mpf(10) ** -(mp.mp.dps // 2 + 5):
-        a, b, c = [*a, (a[-1] + b) / 2], mp.sqrt(a[-1] * b), [*c, (a[-1] - b) / 2]
-        total += mp.mpf(2) ** (len(a) - 2) * c[-1] ** 2
-    phi, epsilon = mp.mpf(2) ** (len(a) - 1) * a[-1] * u, (1 - total) * u
-    for mean, difference in zip(a[:0:-1], c[:0:-1], strict=True):
-        epsilon += difference * mp.sin(phi)
-        phi = (phi + mp.asin(difference / mean * mp.sin(phi))) / 2
-    s, c_ = mp.sin(phi), mp.cos(phi)
-    d = mp.sqrt(c_**2 + (kc * s) ** 2)
-    return [(phi, d), (s, c_ * d), (c_, -s * d), (d, -(1 - kc**2) * s * c_), (epsilon, d**2)]
 
 
 def test_the_reference_agrees_with_mpmath():

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MPL-2.0
 """Modes of rigs from Python: closed forms by mpmath, a dense linearisation by scipy, what is asked and what comes."""
 
+from collections.abc import Callable
+from typing import Any
+
 import mpmath
 import numpy as np
 import pytest
@@ -11,25 +14,25 @@ import revchain as rc
 G = 9.80665
 
 
-def matrices(rig: rc.Rig) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """K, G and M assembled, small amplitude, from the energies."""
+def matrices(rig: rc.Rig, number: Callable[[float], Any] = float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """K, G and M assembled, small amplitude, from the energies; their entries are made of `number(datum)`."""
     chain, n = rig.chain, rig.size
-    K, S, M = (np.zeros((n + 1, n + 1)) for _ in range(3))
-    hung = 0.0
+    K, S, M = (np.full((n + 1, n + 1), number(0.0)) for _ in range(3))
+    hung = number(0.0)
     for m in range(n):
-        W, a, h, k = chain.weight[m], chain.length[m], chain.centroid[m], chain.radius_of_gyration[m]
+        data = (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration, rig.momentum, rig.axial_moment)
+        W, a, h, k, H, C = (number(float(column[m])) for column in data)
         sign = -1 if rig.standing[m] else 1
-        D = np.zeros(n + 1)
+        D, Y = np.full((2, n + 1), number(0.0))
         D[m], D[m + 1] = 1 / a, -1 / a
         K += sign * (W * h + a * hung) * np.outer(D, D)
-        S += sign * rig.momentum[m] * np.outer(D, D)
-        Y = np.zeros(n + 1)
+        S += sign * H * np.outer(D, D)
         Y[m], Y[m + 1] = h / a, 1 - h / a
-        M += W * np.outer(Y, Y) + (W * k**2 - rig.axial_moment[m]) * np.outer(D, D)
+        M += W * np.outer(Y, Y) + (W * k**2 - C) * np.outer(D, D)
         hung += W
     if np.isfinite(rig.stiffness):
-        K[n, n] += rig.stiffness
-        M[n, n] += rig.carriage_weight
+        K[n, n] += number(rig.stiffness)
+        M[n, n] += number(rig.carriage_weight)
         return K, S, M
     return K[:n, :n], S[:n, :n], M[:n, :n]
 
@@ -106,7 +109,7 @@ def test_rigs_with_coordinates_without_inertia_have_every_finite_speed() -> None
         )
         m = rc.modes(rig)
         with mpmath.workdps(300):
-            K, S, M = (mpmath.matrix(X) for X in exact_matrices(rig))
+            K, S, M = (mpmath.matrix(X.tolist()) for X in matrices(rig, mpmath.mpf))
             huge = mpmath.mpf(10) ** 60
 
             def size(x: mpmath.mpf, K: mpmath.matrix = K, S: mpmath.matrix = S, M: mpmath.matrix = M) -> mpmath.mpf:
@@ -121,32 +124,6 @@ def test_rigs_with_coordinates_without_inertia_have_every_finite_speed() -> None
         assert np.all(np.isfinite(m.angular_speed()))
         methods.add(m.method)
     assert methods >= {"counts", "discs"}
-
-
-def exact_matrices(rig: rc.Rig) -> list[list[list[mpmath.mpf]]]:
-    """As `matrices`, in the precision of mpmath."""
-    mp, chain, n = mpmath.mpf, rig.chain, rig.size
-    result = [[[mp(0)] * (n + 1) for _ in range(n + 1)] for _ in range(3)]
-
-    def add(which: int, m: int, by: mpmath.mpf, lower: mpmath.mpf, upper: mpmath.mpf) -> None:
-        for i, x in ((m, lower), (m + 1, upper)):
-            for j, y in ((m, lower), (m + 1, upper)):
-                result[which][i][j] += by * x * y
-
-    hung = mp(0)
-    for m in range(n):
-        W, a, h, k = (mp(float(x[m])) for x in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration))
-        sign = -1 if rig.standing[m] else 1
-        add(0, m, sign * (W * h + a * hung), 1 / a, -1 / a)
-        add(1, m, sign * mp(float(rig.momentum[m])), 1 / a, -1 / a)
-        add(2, m, W, h / a, 1 - h / a)
-        add(2, m, W * k**2 - mp(float(rig.axial_moment[m])), 1 / a, -1 / a)
-        hung += W
-    if np.isfinite(rig.stiffness):
-        result[0][n][n] += mp(rig.stiffness)
-        result[2][n][n] += mp(rig.carriage_weight)
-        return result
-    return [[row[:n] for row in X[:n]] for X in result]
 
 
 def test_sleeping_top() -> None:

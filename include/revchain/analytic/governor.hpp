@@ -227,15 +227,19 @@ inline GovernorMotion::Half GovernorMotion::half_at(double u) const {
 inline GovernorState GovernorMotion::operator()(double time) const {
     if (!std::isfinite(time)) revchain::detail::refuse("analytic::GovernorMotion", "time must be finite", time);
     if (form_ == Form::constant) return {angle_, 0};
+    const auto require_finite = [&](double x) {
+        if (!std::isfinite(x))
+            revchain::detail::refuse("analytic::GovernorMotion",
+                                     "time must be so small that the angle does not overflow", time);
+    };
     const double u = phase_ + rate_ * time;
-    const Half half = half_at(std::isfinite(u) ? u : 0);
+    require_finite(u);
+    const Half half = half_at(u);
     const double scale = form_ == Form::growing ? half.opposite * half.adjacent : opposite_ * adjacent_;
     const double whole = std::hypot(half.opposite, half.adjacent);
     const double rate = 2 * half.rate * (scale / whole / whole);
     const GovernorState state{unfolded(half), upside_down_ ? -rate : rate};
-    if (!std::isfinite(u) || !std::isfinite(state.angle))
-        revchain::detail::refuse("analytic::GovernorMotion", "time must be so small that the angle does not overflow",
-                                 time);
+    require_finite(state.angle);
     return state;
 }
 

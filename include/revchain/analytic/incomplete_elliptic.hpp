@@ -157,7 +157,8 @@ inline double complete_pi(double n, const EllipticModulus& modulus) {
     return c == 0 ? std::numeric_limits<double>::infinity() : detail::complete_integral(c, 1 - n, 1, 1);
 }
 
-/// The same up to an amplitude, or up to u. Accuracy: 3e-15 relative. Cost: 0.7 microseconds.
+/// Incomplete integral of the third kind, up to an amplitude or up to an argument u. Accuracy: 3e-15 relative. Cost:
+/// 0.7 microseconds.
 inline double incomplete_pi(double n, double amplitude, const EllipticModulus& modulus) {
     detail::check_characteristic("analytic::incomplete_pi", n);
     if (!std::isfinite(amplitude))

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string_view>
+
 #include "revchain/analytic/incomplete_elliptic.hpp"
 #include "revchain/core/conical_pendulum.hpp"
 
@@ -74,12 +79,19 @@ inline TortuousRope::TortuousRope(const TortuousGiven& given)
     revchain::detail::require_positive(place, "gravity", given.gravity);
     height_ = conical_pendulum::height(given.angular_speed, given.gravity);
     strength2_ = height_ * given.tension;
+    if (!(strength2_ >= std::numeric_limits<double>::min()))
+        revchain::detail::refuse(place, "tension times gravity / angular speed^2 must be at least 2^-1022", strength2_);
     revchain::detail::require_positive(place, "tension times gravity / angular speed^2", strength2_);
     root_ = std::hypot(first_ * second_, 2 * strength2_);
     const double beyond = std::sqrt(2 * root_);
     d_ = std::hypot(second_, beyond);
     third_ = std::hypot(d_, first_);
     revchain::detail::require_positive(place, "greatest radius squared", d_ * d_);
+    if (!std::isfinite(d_ * d_ / strength2_))  // tension_ratio and the slopes are at most that
+        revchain::detail::refuse(
+            place,
+            "greatest radius must be so small that radius^2 angular speed^2 / (tension gravity) does not overflow",
+            second_);
     functions_ = JacobiFunctions(EllipticModulus::of_ratio(std::sqrt(second_ - first_) * std::sqrt(second_ + first_),
                                                            std::hypot(first_, beyond)));
     scale_ = 2 * (strength2_ / d_);

@@ -47,8 +47,8 @@ class Rig {
     Flywheel flywheel(Index m) const {
         return with_.flywheels.empty() ? Flywheel{} : with_.flywheels[static_cast<std::size_t>(m)];
     }
-    /// What link m displaces. Without an entry, or with one left at its default: nothing, centred as the link itself is,
-    /// since that is where the first of it would be displaced.
+    /// The fluid that link m displaces. A link without an entry, or with a default one, displaces nothing; the centre
+    /// and the radius of gyration are then those of the link.
     Displaced displaced(Index m) const {
         const Displaced given = with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
         return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;

@@ -72,7 +72,7 @@ template <Word T>
     return {s, (x - (s - v)) + (y - v)};
 }
 
-/// The same for |x| >= |y| or x = 0 (Dekker).
+/// x + y = high + low exactly, for |x| >= |y| or x = 0 (Dekker).
 template <Word T>
 [[gnu::always_inline]] constexpr DoubleWord<T> fast_two_sum(const T& x_given, const T& y_given) {
     const T x = detail::rounded(x_given), y = detail::rounded(y_given);
@@ -91,10 +91,10 @@ inline constexpr bool has_fast_fma =
 }  // namespace detail
 
 /// x y = high + low exactly, while x y 2^-digits is normal and |x|, |y| are below half the largest number.
-/// With `fused` by one fused multiply-add, which must be fast where this is compiled; else by Dekker's product. (A library
-/// call of fma costs more.) Without `fused` the result is right on every target: the halves of float and double are cut
-/// from the bits, so all their products are exact, and fusing them with sums changes nothing. Veltkamp's split, which
-/// would not survive fusing, serves long double alone.
+/// With `fused` by one fused multiply-add, which must be fast where this is compiled; else by Dekker's product. (A
+/// library call of fma costs more.) Without `fused` the result is right on every target: the halves of float and double
+/// are cut from the bits, so all their products are exact, and fusing them with sums changes nothing. Veltkamp's split,
+/// which would not survive fusing, serves long double alone.
 template <bool fused, Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     const T p = detail::rounded(T(x * y));

@@ -43,7 +43,8 @@ struct Interval {
 
 namespace detail {
 
-/// What products of two words lose where their second words underflow, and more: five roundings of the least number.
+/// Bound on the absolute error of an operation whose low word underflows. Such an operation makes at most five
+/// roundings of the smallest number.
 template <Real T>
 inline constexpr auto underflow = 16 * std::numeric_limits<T>::denorm_min();
 
@@ -132,7 +133,7 @@ Interval<T> common(const Interval<T>& x, const Interval<T>& y) {
     return {x.low > y.low || !(y.low == y.low) ? x.low : y.low,
             x.high < y.high || !(y.high == y.high) ? x.high : y.high};
 }
-/// What holds both; NaN where an end of either is.
+/// The smallest interval that contains both. An end is NaN if that end of x or of y is NaN.
 template <Real T>
 Interval<T> hull(const Interval<T>& x, const Interval<T>& y) {
     return {!(x.low == x.low) || x.low < y.low ? x.low : y.low,

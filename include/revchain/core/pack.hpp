@@ -171,8 +171,8 @@ struct Pack {
             r = reinterpret_cast<Register>(reinterpret_cast<Integers>(x.part[i]) & std::numeric_limits<Integer>::max());
         });
     }
-    /// The nearest number with the leading half of the digits; the rest has no more digits than that. Adding to the bits
-    /// carries into the exponent, as rounding up to a power of two needs.
+    /// The nearest number with the leading half of the digits; the rest has no more digits than that. Adding to the
+    /// bits carries into the exponent, as rounding up to a power of two needs.
     [[gnu::always_inline]] friend Pack upper_half(const Pack& x) {
         return each([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             constexpr int cut = (std::numeric_limits<T>::digits + 1) / 2;
@@ -205,7 +205,8 @@ struct Pack {
             r = reinterpret_cast<Register>(((2 * bias) << fraction_bits) - power);
         });
     }
-    /// About 1/sqrt(x), within 4 per cent: half the exponent, and the rest as it comes. Precondition: x is normal, or 0.
+    /// About 1/sqrt(x), within 4 per cent: half the exponent, and the rest as it comes. Precondition: x is normal, or
+    /// 0.
     [[gnu::always_inline]] friend Pack rough_inverse_root(const Pack& x) requires(sizeof(T) == 8) {
         return each([&](auto& r, std::size_t i) __attribute__((always_inline)) {
             r = reinterpret_cast<Register>(0x5fe6eb50c7b537a9ULL - (reinterpret_cast<Naturals>(x.part[i]) >> 1));
@@ -252,7 +253,7 @@ concept IsPack = !std::same_as<V, Lane<V>>;
 template <class V>
 concept Word = std::floating_point<V> || IsPack<V>;
 
-/// The same of one number.
+/// The nearest number with the leading half of the digits of x.
 template <std::floating_point T>
 [[gnu::always_inline]] inline T upper_half(const T& x) {
     constexpr int cut = (std::numeric_limits<T>::digits + 1) / 2;

@@ -185,8 +185,8 @@ struct BranchOptions {
 ///
 /// Method: pseudo-arclength continuation from the mode, all pins at once by tridiagonal elements, in double. A step is
 /// checked: see finite::BranchWalk. Points are good to about 1e-12 (measured); `shape` gives them in two words; folds are
-/// located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. Where all of the branch asked for is inclined by less than 1e-3 it is
-/// the vertical and its end, from the onset's law and balanced in two words; where no double can tell that end from the
+/// located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. Where all of the branch asked for is inclined by
+/// less than 1e-3 it is the vertical and its end, from the onset's law and balanced in two words; where no double can tell that end from the
 /// vertical it is the vertical alone, `stuck`. Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a
 /// link each, and 3 N numbers of memory a point.
 /// Throws InvalidArgument for a mode that is none, and for a height that is not positive or not below that of the mode.

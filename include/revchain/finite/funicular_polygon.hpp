@@ -21,8 +21,8 @@ struct FunicularPolygon {
 
 /// The polygon of given horizontal component of tension, the pole's distance from the line of load: rays from the pole to
 /// the line of load, sides parallel to them. Weights (n) and places (n + 2), supports among them, in any units.
-/// Accuracy: heights to half an ulp and 1e-28 of the drop below the chord. Cost O(n). Throws InvalidArgument unless weights are positive,
-/// places increase and all is finite, heights and tensions too.
+/// Accuracy: heights to half an ulp and 1e-28 of the drop below the chord. Cost O(n). Throws InvalidArgument unless
+/// weights are positive, places increase and all is finite, heights and tensions too.
 template <Real T>
 FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& place, const T& horizontal_tension,
                                       const T& first_height = T(0), const T& last_height = T(0)) {

@@ -266,8 +266,9 @@ class PathSeries {
 };
 
 /// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so, to
-/// 2^-52 of the step and 2^-51 of itself: Newton's method held within the bracket. Unlike `zero_between` it does not go on to the last digit of
-/// the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)` returns a pair.
+/// 2^-52 of the step and 2^-51 of itself: Newton's method held within the bracket. Unlike `zero_between` it does not go
+/// on to the last digit of the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)`
+/// returns a pair.
 template <class F>
 double time_of_zero(double duration, double latest, const F& value_and_slope) {
     double low = 0, high = latest, t = duration / 2;

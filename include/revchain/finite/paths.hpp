@@ -69,9 +69,9 @@ class PathSearch {
         return false;
     }
 
-    /// Settles low ... high of a path, but parts narrower than `narrowest` of their upper end (next to 0 of `last` and of
-    /// 1), those in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts looked at, and
-    /// N^3/256 for each test of the whole chain.
+    /// Settles low ... high of a path, but parts narrower than `narrowest` of their upper end (next to 0 of `last` and
+    /// of 1), those in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts
+    /// looked at, and N^3/256 for each test of the whole chain.
     long search(const OpenPart<T>& whole, const T& last, const T& narrowest, long budget) {
         const bool straight =
             support_.is_symmetric() && std::none_of(whole.path.begin(), whole.path.end(),

@@ -168,13 +168,12 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
     }
 }
 
-/// A bracket of a shape halved by proved signs as often as rounding lets it.
-template <class AnyLinks>
-Bracket<DoubleDouble> narrowed(const AnyLinks& chain, const Wide<double>& height, Bracket<DoubleDouble> bracket) {
+/// A bracket of a shape, halved by proved signs until rounding leaves a sign open.
+template <class End>
+Bracket<DoubleDouble> narrowed(const std::vector<Link<Interval<DoubleDouble>>>& links,
+                               const Interval<DoubleDouble>& lambda, const End& support,
+                               Bracket<DoubleDouble> bracket) {
     using Far = DoubleDouble;
-    const auto links = swept_links<Far>(chain);
-    const auto lambda = enclosed<Far>(height);
-    const auto support = enclosed<Far>(support_of(chain));
     const int low_sign = detail::sign_at(links, lambda, bracket.low, support);
     for (int round = 0; round < 200; ++round) {
         const Far middle = Interval<Far>(bracket.low, bracket.high).middle();
@@ -185,7 +184,8 @@ Bracket<DoubleDouble> narrowed(const AnyLinks& chain, const Wide<double>& height
     return bracket;
 }
 
-/// The same where links are too near the horizontal for that: from the tangents of all links, in a `part` of the bracket.
+/// A shape whose links are too near the horizontal for `finished`: found from the tangents of all links in a `part` of
+/// the bracket. Nothing if it cannot be proved.
 template <class AnyLinks>
 std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
                                             const Bracket<DoubleDouble>& bracket, const Bracket<DoubleDouble>& part) {
@@ -214,6 +214,7 @@ template <class AnyLinks>
 void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget,
                        SteadyShapes& result) {
     const auto narrow = swept_links<DoubleDouble>(links);
+    const auto support = enclosed<DoubleDouble>(support_of(links));
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
     const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
@@ -228,7 +229,6 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
                 verified_shape(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
             if (shape.error_bound <= 0x1.8p-52) continue;
             // all but horizontal, or all but critical: the sweep may say more
-            const auto support = enclosed<DoubleDouble>(support_of(links));
             const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
             if (error < shape.error_bound) {
                 const double condition = shape.condition;
@@ -239,7 +239,7 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
             if (shape.error_bound < 0x1p-48) continue;
         }
         // or the tangents
-        const auto part = narrowed(links, height, bracket);
+        const auto part = narrowed(narrow, enclosed<DoubleDouble>(height), support, bracket);
         if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
             result.shapes.resize(before);
             add(links, height, *settled, result);
@@ -313,9 +313,9 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 /// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at exactly
 /// a critical speed or a fold, where the budget ends, as it does for chains of 20 links and more at heights of some
 /// 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one inclination).
-/// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and `complete` is
-/// false: a sideways pull is an offset over the height, and two words hold offsets to 2^-104 of that length. Below, tensions
-/// would lose digits, and soon all of them.
+/// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and `complete`
+/// is false: a sideways pull is an offset over the height, and two words hold offsets to 2^-104 of that length. Below
+/// that, tensions would lose their digits.
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
 /// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of
 /// equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.

@@ -86,8 +86,8 @@ HeightPair<T> jointed_links(const JointedLinks<T>& links) {
 /// line as if clamped, and the bell never rings:  h1 = (m + 1) l1 + m (a2 - l2), §8 (16), is
 /// a2 = w (l2 - l1)/(w + l1 - h1),  w = W2 h2/W1. The height of that motion is l1 + a2.
 /// Accuracy: 4 ulp, for the data as given, however near l1 and l2 are; the pin changes by up to
-/// 3 (l1 + l2)/(l2 - l1) + 6 times as much as the data, in ratio. Throws InvalidArgument for numbers out of range, and where the
-/// clapper's pendulum length is not the shorter: then every pin lets it ring.
+/// 3 (l1 + l2)/(l2 - l1) + 6 times as much as the data, in ratio. Throws InvalidArgument for numbers out of range, and
+/// where the clapper's pendulum length is not the shorter: then every pin lets it ring.
 template <Real T>
 T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const T& clapper_weight,
                         const CompoundLink<T>& clapper) {

@@ -68,8 +68,8 @@ inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& 
     return mode;
 }
 
-/// Heights below 0, all of them, by counts: base + sign (negative eigenvalues of Q(-x)) of them exceed x in size. `known`:
-/// how many there are.
+/// Heights below 0, all of them, by counts: base + sign (negative eigenvalues of Q(-x)) of them exceed x in size.
+/// `known`: how many there are.
 inline bool negative_heights(RigModes& result, const Rig& rig, const RigPencil& pencil, Index base, Index sign,
                              const std::optional<Index>& known, Index& count) {
     const CountedRoots roots(pencil.pencil, pencil.pace, base, sign, -1);
@@ -96,7 +96,7 @@ inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const R
     const Index before = pencil.stiffness_positive ? 0 : pencil.not_positive;
     const CountedRoots roots(pencil.pencil, pencil.pace, -before, 1, 1);
     // Just above h = 0 the form hK - M is negative where there is inertia; elsewhere it has the signs of K.
-    const MasslessForm& form = pencil.massless_stiffness;
+    const MasslessForm& form = pencil.massless;
     const bool ranked = pencil.mass_not_negative && form.certain && form.zero == 0;
     const Index size = pencil.pencil.size();
     const auto available =
@@ -121,9 +121,9 @@ inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const Ri
     result.has_momentum = true, result.method = "counts", result.complete = true;
     for (const bool forward : {true, false}) {
         const CountedRoots roots(forward ? pencil.pencil : pencil.pencil.reversed(), pencil.pace, 0, 1, 1);
-        // Just above x = 0 the form Q is negative where there is inertia; elsewhere it has the signs of G, and where that
-        // is 0, too, those of K > 0 and of a square.
-        const MasslessForm& form = pencil.massless_spin;
+        // Just above x = 0 the form Q is negative where there is inertia; elsewhere it has the signs of G, and where
+        // that is 0, too, those of K > 0 and of a square.
+        const MasslessForm& form = pencil.massless;
         const Index negative = forward ? form.negative : form.size - form.zero - form.negative;
         const auto available = form.certain ? CountedRoots::Available{pencil.pencil.size() - form.size + negative, true}
                                             : roots.available();
@@ -146,7 +146,7 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Ri
     RigModes result;
     result.has_momentum = pencil.pencil.quadratic, result.method = "discs";
     // A massless coordinate has a root x = 0, and two where no momentum acts on it.
-    const Index zeros = pencil.massless_spin.size + (pencil.pencil.quadratic ? pencil.massless_spin.zero : 0);
+    const Index zeros = pencil.massless.size + (pencil.pencil.quadratic ? pencil.massless.zero : 0);
     const linalg::ComplexSpectrum spectrum =
         linalg::complex_spectrum(pencil.pencil, zeros, [&](double share) { advance(options.progress, 0.9 * share); });
     result.complete = spectrum.proved;

@@ -34,8 +34,8 @@ struct RigPencil {
     Index not_positive;       ///< elements whose stiffness at rest is not
     Index neutral = 0;        ///< of these, elements that have none, for certain: each lets the rest lean at no speed
     bool mass_not_negative;   ///< every element's mass is positive or 0 for certain, so that M >= 0
-    MasslessForm massless_stiffness, massless_spin;  ///< K, and G, on the motions that carry no inertia
-    Index idle = 0;                                  ///< lowest links left out: nothing on them bears, spins or moves
+    MasslessForm massless;    ///< K, or with momentum G, on the motions that carry no inertia
+    Index idle = 0;           ///< lowest links left out: nothing on them bears, spins or moves
 };
 
 namespace detail {
@@ -59,11 +59,9 @@ inline Held held_by(const Rig& rig, Index m) {
     return h == 0 ? Held::upper : h == link.length ? Held::lower : Held::one;
 }
 
-/// The form sum of c (y_m - y_{m+1})^2 over the elements, on the motions that no inertia notices: from the free end up,
-/// one coordinate after another is eliminated by intervals. `coefficient(element)` is c.
-template <class Coefficient>
-MasslessForm massless_form(const linalg::SignedPencil<Wide<double>>& pencil, const std::vector<Held>& held,
-                           const Coefficient& coefficient) {
+/// The form sum of c (y_m - y_{m+1})^2 over the elements, on the motions that carry no inertia; c is an element's
+/// stiffness or, in a quadratic family, its spin. Coordinates are eliminated by intervals, from the free end up.
+inline MasslessForm massless_form(const linalg::SignedPencil<Wide<double>>& pencil, const std::vector<Held>& held) {
     using S = Wide<double>;
     using I = Interval<S>;
     const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
@@ -84,22 +82,20 @@ MasslessForm massless_form(const linalg::SignedPencil<Wide<double>>& pencil, con
     for (std::size_t m = 0; m < held.size(); ++m) {
         const auto& e = pencil.elements[m];
         const auto& off = pencil.errors[m];
-        const I c = coefficient(e, off);
+        const I c = pencil.quadratic ? around(e.spin, off.spin) : around(e.stiffness, off.stiffness);
         if (held[m] == Held::one) {  // lower pin = -cross/lower times the upper pin
             const I ratio = -around(e.cross, off.cross) / around(e.lower, off.lower);
             below = sum(product(below, square(ratio)), product(c, square(ratio - I(S(1.0)))));
             continue;
         }
-        const I pivot = sum(below, c);
-        const bool ends = free && (held[m] == Held::nothing || held[m] == Held::upper);
-        if (ends) {
+        I carried = c;  // to the upper pin, where the lower one does not move
+        if (free && (held[m] == Held::nothing || held[m] == Held::upper)) {
+            const I pivot = sum(below, c);
             eliminate(pivot);
             form.certain = form.certain && (!is_zero(pivot) || is_zero(c));
+            carried = is_zero(below) || is_zero(c) ? I() : c * below / pivot;
         }
-        if (!free || held[m] == Held::lower)
-            below = c;
-        else
-            below = is_zero(below) || is_zero(c) ? I() : c * below / pivot;
+        below = carried;
         free = held[m] == Held::nothing || held[m] == Held::lower;
     }
     return form;
@@ -158,12 +154,7 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
         add(*support, true);
         held.push_back(rig.support().carriage_weight > 0 ? detail::Held::lower : detail::Held::nothing);
     }
-    using E = linalg::SignedElement<S>;
-    using Off = linalg::SignedElementError<double>;
-    result.massless_stiffness = detail::massless_form(
-        result.pencil, held, [](const E& e, const Off& off) { return detail::around(e.stiffness, off.stiffness); });
-    result.massless_spin = detail::massless_form(
-        result.pencil, held, [](const E& e, const Off& off) { return detail::around(e.spin, off.spin); });
+    result.massless = detail::massless_form(result.pencil, held);
     return result;
 }
 

@@ -8,10 +8,10 @@
 #include "revchain/linear/compound_link.hpp"
 
 /// Two links, or one with something that yields: every case is a quadratic  lambda^2 - sum lambda + product = 0  in the
-/// conical height, its roots taken without a difference of like numbers. Greenhill (1908) §2 and §6. No product leaves the
-/// range: a height is 0 only where it is below the range itself.
-/// Accuracy: 3 ulp for every root, measured (tests/cpp/paper/section_2.cpp). All throw InvalidArgument for lengths and
-/// weights that are not positive and finite, unless said otherwise.
+/// conical height, its roots taken without a difference of like numbers. Greenhill (1908) §2 and §6. No product leaves
+/// the range: a height is 0 only where it is below the range itself. Accuracy: 3 ulp for every root, measured
+/// (tests/cpp/paper/section_2.cpp). All throw InvalidArgument for lengths and weights that are not positive and finite,
+/// unless said otherwise.
 namespace revchain {
 
 /// Two conical heights, the larger (slower) first.
@@ -39,7 +39,7 @@ HeightPair<T> coupled_roots(const T& p, const T& q, const T& coupling, const T& 
     return {larger, rest / larger};
 }
 
-/// The same of numbers whose products may leave the range.
+/// Roots of (lambda - p)(lambda - q) = coupling for numbers whose products may overflow or underflow.
 template <Real T>
 HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, const Product<Wide<T>>& coupling,
                             const Product<Wide<T>>& rest) {
@@ -188,8 +188,8 @@ HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
 }
 
 /// By how much a clock is slow, seconds a day, whose pendulum hangs from a support that yields by `deflection` to its
-/// weight: 86400 (1 - sqrt(l / lambda)) for a clock right on a firm one. Accuracy: 8 ulp however small, and however near
-/// deflection and pendulum length l are.
+/// weight: 86400 (1 - sqrt(l / lambda)) for a clock right on a firm one. Accuracy: 8 ulp however small, and however
+/// near deflection and pendulum length l are.
 template <Real T>
 T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
     using std::max;

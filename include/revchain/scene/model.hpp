@@ -38,8 +38,8 @@ struct Answer {
     }
 };
 
-/// What the models have to know of a chain at once. Cost O(log N), but of equal links stored one by one, which
-/// are compared.
+/// The properties of a chain that the models need before they are asked. Cost O(log N). Equal links that are stored one
+/// by one are compared, which costs O(N).
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
@@ -94,7 +94,8 @@ struct ChainKind {
         short_pendulums = points || shorter, point_masses = points;
         long_pendulums = static_cast<double>(longer) / static_cast<double>(looked_at);
     }
-    /// Of at most 256 links all, else sums at hand: weights exact, lengths as if spread evenly.
+    /// Samples the weights along the chain. Up to 255 links are all read. For longer chains weights come from the
+    /// stored sums, and lengths are taken as spread evenly.
     void look_at_stretches(const Chain<double>& chain) {
         const bool few = size < segment_size;
         const Index pieces = few ? size : (size - 1) / segment_size + 1, most = static_cast<Index>(phase.size());

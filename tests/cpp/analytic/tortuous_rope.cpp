@@ -150,5 +150,7 @@ TEST_CASE("The tortuous rope: half waves repeat, slopes are consistent, wrong ca
         CHECK_THROWS_AS(TortuousRope({0, 1, 1, bad}), revchain::InvalidArgument);
     }
     CHECK_THROWS_AS(TortuousRope({2, 1, 1, 1}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(TortuousRope({1, 1, 1e146, 1e-18}), revchain::InvalidArgument);  // c^2 below the normal numbers
+    CHECK_THROWS_AS(TortuousRope({1, 1e100, 1e60, 1e-100}), revchain::InvalidArgument);  // slopes beyond double
     CHECK_THROWS_AS(TortuousRope({0, 1, 1, 1}).at(nan), revchain::InvalidArgument);
 }

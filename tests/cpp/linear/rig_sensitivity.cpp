@@ -197,21 +197,7 @@ struct Data {
         }
         return {Chain<double>(links), with};
     }
-    /// det(K + n G - n^2 M/g) in quadruple precision, by pivots.
-    static Quad determinant(const revchain::Rig& rig, Quad n) {
-        const support::RigTruth truth(rig);
-        const Quad c = n * n / Quad(revchain::conical_pendulum::standard_gravity);
-        Quad d = 1, pivot = 1;
-        for (std::size_t m = 0; m < truth.size; ++m) {
-            const auto at = [&](const std::vector<Quad> support::RigTruth::Band::*part, std::size_t i) {
-                return (truth.K.*part)[i] + n * (truth.G.*part)[i] - c * (truth.M.*part)[i];
-            };
-            const Quad off = m == 0 ? Quad(0) : at(&support::RigTruth::Band::e, m - 1);
-            pivot = at(&support::RigTruth::Band::d, m) - (m == 0 ? Quad(0) : off * off / pivot);
-            d *= pivot;
-        }
-        return d;
-    }
+    Quad determinant(Quad n) const { return support::RigTruth(rig(false)).determinant(n); }
 };
 
 }  // namespace
@@ -237,9 +223,9 @@ TEST_CASE("10,000 random rigs: bounds of speeds, and derivatives against differe
         };
         Quad exact = speed;
         const auto by_speed = [&] {
-            return fourth([&](Quad x) { return Data::determinant(data.rig(false), exact + x); }, exact * Quad(0x1p-20));
+            return fourth([&](Quad x) { return data.determinant(exact + x); }, exact * Quad(0x1p-20));
         };
-        for (int step = 0; step < 3; ++step) exact -= Data::determinant(data.rig(false), exact) / by_speed();
+        for (int step = 0; step < 3; ++step) exact -= data.determinant(exact) / by_speed();
         const Quad slope = by_speed();
         CHECK(static_cast<double>(fabsq((exact - Quad(speed)) / exact)) <= some.speed_error_bound[j]);
         std::vector<std::pair<double, double>> pairs;  // found and exact, per relative change of the datum
@@ -247,7 +233,7 @@ TEST_CASE("10,000 random rigs: bounds of speeds, and derivatives against differe
             const double was = datum, unit = std::exp2(std::floor(std::log2(size)) - 20);
             const auto f = [&](Quad x) {
                 datum = was + static_cast<double>(x);
-                return Data::determinant(data.rig(false), exact);
+                return data.determinant(exact);
             };
             // what cannot be negative is varied to one side of 0
             const Quad h = unit,

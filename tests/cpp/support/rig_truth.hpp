@@ -68,9 +68,9 @@ class RigTruth {
         return result;
     }
 
-    /// Negative eigenvalues of a K + b G - c M.
-    Index negative(Quad a, Quad b, Quad c) const {
-        Index count = 0;
+    /// visit(pivot) for each pivot of a K + b G - c M.
+    template <class Visit>
+    void pivots(Quad a, Quad b, Quad c, const Visit& visit) const {
         Quad pivot = 1;
         const auto at = [&](const std::vector<Quad> Band::*part, std::size_t m) {
             return a * (K.*part)[m] + b * (G.*part)[m] - c * (M.*part)[m];
@@ -78,9 +78,20 @@ class RigTruth {
         for (std::size_t m = 0; m < size; ++m) {
             const Quad off = m == 0 ? Quad(0) : at(&Band::e, m - 1);
             pivot = at(&Band::d, m) - (m == 0 ? Quad(0) : off * off / (pivot == 0 ? Quad(1e-300) : pivot));
-            if (pivot < 0) ++count;
+            visit(pivot);
         }
+    }
+    /// Negative eigenvalues of a K + b G - c M.
+    Index negative(Quad a, Quad b, Quad c) const {
+        Index count = 0;
+        pivots(a, b, c, [&](Quad pivot) { count += pivot < 0 ? 1 : 0; });
         return count;
+    }
+    /// det(K + n G - n^2 M/g).
+    Quad determinant(Quad n) const {
+        Quad product = 1;
+        pivots(1, n, n * n / gravity_, [&](Quad pivot) { product *= pivot; });
+        return product;
     }
     Index at_speed(Quad n) const { return negative(1, n, n * n / gravity_); }
     Index at_height(Quad lambda) const { return negative(lambda, 0, 1); }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Exact conical heights in mpmath, from the numbers that a chain stores."""
+"""References in mpmath that several tests share: conical heights of stored numbers, Jacobi's elliptic functions."""
 
 import mpmath as mp
 
@@ -29,3 +29,20 @@ def heights_of(links):
         for j in range(m + 1, len(links)):
             inertia[m, j] = inertia[j, m] = links[j][1] * kappa[m] / mp.sqrt(kappa[m] * kappa[j])
     return sorted(mp.eigsy(inertia, eigvals_only=True), reverse=True)
+
+
+def jacobi(u, complementary):
+    """am, sn, cn, dn, epsilon and their derivatives by descending arithmetic-geometric means."""
+    u, kc = mp.mpf(u), mp.mpf(complementary)
+    a, b, c = [mp.mpf(1)], kc, [mp.sqrt(1 - kc**2)]
+    total = c[0] ** 2 / 2
+    while abs(c[-1]) > mp.mpf(10) ** -(mp.mp.dps // 2 + 5):
+        a, b, c = [*a, (a[-1] + b) / 2], mp.sqrt(a[-1] * b), [*c, (a[-1] - b) / 2]
+        total += mp.mpf(2) ** (len(a) - 2) * c[-1] ** 2
+    phi, epsilon = mp.mpf(2) ** (len(a) - 1) * a[-1] * u, (1 - total) * u
+    for mean, difference in zip(a[:0:-1], c[:0:-1], strict=True):
+        epsilon += difference * mp.sin(phi)
+        phi = (phi + mp.asin(difference / mean * mp.sin(phi))) / 2
+    s, c_ = mp.sin(phi), mp.cos(phi)
+    d = mp.sqrt(c_**2 + (kc * s) ** 2)
+    return [(phi, d), (s, c_ * d), (c_, -s * d), (d, -(1 - kc**2) * s * c_), (epsilon, d**2)]

@@ -42,7 +42,8 @@ inline double next_order(double exponent, Index mode, double share) {
     return std::min(1.0, 1.15 * x / (1 + x));
 }
 
-/// The middle of the interval left open, and half its width relative to the middle. `cord`: height of the cord to within `rounding`, `lost`: c/N^2 to 1e-9, `next`: of d.
+/// The middle of the interval left open, and half its width relative to the middle. `cord`: height of the cord to
+/// within `rounding`, `lost`: c/N^2 to 1e-9, `next`: of d.
 inline Enclosed enclosed(double cord, double lost, double next, double rounding) {
     const double most = lost * (1 + 1e-9), least = lost * (1 - 1e-9) * (1 - next);
     const double middle = (most + least) / 2, half = (most - least) / 2;
