@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <ctime>
 
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"

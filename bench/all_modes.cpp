@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "lapack_names.hpp"
-#include "revchain/linalg/spectrum.hpp"
 #include "revchain/linear/assembly.hpp"
+#include "revchain/pencil/spectrum/interpolated.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"
@@ -21,7 +21,7 @@ using support::Quad;
 
 double cpu_ms() { return 1e3 * bench::cpu_seconds(); }
 
-using Pencil = revchain::linalg::ElementPencil<double>;
+using Pencil = revchain::pencil::ElementPencil<double>;
 
 #if defined(BENCH_HAS_LAPACK)
 /// Heights, descending; CPU time in ms.
@@ -90,17 +90,17 @@ int main(int argc, char** argv) {
         const auto family = support::families()[f];
         const auto chain = family.make(n);
         const auto assembled = revchain::assemble(chain);
-        const auto pencil = revchain::linalg::rounded<double>(assembled.pencil);
+        const auto pencil = revchain::pencil::rounded<double>(assembled.pencil);
         const bool plummets = f % 2 == 0;
         std::vector<std::vector<double>> times(3), heights(3);
-        std::vector<revchain::linalg::FineCertified> ours;
+        std::vector<revchain::pencil::FineCertified> ours;
         for (int r = 0; r < repetitions; ++r) {
 #if defined(BENCH_HAS_LAPACK)
             times[0].push_back(plummets ? dlasq1(pencil, heights[0]) : dsbgv(pencil, heights[0]));
             if (plummets) times[1].push_back(dsterf(pencil, heights[1]));
 #endif
             const double start = cpu_ms();
-            ours = revchain::linalg::all_eigenvalues(revchain::assemble(chain).pencil, Index(0), n, n, 1e-11);
+            ours = revchain::pencil::all_eigenvalues(revchain::assemble(chain).pencil, Index(0), n, n, 1e-11);
             times[2].push_back(cpu_ms() - start);
         }
         heights[2].clear();

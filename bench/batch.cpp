@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lapack_names.hpp"
-#include "revchain/linear/batch.hpp"
+#include "revchain/batch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 #include "support/cuttings.hpp"
 
 namespace {

@@ -16,7 +16,7 @@
 #include <sstream>
 #include <vector>
 
-#include "revchain/analytic/incomplete_elliptic.hpp"
+#include "revchain/special/incomplete_elliptic.hpp"
 #include "timing.hpp"
 
 namespace {

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <string>
 
-#include "revchain/scene/models/with_dense.hpp"
+#include "revchain/models/with_dense.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"
 

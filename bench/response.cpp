@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "revchain/linear/response.hpp"
+#include "revchain/response.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"
 

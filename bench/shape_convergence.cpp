@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "revchain/finite/continuous_chain.hpp"
-#include "revchain/finite/shape_on_branch.hpp"
+#include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/finite/cord/continuous_chain.hpp"
 #include "support/cuttings.hpp"
 
 namespace {
@@ -43,7 +43,8 @@ int main(int argc, char** argv) {
             double before = 0;
             for (Index count = 5; count <= largest; count *= 2) {
                 const double now = difference(cutting, count, shape);
-                std::printf("\"%s\",%d,%ld,%.4e,", cutting.name.c_str(), shape.half_waves, static_cast<long>(count), now);
+                std::printf("\"%s\",%d,%ld,%.4e,", cutting.name.c_str(), shape.half_waves, static_cast<long>(count),
+                            now);
                 if (before > 0) std::printf("%.3f", std::log2(before / now));
                 std::printf("\n");
                 before = now;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lapack_names.hpp"
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"

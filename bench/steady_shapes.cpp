@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "revchain/finite/shape_on_branch.hpp"
-#include "revchain/finite/steady_shapes.hpp"
+#include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/steady_shapes.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"
 

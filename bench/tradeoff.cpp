@@ -20,7 +20,7 @@
 #include <map>
 #include <random>
 
-#include "revchain/scene/models/with_dense.hpp"
+#include "revchain/models/with_dense.hpp"
 #include "timing.hpp"
 #include "tradeoff/height_truth.hpp"
 #include "tradeoff/inclined_truth.hpp"
@@ -206,7 +206,10 @@ class Bench {
                 if (round > 2 && row->times[0] > 2e-3) continue;
                 const Question question{1, count, row->tightest, inclination};
                 row->times.push_back(bench::seconds_of(
-                    [&] { sink += solve_by(height_models_with_dense, row->model, chain, question).answer.conical_height[0]; },
+                    [&] {
+                        sink +=
+                            solve_by(height_models_with_dense, row->model, chain, question).answer.conical_height[0];
+                    },
                     1e-4));
             }
         }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
-#include "revchain/analytic/heavy_chain.hpp"
-#include "revchain/analytic/tapered_chain.hpp"
-#include "revchain/analytic/tip_mass.hpp"
+#include "revchain/cord.hpp"
+#include "revchain/special/tip_mass.hpp"
 
 namespace {
 namespace analytic = revchain::analytic;
@@ -13,7 +12,7 @@ using revchain::Index;
 template <class Row, class... Arrays>
 py::array_t<double> rows(Index count, Row row, const Array& length, const Arrays&... rest) {
     std::vector<py::ssize_t> shape(length.shape(), length.shape() + length.ndim());
-    if (count < 1) revchain::detail::refuse("heavy_chain", "count must be at least 1", count);
+    if (count < 1) revchain::detail::throw_invalid("heavy_chain", "count must be at least 1", count);
     shape.push_back(count);
     py::array_t<double> result(shape);
     for (py::ssize_t i = 0; i < length.size(); ++i) {

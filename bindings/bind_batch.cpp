@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "revchain/linear/batch.hpp"
+#include "revchain/batch.hpp"
 
 namespace {
 
@@ -18,7 +18,7 @@ using Heights = revchain::Table<double>;
 Column column(const Array& table, Index chains, Index size, const char* name) {
     const bool fits = table.ndim() == 2 && (table.shape(0) == 1 || table.shape(0) == chains) &&
                       (table.shape(1) == 1 || table.shape(1) == size);
-    if (!fits) revchain::detail::refuse("conical_heights", std::string(name) + " does not fit the batch");
+    if (!fits) revchain::detail::throw_invalid("conical_heights", std::string(name) + " does not fit the batch");
     return {table.data(), table.shape(0) == 1 ? 0 : table.shape(1), table.shape(1) == 1 ? 0 : 1};
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/finite/branches.hpp"
-#include "revchain/finite/shape_on_branch.hpp"
-#include "revchain/finite/stability_windows.hpp"
+#include "revchain/branches.hpp"
+#include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/finite/stability/windows.hpp"
 
 namespace {
 

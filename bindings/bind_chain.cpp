@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "revchain/chain/chain.hpp"
+#include "revchain/chain.hpp"
 
 namespace {
 
@@ -15,7 +15,7 @@ using revchain::detail::refuse;
 
 Column<double> column(const Array& array, const std::string& name) {
     if (array.ndim() == 0) return *array.data();
-    if (array.ndim() > 1) refuse("Chain", name + " must have at most one dimension", array.ndim());
+    if (array.ndim() > 1) throw_invalid("Chain", name + " must have at most one dimension", array.ndim());
     return std::vector<double>(array.data(), array.data() + array.size());
 }
 
@@ -27,10 +27,10 @@ class Size {
         if (column.is_scalar()) return;
         const Index stored = static_cast<Index>(column.stored());
         if (size_ && *size_ != stored)
-            refuse("Chain",
-                   name + " must have as many numbers as " + name_ + " (" + std::to_string(*size_) +
-                       ") or be a single number",
-                   stored);
+            throw_invalid("Chain",
+                          name + " must have as many numbers as " + name_ + " (" + std::to_string(*size_) +
+                              ") or be a single number",
+                          stored);
         if (!size_) size_ = stored, name_ = name;
     }
     Index value() const { return size_.value_or(1); }
@@ -63,11 +63,11 @@ Chain make_chain(const Array& weight, const Array& length, const std::optional<A
     size.note(a, "length");
     if (!centroid) {
         if (pendulum_length || radius_of_gyration)
-            refuse("Chain", "pendulum_length and radius_of_gyration need the centroid");
+            throw_invalid("Chain", "pendulum_length and radius_of_gyration need the centroid");
         return Chain(size.value(), W, a, a, Wide(0));
     }
     if (pendulum_length.has_value() == radius_of_gyration.has_value())
-        refuse("Chain", "a centroid needs either pendulum_length or radius_of_gyration (not both)");
+        throw_invalid("Chain", "a centroid needs either pendulum_length or radius_of_gyration (not both)");
     const Column<double> h = column(*centroid, "centroid");
     size.note(h, "centroid");
     if (pendulum_length) {
@@ -120,9 +120,9 @@ py::tuple get_state(const Chain& chain) {
 
 Chain set_state(const py::tuple& state) {
     if (state.size() < 6 || state.size() > 8)
-        refuse("Chain", "this is not the state of a chain; its number of parts must be 7 or 8", state.size());
+        throw_invalid("Chain", "this is not the state of a chain; its number of parts must be 7 or 8", state.size());
     if (state.size() > 6 && state[6].cast<int>() != state_version)
-        refuse("Chain", "this is the state of a chain of another version; known is 2", state[6].cast<int>());
+        throw_invalid("Chain", "this is the state of a chain of another version; known is 2", state[6].cast<int>());
     const Index size = state[0].cast<Index>();
     const Column<double> a = column(state[2].cast<Array>(), "length");
     const Column<double> high = column(state[4].cast<Array>(), "gyration_ratio");
@@ -141,7 +141,8 @@ Chain set_state(const py::tuple& state) {
     std::optional<double> taper;
     if (state.size() == 8) taper = state[7].cast<double>();
     if (taper && !Chain::is_taper(*taper))
-        refuse("Chain", "this is not the state of a chain; its exponent must be above -1 and at most 1000", *taper);
+        throw_invalid("Chain", "this is not the state of a chain; its exponent must be above -1 and at most 1000",
+                      *taper);
     return Chain(size, column(state[1].cast<Array>(), "weight"), a, column(state[3].cast<Array>(), "centroid"),
                  std::move(gyration), taper);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
-#include "revchain/finite/continuous_chain.hpp"
+#include "revchain/finite/cord/continuous_chain.hpp"
 
 #include <pybind11/functional.h>
 

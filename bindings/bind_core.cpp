@@ -3,10 +3,8 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/core/carried_support.hpp"
-#include "revchain/core/conical_pendulum.hpp"
-#include "revchain/core/hoop.hpp"
-#include "revchain/core/inclined_pendulum.hpp"
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/hoop.hpp"
 
 namespace {
 

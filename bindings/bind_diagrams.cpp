@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
-#include "revchain/finite/force_diagram.hpp"
-#include "revchain/finite/funicular_polygon.hpp"
-#include "revchain/finite/jointed_links.hpp"
-#include "revchain/linear/string_of_weights.hpp"
+#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/statics.hpp"
 
 namespace {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
-#include "revchain/analytic/governor.hpp"
-#include "revchain/analytic/incomplete_elliptic.hpp"
-#include "revchain/analytic/skipping_rope.hpp"
-#include "revchain/analytic/tortuous_rope.hpp"
+#include "revchain/governor.hpp"
+#include "revchain/rope.hpp"
+#include "revchain/special/incomplete_elliptic.hpp"
 
 namespace {
 namespace analytic = revchain::analytic;

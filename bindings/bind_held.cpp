@@ -3,9 +3,9 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/finite/held_chain.hpp"
-#include "revchain/finite/held_cord.hpp"
-#include "revchain/finite/held_stability.hpp"
+#include "revchain/finite/held/cord.hpp"
+#include "revchain/finite/stability/held.hpp"
+#include "revchain/held.hpp"
 
 namespace {
 

@@ -6,9 +6,9 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/linear/count.hpp"
-#include "revchain/linear/modes.hpp"
-#include "revchain/linear/reference.hpp"
+#include "revchain/count.hpp"
+#include "revchain/linear/dense_reference.hpp"
+#include "revchain/modes.hpp"
 #include "scalars.hpp"
 
 namespace {
@@ -29,7 +29,7 @@ void check_word(std::string_view what, const std::string& word, const std::array
         if (each == word) return;
         known += (known.empty() ? "" : ", ") + std::string(each);
     }
-    revchain::detail::refuse("modes", std::string(what) + " must be one of " + known, word);
+    revchain::detail::throw_invalid("modes", std::string(what) + " must be one of " + known, word);
 }
 
 /// What Python asks, before it is known in which scalar.
@@ -68,7 +68,7 @@ Solver<T> solver(const std::string& method) {
         if (method == "dense") return &revchain::modes_dense<double>;
         if (method == "recurrence") return &revchain::modes_recurrence<double>;
     } else if (method == "dense" || method == "recurrence") {
-        revchain::detail::refuse("modes", "this method knows precision double only", method);
+        revchain::detail::throw_invalid("modes", "this method knows precision double only", method);
     }
     return &revchain::modes<T>;
 }
@@ -172,7 +172,7 @@ void bind_linear(py::module_& module) {
         [](const Chain& chain, const Array& speed, const Array& gravity) {
             const double *n = speed.data(), *g = gravity.data();
             if (speed.size() != gravity.size())
-                revchain::detail::refuse("count_modes", "angular_speed and gravity must have one shape");
+                revchain::detail::throw_invalid("count_modes", "angular_speed and gravity must have one shape");
             return counts(chain, speed,
                           [n, g](const auto& counter, py::ssize_t i) { return counter.below_speed(n[i], g[i]); });
         },

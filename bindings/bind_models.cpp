@@ -3,7 +3,7 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/scene/models/with_dense.hpp"
+#include "revchain/models/with_dense.hpp"
 
 namespace {
 

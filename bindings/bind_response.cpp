@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "revchain/linear/response.hpp"
-#include "revchain/linear/small_oscillation.hpp"
+#include "revchain/response.hpp"
+#include "revchain/swing.hpp"
 
 namespace {
 

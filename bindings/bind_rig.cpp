@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "revchain/chain/rig.hpp"
-#include "revchain/linear/gyrostatic_string.hpp"
+#include "revchain/gyrostatic_string.hpp"
+#include "revchain/rig.hpp"
 
 namespace {
 
@@ -26,9 +26,9 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
     for (const auto* array : {&momentum, &axial_moment, &displaced_weight, &displaced_centroid,
                               &displaced_radius_of_gyration, &added_weight})
         if (*array && (*array)->size() != chain.size())
-            revchain::detail::refuse("Rig", "arrays must have one number for each link", (*array)->size());
+            revchain::detail::throw_invalid("Rig", "arrays must have one number for each link", (*array)->size());
     if (standing && standing->size() != chain.size())
-        revchain::detail::refuse("Rig", "standing must have one entry for each link", standing->size());
+        revchain::detail::throw_invalid("Rig", "standing must have one entry for each link", standing->size());
     revchain::Rigging with{.support = {stiffness, carriage_weight, support_radius}};
     with.fluid = turning_fluid ? revchain::Fluid::turning : revchain::Fluid::still;
     for (Index m = 0; m < chain.size(); ++m) {

@@ -2,11 +2,11 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "revchain/chain/attached.hpp"
-#include "revchain/linear/bell_and_clapper.hpp"
+#include "revchain/bell.hpp"
 #include "revchain/linear/rig_sensitivity.hpp"
-#include "revchain/linear/tune.hpp"
 #include "revchain/linear/uncertainty.hpp"
+#include "revchain/system/edit.hpp"
+#include "revchain/tune.hpp"
 
 namespace {
 
@@ -27,7 +27,8 @@ revchain::Vector<double> vector(const Array& array) {
 }
 
 revchain::Table<double> table(const Array& array, const std::string& name) {
-    if (array.ndim() != 2) revchain::detail::refuse("uncertainty", name + " must have two dimensions", array.ndim());
+    if (array.ndim() != 2)
+        revchain::detail::throw_invalid("uncertainty", name + " must have two dimensions", array.ndim());
     return Eigen::Map<const revchain::Table<double>>(array.data(), array.shape(0), array.shape(1));
 }
 
@@ -72,7 +73,7 @@ py::tuple uncertainty(const Array& heights, const std::array<Array, data>& value
 revchain::Datum datum_called(const std::string& name) {
     for (std::size_t d = 0; d < data; ++d)
         if (revchain::datum_names[d] == name) return static_cast<revchain::Datum>(d);
-    revchain::detail::refuse("tune", "quantity is none of those known", name);
+    revchain::detail::throw_invalid("tune", "quantity is none of those known", name);
 }
 
 py::tuple tune(const Chain& chain, Index mode, Index link, const std::string& quantity,

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "revchain/core/progress.hpp"
-#include "revchain/core/scalar.hpp"
+#include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/scalar.hpp"
 
 namespace py = pybind11;
 using namespace pybind11::literals;

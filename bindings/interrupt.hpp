@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "bindings.hpp"
-#include "revchain/chain/chain.hpp"
+#include "revchain/chain.hpp"
 
 // Python notes Ctrl-C but hears it only when asked. The library calls `interrupt` from all its long loops, whichever
 // function was bound: it asks there. See bind_core.cpp.

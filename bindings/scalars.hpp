@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "revchain/chain/converted.hpp"
-#include "revchain/core/double_double.hpp"
+#include "revchain/numeric/double_double.hpp"
+#include "revchain/system/converted.hpp"
 
 /// numpy's type for the leading part of a T.
 template <class T>

@@ -14,22 +14,64 @@ INCLUDE = ROOT / "include" / "revchain"
 
 # Folder of include/revchain -> folders it may include, itself apart. The arrows run one way (see the check below).
 ALLOWED = {
-    "core": set(),
-    "chain": {"core"},
-    "linalg": {"core"},
-    "linear": {"core", "chain", "linalg"},
-    "finite": {"core", "chain", "linalg", "linear"},
-    "analytic": {"core"},
-    # Chooses a theory through models alone.
-    "scene": {"core", "chain", "linear"},
-    "scene/models": {"core", "chain", "linalg", "linear", "finite", "analytic", "scene"},
+    "simd": set(),
+    "numeric": {"simd"},
+    "system": {"numeric"},
+    "special": {"numeric", "system"},
+    "pencil": {"numeric", "simd"},
+    "pencil/batch": {"numeric", "simd", "pencil"},
+    "pencil/condensed": {"numeric", "simd", "pencil"},
+    "pencil/spectrum": {"numeric", "simd", "pencil"},
+    "pencil/forced": {"numeric", "simd", "pencil"},
+    "pencil/complex": {"numeric", "simd", "pencil"},
+    "linear": {"numeric", "simd", "system", "pencil", "pencil/batch", "pencil/condensed", "pencil/spectrum"}
+    | {"pencil/forced", "pencil/complex"},
+    "finite/balance": {"numeric", "system", "linear"},
+    "finite/shapes": {"numeric", "system", "linear", "finite/balance"},
+    "finite/branch": {"numeric", "system", "linear", "finite/balance", "finite/shapes"},
+    "finite/held": {"numeric", "system", "finite/balance", "finite/shapes"},
+    "finite/cord": {"numeric", "system"},
+    "finite/stability": {"numeric", "system", "pencil/complex", "finite/balance", "finite/shapes"}
+    | {"finite/branch", "finite/held"},
+    "paper": {"numeric", "system", "special", "linear", "finite/balance", "finite/shapes"},
+    "models": {"numeric", "system", "pencil", "linear", "paper", "special"}
+    | {"finite/balance", "finite/shapes", "finite/branch"},
 }
-# The only headers that lie in no folder: what a user includes.
-ENTRY_POINTS = {"revchain.hpp", "analytic.hpp"}
+# The public headers, all that lie in no folder, and the folder each counts for: it may include what its folder may. Two
+# umbrellas count for none.
+PUBLIC = {
+    "chain.hpp": "system",
+    "rig.hpp": "system",
+    "conical_pendulum.hpp": "system",
+    "count.hpp": "linear",
+    "modes.hpp": "linear",
+    "batch.hpp": "linear",
+    "recurrence.hpp": "linear",
+    "response.hpp": "linear",
+    "swing.hpp": "linear",
+    "tune.hpp": "linear",
+    "steady_shapes.hpp": "finite/shapes",
+    "branches.hpp": "finite/branch",
+    "held.hpp": "finite/held",
+    "cord.hpp": "special",
+    "explain.hpp": "models",
+    "bell.hpp": "paper",
+    "buffer.hpp": "paper",
+    "compound_link.hpp": "paper",
+    "governor.hpp": "paper",
+    "gyrostatic_string.hpp": "paper",
+    "hoop.hpp": "paper",
+    "rope.hpp": "paper",
+    "statics.hpp": "paper",
+    "two_links.hpp": "paper",
+    "revchain.hpp": "",
+    "analytic.hpp": "",
+}
+UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
 # A scene pays for what it holds: these read nothing of what a chain can be rigged with.
-PLAIN = {"chain/chain.hpp", "linear/modes.hpp", "linear/batch.hpp", "finite/steady_shapes.hpp", "finite/branches.hpp"}
-PLAIN |= {"finite/stability.hpp", "finite/continuous_chain.hpp"}
-RIGGING = {"chain/rig.hpp", "chain/support.hpp", "chain/flywheel.hpp", "chain/immersion.hpp", "chain/attached.hpp"}
+PLAIN = {"chain.hpp", "modes.hpp", "batch.hpp", "steady_shapes.hpp", "branches.hpp"}
+PLAIN |= {"finite/stability/stability.hpp", "finite/cord/continuous_chain.hpp"}
+RIGGING = {"rig.hpp", "system/edit.hpp"}
 MAX_LINES = 400
 
 # What a library leaves to its caller: printing, ending the process. (static_assert is another word.)
@@ -62,10 +104,8 @@ def without_comments(text: str) -> str:
 
 
 def folder(header: str) -> str:
-    """The folder a header counts for; '' for an entry point."""
-    if header.startswith("scene/models/"):
-        return "scene/models"
-    return header.split("/")[0] if "/" in header else ""
+    """The folder a header counts for; '' for an umbrella."""
+    return header.rsplit("/", 1)[0] if "/" in header else PUBLIC.get(header, "")
 
 
 def check_header(path: Path) -> list[str]:
@@ -80,13 +120,13 @@ def check_header(path: Path) -> list[str]:
         complain(path, count, f"{count} lines; over {MAX_LINES} a header wants splitting")
     if not re.search(r"^#pragma once$", text, re.M):
         complain(path, 1, "no #pragma once")
-    if here == "" and name not in ENTRY_POINTS:
-        complain(path, 1, f"a header belongs into a folder; only {sorted(ENTRY_POINTS)} do not (no folder umbrellas)")
+    if "/" not in name and name not in PUBLIC:
+        complain(path, 1, "a public header goes into PUBLIC in tools/check_layers.py, any other into a folder")
     if here != "" and here not in ALLOWED:
         complain(path, 1, f"unknown folder {here}; its place in the order goes into ALLOWED in tools/check_layers.py")
     if path.name.endswith("_impl.hpp") or path.name in {"fwd.hpp", "all.hpp"}:
         complain(path, 1, "no *_impl.hpp, fwd.hpp or all.hpp: these make the cycles in other libraries")
-    if name not in ENTRY_POINTS and not re.sub(r"^\s*#.*$", "", code, flags=re.M).strip():
+    if name not in UMBRELLAS and not re.sub(r"^\s*#.*$", "", code, flags=re.M).strip():
         complain(path, 1, "includes and declares nothing of its own: no folder umbrellas")
 
     ours = []
@@ -98,19 +138,19 @@ def check_header(path: Path) -> list[str]:
         if not match:
             continue
         target = match.group(1)
-        if target.startswith("gsl/") and here != "analytic":
-            complain(path, number, "GSL belongs under analytic/")
-        if target in {"Eigen/Eigenvalues", "Eigen/Eigen", "Eigen/Dense"} and here != "linalg":
-            complain(path, number, f"<{target}> costs seconds of compile time; eigensolvers belong under linalg/")
+        if target.startswith("gsl/") and here != "special":
+            complain(path, number, "GSL belongs under special/")
+        if target in {"Eigen/Eigenvalues", "Eigen/Eigen", "Eigen/Dense"} and not here.startswith("pencil"):
+            complain(path, number, f"<{target}> costs seconds of compile time; eigensolvers belong under pencil/")
         if target.startswith("revchain/"):
             included = target.removeprefix("revchain/")
             ours.append(included)
             there = folder(included)
-            if included in ENTRY_POINTS and here != "":
+            if included in UMBRELLAS and here != "":
                 complain(path, number, f"a part includes the whole <{target}>")
             elif there not in {"", here} and here in ALLOWED and there not in ALLOWED[here]:
                 complain(path, number, f"{here} must not include {there}")
-        elif (path.parent / target).exists():
+        elif (path.parent / target).is_file():
             complain(path, number, f"write the path from include/: revchain/..., not {target}")
     return ours
 
@@ -140,30 +180,41 @@ def reached_from(start: str, graph: dict[str, list[str]]) -> set[str]:
     return reached
 
 
-def check_licence(path: Path) -> None:
+def check_licence(path: Path, graph: dict[str, list[str]]) -> None:
     name = path.relative_to(ROOT).as_posix()
     head = path.read_text(encoding="utf-8").splitlines()[:5]
     match = next((m for line in head if (m := re.search(r"SPDX-License-Identifier: (\S+)", line))), None)
-    gsl = ("include/revchain/analytic", "bindings/", "src/revchain/")  # what includes GSL or is one binary with it
+    # what includes GSL or is one binary with it
+    gsl = name.startswith(("bindings/", "src/revchain/")) or any(
+        folder(header) == "special" for header in reached_from(name.removeprefix("include/revchain/"), graph)
+    )
     if match is None:
         complain(path, 1, "no SPDX-License-Identifier in the first five lines")
     elif match.group(1) not in {"MPL-2.0", "GPL-3.0-or-later"}:
         complain(path, 1, f"{match.group(1)} is not one of the licences in LICENSES/")
-    elif name.startswith(gsl) and match.group(1) != "GPL-3.0-or-later":
+    elif gsl and match.group(1) != "GPL-3.0-or-later":
         complain(path, 1, "is bound to GSL: GPL-3.0-or-later")
-    elif name.startswith("include/") and not name.startswith(gsl) and match.group(1) != "MPL-2.0":
+    elif name.startswith("include/") and not gsl and match.group(1) != "MPL-2.0":
         complain(path, 1, "a header of the core: MPL-2.0")
 
 
 def main() -> int:
     headers = sorted(INCLUDE.rglob("*.hpp"))
     graph = {path.relative_to(INCLUDE).as_posix(): check_header(path) for path in headers}
-    check_cycles(graph, "headers include each other")
+    # A public header ends with the include of its implementation, a file of the same name in its folder, which begins
+    # with the include of the public header: the one pair that may include each other.
+    one_way = {
+        name: [other for other in following if not (name in PUBLIC and other == f"{PUBLIC[name]}/{name}")]
+        for name, following in graph.items()
+    }
+    check_cycles(one_way, "headers include each other")
+    for name in sorted(PUBLIC.keys() - graph.keys()):
+        problems.append(f"tools/check_layers.py: there is no public header {name}")
     check_cycles({name: sorted(allowed) for name, allowed in ALLOWED.items()}, "ALLOWED runs")
 
     # Whoever includes revchain.hpp must not need GSL, by no detour.
     for name in sorted(reached_from("revchain.hpp", graph)):
-        if name == "analytic.hpp" or folder(name) == "analytic":
+        if folder(name) == "special":
             problems.append(f"include/revchain/revchain.hpp: leads to {name}, which needs GSL")
 
     for name in sorted(PLAIN | RIGGING):
@@ -176,7 +227,7 @@ def main() -> int:
     files = [p for p in sorted(ROOT.rglob("*")) if p.is_file() and not SKIPPED & set(p.relative_to(ROOT).parts)]
     for path in files:
         if path.suffix in SOURCES or path.name == "CMakeLists.txt":
-            check_licence(path)
+            check_licence(path, graph)
 
     print(*problems, sep="\n", end="\n" if problems else "")
     print(f"check_layers: {len(headers)} headers, {len(files)} files checked, {len(problems)} problems")

@@ -2,9 +2,9 @@
 // Methods of this library: a line each at the bottom.
 #pragma once
 
-#include "revchain/core/double_double.hpp"
-#include "revchain/linear/modes.hpp"
-#include "revchain/linear/reference.hpp"
+#include "revchain/linear/dense_reference.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/numeric/double_double.hpp"
 #include "support/quad_scalar.hpp"
 #include "worker/method.hpp"
 

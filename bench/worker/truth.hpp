@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-#include "revchain/core/double_word.hpp"
+#include "revchain/numeric/double_word.hpp"
 #include "worker/raw_chain.hpp"
 
 namespace bench {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Ask for an accuracy, get the cheapest model that has it: who answers for 100,000 rods, and why.
-#include <revchain/scene/explain.hpp>
-#include <revchain/scene/models/heights.hpp>
+#include <revchain/explain.hpp>
+#include <revchain/models/heights.hpp>
 
 #include <cstdio>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "revchain/analytic.hpp"
 #include "fuzz.hpp"
-#include "revchain/analytic/incomplete_elliptic.hpp"
+#include "revchain/special/incomplete_elliptic.hpp"
 
 namespace {
 

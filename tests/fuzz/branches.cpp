@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "revchain/finite/branches.hpp"
+#include "revchain/branches.hpp"
 #include "fuzz.hpp"
-#include "revchain/finite/shape_on_branch.hpp"
-#include "revchain/finite/stability_windows.hpp"
+#include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/finite/stability/windows.hpp"
 
 void fuzz::branches(Random& random) {
     const Chain<double> hung = random.chain(5);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "revchain/chain/rig.hpp"
+#include "revchain/rig.hpp"
 
 /// Random calls of the library with ordinary, extreme and invalid numbers. A call may return or throw InvalidArgument;
 /// sanitizers, hung calls and other exceptions end the program.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "revchain/held.hpp"
 #include "fuzz.hpp"
-#include "revchain/finite/continuous_chain.hpp"
-#include "revchain/finite/held_chain.hpp"
-#include "revchain/finite/held_cord.hpp"
-#include "revchain/finite/held_stability.hpp"
-#include "revchain/finite/taut_chain.hpp"
+#include "revchain/finite/cord/continuous_chain.hpp"
+#include "revchain/finite/held/cord.hpp"
+#include "revchain/finite/held/taut.hpp"
+#include "revchain/finite/stability/held.hpp"
 
 void fuzz::held(Random& random) {
     const std::uint64_t kind = random.below(5);

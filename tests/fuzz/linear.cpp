@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz.hpp"
-#include "revchain/linear/batch.hpp"
-#include "revchain/linear/buffer_impact.hpp"
-#include "revchain/linear/count.hpp"
-#include "revchain/linear/modes.hpp"
-#include "revchain/linear/response.hpp"
+#include "revchain/batch.hpp"
+#include "revchain/buffer.hpp"
+#include "revchain/count.hpp"
 #include "revchain/linear/sensitivity.hpp"
-#include "revchain/linear/small_oscillation.hpp"
-#include "revchain/linear/tune.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/response.hpp"
+#include "revchain/swing.hpp"
+#include "revchain/tune.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fuzz.hpp"
-#include "revchain/core/progress.hpp"
+#include "revchain/numeric/progress.hpp"
 
 namespace {
 

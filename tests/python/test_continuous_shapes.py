@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steady shapes of chains without links from Python; the numbers themselves are tests/cpp/finite/continuous_chain.cpp's."""
+"""Steady shapes of chains without links from Python; the numbers themselves are tests/cpp/finite/cord/continuous_chain.cpp's."""
 
 import math
 

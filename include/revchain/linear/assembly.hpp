@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/chain/chain.hpp"
-#include "revchain/linalg/element_pencil.hpp"
+#include "revchain/chain.hpp"
+#include "revchain/pencil/element.hpp"
 
 namespace revchain {
 
@@ -10,7 +10,7 @@ namespace revchain {
 /// own units) and heights in units of 2^units.length_exponent.
 template <Real T>
 struct AssembledChain {
-    linalg::ElementPencil<Wide<T>> pencil;
+    pencil::ElementPencil<Wide<T>> pencil;
     ChainUnits units;
 };
 

@@ -4,14 +4,31 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "revchain/core/progress.hpp"
+#include "revchain/batch.hpp"
 #include "revchain/linear/batch_workers.hpp"
 
 namespace revchain {
 
 namespace detail {
+
+template <Real T>
+void check(const ChainBatch<T>& batch, const BatchOptions& options) {
+    constexpr std::string_view place = "conical_heights";
+    if (batch.chains < 0) throw_invalid(place, "the number of chains must not be negative", batch.chains);
+    if (batch.size < 1) throw_invalid(place, "a chain needs at least one link", batch.size);
+    if (!batch.centroid && (batch.pendulum_length || batch.radius_of_gyration))
+        throw_invalid(place, "pendulum_length and radius_of_gyration need the centroid");
+    if (batch.centroid && batch.pendulum_length.has_value() == batch.radius_of_gyration.has_value())
+        throw_invalid(place, "a centroid needs either pendulum_length or radius_of_gyration (not both)");
+    if (options.count && *options.count < 1) throw_invalid(place, "count must be at least 1", *options.count);
+    if (options.count && *options.count > batch.size)
+        throw_invalid(place, "count must not exceed the " + std::to_string(batch.size) + " links of a chain", *options.count);
+    if (options.threads < 1) throw_invalid(place, "threads must be at least 1", options.threads);
+}
 
 /// All heights, on all threads. With `looking`, every chain is looked at just before it is needed, while it is in the
 /// cache, and false returned as soon as one is not ordinary.
@@ -52,32 +69,15 @@ bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptio
 
 }  // namespace detail
 
-/// The slowest `count` conical heights of every chain of a batch, descending: a row for each chain, in its unit of
-/// length. Greenhill (1908) §8 (21) with sec delta = 1.
-///
-/// In float and double one chain to a SIMD lane (linalg/lane_spectrum.hpp); chains for which that proves nothing, those
-/// with massless links or centroids at or above the pin, and all chains in other scalars are done one by one by `modes`.
-/// Accuracy: 2.8 ulp for plummets and rods up to N = 100; in a million chains of all kinds of 1 to 6 links 29 heights were
-/// off by more than 4 ulp, the worst by 4.8, all where weights span 1e12 or the mass of a link is one point between its
-/// pins. Verified by counts to 16 + N/4 ulp.
-/// Results are bitwise the same whatever the number of threads, the place of a chain in the batch and its neighbours
-/// there; another `count` or another kind of processor may change last digits.
-/// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp). Memory: the result, and a few
-/// numbers for each link of 16 chains a thread.
-///
-/// Throws InvalidArgument for a batch, count or number of threads that is none, and, before anything else, for the first
-/// chain with a number that `Chain` refuses, naming chain, link and value; for a count beyond the modes of some
-/// chain (massless links cost modes: chains that have unlike numbers of modes need a count). Throws it later only for a
-/// chain whose heights cannot be proved to half the digits of T.
 template <Real T>
-Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options = {}) {
+Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options) {
     detail::check(batch, options);
     if (detail::fits_lanes<T>) {
         const detail::BatchPlan plan{options.count.value_or(batch.size), {}};
         Table<T> heights(batch.chains, plan.count);
         if (detail::compute(batch, plan, options, true, heights)) return heights;
     }
-    const detail::BatchPlan plan = detail::look_at_each(batch, options);
+    const detail::BatchPlan plan = detail::look_at_each(batch, options.count);
     Table<T> heights(batch.chains, plan.count);
     detail::compute(batch, plan, options, false, heights);
     return heights;

@@ -4,12 +4,64 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "revchain/linear/chain_batch.hpp"
+#include "revchain/chain.hpp"
+
+namespace revchain {
+
+// revchain/batch.hpp
+template <Real T>
+struct BatchColumn;
+template <Real T>
+struct ChainBatch;
+
+}  // namespace revchain
 
 namespace revchain::detail {
+
+/// "chain 17" (counted from 0), "chain (4, 2)" where the batch has several axes.
+template <Real T>
+std::string name_of_chain(const ChainBatch<T>& batch, Index chain) {
+    if (batch.shape.size() < 2) return "chain " + std::to_string(chain);
+    std::string name;
+    for (std::size_t axis = batch.shape.size(); axis-- > 0; chain /= batch.shape[axis])
+        name = std::to_string(chain % batch.shape[axis]) + (name.empty() ? "" : ", ") + name;
+    return "chain (" + name + ")";
+}
+
+template <Real T>
+Link<T> link_of(const ChainBatch<T>& batch, Index c, Index m) {
+    Link<T> link = plummet(batch.weight(c, m), batch.length(c, m));
+    if (!batch.centroid) return link;
+    const std::string place = "Chain: link " + std::to_string(m + 1);
+    link.centroid = (*batch.centroid)(c, m);
+    link.gyration_ratio =
+        batch.pendulum_length
+            ? gyration_from_pendulum_length<T>(place, link.length, link.centroid, (*batch.pendulum_length)(c, m))
+            : gyration_from_radius<T>(place, link.length, (*batch.radius_of_gyration)(c, m));
+    return link;
+}
+
+/// Chain number c, checked as every Chain is; what is wrong with it is told with its number.
+template <Real T>
+Chain<T> chain_of(const ChainBatch<T>& batch, Index c) {
+    try {
+        std::vector<Link<T>> links;
+        links.reserve(static_cast<std::size_t>(batch.size));
+        for (Index m = 0; m < batch.size; ++m) links.push_back(link_of(batch, c, m));
+        return Chain<T>(links);
+    } catch (const InvalidArgument& wrong) {
+        const std::string_view sentence(wrong.what());
+        const std::string_view prefix("revchain::Chain: ");
+        throw_invalid("conical_heights",
+                      name_of_chain(batch, c) + ": " +
+                          std::string(sentence.substr(sentence.starts_with(prefix) ? prefix.size() : 0)));
+    }
+}
 
 /// Whether good(x) for every number stored, without a branch: compilers vectorise it.
 template <Real T, class Good>
@@ -66,25 +118,10 @@ struct BatchPlan {
     std::vector<Index> alone;  ///< chains not for the lanes, ascending
 };
 
-template <Real T>
-void check(const ChainBatch<T>& batch, const BatchOptions& options) {
-    constexpr std::string_view place = "conical_heights";
-    if (batch.chains < 0) refuse(place, "the number of chains must not be negative", batch.chains);
-    if (batch.size < 1) refuse(place, "a chain needs at least one link", batch.size);
-    if (!batch.centroid && (batch.pendulum_length || batch.radius_of_gyration))
-        refuse(place, "pendulum_length and radius_of_gyration need the centroid");
-    if (batch.centroid && batch.pendulum_length.has_value() == batch.radius_of_gyration.has_value())
-        refuse(place, "a centroid needs either pendulum_length or radius_of_gyration (not both)");
-    if (options.count && *options.count < 1) refuse(place, "count must be at least 1", *options.count);
-    if (options.count && *options.count > batch.size)
-        refuse(place, "count must not exceed the " + std::to_string(batch.size) + " links of a chain", *options.count);
-    if (options.threads < 1) refuse(place, "threads must be at least 1", options.threads);
-}
-
 /// Throws InvalidArgument for the first chain that has something wrong.
 template <Real T>
-BatchPlan look_at_each(const ChainBatch<T>& batch, const BatchOptions& options) {
-    BatchPlan plan{options.count.value_or(batch.size), {}};
+BatchPlan look_at_each(const ChainBatch<T>& batch, const std::optional<Index>& count) {
+    BatchPlan plan{count.value_or(batch.size), {}};
     constexpr Index together = 64;
     Index fewest = batch.size, which = 0;
     for (Index first = 0; first < batch.chains; first += together) {
@@ -104,9 +141,9 @@ BatchPlan look_at_each(const ChainBatch<T>& batch, const BatchOptions& options) 
     const bool alike = static_cast<Index>(plan.alone.size()) == batch.chains &&
                        std::all_of(plan.alone.begin(), plan.alone.end(),
                                    [&](Index c) { return chain_of(batch, c).mode_count() == fewest; });
-    if (!options.count && alike) plan.count = fewest;
+    if (!count && alike) plan.count = fewest;
     if (plan.count > fewest)
-        refuse(
+        throw_invalid(
             "conical_heights",
             name_of_chain(batch, which) + " has only " + std::to_string(fewest) + " modes; count must not exceed them",
             plan.count);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/chain/chain.hpp"
-#include "revchain/core/compensated_sum.hpp"
-#include "revchain/linalg/block_transfer.hpp"
+#include "revchain/chain.hpp"
+#include "revchain/numeric/compensated_sum.hpp"
+#include "revchain/pencil/condensed/transfer.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
@@ -29,7 +29,7 @@ constexpr Index coefficient_roundings(Index links) { return 3 * links + 13; }
 /// Neighbouring runs of links, condensed, one in each lane. Units of length: `unit_length` of the columns.
 template <class V>
 struct LaneRuns {
-    linalg::Transfer<V, leaf_degree> transfer;
+    pencil::Transfer<V, leaf_degree> transfer;
     CompensatedSum<V> weight, flexibility, moment;  ///< c0, b1, a1
     V leaf_phase{};                                 ///< largest c0 b1 of a leaf
     V leaf_moment{};                                ///< largest a1^2 / (c0 b1) of a leaf
@@ -112,7 +112,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
         // hung.low is rounded `step` times at `step` half units of hung.high: that much of the mass of a leaf is lost.
         const T lost = T(16 * step * step) * epsilon<T>();
         for (Index start = 0; start < length; start += step) {
-            linalg::Transfer<V, Degree> leaf;
+            pencil::Transfer<V, Degree> leaf;
             CompensatedSum<V> flexibility;
             hung.normalise();
             const CompensatedSum<V> at_start = hung;
@@ -122,21 +122,21 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
                 const V w = links.weight.template lanes<V>(first + m, length);
                 if constexpr (!light_leaves) runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
                 if constexpr (Kind == LinkKind::equal_plummets) {
-                    linalg::append_mass(leaf, w);
+                    pencil::append_mass(leaf, w);
                     hung.add_smaller(w);
                     const V f = T(1) / hung.high;
-                    linalg::append_spring(leaf, f);
+                    pencil::append_spring(leaf, f);
                     flexibility.add_smaller(f);  // the weight at a spring grows upwards
                     flexibility.low -= f * f * hung.low;
                 } else {
                     const V at_lower = p * w;
-                    linalg::append_mass(leaf, carry + at_lower);
+                    pencil::append_mass(leaf, carry + at_lower);
                     carry = w - at_lower;
                     CompensatedSum<V> s = hung;
                     s.add_smaller(at_lower);
                     hung.add_smaller(w);
                     const V f = a / s.high;
-                    linalg::append_spring(leaf, f, coefficient * w * f);
+                    pencil::append_spring(leaf, f, coefficient * w * f);
                     if constexpr (Kind == LinkKind::equal_links)
                         flexibility.add_smaller(f);
                     else
@@ -145,7 +145,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
                     runs.worst = max(runs.worst, at_lower - T(0x1p-5) * s.high);  // it is rounded
                 }
             }
-            if constexpr (Kind != LinkKind::equal_plummets) linalg::append_mass(leaf, carry);
+            if constexpr (Kind != LinkKind::equal_plummets) pencil::append_mass(leaf, carry);
             CompensatedSum<V> mass{hung.high, V{}};
             mass.add(-at_start.high);
             mass.add(hung.low - at_start.low);
@@ -158,7 +158,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
                 max(runs.leaf_moment, if_less(V{}, phase, leaf.a[0] * leaf.a[0] / phase, V{}));  // no 0/0
             runs.moment.add(leaf.a[0] + flexibility.high * runs.weight.high);
             runs.moment.low += flexibility.high * runs.weight.low + flexibility.low * runs.weight.high;
-            runs.transfer = start == 0 ? linalg::extended<leaf_degree>(leaf) : linalg::merged(runs.transfer, leaf);
+            runs.transfer = start == 0 ? pencil::extended<leaf_degree>(leaf) : pencil::merged(runs.transfer, leaf);
             runs.weight.add(mass);
             runs.weight.normalise();
             runs.flexibility.add(flexibility);

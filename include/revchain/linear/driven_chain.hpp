@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/core/progress.hpp"
-#include "revchain/linalg/driven_lanes.hpp"
 #include "revchain/linear/assembly.hpp"
 #include "revchain/linear/rig_elements.hpp"
+#include "revchain/numeric/progress.hpp"
+#include "revchain/pencil/forced/lanes.hpp"
 
 namespace revchain::detail {
 
-using linalg::Driving;
+using pencil::Driving;
 
 /// A chain, or a rig, as the elements between its free end and what carries its support.
 struct DrivenChain {
-    std::vector<linalg::DrivenElement> elements;
+    std::vector<pencil::DrivenElement> elements;
     ChainUnits units;
     bool one_unit = true;  ///< of weight
     bool turning = false;  ///< whether a stiffness goes with the speed
@@ -32,7 +32,7 @@ inline DrivenChain driven_chain(const Chain<double>& chain) {
     result.elements.reserve(pencil.elements.size());
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const auto& e = pencil.elements[m];
-        linalg::DrivenElement element{e.stiffness, 0.0, e.lower, e.upper, e.cross};
+        pencil::DrivenElement element{e.stiffness, 0.0, e.lower, e.upper, e.cross};
         element.stiffness_error = e.stiffness.high * pencil.entry_error + pencil.stiffness_underflow;
         element.lower_error = pencil.entry_error * e.lower.high;
         element.upper_error = pencil.entry_error * e.upper.high;
@@ -66,20 +66,20 @@ inline DrivenChain driven_chain(const Rig& rig) {
 }
 
 /// Beside rounding an offset to double.
-inline bool is_negligible(const linalg::Driven& found) { return found.error_bound <= 0x1p-56; }
+inline bool is_negligible(const pencil::Driven& found) { return found.error_bound <= 0x1p-56; }
 
 /// `driven_lanes` for any number of drives, and sharper bounds for those whose own is not negligible beside rounding.
 /// `put(row, which, offset)`, and then `take(row, found)` for each.
 template <class Put, class Take>
-void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, linalg::DrivenPins& pins, const Put& put,
+void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, pencil::DrivenPins& pins, const Put& put,
                      const Take& take, Progress* progress) {
     simd([&](auto registers) __attribute__((always_inline)) {
         using V = Pack<double, registers.doubles>;
         constexpr bool fused = registers.fused;
-        constexpr std::size_t together = linalg::driven_together<V>;
+        constexpr std::size_t together = pencil::driven_together<V>;
         std::vector<double> scratch;
         Driving padded[together];
-        linalg::Driven found[together];
+        pencil::Driven found[together];
         for (std::size_t i = 0; i < at.size(); i += together) {
             const std::size_t taken = std::min(together, at.size() - i);
             for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
@@ -88,13 +88,13 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, l
                 if (lane < taken) put(static_cast<Index>(i + lane), which, y);
             };
             if (chain.turning)
-                linalg::driven_lanes<true, fused, V>(chain.elements, padded, pins, found, offset);
+                pencil::driven_lanes<true, fused, V>(chain.elements, padded, pins, found, offset);
             else
-                linalg::driven_lanes<false, fused, V>(chain.elements, padded, pins, found, offset);
+                pencil::driven_lanes<false, fused, V>(chain.elements, padded, pins, found, offset);
             bool sharp = true;
             for (std::size_t j = 0; j < taken; ++j) sharp = sharp && (!found[j].decided || is_negligible(found[j]));
-            if (!sharp && chain.turning) linalg::sharpen<true, fused, V>(chain.elements, padded, found, scratch);
-            if (!sharp && !chain.turning) linalg::sharpen<false, fused, V>(chain.elements, padded, found, scratch);
+            if (!sharp && chain.turning) pencil::sharpen<true, fused, V>(chain.elements, padded, found, scratch);
+            if (!sharp && !chain.turning) pencil::sharpen<false, fused, V>(chain.elements, padded, found, scratch);
             for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
             advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
         }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linalg/certificate.hpp"
 #include "revchain/linear/mode_table.hpp"
 #include "revchain/linear/plain_pencil.hpp"
+#include "revchain/pencil/certificate.hpp"
 
 /// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
 namespace revchain::detail {
@@ -32,12 +32,12 @@ bool is_loose(const Chain<T>& chain, const ModesOptions<T>& options) {
 
 /// Height number `j` (from 0) to `goal`, from its bracket: the cheapest certificate first.
 template <Real T>
-Height<T> refined(const Pencils<T>& pencils, Index j, const linalg::Bracket<T>& bracket, const T& goal, bool loose) {
+Height<T> refined(const Pencils<T>& pencils, Index j, const pencil::Bracket<T>& bracket, const T& goal, bool loose) {
     using S = Wide<T>;
     using M = Narrow<S>;
-    const T start = linalg::between(bracket.lower, bracket.upper);
-    if (loose && linalg::lies_within<T>(pencils.rounded(), j, start, goal / T(2)))
-        return {start, linalg::bound_of_margin<T>(goal / T(2)), S(start)};
+    const T start = pencil::between(bracket.lower, bracket.upper);
+    if (loose && pencil::lies_within<T>(pencils.rounded(), j, start, goal / T(2)))
+        return {start, pencil::bound_of_margin<T>(goal / T(2)), S(start)};
     // One round nearly always, two at most: the quotient's error is the square of the vector's. Where no arithmetic is
     // wider than T, rounding in T limits what two counts can prove: then as many ulp as it takes, within a factor of 2.
     T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // with what goes with it 2 ulp at most
@@ -45,13 +45,13 @@ Height<T> refined(const Pencils<T>& pencils, Index j, const linalg::Bracket<T>& 
     S fine(start);
     for (int round = 0; round < (std::is_same_v<S, T> ? 24 : 2); ++round) {
         if (round < 2)
-            fine = linalg::rayleigh_quotient<S>(pencils.wide(), linalg::eigenvector(pencils.rounded(), height).offset);
+            fine = pencil::rayleigh_quotient<S>(pencils.wide(), pencil::eigenvector(pencils.rounded(), height).offset);
         height = static_cast<T>(fine);
-        if (linalg::lies_within<S>(pencils.wide(), j, height, static_cast<M>(margin)))
-            return {height, linalg::bound_of_margin<S>(margin), fine};
+        if (pencil::lies_within<S>(pencils.wide(), j, height, static_cast<M>(margin)))
+            return {height, pencil::bound_of_margin<S>(margin), fine};
         if constexpr (std::is_same_v<S, T>) margin = margin * T(2);
     }
-    const auto sure = linalg::bisect_certified<S>(pencils.wide(), j, start);
+    const auto sure = pencil::bisect_certified<S>(pencils.wide(), j, start);
     return {sure.eigenvalue, sure.error_bound, S(static_cast<M>(sure.eigenvalue))};
 }
 
@@ -78,15 +78,15 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
     if (!pencil) return std::nullopt;
     // Brackets leave a quarter of the goal on either side to the counts' roundings.
     const auto brackets =
-        linalg::bisect(linalg::rounded<P>(*pencil), range.first - 1, range.count, static_cast<P>(0.5 * goal),
+        pencil::bisect(pencil::rounded<P>(*pencil), range.first - 1, range.count, static_cast<P>(0.5 * goal),
                        static_cast<P>(std::ldexp(chain.total_length(), -chain.units().length_exponent)), finished);
     Heights<double> result{{}, "bisection"};
     result.height.reserve(brackets.size());
     for (const auto& bracket : brackets) {
-        const double start = linalg::between<double>(bracket.lower, bracket.upper);
+        const double start = pencil::between<double>(bracket.lower, bracket.upper);
         const Index j = range.first - 1 + static_cast<Index>(result.height.size());
-        if (!linalg::lies_within<double>(*pencil, j, start, goal / 2)) return std::nullopt;
-        result.height.push_back({start, linalg::bound_of_margin<double>(goal / 2), start});
+        if (!pencil::lies_within<double>(*pencil, j, start, goal / 2)) return std::nullopt;
+        result.height.push_back({start, pencil::bound_of_margin<double>(goal / 2), start});
     }
     restore_order(result.height);
     return result;
@@ -95,7 +95,7 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
 /// Stage 1 of `modes`: the heights of `range`, which is not empty, to `options.rtol`. Reports progress up to `share`.
 /// This one serves every valid chain; cost as said there.
 template <Real T>
-Heights<T> heights_by_bisection(const Chain<T>& chain, OnDemand<T>& assembled, const ModeRange& range,
+Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled, const ModeRange& range,
                                 const ModesOptions<T>& options, double share) {
     const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
     const bool loose = is_loose(chain, options);
@@ -108,7 +108,7 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, OnDemand<T>& assembled, c
             if (auto found = loose_heights<double>(chain, range, goal, half_way)) return std::move(*found);
     const Pencils<T>& pencils = assembled.pencils();
     const auto brackets =
-        linalg::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
+        pencil::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
                        pencils.scaled(chain.total_length()), half_way);
     Heights<T> result{{}, "bisection"};
     result.height.reserve(brackets.size());

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "revchain/linalg/twisted.hpp"
 #include "revchain/linear/pencils.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 namespace revchain::detail {
 
@@ -39,7 +39,7 @@ Narrow<Wide<T>> separation(const Pencils<T>& pencils, Index number, const Wide<T
 /// the data's own error and all. With f the forces left over, summed from the free end, it is sum f^2/k: no norm of a
 /// matrix is needed. Cost O(N).
 template <Real S>
-Narrow<S> residual_size(const linalg::ElementPencil<S>& pencil, const S& height, const std::vector<S>& offset,
+Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height, const std::vector<S>& offset,
                         S* stiffness) {
     using std::abs;
     using std::sqrt;
@@ -48,7 +48,7 @@ Narrow<S> residual_size(const linalg::ElementPencil<S>& pencil, const S& height,
     S hung(M(0)), energy(M(0));  // mass times offset of all below, y^T K y
     M hung_size(0), sum(0), link(0);
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const linalg::Element<S>& e = pencil.elements[m];
+        const pencil::Element<S>& e = pencil.elements[m];
         const S lower = offset[m], upper = offset[m + 1], difference = lower - upper;
         const S spring = e.stiffness * difference, near = e.lower * lower + e.cross * upper;
         const M masses = size_of(e.lower * lower) +
@@ -77,11 +77,11 @@ WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
     using S = Wide<T>;
     using M = Narrow<S>;
     WideMode<T> mode{S(static_cast<M>(near)), {}, S(M(0)), std::numeric_limits<M>::infinity(), M(1)};
-    const auto rough = linalg::eigenvector(pencils.rounded(), near).offset;
-    mode.height = linalg::rayleigh_quotient<S>(pencils.wide(), rough);
+    const auto rough = pencil::eigenvector(pencils.rounded(), near).offset;
+    mode.height = pencil::rayleigh_quotient<S>(pencils.wide(), rough);
     M apart(0);
     for (int round = 0; round < 3; ++round) {
-        auto vector = linalg::unrounded_eigenvector<S>(pencils.wide(), mode.height);
+        auto vector = pencil::unrounded_eigenvector<S>(pencils.wide(), mode.height);
         for (S& y : vector.offset) y = y / vector.largest;
         mode.offset = std::move(vector.offset);
         const M size = residual_size(pencils.wide(), mode.height, mode.offset, &mode.stiffness);
@@ -92,7 +92,7 @@ WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
         if (!(mode.tangent > M(0x1p-70)) || round == 2) return mode;
         S inertia(M(0));
         for (std::size_t m = 0; m < pencils.wide().elements.size(); ++m) {
-            const linalg::Element<S>& e = pencils.wide().elements[m];
+            const pencil::Element<S>& e = pencils.wide().elements[m];
             const S lower = mode.offset[m], upper = mode.offset[m + 1], cross = e.cross * upper;
             inertia = inertia + (lower * (e.lower * lower + cross + cross) + e.upper * upper * upper);
         }

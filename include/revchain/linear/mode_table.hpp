@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "revchain/core/progress.hpp"
-#include "revchain/linalg/twisted.hpp"
-#include "revchain/linear/count.hpp"
+#include "revchain/count.hpp"
+#include "revchain/numeric/progress.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 namespace revchain {
 
@@ -87,11 +87,11 @@ namespace detail {
 
 /// Distances of the crossings from the free end, along the chain.
 template <Real T>
-Vector<T> nodes(const Chain<T>& chain, const std::vector<linalg::Crossing<T>>& crossings) {
+Vector<T> nodes(const Chain<T>& chain, const std::vector<pencil::Crossing<T>>& crossings) {
     Vector<T> found(static_cast<Index>(crossings.size()));
     Wide<T> below(T(0));  // distance of the lower pin of link `m` from the free end
     Index m = 0, i = 0;
-    for (const linalg::Crossing<T>& crossing : crossings) {
+    for (const pencil::Crossing<T>& crossing : crossings) {
         for (; m < crossing.element; ++m) below = below + Wide<T>(chain.length()[m]);
         found[i++] = static_cast<T>(below + Wide<T>(crossing.share * chain.length()[m]));
     }
@@ -100,30 +100,33 @@ Vector<T> nodes(const Chain<T>& chain, const std::vector<linalg::Crossing<T>>& c
 
 template <Real T>
 void check(const ModesOptions<T>& options) {
-    if (options.rtol && !(*options.rtol >= T(0))) refuse("modes", "rtol must not be negative or NaN", *options.rtol);
+    if (options.rtol && !(*options.rtol >= T(0)))
+        throw_invalid("modes", "rtol must not be negative or NaN", *options.rtol);
 }
 
 /// The numbers of the modes asked for.
 template <Real T>
-ModeRange chosen(const Chain<T>& chain, OnDemand<T>& assembled, const ModesOptions<T>& options) {
+ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOptions<T>& options) {
     const bool numbered = options.first != 1 || options.count.has_value();
     if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
-        refuse("modes", "give one of mode numbers (first, count), conical_height and angular_speed, not several");
+        throw_invalid("modes",
+                      "give one of mode numbers (first, count), conical_height and angular_speed, not several");
     if (options.conical_height) return assembled.counter().within(*options.conical_height);
     if (options.angular_speed) return assembled.counter().within(*options.angular_speed);
     const Index all = chain.mode_count();
     const std::string of = std::to_string(all) + " modes of this chain";
-    if (options.first < 1) refuse("modes", "first must be at least 1", options.first);
-    if (options.first > all) refuse("modes", "first must not exceed the " + of, options.first);
+    if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
+    if (options.first > all) throw_invalid("modes", "first must not exceed the " + of, options.first);
     const Index left = all - options.first + 1;
     const Index count = options.count.value_or(left);
-    if (count < 1) refuse("modes", "count must be at least 1", count);
+    if (count < 1) throw_invalid("modes", "count must be at least 1", count);
     if (count > left)
-        refuse("modes",
-               "count must not exceed the " + (left == all ? of
-                                                           : std::to_string(left) + " from number " +
-                                                                 std::to_string(options.first) + " on of the " + of),
-               count);
+        throw_invalid(
+            "modes",
+            "count must not exceed the " + (left == all ? of
+                                                        : std::to_string(left) + " from number " +
+                                                              std::to_string(options.first) + " on of the " + of),
+            count);
     return {options.first, count};
 }
 
@@ -160,9 +163,9 @@ void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent
 
 /// Stores shape and nodes of mode `j`, and its residual in the pencil's scalar; `height` in the pencil's unit.
 template <Real T, Real S>
-void set_shape(Modes<T>& modes, Index j, const Chain<T>& chain, const linalg::ElementPencil<S>& pencil, const T& height,
-               const linalg::Eigenvector<T>& vector) {
-    modes.residual[j] = linalg::relative_residual(pencil, height, vector.offset);
+void set_shape(Modes<T>& modes, Index j, const Chain<T>& chain, const pencil::ElementPencil<S>& pencil, const T& height,
+               const pencil::Eigenvector<T>& vector) {
+    modes.residual[j] = pencil::relative_residual(pencil, height, vector.offset);
     modes.nodes[static_cast<std::size_t>(j)] = nodes(chain, vector.crossings);
     modes.shape.row(j) = vector.offset.transpose();
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linalg/sturm.hpp"
 #include "revchain/linear/assembly.hpp"
+#include "revchain/pencil/sturm.hpp"
 
 namespace revchain::detail {
 
@@ -11,11 +11,11 @@ template <Real T>
 class Pencils {
    public:
     explicit Pencils(const Chain<T>& chain) : assembled_(assemble(chain)) {
-        if constexpr (!std::is_same_v<Wide<T>, T>) rounded_ = linalg::rounded<T>(assembled_.pencil);
+        if constexpr (!std::is_same_v<Wide<T>, T>) rounded_ = pencil::rounded<T>(assembled_.pencil);
     }
 
-    const linalg::ElementPencil<Wide<T>>& wide() const { return assembled_.pencil; }
-    const linalg::ElementPencil<T>& rounded() const {
+    const pencil::ElementPencil<Wide<T>>& wide() const { return assembled_.pencil; }
+    const pencil::ElementPencil<T>& rounded() const {
         if constexpr (std::is_same_v<Wide<T>, T>) {
             return assembled_.pencil;
         } else {
@@ -34,7 +34,7 @@ class Pencils {
     /// Proved counts above heights in the pencils' units: in T where that suffices, else in `Wide<T>` (8 times the
     /// cost).
     template <std::size_t L>
-    std::array<linalg::CertifiedCount, L> certified_count(const std::array<Wide<T>, L>& heights) const {
+    std::array<pencil::CertifiedCount, L> certified_count(const std::array<Wide<T>, L>& heights) const {
         std::array<T, L> narrow;
         bool exact = true;
         for (std::size_t i = 0; i < L; ++i) {
@@ -42,17 +42,17 @@ class Pencils {
             exact = exact && Wide<T>(narrow[i]) == heights[i];
         }
         if (exact) {
-            const auto quick = linalg::certified_count<T, L>(rounded(), narrow);
+            const auto quick = pencil::certified_count<T, L>(rounded(), narrow);
             bool proved = true;
             for (const auto& count : quick) proved = proved && count.proved;
             if (proved || std::is_same_v<Wide<T>, T>) return quick;
         }
-        return linalg::certified_count<Wide<T>, L>(wide(), heights);
+        return pencil::certified_count<Wide<T>, L>(wide(), heights);
     }
 
    private:
     AssembledChain<T> assembled_;
-    linalg::ElementPencil<T> rounded_;
+    pencil::ElementPencil<T> rounded_;
 };
 
 }  // namespace revchain::detail

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "revchain/chain/chain.hpp"
-#include "revchain/linalg/element_pencil.hpp"
+#include "revchain/chain.hpp"
+#include "revchain/pencil/element.hpp"
 
 namespace revchain {
 
@@ -13,14 +13,14 @@ namespace revchain {
 /// tolerances. None where weights differ too widely for one unit, a centroid lies above its pin, or the chain's units
 /// leave the range.
 template <std::same_as<double> T>
-std::optional<linalg::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
+std::optional<pencil::ElementPencil<T>> plain_pencil(const Chain<T>& chain) {
     const ChainUnits units = chain.units();
     if (!chain.has_one_weight_unit() || std::abs(units.weight_exponent) > 1000 ||
         std::abs(units.length_exponent) > 1000)
         return std::nullopt;
     const T per_weight = std::ldexp(T(1), -units.weight_exponent),
             per_length = std::ldexp(T(1), -units.length_exponent);
-    linalg::ElementPencil<T> pencil;
+    pencil::ElementPencil<T> pencil;
     pencil.elements.resize(static_cast<std::size_t>(chain.size()));
     T shortest(1), highest = std::numeric_limits<T>::infinity();  // length, centroid
     T below(0);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linalg/bisection.hpp"
-#include "revchain/linalg/signed_twisted.hpp"
 #include "revchain/linear/mode_table.hpp"
 #include "revchain/linear/rig_mode_table.hpp"
 #include "revchain/linear/rig_pencil.hpp"
+#include "revchain/pencil/bisection.hpp"
+#include "revchain/pencil/signed_twisted.hpp"
 
 /// The part of `rig_modes` that counts: for rigs whose roots are all real and one count numbers.
 namespace revchain::detail {
@@ -21,7 +21,7 @@ struct FoundRoot {
 /// The roots x > 0 of Q(side x), numbered from 0, largest first: base + sign (negative eigenvalues of Q) exceed x.
 class CountedRoots {
    public:
-    CountedRoots(linalg::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
+    CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
         : pencil_(std::move(pencil)),
           counter_(pencil_, base, sign, side),
           pace_(pace),
@@ -29,7 +29,7 @@ class CountedRoots {
           sign_(sign),
           side_(side) {}
 
-    const linalg::SignedPencil<RigWord>& pencil() const { return pencil_; }
+    const pencil::SignedPencil<RigWord>& pencil() const { return pencil_; }
 
     struct Available {
         Index count = 0;
@@ -49,37 +49,37 @@ class CountedRoots {
 
     /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
     template <class Finished>
-    std::vector<linalg::Bracket<double>> brackets(Index first, Index count, double start, Finished finished) const {
-        return linalg::bisect(counter_, first, count, 2 * epsilon<double>(), start, finished);
+    std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start, Finished finished) const {
+        return pencil::bisect(counter_, first, count, 2 * epsilon<double>(), start, finished);
     }
 
     /// Root number j from its bracket: a vector in two words, its quotient, and two proved counts.
-    FoundRoot refined(Index j, const linalg::Bracket<double>& bracket) const {
+    FoundRoot refined(Index j, const pencil::Bracket<double>& bracket) const {
         const double margin = epsilon<double>();
         const RigWord side(static_cast<double>(side_));
-        RigWord x(linalg::between(bracket.lower, bracket.upper));
+        RigWord x(pencil::between(bracket.lower, bracket.upper));
         for (int round = 0; round < 3; ++round) {
             const RigWord root =
-                side * linalg::rayleigh_root(pencil_, linalg::twisted_vector(pencil_, side * x), side * x);
+                side * pencil::rayleigh_root(pencil_, pencil::twisted_vector(pencil_, side * x), side * x);
             if (!(root > RigWord(0.0)) || !isfinite(root)) break;
             x = root;
             const RigWord out = given_out(x), reach = out * RigWord(margin);
             const auto count = counted<2>({out - reach, out + reach});
             if (count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j) return {x, margin};
         }
-        return bisected(j, linalg::between(bracket.lower, bracket.upper));
+        return bisected(j, pencil::between(bracket.lower, bracket.upper));
     }
 
     /// y with Q y = 0 at a root.
     std::vector<RigWord> vector(const RigWord& x) const {
-        return linalg::twisted_vector(pencil_, RigWord(static_cast<double>(side_)) * x);
+        return pencil::twisted_vector(pencil_, RigWord(static_cast<double>(side_)) * x);
     }
 
    private:
     template <std::size_t N>
-    std::array<linalg::CertifiedCount, N> counted(std::array<RigWord, N> x) const {
+    std::array<pencil::CertifiedCount, N> counted(std::array<RigWord, N> x) const {
         for (RigWord& one : x) one = RigWord(static_cast<double>(side_)) * one;
-        auto result = linalg::certified_count<RigWord, N>(pencil_, x);
+        auto result = pencil::certified_count<RigWord, N>(pencil_, x);
         for (auto& one : result) one.above = base_ + sign_ * one.above;
         return result;
     }
@@ -119,8 +119,8 @@ class CountedRoots {
         return {x, worst / static_cast<double>(lower) * (1 + 8 * epsilon<double>())};
     }
 
-    linalg::SignedPencil<RigWord> pencil_;
-    linalg::SignedCounter<double> counter_;
+    pencil::SignedPencil<RigWord> pencil_;
+    pencil::SignedCounter<double> counter_;
     RigWord pace_;
     Index base_, sign_;
     int side_;
@@ -129,8 +129,8 @@ class CountedRoots {
 /// The range of mode numbers asked for of so many; fewer, or none, where there are not as many. How many there are of
 /// a sense is told by the result.
 inline ModeRange chosen(const RigModesOptions& options, Index available) {
-    if (options.first < 1) refuse("rig_modes", "first must be at least 1", options.first);
-    if (options.count && *options.count < 1) refuse("rig_modes", "count must be at least 1", *options.count);
+    if (options.first < 1) throw_invalid("rig_modes", "first must be at least 1", options.first);
+    if (options.count && *options.count < 1) throw_invalid("rig_modes", "count must be at least 1", *options.count);
     const Index left = std::max<Index>(0, available - options.first + 1);
     return {options.first, std::min(left, options.count.value_or(left))};
 }
@@ -146,7 +146,7 @@ inline void make_room(WhirlModes& modes, const ModeRange& range, Index available
 }
 
 /// Stores mode number j (from 0) of those found; false where nothing was proved of it.
-inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const linalg::SignedPencil<RigWord>& pencil,
+inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pencil::SignedPencil<RigWord>& pencil,
                      const FoundRoot& root, bool shapes) {
     const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
     const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
@@ -161,12 +161,12 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const lin
     modes.error_bound[j] = proved ? of_height : std::numeric_limits<double>::infinity();
     modes.speed_error_bound[j] = proved ? of_speed : std::numeric_limits<double>::infinity();
     if (!shapes) return proved;
-    const auto offset = linalg::twisted_vector(pencil, root.x);
+    const auto offset = pencil::twisted_vector(pencil, root.x);
     Vector<double> rounded(pencil.size() + 1);
     for (Index i = 0; i <= pencil.size(); ++i) rounded[i] = static_cast<double>(offset[static_cast<std::size_t>(i)]);
     modes.shape.row(j).head(rig.idle).setConstant(rounded[0]);
     modes.shape.row(j).tail(modes.shape.cols() - rig.idle) = rounded.head(modes.shape.cols() - rig.idle).transpose();
-    modes.residual[j] = linalg::relative_residual(pencil, root.x, rounded);
+    modes.residual[j] = pencil::relative_residual(pencil, root.x, rounded);
     return proved;
 }
 

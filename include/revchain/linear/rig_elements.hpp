@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "revchain/chain/rig.hpp"
-#include "revchain/linalg/signed_pencil.hpp"
+#include "revchain/pencil/signed.hpp"
+#include "revchain/rig.hpp"
 
 namespace revchain {
 
@@ -12,8 +12,8 @@ namespace revchain {
 /// Stiffness at rest, and momentum over the square of the length as `spin`: times a speed it is stiffness.
 struct RigElement {
     using S = Wide<double>;
-    linalg::SignedElement<S> numbers;
-    linalg::SignedElementError<double> off;
+    pencil::SignedElement<S> numbers;
+    pencil::SignedElementError<double> off;
 };
 
 /// One link: stiffness and spin negative where it stands.
@@ -48,7 +48,7 @@ inline std::optional<RigElement> support_element(const Rig& rig) {
     const ChainUnits units = rig.chain().units();
     const double stiffness = std::ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
     if (!(std::isfinite(stiffness) && stiffness > 0))
-        detail::refuse("Rig", "the support's stiffness is too far from weight over length", support.stiffness);
+        detail::throw_invalid("Rig", "the support's stiffness is too far from weight over length", support.stiffness);
     return RigElement{
         {S(stiffness), S(0.0), S(std::ldexp(support.carriage_weight, -units.weight_exponent)), S(0.0), S(0.0)}, {}};
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "revchain/core/conical_pendulum.hpp"
-#include "revchain/core/progress.hpp"
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/progress.hpp"
 
 namespace revchain {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linalg/complex_spectrum.hpp"
-#include "revchain/linear/modes.hpp"
 #include "revchain/linear/rig_counts.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/pencil/complex/spectrum.hpp"
 
 namespace revchain {
 
@@ -138,21 +138,22 @@ inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const Ri
 /// Neither: all roots at once.
 inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const RigModesOptions& options) {
     if (pencil.pencil.size() > dense_rig_limit)
-        refuse("rig_modes",
-               "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a fluid that "
-               "turns with them) is solved for at most " +
-                   std::to_string(dense_rig_limit) + " links and supports that yield",
-               pencil.pencil.size());
+        throw_invalid(
+            "rig_modes",
+            "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a fluid that "
+            "turns with them) is solved for at most " +
+                std::to_string(dense_rig_limit) + " links and supports that yield",
+            pencil.pencil.size());
     RigModes result;
     result.has_momentum = pencil.pencil.quadratic, result.method = "discs";
     // A massless coordinate has a root x = 0, and two where no momentum acts on it.
     const Index zeros = pencil.massless.size + (pencil.pencil.quadratic ? pencil.massless.zero : 0);
-    const linalg::ComplexSpectrum spectrum =
-        linalg::complex_spectrum(pencil.pencil, zeros, [&](double share) { advance(options.progress, 0.9 * share); });
+    const pencil::ComplexSpectrum spectrum =
+        pencil::complex_spectrum(pencil.pencil, zeros, [&](double share) { advance(options.progress, 0.9 * share); });
     result.complete = spectrum.proved;
     if (!spectrum.proved) result.status = Status::tolerance_not_met;
     std::vector<FoundRoot> forward, backward;
-    for (const linalg::EnclosedRoot& root : spectrum.roots) {
+    for (const pencil::EnclosedRoot& root : spectrum.roots) {
         const double size = std::abs(root.value),
                      bound = spectrum.proved ? root.radius / size : std::numeric_limits<double>::infinity();
         if (!(size > 0x1p-200)) continue;  // not proved, and no speed if it is 0

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "revchain/core/interval.hpp"
 #include "revchain/linear/rig_elements.hpp"
+#include "revchain/numeric/interval.hpp"
 
 namespace revchain {
 
@@ -26,7 +26,7 @@ struct MasslessForm {
 /// Q = x^2 K + x (pace G) - M, x = pace/n, pace^2 = g, the same as K + n G - (n^2/g) M.
 struct RigPencil {
     using S = Wide<double>;
-    linalg::SignedPencil<S> pencil;
+    pencil::SignedPencil<S> pencil;
     ChainUnits units;
     S pace{1.0};              ///< sqrt(g) in the unit of length; n = pace/x
     bool stiffness_positive;  ///< every element's stiffness at rest is, within its error: K > 0
@@ -61,7 +61,7 @@ inline Held held_by(const Rig& rig, Index m) {
 
 /// The form sum of c (y_m - y_{m+1})^2 over the elements, on the motions that carry no inertia; c is an element's
 /// stiffness or, in a quadratic family, its spin. Coordinates are eliminated by intervals, from the free end up.
-inline MasslessForm massless_form(const linalg::SignedPencil<Wide<double>>& pencil, const std::vector<Held>& held) {
+inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<Held>& held) {
     using S = Wide<double>;
     using I = Interval<S>;
     const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
@@ -102,8 +102,8 @@ inline MasslessForm massless_form(const linalg::SignedPencil<Wide<double>>& penc
 }
 
 /// Whether a mass whose numbers have these errors is positive or 0 for certain.
-inline bool is_not_negative(const linalg::SignedElement<Wide<double>>& e,
-                            const linalg::SignedElementError<double>& off) {
+inline bool is_not_negative(const pencil::SignedElement<Wide<double>>& e,
+                            const pencil::SignedElementError<double>& off) {
     const auto high = [](const Wide<double>& x) { return static_cast<double>(x); };
     const auto vanish = [](const Wide<double>& x, double error) { return x == Wide<double>(0.0) && error == 0; };
     if (vanish(e.cross, off.cross) && vanish(e.upper, off.upper)) return high(e.lower) >= off.lower;

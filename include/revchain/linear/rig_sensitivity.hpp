@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/chain/rig.hpp"
-#include "revchain/core/conical_pendulum.hpp"
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/rig.hpp"
 
 namespace revchain {
 
@@ -32,10 +32,10 @@ inline RigSensitivity rig_sensitivity(const Rig& rig, double angular_speed, cons
     using S = Wide<double>;
     constexpr std::string_view place = "rig_sensitivity";
     if (!std::isfinite(angular_speed) || angular_speed == 0)
-        detail::refuse(place, "angular speed must be finite and not 0", angular_speed);
+        detail::throw_invalid(place, "angular speed must be finite and not 0", angular_speed);
     detail::require_positive(place, "gravity", gravity);
     if (offset.size() != rig.size() + 1)
-        detail::refuse(place, "there must be " + std::to_string(rig.size() + 1) + " offsets", offset.size());
+        detail::throw_invalid(place, "there must be " + std::to_string(rig.size() + 1) + " offsets", offset.size());
     const auto links = rig_links(rig);
     const ChainUnits units = rig.chain().units();
     const Index count = rig.size();
@@ -59,8 +59,8 @@ inline RigSensitivity rig_sensitivity(const Rig& rig, double angular_speed, cons
         inertia = inertia + S(std::ldexp(support.carriage_weight, -units.weight_exponent)) * top * top;
     const S denominator = momentum - S(2.0) * turning * inertia / n;
     if (!isfinite(denominator) || denominator == S(0.0))
-        detail::refuse(place, "offsets must be finite and move a weight or tilt a flywheel at the angular speed",
-                       angular_speed);
+        detail::throw_invalid(place, "offsets must be finite and move a weight or tilt a flywheel at the angular speed",
+                              angular_speed);
     const auto rate = [&](const S& x) { return static_cast<double>(-x / denominator); };
 
     RigSensitivity result{};
@@ -131,10 +131,10 @@ inline double momentum_for_speed(const Rig& rig, Index link, double angular_spee
     using S = Wide<double>;
     constexpr std::string_view place = "momentum_for_speed";
     if (!std::isfinite(angular_speed) || angular_speed == 0)
-        detail::refuse(place, "angular speed must be finite and not 0", angular_speed);
+        detail::throw_invalid(place, "angular speed must be finite and not 0", angular_speed);
     detail::require_positive(place, "gravity", gravity);
     if (link < 1 || link > rig.size())
-        detail::refuse(place, "link must be from 1, the lowest, to " + std::to_string(rig.size()), link);
+        detail::throw_invalid(place, "link must be from 1, the lowest, to " + std::to_string(rig.size()), link);
     const auto links = rig_links(rig);
     const ChainUnits units = rig.chain().units();
     const S n(angular_speed), turning = ldexp(n * n / S(gravity), units.length_exponent);
@@ -164,11 +164,11 @@ inline double momentum_for_speed(const Rig& rig, Index link, double angular_spee
     const double needed = std::ldexp(static_cast<double>((tension - it.tension) * it.length / n),
                                      units.weight_exponent + units.length_exponent);
     if (!std::isfinite(needed))
-        detail::refuse(place,
-                       "no finite momentum of link " + std::to_string(link) +
-                           " makes this a whirl speed; choose "
-                           "another link or angular speed",
-                       angular_speed);
+        detail::throw_invalid(place,
+                              "no finite momentum of link " + std::to_string(link) +
+                                  " makes this a whirl speed; choose "
+                                  "another link or angular speed",
+                              angular_speed);
     return needed;
 }
 

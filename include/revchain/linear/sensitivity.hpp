@@ -4,9 +4,9 @@
 #include <array>
 #include <string_view>
 
-#include "revchain/core/progress.hpp"
 #include "revchain/linear/mode_shape.hpp"
 #include "revchain/linear/mode_table.hpp"
+#include "revchain/numeric/progress.hpp"
 
 namespace revchain {
 
@@ -170,7 +170,7 @@ void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLi
 template <Real T>
 Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
     if (!chain.has_one_weight_unit())
-        detail::refuse("sensitivity", "weights must not be more than 1e123 apart", chain.total_weight());
+        detail::throw_invalid("sensitivity", "weights must not be more than 1e123 apart", chain.total_weight());
     Sensitivity<T> result;
     result.first = modes.first;
     for (auto& derivatives : result.by_datum)

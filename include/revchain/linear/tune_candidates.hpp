@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "revchain/linalg/twisted.hpp"
 #include "revchain/linear/pencils.hpp"
 #include "revchain/linear/sensitivity.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 /// What `tune` has to know of one link: another value of a datum, the range it may have, and the values at which the chain
 /// has a given conical height, of whichever mode.
@@ -104,12 +104,12 @@ inline TuneRange tune_range(std::string_view place, const Chain<double>& chain, 
     if (low) range.low = *low;
     if (high) range.high = *high;
     if (!std::isfinite(range.low) || !std::isfinite(range.high) || !(range.low < range.high))
-        refuse(place, "between: its high end must exceed its low end " + in_digits(range.low) + ", both finite",
-               range.high);
+        throw_invalid(place, "between: its high end must exceed its low end " + in_digits(range.low) + ", both finite",
+                      range.high);
     if (datum != Datum::centroid && range.low < 0)
-        refuse(place, "between: its low end must not be negative for this quantity", range.low);
+        throw_invalid(place, "between: its low end must not be negative for this quantity", range.low);
     if (datum != Datum::centroid && datum != Datum::radius_of_gyration && !(range.low > 0))
-        refuse(place, "between: its low end must be positive for this quantity", range.low);
+        throw_invalid(place, "between: its low end must be positive for this quantity", range.low);
     // A link hangs where W h + a S > 0; not nearer to that limit than a part in 1e6.
     constexpr double inside = 1e-6;
     const double W = link.weight, a = link.length, h = link.centroid;
@@ -117,7 +117,7 @@ inline TuneRange tune_range(std::string_view place, const Chain<double>& chain, 
         range.low = std::max(range.low, below > 0 ? -a * below / W * (1 - inside) : a * inside);
     if (datum == Datum::weight && h < 0) range.high = std::min(range.high, -a * below / h * (1 - inside));
     if (datum == Datum::length && h < 0) range.low = std::max(range.low, -W * h / below * (1 + inside));
-    if (!(range.low < range.high)) refuse(place, "between: the link would stand, not hang, up to", range.high);
+    if (!(range.low < range.high)) throw_invalid(place, "between: the link would stand, not hang, up to", range.high);
     range.start = std::clamp(present, range.low, range.high);
     return range;
 }
@@ -138,13 +138,13 @@ inline std::vector<double> tune_candidates(const Chain<double>& chain, Index num
     S D(0.0), E(0.0);
     for (std::size_t m = 0; m < at; ++m) {
         const auto& e = elements[m];
-        D = linalg::detail::across<S>(e, lambda * e.stiffness, D, e.lower, e.upper).stiffness;
+        D = pencil::detail::across<S>(e, lambda * e.stiffness, D, e.lower, e.upper).stiffness;
     }
     const bool top = at + 1 == n;
     for (std::size_t m = n; m-- > at + 1;) {
         const auto& e = elements[m];
         const S stiffness = lambda * e.stiffness;
-        E = m + 1 == n ? stiffness - e.lower : linalg::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
+        E = m + 1 == n ? stiffness - e.lower : pencil::detail::across<S>(e, stiffness, E, e.upper, e.lower).stiffness;
     }
     const ScaledLink<S> link = scaled_links(chain)[at];
     const auto& [W, a, h, rho, below] = link;

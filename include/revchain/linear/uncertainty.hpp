@@ -45,7 +45,8 @@ Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity, const Vector<T>& c
     constexpr std::string_view place = "uncertainty";
     const Index k = sensitivity.size(), n = sensitivity.weight().value.cols();
     if (conical_height.size() != k)
-        detail::refuse(place, "there must be as many heights as modes, " + std::to_string(k), conical_height.size());
+        detail::throw_invalid(place, "there must be as many heights as modes, " + std::to_string(k),
+                              conical_height.size());
     Uncertainty<T> result{Vector<T>::Zero(k),
                           Vector<T>::Zero(k),
                           {},
@@ -59,19 +60,20 @@ Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity, const Vector<T>& c
         const auto sound = [&](const T& x) { return isfinite(x) && x >= T(0); };
         const bool correlated = standard.size() == 0;
         if (!correlated && standard.size() != 1 && standard.size() != n)
-            detail::refuse(place,
-                           name + " must have one deviation or one for each of the " + std::to_string(n) + " links",
-                           standard.size());
+            detail::throw_invalid(
+                place, name + " must have one deviation or one for each of the " + std::to_string(n) + " links",
+                standard.size());
         if (correlated && (covariance.rows() != n || covariance.cols() != n))
-            detail::refuse(place, "the covariance of " + name + " must have " + std::to_string(n) + " rows and columns",
-                           covariance.rows());
+            detail::throw_invalid(place,
+                                  "the covariance of " + name + " must have " + std::to_string(n) + " rows and columns",
+                                  covariance.rows());
         for (const T& x : standard)
-            if (!sound(x)) detail::refuse(place, name + " must be finite and not negative", x);
+            if (!sound(x)) detail::throw_invalid(place, name + " must be finite and not negative", x);
         for (Index i = 0; i < covariance.rows(); ++i)
             for (Index m = 0; m <= i; ++m)
                 if (!isfinite(covariance(i, m)) || covariance(i, m) != covariance(m, i) ||
                     (i == m && !sound(covariance(i, i))))
-                    detail::refuse(
+                    detail::throw_invalid(
                         place, "the covariance of " + name + " must be finite, symmetric and its diagonal not negative",
                         covariance(i, m));
         const Table<T>& value = sensitivity.by_datum[d].value;

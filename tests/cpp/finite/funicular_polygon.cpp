@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Greenhill (1908) §3: a funicular polygon between two supports, and its oscillation perpendicular to its plane.
-#include "revchain/finite/funicular_polygon.hpp"
+#include "revchain/statics.hpp"
 
-#include "revchain/linear/string_of_weights.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"

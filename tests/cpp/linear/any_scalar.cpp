@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/count.hpp"
-#include "revchain/linear/modes.hpp"
-#include "revchain/linear/recurrence.hpp"
+#include "revchain/count.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/recurrence.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/quad_scalar.hpp"

@@ -3,7 +3,7 @@
 // more than what is.
 #include "revchain/linear/condensation.hpp"
 
-#include "revchain/linear/compression.hpp"
+#include "revchain/linear/condensed_chain.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"
@@ -20,17 +20,17 @@ namespace {
 constexpr double half = 0x1p-53;
 
 /// Links first ... first + length - 1, hung by all below, lengths in `unit`.
-linalg::Transfer<Quad, leaf_degree> exact_run(const Chain<double>& chain, Index first, Index length, double unit) {
-    linalg::Transfer<Quad, leaf_degree> run;
+pencil::Transfer<Quad, leaf_degree> exact_run(const Chain<double>& chain, Index first, Index length, double unit) {
+    pencil::Transfer<Quad, leaf_degree> run;
     Quad below = 0;
     for (Index m = 0; m < first; ++m) below += quad(chain.weight()[m]);
     for (Index m = first; m < first + length; ++m) {
         const auto link = chain.link(m);
         const Quad w = quad(link.weight), p = quad(link.centroid) / quad(link.length), r = quad(link.gyration_ratio);
         const Quad f = quad(link.length) / quad(unit) / (below + w * p), inertia = w * (p * (1 - p) - r);
-        linalg::append_mass(run, w * p);
-        linalg::append_spring(run, f, inertia * f);
-        linalg::append_mass(run, w * (1 - p));
+        pencil::append_mass(run, w * p);
+        pencil::append_spring(run, f, inertia * f);
+        pencil::append_mass(run, w * (1 - p));
         below += w;
     }
     return run;

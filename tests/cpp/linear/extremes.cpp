@@ -4,7 +4,7 @@
 #include <cfenv>
 #include <optional>
 
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 #include "support/big_float.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"

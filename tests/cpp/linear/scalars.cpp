@@ -4,8 +4,8 @@
 #include <map>
 #include <sstream>
 
-#include "revchain/core/double_double.hpp"
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/numeric/double_double.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/quad_scalar.hpp"

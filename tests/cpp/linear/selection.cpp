@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // Which modes: ranges of numbers, windows of heights and speeds; and the certificates that go with them.
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/linear/sensitivity.hpp"
 
-#include "revchain/core/double_double.hpp"
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/numeric/double_double.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"

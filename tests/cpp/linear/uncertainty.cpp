@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 

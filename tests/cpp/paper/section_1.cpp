@@ -3,10 +3,8 @@
 #include <cmath>
 
 #include "paper.hpp"
-#include "revchain/core/carried_support.hpp"
-#include "revchain/core/conical_pendulum.hpp"
-#include "revchain/core/inclined_pendulum.hpp"
-#include "revchain/linear/count.hpp"
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/count.hpp"
 
 namespace pendulum = revchain::conical_pendulum;
 using paper::error_in_ulp;

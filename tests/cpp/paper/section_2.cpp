@@ -2,10 +2,10 @@
 // Greenhill (1908) §2: two plummets on one thread. In the paper P_1 is the lower plummet, P_2 the upper, l_1 the thread
 // between them, l_2 the one above; here these are links 1 and 2.
 #include "paper.hpp"
-#include "revchain/finite/two_links.hpp"
+#include "revchain/buffer.hpp"
 #include "revchain/linear/assembly.hpp"
-#include "revchain/linear/buffer_impact.hpp"
-#include "revchain/linear/two_links.hpp"
+#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 
 using paper::Quad;
 using revchain::Chain;

@@ -5,9 +5,8 @@
 #include <numbers>
 
 #include "paper.hpp"
-#include "revchain/analytic/heavy_chain.hpp"
-#include "revchain/analytic/tapered_chain.hpp"
-#include "revchain/analytic/tip_mass.hpp"
+#include "revchain/cord.hpp"
+#include "revchain/special/tip_mass.hpp"
 
 namespace heavy_chain = revchain::analytic::heavy_chain;
 namespace tapered_chain = revchain::analytic::tapered_chain;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Greenhill (1908) §5: the chain without gravity. a is half the distance between nodes, b the sag, h the tension-length.
-// Its differential equation, the variational remark and the inverse questions: tests/cpp/analytic/skipping_rope.cpp;
-// "a tortuous curve": tests/cpp/analytic/tortuous_rope.cpp.
+// Its differential equation, the variational remark and the inverse questions: tests/cpp/rope.cpp;
+// "a tortuous curve": tests/cpp/special/tortuous_rope.cpp.
 #include "paper.hpp"
-#include "revchain/analytic/skipping_rope.hpp"
-#include "revchain/core/hoop.hpp"
+#include "revchain/hoop.hpp"
+#include "revchain/rope.hpp"
 
 using paper::error_in_ulp;
 using paper::Quad;

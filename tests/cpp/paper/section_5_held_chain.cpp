@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 // Chains held at both ends: against the bodies' Lagrangian in quadruple precision, triangles, the closed form of the
 // skipping rope, laws, and small theory.
-#include "revchain/finite/held_chain.hpp"
+#include "revchain/held.hpp"
 
-#include "revchain/analytic/skipping_rope.hpp"
+#include "revchain/rope.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"

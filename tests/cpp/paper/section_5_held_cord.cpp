@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 // Cords held at both ends: against the closed form without gravity, integration in quadruple precision with it, and links.
-#include "revchain/finite/held_cord.hpp"
+#include "revchain/finite/held/cord.hpp"
 
-#include "revchain/analytic/skipping_rope.hpp"
-#include "revchain/finite/held_chain.hpp"
+#include "revchain/held.hpp"
+#include "revchain/rope.hpp"
 #include "support/catch.hpp"
 #include "support/truth.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 // Greenhill (1908) §6: one compound link, and one on a thread (a boat on its davits, a bag in a hand).
 #include "paper.hpp"
-#include "revchain/finite/two_links.hpp"
-#include "revchain/linear/count.hpp"
-#include "revchain/linear/two_links.hpp"
+#include "revchain/count.hpp"
+#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 
 using paper::Index;
 using paper::Letters;

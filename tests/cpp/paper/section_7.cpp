@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Greenhill (1908) §7: the link as governor, from rest at an angle alpha, against the paper's forms. Motion from any start
-// against integration: tests/cpp/analytic/governor.cpp.
+// against integration: tests/cpp/governor.cpp.
 #include "paper.hpp"
-#include "revchain/analytic/governor.hpp"
+#include "revchain/governor.hpp"
 
 using paper::error_in_ulp;
 using paper::Quad;

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "revchain/linear/assembly.hpp"
-#include "revchain/linear/recurrence.hpp"
+#include "revchain/recurrence.hpp"
 #include "section_8.hpp"
 
 using paper::Index;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "revchain/chain/chain.hpp"
+#include "revchain/chain.hpp"
 
 namespace support {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "revchain/chain/chain.hpp"
+#include "revchain/chain.hpp"
 
 namespace support {
 

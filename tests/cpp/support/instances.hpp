@@ -3,7 +3,7 @@
 // compiled once for each program, in instances.cpp.
 #pragma once
 
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 
 extern template revchain::Modes<double> revchain::modes(const revchain::Chain<double>&,
                                                         const revchain::ModesOptions<double>&);

@@ -3,7 +3,7 @@
 // relation (12) of §8 differenced from link to link, an assembled tridiagonal Jacobian, Newton's method on the angles.
 #pragma once
 
-#include "revchain/chain/chain.hpp"
+#include "revchain/chain.hpp"
 #include "support/truth.hpp"
 
 namespace support {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "revchain/chain/rig.hpp"
+#include "revchain/rig.hpp"
 #include "support/truth.hpp"
 
 namespace support {

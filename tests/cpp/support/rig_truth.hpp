@@ -5,7 +5,7 @@
 
 #include <complex>
 
-#include "revchain/chain/rig.hpp"
+#include "revchain/rig.hpp"
 #include "support/truth.hpp"
 
 namespace support {

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "revchain/chain/chain.hpp"
+#include "revchain/chain.hpp"
 
 namespace support {
 

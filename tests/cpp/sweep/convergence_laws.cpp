@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/cuttings.hpp"
 

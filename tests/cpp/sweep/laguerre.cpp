@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "revchain/linear/modes.hpp"
+#include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/error_metric.hpp"
 #include "support/truth.hpp"

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "revchain/system/column.hpp"
+#include "revchain/system/link.hpp"
+#include "revchain/system/tapered_links.hpp"
+
+namespace revchain {
+
+/// Powers of two that bring the total weight and the largest length to the order of 1: exact, and what keeps every
+/// recursion in range whatever the user's units.
+struct ChainUnits {
+    int weight_exponent = 0;
+    int length_exponent = 0;
+};
+
+/// A hanging chain of links, lowest first: link m joins pin m (lower) and pin m + 1 (upper), pin 0 is the free end, pin
+/// `size()` the support. Checked once here, immutable, and trusted by everything that reads it.
+///
+/// Throws InvalidArgument, naming the link (counted from 1, lowest first), for: no links; numbers that are not finite;
+/// lengths <= 0; negative weights; a massless lowest link; weights whose sum overflows; a link that would stand rather
+/// than hang (W h + a S <= 0, S the weight hung below it); lengths, of any kind, too far apart for T (2^(max_exponent/4):
+/// 1e77 in double).
+/// Cost O(N) once; memory one number per stored number.
+template <Real T>
+class Chain {
+   public:
+    explicit Chain(const std::vector<Link<T>>& links)
+        : size_(static_cast<Index>(links.size())),
+          weight_(column(links, &Link<T>::weight)),
+          length_(column(links, &Link<T>::length)),
+          centroid_(column(links, &Link<T>::centroid)),
+          gyration_ratio_(column(links, &Link<T>::gyration_ratio)) {
+        check();
+    }
+
+    /// `size` links from columns, each of `size` numbers or one. `taper`: of links that `tapered` made; it is believed.
+    Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio,
+          std::optional<double> taper = std::nullopt)
+        : size_(size),
+          weight_(std::move(weight)),
+          length_(std::move(length)),
+          centroid_(std::move(centroid)),
+          gyration_ratio_(std::move(gyration_ratio)),
+          taper_(taper) {
+        check();
+    }
+
+    /// `count` equal plummets: `length` and `weight` are those of the whole chain.
+    static Chain uniform_plummets(Index count, T length = T(1), T weight = T(1)) {
+        return repeated("Chain::uniform_plummets", count, length, weight, &plummet<T>);
+    }
+
+    /// `count` equal uniform rods: `length` and `weight` are those of the whole chain.
+    static Chain uniform_rods(Index count, T length = T(1), T weight = T(1)) {
+        return repeated("Chain::uniform_rods", count, length, weight, &uniform_rod<T>);
+    }
+
+    /// `count` straight links of equal length, each the piece of a cord whose line density is as x^exponent, x from the free
+    /// end: 0 is `uniform_rods`, 1 a cord that thickens upwards; towards -1 the mass gathers at the free end.
+    /// Greenhill (1908) §4. `length` and `weight` are those of the whole chain.
+    /// Throws InvalidArgument, too, for an exponent that is not above -1 or above 1000, and where the lowest link would be
+    /// left with no weight that T can hold. Accuracy and cost: system/tapered_links.hpp.
+    static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
+        constexpr std::string_view place = "Chain::tapered";
+        if (!is_taper(exponent)) detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);
+        Chain rods = repeated(place, count, length, weight, &uniform_rod<T>);
+        rods.taper_ = exponent;
+        if (exponent == 0) return rods;
+        const T link = rods.length_[0];
+        detail::TaperedLinks<T> links = detail::tapered_links<T>(count, link, exponent, weight);
+        if (!(links.weight[0] >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon()))
+            detail::throw_invalid(
+                place, "the lowest link is left with too little weight for this scalar by an exponent of", exponent);
+        return Chain(count, std::move(links.weight), link, std::move(links.centroid), std::move(links.gyration_ratio),
+                     exponent);
+    }
+    /// Whether a chain can taper so.
+    static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
+
+    /// The exponent of the line density, of a chain that `tapered` made (or a copy of it); nothing of others.
+    std::optional<double> taper() const { return taper_; }
+
+    Index size() const { return size_; }
+    Link<T> link(Index m) const { return {weight_[m], length_[m], centroid_[m], gyration_ratio_[m]}; }
+    const Column<T>& weight() const { return weight_; }
+    const Column<T>& length() const { return length_; }
+    const Column<T>& centroid() const { return centroid_; }
+    const Column<Wide<T>>& gyration_ratio() const { return gyration_ratio_; }
+
+    /// How many finite conical heights the chain has: N, less one for each coordinate that carries no inertia.
+    Index mode_count() const { return mode_count_; }
+    T total_weight() const { return total_weight_; }
+    /// Weight hung below link m, 0 <= m <= size(), as `Wide<T>`: within 14 of its operations where it is a double word
+    /// (measured: 0.27); exact to one operation where one weight serves all links. Cost: O(1) where m is a multiple of
+    /// `segment_size`, else O(segment_size) (70 ns in double).
+    Wide<T> weight_below(Index m) const {
+        const Index whole = m / segment_size, rest = m % segment_size;
+        if (weight_.is_scalar()) return times(weight_[0], m);
+        if (m == size_) return partial_weights_.back();
+        const Wide<T>& below = partial_weights_[static_cast<std::size_t>(whole)];
+        return rest == 0 ? below : below + summary(weight_.data() + whole * segment_size, rest).sum;
+    }
+    /// Weights hung below links 0, `segment_size`, 2 `segment_size` ... and, last, of all links; empty where one weight
+    /// serves all links.
+    const std::vector<Wide<T>>& partial_weights() const { return partial_weights_; }
+    /// Whether the ratio of the weights (up to 1e123 in double) lets one unit serve them all.
+    bool has_one_weight_unit() const { return one_weight_unit_; }
+    /// Straight length from the support to the free end.
+    T total_length() const { return total_length_; }
+    ChainUnits units() const {
+        using std::frexp;
+        ChainUnits units;
+        frexp(total_weight_, &units.weight_exponent);
+        frexp(largest_length_, &units.length_exponent);
+        return units;
+    }
+
+    /// The same links, however they are stored or were made.
+    friend bool operator==(const Chain& x, const Chain& y) {
+        if (x.size_ != y.size_) return false;
+        for (Index m = 0; m < std::max(x.distinct_links(), y.distinct_links()); ++m)
+            if (!(x.link(m) == y.link(m))) return false;
+        return true;
+    }
+
+   private:
+    template <class V>
+    static Column<V> column(const std::vector<Link<T>>& links, V Link<T>::*member) {
+        std::vector<V> values(links.size());
+        std::transform(links.begin(), links.end(), values.begin(), [&](const Link<T>& link) { return link.*member; });
+        return values;
+    }
+
+    static Chain repeated(std::string_view place, Index count, T length, T weight, Link<T> (*make)(T, T)) {
+        if (count < 1) detail::throw_invalid(place, "count must be at least 1", count);
+        detail::require_positive(place, "length", length);
+        detail::require_positive(place, "weight", weight);
+        const Link<T> one = make(weight / T(count), length / T(count));
+        return Chain(count, one.weight, one.length, one.centroid, one.gyration_ratio);
+    }
+
+    void check();
+    void check_each_link() const;
+    void check_that_links_hang(const Summary<T>& centroids) const;
+    Index inertialess_coordinates() const;
+    /// Links that a check has to look at: one where one number of each kind serves all.
+    Index distinct_links() const {
+        const bool uniform =
+            weight_.is_scalar() && length_.is_scalar() && centroid_.is_scalar() && gyration_ratio_.is_scalar();
+        return uniform ? 1 : size_;
+    }
+
+    Index size_ = 0;
+    Column<T> weight_;
+    Column<T> length_;
+    Column<T> centroid_;
+    Column<Wide<T>> gyration_ratio_;
+    std::vector<Wide<T>> partial_weights_;  // see partial_weights()
+    Index mode_count_ = 0;
+    T total_weight_{};
+    T total_length_{};
+    T largest_length_{};  // a or |h|
+    bool one_weight_unit_ = true;
+    std::optional<double> taper_;  // the links' numbers cannot change, so that it stays true
+};
+
+namespace detail {
+
+/// The least |value(m)| that is not 0, m < count.
+template <Real T, class Value>
+T least_size(Index count, Value value) {
+    using std::abs;
+    T least = std::numeric_limits<T>::infinity();
+    for (Index m = 0; m < count; ++m) {
+        const T x = abs(value(m));
+        if (x > T(0) && x < least) least = x;
+    }
+    return least;
+}
+
+}  // namespace detail
+
+/// One pass over each column in loops that compilers vectorise; only what fails there is looked at link by link.
+template <Real T>
+void Chain<T>::check() {
+    using std::isfinite;
+    using std::ldexp;
+    if (size_ < 1) detail::throw_invalid("Chain", "a chain needs at least one link", size_);
+    const auto check_stored = [&](std::size_t stored, bool is_scalar, std::string_view name) {
+        if (!is_scalar && stored != static_cast<std::size_t>(size_))
+            detail::throw_invalid("Chain",
+                                  std::string(name) + " must have one number for each of the " + std::to_string(size_) +
+                                      " links or be a single number",
+                                  stored);
+    };
+    check_stored(weight_.stored(), weight_.is_scalar(), "weight");
+    check_stored(length_.stored(), length_.is_scalar(), "length");
+    check_stored(centroid_.stored(), centroid_.is_scalar(), "centroid");
+    check_stored(gyration_ratio_.stored(), gyration_ratio_.is_scalar(), "gyration_ratio");
+
+    const Summary<T> weights = summary(weight_, size_, &partial_weights_);
+    const Summary<T> lengths = summary(length_, size_);
+    const Summary<T> centroids = summary(centroid_, size_);
+    bool radii = true, all_turn = true;
+    T least_ratio = std::numeric_limits<T>::infinity(), largest_ratio{};
+    for (std::size_t m = 0; m < gyration_ratio_.stored(); ++m) {
+        const Wide<T>& ratio = gyration_ratio_.data()[m];
+        const T size = static_cast<T>(ratio);
+        radii = radii && is_normalised(ratio) && size >= T(0);
+        all_turn = all_turn && size > T(0);
+        if (size > T(0) && size < least_ratio) least_ratio = size;
+        if (size > largest_ratio) largest_ratio = size;
+    }
+    if (!(isfinite(weights.sum) && weights.least >= T(0) && weight_[0] > T(0) && isfinite(lengths.sum) &&
+          lengths.least > T(0) && isfinite(centroids.sum) && radii))
+        check_each_link();
+    if (!isfinite(weights.sum)) detail::throw_invalid("Chain", "the weights add up to infinity, each", weight_[0]);
+    if (!isfinite(lengths.sum)) detail::throw_invalid("Chain", "the lengths add up to infinity, each", length_[0]);
+
+    total_weight_ = static_cast<T>(weights.sum);
+    total_length_ = static_cast<T>(lengths.sum);
+    const T least_weight = weights.least > T(0)
+                               ? weights.least
+                               : detail::least_size<T>(distinct_links(), [&](Index m) { return weight_[m]; });
+    one_weight_unit_ = total_weight_ * ldexp(T(1), -2 * std::numeric_limits<T>::max_exponent / 5) <= least_weight;
+    const T least_centroid = centroids.least > T(0)
+                                 ? centroids.least
+                                 : detail::least_size<T>(distinct_links(), [&](Index m) { return centroid_[m]; });
+    const T least_length = std::min(lengths.least, least_centroid), span = detail::length_span<T>();
+    largest_length_ = std::max(largest_size(length_), largest_size(centroid_));
+    if (largest_length_ / span > least_length)
+        detail::throw_invalid("Chain", "the lengths span too wide a ratio for this scalar, from " +
+                                           detail::in_digits(least_length) + " to " +
+                                           detail::in_digits(largest_length_));
+    if (largest_ratio / span > span || least_ratio < T(1) / span / span)
+        detail::throw_invalid("Chain",
+                              "a radius of gyration is too far from its link's length for this scalar; its square over "
+                              "that of the length",
+                              largest_ratio > T(1) ? largest_ratio : least_ratio);
+    check_that_links_hang(centroids);
+    // Every link with weight, and none with all of it in the upper pin: each holds a coordinate of its own.
+    const bool all_hold = weights.least > T(0) && (centroids.least > T(0) || all_turn);
+    mode_count_ = all_hold || distinct_links() < size_ ? size_ : size_ - inertialess_coordinates();
+}
+
+/// Names the first link that is at fault, if one is.
+template <Real T>
+void Chain<T>::check_each_link() const {
+    using std::isfinite;
+    const auto at = [](Index m) { return "Chain: link " + std::to_string(m + 1); };
+    Wide<T> below(T(0)), straight(T(0));
+    for (Index m = 0; m < distinct_links(); ++m) {
+        const Link<T> it = link(m);
+        if (!isfinite(it.weight) || it.weight < T(0))
+            detail::throw_invalid(at(m), "weight must be finite and not negative", it.weight);
+        if (m == 0 && it.weight == T(0)) detail::throw_invalid(at(m), "the lowest link must have weight", it.weight);
+        if (!isfinite(it.length) || !(it.length > T(0)))
+            detail::throw_invalid(at(m), "length must be positive and finite", it.length);
+        if (!isfinite(it.centroid)) detail::throw_invalid(at(m), "centroid must be finite", it.centroid);
+        if (!is_normalised(it.gyration_ratio) || it.gyration_ratio < Wide<T>(T(0)))
+            detail::throw_invalid(at(m), "(radius of gyration / length)^2 must be finite and not negative",
+                                  static_cast<T>(it.gyration_ratio));
+        below = below + Wide<T>(it.weight);
+        straight = straight + Wide<T>(it.length);
+        if (!isfinite(below))
+            detail::throw_invalid(at(m), "the weights add up to infinity, from this link's", it.weight);
+        if (!isfinite(straight))
+            detail::throw_invalid(at(m), "the lengths add up to infinity, from this link's", it.length);
+    }
+}
+
+template <Real T>
+void Chain<T>::check_that_links_hang(const Summary<T>& centroids) const {
+    using std::frexp;
+    using std::ldexp;
+    if (centroids.least >= T(0) && centroid_[0] > T(0)) return;  // all terms positive
+    Wide<T> below(T(0));
+    for (Index m = 0; m < distinct_links(); ++m) {  // of equal links, the lowest hangs least
+        if (m % segment_size == 0) below = weight_below(m);
+        if (!(centroid_[m] > T(0))) {  // in the unit of the larger of W and S
+            int exponent = 0;
+            frexp(std::max(weight_[m], static_cast<T>(below)), &exponent);
+            const Wide<T> share =
+                Wide<T>(ldexp(weight_[m], -exponent)) * detail::in_lengths<T>(centroid_[m], length_[m]) +
+                ldexp(below, -exponent);
+            if (!(share > Wide<T>(T(0))))
+                detail::throw_invalid(
+                    "Chain: link " + std::to_string(m + 1),
+                    "it would stand, not hang: weight x centroid + length x (weight below) must be positive",
+                    ldexp(detail::times_length(share, length_[m]), exponent));
+        }
+        below = below + Wide<T>(weight_[m]);
+    }
+}
+
+/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), read off the links from the support down: `free` says
+/// whether the pin reached so far can move with no inertia noticing.
+/// A massless thread between two rods costs no mode (the rods' own inertia holds its pins); above a plummet it does.
+template <Real T>
+Index Chain<T>::inertialess_coordinates() const {
+    bool free = false;  // the support does not move
+    Index nullity = 0;
+    for (Index m = size_ - 1; m >= 0; --m) {
+        const Link<T> it = link(m);
+        if (it.weight == T(0)) {
+            nullity += free ? 1 : 0;  // both pins at liberty: the upper one is a coordinate of its own
+            free = true;
+        } else if (it.gyration_ratio > Wide<T>(T(0))) {
+            free = false;  // two quadratic terms hold both pins
+        } else if (it.centroid == T(0)) {
+            free = true;  // the upper pin is held, the lower one is not
+        } else if (it.centroid == it.length) {
+            nullity += free ? 1 : 0;  // only the lower pin is held
+            free = false;
+        }  // else one combination of the pins is held: what was free stays so
+    }
+    return nullity + (free ? 1 : 0);
+}
+
+}  // namespace revchain

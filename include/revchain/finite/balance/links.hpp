@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <vector>
+
+#include "revchain/chain.hpp"
+#include "revchain/numeric/interval.hpp"
+
+namespace revchain::finite {
+
+/// A link of steady motion at any inclination, lowest first in a chain. With R the moment of all that hangs at its upper
+/// pin, over the distance to its lower pin, taken as if the link hung vertically, y the offsets and t, s tangent and sine of
+/// its inclination, Greenhill (1908) §8 (6)-(12) is
+///     R = H_below + moment y_below,   lambda pull t + length cross s = R,   y = y_below - length s,   H = R + rest y,
+/// H the sum of weights times offsets of their centroids: lambda times the sideways pull at the pin.
+template <class S>
+struct Link {
+    S length;  ///< a
+    S pull;    ///< sigma = (W h + a S)/a, S the weight hung below; positive
+    S cross;   ///< X = W (h (a - h)/a^2 - rho^2/a^2): 0 for a plummet, positive where l < a
+    S moment;  ///< W h/a
+    S rest;    ///< W (a - h)/a
+};
+
+/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0). Its sine is then +- that of
+/// its tangent, and its balance  lambda pull t +- length cross t/sqrt(1 + t^2) = R.
+enum class Posture { hangs = 1, stands = -1 };
+
+/// Links in units of 2^length_exponent and 2^weight_exponent.
+template <class S>
+struct Links {
+    std::vector<Link<S>> links;
+    ChainUnits units;
+};
+
+/// Every number within 1e-28 (double) of the exact function of those the chain stores, but where W h + a S cancels.
+/// Throws InvalidArgument where weights are more than 1e123 apart.
+template <Real T>
+Links<Wide<T>> links_of(const Chain<T>& chain) {
+    using std::ldexp;
+    using S = Wide<T>;
+    using E = Narrow<S>;
+    if (!chain.has_one_weight_unit())
+        revchain::detail::throw_invalid("finite::links_of", "weights must not be more than 1e123 apart",
+                                        chain.total_weight());
+    Links<S> result;
+    result.units = chain.units();
+    result.links.reserve(static_cast<std::size_t>(chain.size()));
+    S below(T(0));
+    for (Index m = 0; m < chain.size(); ++m) {
+        if (m % segment_size == 0) below = chain.weight_below(m);
+        const revchain::Link<T> link = chain.link(m);
+        const S weight(E(ldexp(link.weight, -result.units.weight_exponent)));
+        const S hung = ldexp(below, -result.units.weight_exponent);
+        const S a(E(ldexp(link.length, -result.units.length_exponent)));
+        const S h(E(ldexp(link.centroid, -result.units.length_exponent)));
+        const S p = h / a, q = (a - h) / a, moment = p * weight;
+        result.links.push_back({a, moment + hung, (p * q - link.gyration_ratio) * weight, moment, q * weight});
+        below = below + S(link.weight);
+    }
+    return result;
+}
+
+/// The same, rounded.
+template <class To, class From>
+std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
+    std::vector<Link<To>> result;
+    result.reserve(links.size());
+    for (const Link<From>& l : links)
+        result.push_back({static_cast<To>(l.length), static_cast<To>(l.pull), static_cast<To>(l.cross),
+                          static_cast<To>(l.moment), static_cast<To>(l.rest)});
+    return result;
+}
+
+/// A number known in S to some of its last digits, enclosed in T; one that T holds exactly is taken as exact if T is the
+/// narrower.
+template <class T, class S>
+Interval<T> enclosed(const S& x) {
+    const T near = static_cast<T>(x);
+    if (near == T(0)) return Interval<T>(near);
+    if constexpr (std::numeric_limits<T>::digits < std::numeric_limits<S>::digits) {
+        if (S(near) == x) return Interval<T>(near);
+        return Interval<T>(revchain::detail::down(near), revchain::detail::up(near));
+    } else {
+        using std::abs;
+        const T off = abs(near) * T(256) * T(operation_error<S>());
+        return Interval<T>(revchain::detail::down(T(near - off)), revchain::detail::up(T(near + off)));
+    }
+}
+template <class T, class S>
+std::vector<Link<Interval<T>>> enclosed(const std::vector<Link<S>>& links) {
+    std::vector<Link<Interval<T>>> result;
+    result.reserve(links.size());
+    for (const Link<S>& l : links)
+        result.push_back({enclosed<T>(l.length), enclosed<T>(l.pull), enclosed<T>(l.cross), enclosed<T>(l.moment),
+                          enclosed<T>(l.rest)});
+    return result;
+}
+
+namespace detail {
+
+/// Whether the sine of the inclination of this tangent is 1 and its cosine 1/|tangent| to every digit.
+template <class S>
+bool is_horizontal(const S& tangent) {
+    using std::abs;
+    return abs(tangent) > S(1e100);
+}
+
+/// Cosine of the inclination of a tangent, where its square overflows too.
+template <class S>
+S cosine_at(const S& tangent) {
+    using std::abs;
+    using std::sqrt;
+    return S(1) / (is_horizontal(tangent) ? S(abs(tangent)) : S(sqrt(S(1) + tangent * tangent)));
+}
+
+}  // namespace detail
+
+}  // namespace revchain::finite

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/balance/support_end.hpp"
+
+namespace revchain::finite {
+
+/// A steady shape as offsets of the pins, free end first, the support's 0 last.
+template <class S>
+struct Balanced {
+    std::vector<S> offset;
+    std::vector<Posture> posture;  ///< of each link; empty where all hang
+    bool converged = false;        ///< Newton's method, to the last digits of S
+    std::vector<S> tangent{};      ///< of the links, where they are too near the horizontal for offsets; else empty
+
+    bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
+};
+
+namespace detail {
+
+/// cos d of sin d = d/a, from (a - d)(a + d): the inclination may be all but a right angle.
+template <class S>
+S cosine_of(const S& length, const S& difference, bool stands = false) {
+    using std::sqrt;
+    const S size = sqrt((length - difference) * (length + difference)) / length;
+    return stands ? -size : size;
+}
+
+/// cos d and tan d of link m.
+template <class S>
+S cosine_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::size_t m) {
+    if (shape.tangent.empty())
+        return cosine_of(links[m].length, shape.offset[m] - shape.offset[m + 1], shape.stands(m));
+    const S size = cosine_at(shape.tangent[m]);
+    return shape.stands(m) ? -size : size;
+}
+template <class S>
+S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::size_t m) {
+    if (!shape.tangent.empty()) return shape.tangent[m];
+    const S d = shape.offset[m] - shape.offset[m + 1];
+    return d / (links[m].length * cosine_of(links[m].length, d, shape.stands(m)));
+}
+
+/// A symmetric tridiagonal matrix as the product of its factors, from the first row down.
+class Tridiagonal {
+   public:
+    /// `upper[m]` couples rows m and m + 1; the last is not used.
+    Tridiagonal(std::vector<double> diagonal, std::vector<double> upper)
+        : pivot_(std::move(diagonal)), upper_(std::move(upper)) {
+        for (std::size_t m = 0; m < pivot_.size(); ++m) {
+            if (m > 0) pivot_[m] -= upper_[m - 1] / pivot_[m - 1] * upper_[m - 1];
+            if (pivot_[m] == 0) pivot_[m] = std::numeric_limits<double>::min();
+        }
+    }
+    std::vector<double> solve(std::vector<double> x) const {
+        for (std::size_t m = 1; m < x.size(); ++m) x[m] -= upper_[m - 1] / pivot_[m - 1] * x[m - 1];
+        for (std::size_t m = x.size(); m-- > 0;)
+            x[m] = (x[m] - (m + 1 < x.size() ? upper_[m] * x[m + 1] : 0.0)) / pivot_[m];
+        return x;
+    }
+
+   private:
+    std::vector<double> pivot_, upper_;
+};
+
+}  // namespace detail
+
+/// Newton's method on all pins at once, from offsets near a steady shape, each link in its posture: the balance of forces
+/// at each pin in S, its derivative, the tridiagonal tangent stiffness  lambda k sec^3 [1 -1; -1 1] - M  of the elements,
+/// in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N) a step.
+template <class S, class End = OnAxis>
+Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int most_steps = 60,
+                    std::vector<Posture> posture = {}, const End& support = {}) {
+    using std::abs;
+    const std::size_t n = links.size();
+    Balanced<S> result{std::move(start), std::move(posture)};
+    std::vector<S>& y = result.offset;
+    support.place(y);
+    const std::size_t rows = n + (support.yields() ? 1 : 0);  // the topmost pin is unknown too
+    std::vector<double> diagonal(rows), upper(rows), force(rows);
+    double last = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < most_steps; ++step) {
+        S carried(0);  // lambda sigma tan d + a X sin d, minus what mass asks, of the link below
+        double below_stiffness = 0, below_mass = 0;
+        for (std::size_t m = 0; m < n; ++m) {
+            const Link<S>& link = links[m];
+            const S d = y[m] - y[m + 1];
+            if (!(abs(d) < link.length)) return result;
+            const S cosine = detail::cosine_of(link.length, d, result.stands(m)), tangent = d / (link.length * cosine);
+            const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
+                    at_upper = link.rest * y[m + 1];
+            // Forces times lambda on the lower pin: pull - W h/a (its own offset) + X d ..., on the upper the opposite.
+            force[m] = -static_cast<double>(carried + (pull + turn - at_lower));
+            const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
+            const double stiffness =
+                static_cast<double>(height * link.pull) / (a * c * c * c) + static_cast<double>(link.cross);
+            diagonal[m] = below_stiffness - below_mass + stiffness - static_cast<double>(link.moment);
+            upper[m] = -stiffness;
+            carried = -(pull + turn) - at_upper;
+            below_stiffness = stiffness, below_mass = static_cast<double>(link.rest);
+        }
+        if constexpr (is_held<End>) {
+            if (support.yields()) {
+                force[n] = -static_cast<double>(carried + support.stiffness * (y[n] - support.radius) -
+                                                support.carriage * y[n]);
+                diagonal[n] = below_stiffness - below_mass + static_cast<double>(support.stiffness - support.carriage);
+            }
+        }
+        const detail::Tridiagonal tangent_stiffness(diagonal, upper);
+        const std::vector<double> change = tangent_stiffness.solve(force);
+        double largest = 0;
+        for (std::size_t m = 0; m < rows; ++m) {
+            const double share = static_cast<double>(abs(y[m]));
+            largest = std::max(largest, share > 0 ? std::abs(change[m]) / share : std::abs(change[m]));
+            y[m] = y[m] + S(change[m]);
+        }
+        if (!(largest < std::numeric_limits<double>::infinity())) return result;
+        if (largest < 1e-14 && (largest > 0.25 * last || largest < static_cast<double>(epsilon<S>()))) {
+            result.converged = true;
+            break;
+        }
+        last = largest;
+    }
+    return result;
+}
+
+}  // namespace revchain::finite

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+
+#include "revchain/finite/branch/border.hpp"
+
+namespace revchain::finite {
+
+/// A point of a branch, or a direction along one: of each link tau, tan delta = sinh tau, and log lambda. tau is the
+/// inclination where that is small and, as the link nears the horizontal, the logarithm of its tangent: branches are
+/// all but straight lines in these at both ends.
+struct BranchState {
+    std::vector<double> rise;  ///< tau, lowest link first
+    double log_height = 0;
+};
+
+/// Mean square of the tau and the square of log lambda: what arc is measured by.
+inline double inner(const BranchState& x, const BranchState& y) {
+    double sum = 0;
+    for (std::size_t m = 0; m < x.rise.size(); ++m) sum += x.rise[m] * y.rise[m];
+    return sum / static_cast<double>(x.rise.size()) + x.log_height * y.log_height;
+}
+/// x + share * direction.
+inline BranchState moved(BranchState x, double share, const BranchState& direction) {
+    for (std::size_t m = 0; m < x.rise.size(); ++m) x.rise[m] += share * direction.rise[m];
+    x.log_height += share * direction.log_height;
+    return x;
+}
+/// Makes a direction of length 1 along the arc; returns what its length was.
+inline double normalise(BranchState& direction) {
+    const double length = std::sqrt(inner(direction, direction));
+    for (double& rise : direction.rise) rise /= length;
+    direction.log_height /= length;
+    return length;
+}
+inline double largest_rise(const BranchState& x) {
+    double largest = 0;
+    for (const double rise : x.rise) largest = std::max(largest, std::abs(rise));
+    return largest;
+}
+
+/// A point with the branch's direction there.
+struct BranchPoint {
+    BranchState state, tangent;  ///< tangent: of length 1 along the arc
+    double arc = 0;
+    int half_waves = 0;  ///< sign changes of the offsets, and one; 0 where rounding leaves a sign open
+};
+
+/// Newton's method on the whole chain and its height, held to a plane across a direction. In double.
+class Corrector {
+   public:
+    explicit Corrector(std::vector<Link<double>> links)
+        : links_(std::move(links)),
+          border_(links_.size()),
+          sine_(links_.size()),
+          growth_(links_.size()),
+          pull_(links_.size()),
+          stiffness_(links_.size()),
+          left_(links_.size()),
+          row_(links_.size()),
+          reach_(links_.size()) {
+        for (const Link<double>& link : links_) half_waves_are_kept_ = half_waves_are_kept_ && !(link.cross < 0);
+    }
+    std::size_t size() const { return links_.size(); }
+    const std::vector<Link<double>>& links() const { return links_; }
+    /// Whether the number of half waves is the same all along a branch: where l <= a for all links. A pin on the axis
+    /// has then its neighbours on opposite sides, so that no sign change can come or go.
+    bool half_waves_are_kept() const { return half_waves_are_kept_; }
+
+    struct Change {
+        BranchState correction, tangent;
+    };
+    /// One step of Newton's method at a state, and the direction of the branch, both by the same factors: the correction
+    /// at right angles to `across`, the tangent of length 1 and on the same side as it.
+    Change step(const BranchState& at, const BranchState& across) {
+        const std::size_t n = links_.size();
+        const double height = std::exp(at.log_height), share = 1 / static_cast<double>(n);
+        Change change{{std::vector<double>(n), 0}, {std::vector<double>(n), 0}};
+        balance_at(at, height);
+        for (std::size_t m = 0; m < n; ++m) row_[m] = share * across.rise[m] * growth_[m];
+        border_.factor([&](std::size_t m) { return stiffness_[m]; }, links_, [&](std::size_t m) { return pull_[m]; },
+                       [&](std::size_t m) { return row_[m]; }, across.log_height);
+        const auto in_rise = [&](BranchState& direction) {
+            for (std::size_t m = 0; m < n; ++m) direction.rise[m] = reach_[m] * growth_[m];
+        };
+        change.correction.log_height = border_.solve([&](std::size_t m) { return left_[m]; }, 0, reach_);
+        in_rise(change.correction);
+        change.tangent.log_height = border_.solve([](std::size_t) { return 0.0; }, 1, reach_);
+        in_rise(change.tangent);
+        normalise(change.tangent);
+        return change;
+    }
+
+    /// The state on the branch in the plane through `start` across a direction; none if Newton's method does not contract
+    /// at once by `contraction` and to the last digits, or first moves by more than `farthest`.
+    std::optional<BranchPoint> corrected(BranchState start, const BranchState& across, double farthest,
+                                         double contraction = 0.3) {
+        double last = 0;
+        for (int round = 0; round < 12; ++round) {
+            Change change = step(start, across);
+            const double size =
+                std::max(std::sqrt(inner(change.correction, change.correction)), largest_rise(change.correction) / 4);
+            if (!(size <= farthest) || !(inner(change.tangent, change.tangent) < 2)) return std::nullopt;
+            const bool small = size < 1e-7;
+            if (round > 0 && !small && size > contraction * last) return std::nullopt;
+            if (round > 5 && !small) return std::nullopt;
+            start = moved(std::move(start), 1, change.correction);
+            // quadratic: what is left after a step of 1e-7 is rounding
+            if (small) {
+                const int waves = half_waves(start);
+                return BranchPoint{std::move(start), std::move(change.tangent), 0, waves};
+            }
+            last = size;
+        }
+        return std::nullopt;
+    }
+
+    /// Sign changes of the offsets, and one; 0 where rounding leaves a sign open.
+    int half_waves(const BranchState& at) const {
+        double y = 0, last = 0, reached = 0;
+        int waves = 1;
+        for (std::size_t m = links_.size(); m-- > 0;) {
+            const double d = links_[m].length * std::tanh(at.rise[m]);
+            y += d, reached += std::abs(d);
+            if (!(std::abs(y) > 1e-13 * reached)) return 0;
+            waves += y * last < 0;
+            last = y;
+        }
+        return waves;
+    }
+
+   private:
+    /// Forces left, in sums from the free end, and stiffnesses.
+    void balance_at(const BranchState& at, double height) {
+        const std::size_t n = links_.size();
+        double y = 0;
+        for (std::size_t m = n; m-- > 0;) {
+            const Link<double>& link = links_[m];
+            // sinh and cosh from e^|tau| - 1: small inclinations keep their digits
+            const double e = std::expm1(std::abs(at.rise[m])), inverse = 0.5 / (1 + e), secant = 1 + e * e * inverse;
+            const double tangent = std::copysign(e * (e + 2) * inverse, at.rise[m]), sine = tangent / secant;
+            const double pull = height * link.pull * tangent;
+            sine_[m] = link.length * sine;
+            growth_[m] = secant * secant / link.length;
+            pull_[m] = pull;
+            stiffness_[m] = height * link.pull * growth_[m] * secant + link.cross;
+            left_[m] = -pull - link.cross * sine_[m];
+            const double upper = y;
+            y += sine_[m];
+            // moments of the link's own weight, to be summed from the free end
+            row_[m] = link.moment * y, reach_[m] = link.rest * upper;
+        }
+        double sum = 0;
+        for (std::size_t m = 0; m < n; ++m) {
+            left_[m] += sum + row_[m];
+            sum += row_[m] + reach_[m];
+        }
+    }
+
+    std::vector<Link<double>> links_;
+    BorderedChain border_;
+    std::vector<double> sine_, growth_, pull_, stiffness_, left_, row_, reach_;
+    bool half_waves_are_kept_ = true;
+};
+
+}  // namespace revchain::finite

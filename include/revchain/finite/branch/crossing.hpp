@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/branch/continuation.hpp"
+
+namespace revchain::finite {
+
+/// A number told of every point of a branch, less what it is to be, and its slope along the arc.
+struct Measured {
+    double value, slope;
+};
+
+/// log lambda.
+struct HeightMeasure {
+    double wanted;
+    Measured operator()(const BranchPoint& p) const { return {p.state.log_height - wanted, p.tangent.log_height}; }
+};
+
+/// tau of the lowest link.
+struct TipInclinationMeasure {
+    double wanted;
+    Measured operator()(const BranchPoint& p) const { return {p.state.rise[0] - wanted, p.tangent.rise[0]}; }
+};
+
+/// The free end's offset.
+struct TipRadiusMeasure {
+    const std::vector<Link<double>>* links;
+    double wanted;
+    Measured operator()(const BranchPoint& p) const {
+        Measured result{-wanted, 0};
+        for (std::size_t m = 0; m < links->size(); ++m) {
+            const double a = (*links)[m].length, s = std::tanh(p.state.rise[m]), c = 1 / std::cosh(p.state.rise[m]);
+            result.value += a * s, result.slope += a * c * c * p.tangent.rise[m];
+        }
+        return result;
+    }
+};
+
+/// The sideways reaction at the support, of either sign.
+struct TopPullMeasure {
+    const std::vector<Link<double>>* links;
+    double wanted;
+    Measured operator()(const BranchPoint& p) const {
+        double y = 0, along = 0, sum = 0, slope = 0;
+        for (std::size_t m = links->size(); m-- > 0;) {
+            const Link<double>& link = (*links)[m];
+            const double s = std::tanh(p.state.rise[m]), c = 1 / std::cosh(p.state.rise[m]);
+            sum += link.rest * y, slope += link.rest * along;
+            y += link.length * s, along += link.length * c * c * p.tangent.rise[m];
+            sum += link.moment * y, slope += link.moment * along;
+        }
+        const double height = std::exp(p.state.log_height), sign = sum < 0 ? -1 : 1;
+        return {sign * sum / height - wanted, sign * (slope - sum * p.tangent.log_height) / height};
+    }
+};
+
+/// A point inside a step, at a share of its arc.
+struct WithinStep {
+    double share;
+    BranchPoint point;
+};
+
+namespace detail {
+
+/// Where, between two points of the step at which f has values of different signs, f(measured) vanishes: regula falsi
+/// with its stale end's weight halved (Illinois).
+template <class Measure, class F>
+std::optional<WithinStep> vanishing(const BranchWalk& walk, const Measure& measure, const F& f, double low, double high,
+                                    double at_low, double at_high, double tolerance) {
+    std::optional<WithinStep> best;
+    int side = 0;
+    for (int round = 0; round < 60; ++round) {
+        double share = (low * at_high - high * at_low) / (at_high - at_low);
+        if (!(share > low && share < high)) share = low + (high - low) / 2;
+        auto point = walk.within(share);
+        if (!point) return best;
+        const double value = f(measure(*point));
+        best = WithinStep{share, std::move(*point)};
+        if (std::abs(value) <= tolerance || high - low < 1e-12) return best;
+        if ((value > 0) == (at_low > 0)) {
+            low = share, at_low = value;
+            if (side == -1) at_high /= 2;
+            side = -1;
+        } else {
+            high = share, at_high = value;
+            if (side == 1) at_low /= 2;
+            side = 1;
+        }
+    }
+    return best;
+}
+
+}  // namespace detail
+
+/// Where in the last step the number turns, if its slopes at both ends differ in sign.
+template <class Measure>
+std::optional<WithinStep> turning_of(const BranchWalk& walk, const Measure& measure) {
+    const Measured a = measure(walk.before()), b = measure(walk.here());
+    if (!(a.slope * b.slope < 0)) return std::nullopt;
+    return detail::vanishing(
+        walk, measure, [](const Measured& x) { return x.slope; }, 0, 1, a.slope, b.slope, 1e-10);
+}
+
+/// Points of the last step at which the number is as wanted, in order: at most one on either side of where it turns.
+template <class Measure>
+std::vector<WithinStep> crossings_of(const BranchWalk& walk, const Measure& measure) {
+    std::vector<WithinStep> found;
+    const Measured a = measure(walk.before()), b = measure(walk.here());
+    const auto between = [&](double low, double high, double at_low, double at_high) {
+        if (!(at_low * at_high < 0) && at_high != 0) return;
+        auto point = detail::vanishing(
+            walk, measure, [](const Measured& x) { return x.value; }, low, high, at_low, at_high,
+            1e-10 * std::max(std::abs(at_low), std::abs(at_high)));
+        if (point) found.push_back(std::move(*point));
+    };
+    // it may turn between and come back; if it turns far from the number wanted that does not matter
+    const double reach = walk.here().arc - walk.before().arc;
+    const bool may_return = a.value * b.value < 0 || std::min(std::abs(a.value), std::abs(b.value)) <=
+                                                         reach * std::max(std::abs(a.slope), std::abs(b.slope));
+    const auto turn = may_return ? turning_of(walk, measure) : std::nullopt;
+    if (turn) {
+        const double there = measure(turn->point).value;
+        between(0, turn->share, a.value, there);
+        between(turn->share, 1, there, b.value);
+    } else {
+        between(0, 1, a.value, b.value);
+    }
+    return found;
+}
+
+}  // namespace revchain::finite

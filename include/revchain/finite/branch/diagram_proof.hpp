@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+
+#include "revchain/finite/balance/taylor_2d.hpp"
+#include "revchain/finite/branch/branch.hpp"
+#include "revchain/finite/shapes/isolation.hpp"
+#include "revchain/numeric/progress.hpp"
+
+namespace revchain::finite {
+
+/// A point of the diagram: x = lambda times the tangent of the lowest link, and lambda.
+struct DiagramPoint {
+    double x, height;
+};
+
+/// x of a point of a branch, lambda |sinh tau| of the lowest link.
+struct XMeasure {
+    double wanted;
+    Measured operator()(const BranchPoint& p) const {
+        const double height = std::exp(p.state.log_height), rise = p.state.rise[0],
+                     x = height * std::abs(std::sinh(rise));
+        return {x - wanted,
+                x * p.tangent.log_height + std::copysign(height * std::cosh(rise), rise) * p.tangent.rise[0]};
+    }
+};
+
+/// How far it is proved that every branch is known.
+struct DiagramProof {
+    bool complete = true;
+    double open_low = 0, open_high = 0;  ///< heights between which a loop may be missing
+    long rectangles = 0;                 ///< looked at
+};
+
+/// Shows that every connected piece of the diagram is known: of the zeros of y(x, lambda), the offset of the support, with
+/// x = lambda tan(inclination of the lowest link) > 0. Pieces that come down to the lowest height are left to a list there.
+///
+/// Any other piece either goes to the vertical or has a highest point, and there y = y_x = 0. Rectangles of (x, lambda)
+/// are split until in each
+///   y or y_x keeps its sign, so that no such point is in it; or
+///   y_lambda keeps its sign over it and over heights beyond it as far as the slope |y_x/y_lambda| can lead within its
+///   width: all zeros in it lie on one graph lambda(x) over its whole width, and if there are any, one is at its middle.
+///   That one is on a branch that is known, or a branch that was not is found.
+/// Next to x = 0, y = x f(x, lambda), and by the mean value theorem f, f_x and f_lambda are within y_x, y_xx times
+/// 0 ... 1 and y_x lambda over 0 ... x: the graph then goes on to the vertical.
+class DiagramProver {
+   public:
+    explicit DiagramProver(std::vector<Link<Interval<double>>> links, long budget)
+        : links_(std::move(links)), budget_(budget / static_cast<long>(links_.size())) {}
+
+    /// From the highest height down to the lowest, x from 0 to `last`. `known(point, rectangle)`: whether a branch that
+    /// is known goes through the rectangle, or, if not, one is found through that point, where there is a shape.
+    template <class Known>
+    DiagramProof run(double lowest, double highest, double last, Known&& known) {
+        DiagramProof proof;
+        const int slabs = std::max(1, static_cast<int>(std::ceil(std::log(highest / lowest) / 0.25)));
+        for (int i = 0; i < slabs; ++i) {
+            const double share = 1.0 / slabs, high = highest * std::pow(lowest / highest, i * share),
+                         low = i + 1 == slabs ? lowest : highest * std::pow(lowest / highest, (i + 1) * share);
+            stack_.push_back({0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)});
+            while (!stack_.empty()) {
+                revchain::detail::look();
+                const Rectangle<double> part = stack_.back();
+                stack_.pop_back();
+                if (proof.rectangles >= budget_) {
+                    leave_open(proof, {0, 0, lowest, high});
+                    return proof;
+                }
+                if (!settled(part, proof, known)) leave_open(proof, part);
+            }
+        }
+        return proof;
+    }
+
+   private:
+    static void leave_open(DiagramProof& proof, const Rectangle<double>& part) {
+        proof.open_low = proof.complete ? part.height_low : std::min(proof.open_low, part.height_low);
+        proof.open_high = proof.complete ? part.height_high : std::max(proof.open_high, part.height_high);
+        proof.complete = false;
+    }
+
+    /// Whether nothing is left to show there but in the parts it was split into.
+    template <class Known>
+    bool settled(const Rectangle<double>& part, DiagramProof& proof, Known&& known) {
+        ++proof.rectangles;
+        const auto y = support_surface(links_, part);
+        const bool from_zero = part.low == 0;
+        if ((!from_zero && !y.value.may_vanish()) || !y.x.may_vanish()) return true;
+        if (const auto graph = graph_over(part, y, proof)) {
+            if (from_zero) return true;
+            const double middle = part.x().middle();
+            const int low = sign(middle, graph->height_low), high = sign(middle, graph->height_high);
+            if (low * high == 1) return true;  // no zero in it
+            if (low * high == -1 && known(zero_at(middle, *graph, low), *graph)) return true;
+        }
+        return split(part, y);
+    }
+    int sign(double x, double height) const {
+        const Interval<double> lambda(height);
+        return detail::support_offset(links_, lambda, Interval<double>(x) / lambda).sign();
+    }
+
+    /// The part with heights added above and below, if all zeros in it lie on one graph lambda(x) that stays in those.
+    std::optional<Rectangle<double>> graph_over(const Rectangle<double>& part, const Surface<double>& y,
+                                                DiagramProof& proof) const {
+        const bool from_zero = part.low == 0;
+        const auto rise = [&](const Surface<double>& f) {
+            const Interval<double>& along = from_zero ? f.xh : f.h;
+            const Interval<double> most(from_zero ? f.xx.size() : f.x.size()), width(part.high - part.low);
+            if (along.may_vanish()) return std::numeric_limits<double>::infinity();
+            const double least = std::min(std::abs(along.low), std::abs(along.high));
+            return (width * most / Interval<double>(least)).high * (1 + 1e-12);
+        };
+        const double reach = 1.5 * rise(y);
+        if (!(reach < std::min(part.height_low / 4, 3 * (part.height_high - part.height_low)))) return std::nullopt;
+        const Rectangle<double> beyond{part.low, part.high, part.height_low - reach, part.height_high + reach};
+        ++proof.rectangles;
+        if (!(rise(support_surface(links_, beyond)) <
+              std::min(part.height_low - beyond.height_low, beyond.height_high - part.height_high)))
+            return std::nullopt;
+        return beyond;
+    }
+
+    /// Where on the line through x the offset vanishes.
+    DiagramPoint zero_at(double x, const Rectangle<double>& within, int low_sign) const {
+        double low = within.height_low, high = within.height_high;
+        for (int round = 0; round < 60; ++round) {
+            const double middle = low + (high - low) / 2;
+            const int there = sign(x, middle);
+            if (there == 0) return {x, middle};
+            (there == low_sign ? low : high) = middle;
+        }
+        return {x, low + (high - low) / 2};
+    }
+
+    /// Across the direction in which y_x varies the more; false where that would show no more.
+    bool split(const Rectangle<double>& part, const Surface<double>& y) {
+        const bool from_zero = part.low == 0;
+        const double width = part.high - part.low, height = part.height_high - part.height_low;
+        double by_x = y.xx.size() * width, by_height = y.xh.size() * height;
+        if (!(by_x < 1e300 && by_height < 1e300))
+            by_x = from_zero ? 1 : std::log(part.high / part.low),
+            by_height = std::log(part.height_high / part.height_low);
+        const bool thin = !(width > 1e-13 * part.high), low = !(height > 1e-13 * part.height_high);
+        if ((thin && low) || (from_zero && part.high < 1e-30) ||
+            detail::rounding_rules(from_zero ? y.x : y.value, from_zero ? y.centre_x : y.centre_value))
+            return false;
+        Rectangle<double> first = part, second = part;
+        if (low || (!thin && by_x >= by_height))
+            first.high = second.low = cutting_.between(part.low, part.high);
+        else
+            first.height_high = second.height_low = part.height_low + cutting_.share() * height;
+        stack_.push_back(first);
+        stack_.push_back(second);
+        return true;
+    }
+
+    std::vector<Link<Interval<double>>> links_;
+    long budget_;
+    std::vector<Rectangle<double>> stack_;
+    detail::Cutting<double> cutting_;
+};
+
+/// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a
+/// point of it is in the rectangle, or it crosses there the x of `at`.
+inline bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at,
+                         const Rectangle<double>& within) {
+    const auto inside = [&](const BranchState& state) {  // with what the points of a branch may be off, and more
+        const double height = std::exp(state.log_height), x = height * std::abs(std::sinh(state.rise[0]));
+        constexpr double off = 1e-10;
+        return x > within.low * (1 + off) && x < within.high * (1 - off) && height > within.height_low * (1 + off) &&
+               height < within.height_high * (1 - off);
+    };
+    if (std::any_of(branch.points.begin(), branch.points.end(), [&](const auto& p) { return inside(p.state); }))
+        return true;
+    const double rise = std::asinh(at.x / at.height), log_height = std::log(at.height),
+                 links = static_cast<double>(corrector.size());
+    for (std::size_t i = 0; i + 1 < branch.size(); ++i) {
+        const BranchPoint &before = branch.points[i], &here = branch.points[i + 1];
+        const double reach = 2 * (here.arc - before.arc);
+        if (std::abs(here.state.log_height - log_height) > reach ||
+            std::abs(std::abs(here.state.rise[0]) - rise) > reach * std::sqrt(links))
+            continue;
+        const auto crossings = crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x});
+        if (std::any_of(crossings.begin(), crossings.end(), [&](const WithinStep& each) {
+                const double height = std::exp(each.point.state.log_height);
+                return within.height_low < height && height < within.height_high;
+            }))
+            return true;
+    }
+    return false;
+}
+
+}  // namespace revchain::finite

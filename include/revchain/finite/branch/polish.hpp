@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/balance/newton.hpp"
+#include "revchain/finite/branch/corrector.hpp"
+
+namespace revchain::finite {
+
+/// What is given beside the balance: one condition on the shape and the height, in two words, and its derivatives along
+/// the links' reaches a sin delta and along log lambda.
+template <class S>
+struct Condition {
+    virtual ~Condition() = default;
+    /// What is left of it, given minus there, at offsets of the pins; fills `row`, returns its share of log lambda too.
+    virtual std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& offset, const S& height,
+                                      std::vector<double>& row) const = 0;
+    /// What a relative change 1 of the number given leaves of it; 0 where none is given.
+    virtual double size(const S& height) const = 0;
+    virtual bool gives_height() const { return false; }
+};
+
+/// The conical height.
+template <class S>
+struct GivenHeight : Condition<S> {
+    S wanted;
+    explicit GivenHeight(S height) : wanted(std::move(height)) {}
+    std::pair<S, double> left(const std::vector<Link<S>>&, const std::vector<S>&, const S& height,
+                              std::vector<double>& row) const override {
+        std::fill(row.begin(), row.end(), 0.0);
+        return {(wanted - height) / wanted, static_cast<double>(height / wanted)};
+    }
+    double size(const S&) const override { return 1; }
+    bool gives_height() const override { return true; }
+};
+
+/// sin(inclination of the lowest link - wanted) = 0: as well told near the horizontal as elsewhere.
+template <class S>
+struct GivenTipInclination : Condition<S> {
+    S sine, cosine;
+    double angle;
+    explicit GivenTipInclination(double wanted)
+        : sine(words(std::sin(static_cast<long double>(wanted)))),
+          cosine(words(std::cos(static_cast<long double>(wanted)))),
+          angle(wanted) {}
+    static S words(long double x) {
+        const double high = static_cast<double>(x);
+        return S(high) + S(static_cast<double>(x - static_cast<long double>(high)));
+    }
+    std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& y, const S&,
+                              std::vector<double>& row) const override {
+        std::fill(row.begin(), row.end(), 0.0);
+        const S d = y[0] - y[1], s = d / links[0].length, c = detail::cosine_of(links[0].length, d);
+        row[0] = static_cast<double>((cosine + s * sine / c) / links[0].length);
+        return {sine * c - s * cosine, 0.0};
+    }
+    double size(const S&) const override { return angle; }
+};
+
+/// The free end's distance from the axis.
+template <class S>
+struct GivenTipRadius : Condition<S> {
+    S wanted;
+    explicit GivenTipRadius(S radius) : wanted(std::move(radius)) {}
+    std::pair<S, double> left(const std::vector<Link<S>>&, const std::vector<S>& y, const S&,
+                              std::vector<double>& row) const override {
+        std::fill(row.begin(), row.end(), 1.0);
+        return {wanted - y[0], 0.0};
+    }
+    double size(const S&) const override { return static_cast<double>(wanted); }
+};
+
+/// The size of the reaction at the support: sum of weights times centroids' offsets = lambda sqrt(T^2 - W^2), of either
+/// sign.
+template <class S>
+struct GivenTopTension : Condition<S> {
+    S across;      ///< the sideways part, positive
+    double share;  ///< its relative change for one of the whole
+    GivenTopTension(S sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
+    std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& y, const S& height,
+                              std::vector<double>& row) const override {
+        S sum(0);
+        double weights = 0;
+        for (std::size_t m = 0; m < links.size(); ++m) {
+            sum = sum + links[m].moment * y[m] + links[m].rest * y[m + 1];
+            row[m] = weights + static_cast<double>(links[m].moment);
+            weights = row[m] + static_cast<double>(links[m].rest);
+        }
+        const S pull = sum < S(0) ? -(height * across) : height * across;
+        return {pull - sum, -static_cast<double>(pull)};
+    }
+    double size(const S& height) const override { return share * std::abs(static_cast<double>(height * across)); }
+};
+
+/// A plane across the branch at a point of it: for points that are to stay where they are along the arc, folds too.
+template <class S>
+struct GivenPlace : Condition<S> {
+    const BranchPoint* point;
+    explicit GivenPlace(const BranchPoint& p) : point(&p) {}
+    std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& y, const S& height,
+                              std::vector<double>& row) const override {
+        double sum = 0;
+        const double share = 1 / static_cast<double>(links.size());
+        for (std::size_t m = 0; m < links.size(); ++m) {
+            const S d = y[m] - y[m + 1], c = detail::cosine_of(links[m].length, d),
+                    growth = S(1) / (links[m].length * c * c);
+            row[m] = share * point->tangent.rise[m] * static_cast<double>(growth);
+            const double tangent = static_cast<double>(d / (links[m].length * c));
+            sum += share * point->tangent.rise[m] * (point->state.rise[m] - std::asinh(tangent));
+        }
+        const double log_off = point->state.log_height - std::log(static_cast<double>(height));
+        return {S(sum + point->tangent.log_height * log_off), point->tangent.log_height};
+    }
+    double size(const S&) const override { return 0; }
+};
+
+/// A shape and its height.
+template <class S>
+struct Polished {
+    Balanced<S> shape;
+    S height;
+    double residual = 0;  ///< largest force left over at a pin, over the sum of sizes of its terms
+    /// Largest change of an inclination, rad, where each force changes by its own size, times it, in a few patterns of
+    /// signs; or where the number given does. The height being free, the inverse has a third vector beside the two of
+    /// `verified`, and the worst pattern would cost O(N^2).
+    double condition = 0;
+};
+
+/// Newton's method on all pins and the height at once, the balance in S, its derivative in double: see `balance`, beside
+/// which the height is free and one condition given. Cost O(N) a step.
+template <class S>
+Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start, const Condition<S>& condition) {
+    using std::abs;
+    const std::size_t n = links.size();
+    Polished<S> result{{std::vector<S>(n + 1), {}}, S(std::exp(start.log_height))};
+    std::vector<S>& y = result.shape.offset;
+    S& height = result.height;
+    for (std::size_t m = n; m-- > 0;) {  // a - a sin, not a sin, told in double: the link may be all but horizontal
+        const double tau = start.rise[m];
+        const S d = links[m].length * (S(1) - S(2) / (S(1) + S(std::exp(2 * std::abs(tau)))));
+        y[m] = y[m + 1] + (std::abs(tau) < 0.1 ? links[m].length * S(std::tanh(tau)) : tau < 0 ? -d : d);
+    }
+    BorderedChain border(n);
+    std::vector<double> stiffness(n), pull(n), left(n), size(n), row(n), reach(n), growth(n);
+    double last = 1;
+    for (int round = 0; round < 40; ++round) {
+        S sum(0), before(0);
+        double below_size = 0;
+        result.residual = 0;
+        for (std::size_t m = 0; m < n; ++m) {
+            const Link<S>& link = links[m];
+            const S d = y[m] - y[m + 1];
+            if (!(abs(d) < link.length)) return result;
+            const S cosine = detail::cosine_of(link.length, d),
+                    pulled = height * link.pull * d / (link.length * cosine), turn = link.cross * d,
+                    at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
+            const S whole = sum + at_lower - pulled - turn;
+            const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
+            left[m] = static_cast<double>(whole), pull[m] = static_cast<double>(pulled);
+            growth[m] = 1 / (a * c * c);
+            stiffness[m] = static_cast<double>(height * link.pull) * growth[m] / c + static_cast<double>(link.cross);
+            const double parts = std::abs(pull[m]) + static_cast<double>(abs(turn));
+            size[m] = below_size + parts + static_cast<double>(abs(at_lower));
+            below_size = parts + static_cast<double>(abs(at_upper));
+            const double force = std::abs(static_cast<double>(whole - before));
+            if (size[m] > 0) result.residual = std::max(result.residual, force / size[m]);
+            before = whole;
+            sum = sum + at_lower + at_upper;
+        }
+        const auto [open, row_height] = condition.left(links, y, height, row);
+        border.factor([&](std::size_t m) { return stiffness[m]; }, links, [&](std::size_t m) { return pull[m]; },
+                      [&](std::size_t m) { return row[m]; }, row_height);
+        if (result.shape.converged) break;  // what is left has been told, the factors are those of the result
+        const double log_change =
+            border.solve([&](std::size_t m) { return left[m]; }, static_cast<double>(open), reach);
+        // Largest change of a link over its own inclination, and over the steepest one's. The start comes from numbers that
+        // were summed in double: of links all but vertical next to others it has rounding alone, 1e-18 for 1e-40, say.
+        // That goes by a factor of 1e-16 a step, and does no harm to the rest.
+        double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
+        for (std::size_t m = n; m-- > 0;) {
+            // of a link that is vertical by accident only what two words of its pins' offsets can tell
+            const double lower = std::abs(static_cast<double>(y[m])), upper = std::abs(static_cast<double>(y[m + 1])),
+                         there = std::abs(static_cast<double>(y[m] - y[m + 1])) * growth[m],
+                         told = std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),
+                         change = std::abs(reach[m]) * growth[m];
+            largest = std::max(largest, change / std::min(1.0, told));
+            steepest = std::max(steepest, there), farthest = std::max(farthest, change);
+            x += reach[m];
+            y[m] = y[m] + S(x);
+        }
+        if (!(std::abs(log_change) < 1) || !(farthest < (steepest > 0 ? std::min(1.0, steepest) : 1.0))) return result;
+        height = height + height * S(log_change);
+        // what the next step would be, as this one was to the last
+        const double next = largest * std::min(1.0, largest / std::min(1.0, last));
+        result.shape.converged = (round > 0 && next < 1e-18) || (largest < 1e-14 && largest > 0.25 * last);
+        last = largest;
+    }
+    if (!result.shape.converged) return result;
+    for (unsigned pattern = 0; pattern < 5; ++pattern) {
+        unsigned state = 2463534242U + pattern;
+        double total = 0;
+        for (std::size_t m = 0; m < n; ++m) {
+            state ^= state << 13, state ^= state >> 17, state ^= state << 5;
+            total += pattern > 0 && (state & 64U) ? -size[m] : size[m];
+            left[m] = pattern < 4 ? total : 0.0;
+        }
+        // forces in a few patterns of signs; and the number given
+        border.solve([&](std::size_t m) { return left[m]; }, pattern < 4 ? 0.0 : condition.size(height), reach);
+        for (std::size_t m = 0; m < n; ++m)
+            result.condition = std::max(
+                result.condition, std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links[m].length)));
+    }
+    return result;
+}
+
+}  // namespace revchain::finite

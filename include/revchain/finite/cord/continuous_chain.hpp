@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+
+#include "revchain/finite/cord/continuous_shape.hpp"
+#include "revchain/finite/cord/tip_offset.hpp"
+
+/// Steady shapes of a whirling chain without links, of any density and with a weight at its free end or none, at any
+/// inclination: Greenhill (1908) §4 without its small angles. A path is followed up from the free end, whose offset eta_0 is
+/// the one unknown; a shape of j half waves is a path whose crossing number j is at the support. What is known of
+/// s_j(eta_0), the place of that crossing (equations at `finite::PathState`):
+///   - s_j(eta_0) > s_j(0), that of small amplitude: against V the pull satisfies u'' = -u/(rho T), u'(tip) = u(tip)/tip,
+///     and T > V, the T of small amplitude: Sturm's comparison. So no shape has j half waves at or above the conical height
+///     lambda_j of small amplitude.
+///   - s_j grows beyond any bound, as s_1 >= eta_0: so one at least has j half waves if lambda < lambda_j.
+///   - s_1 rises everywhere: v = du/deta_0 satisfies v'' = -(V/T)^2 v/(rho T), so that (u v' - v u')' > 0 as long as u and v
+///     have one sign, and at the crossing, where u' = 0, u v' > 0. So one at most has no node.
+///   - Every s_j rises for the uniform chain without tip weight, I. I. Kolodner, Heavy rotating string - a nonlinear
+///     eigenvalue problem, Comm. Pure Appl. Math. 8 (1955): exactly k shapes for lambda_{k+1} <= lambda < lambda_k; and for
+///     densities s^p: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
+/// The last is false in general: three heavy beads on a light thread have five shapes where the three heights of small
+/// amplitude promise three (tests/cpp/finite/cord/continuous_chain.cpp). So `complete` is true for the uniform chain without tip
+/// weight, and where no more than one height is above; elsewhere s_j is looked at for many eta_0, and `complete` is false.
+namespace revchain {
+
+/// The shapes found, and whether there are more.
+struct ContinuousShapes {
+    std::vector<ContinuousShape> shapes;  ///< by half waves, then the free end's offset
+    bool complete = false;                ///< a theorem says that there are no others
+};
+
+struct ContinuousShapesOptions {
+    int scanned = 200;  ///< offsets of the free end looked at where no theorem counts the shapes
+};
+
+namespace finite {
+
+inline void check(std::string_view place, const ContinuousChain& chain) {
+    revchain::detail::require_positive(place, "length", chain.length);
+    if (!(chain.tip_weight >= 0 && std::isfinite(chain.tip_weight)))
+        revchain::detail::throw_invalid(place, "tip weight must be finite and not negative", chain.tip_weight);
+    if (chain.density != nullptr && chain.density->length() != chain.length)
+        revchain::detail::throw_invalid(place, "the line density must be given over the length of the chain, not over",
+                                        chain.density->length());
+}
+
+/// The chain over lengths of `height`; bend 0: at small amplitude.
+inline PathKind kind_of(const ContinuousChain& chain, double height, double bend) {
+    const double unit = chain.density == nullptr ? 1.0 : chain.density->total() / chain.length;
+    return {chain.tip_weight / unit / height, height, unit, chain.density, bend};
+}
+
+/// Places of the crossings of the chain at small amplitude up to `farthest`, over the conical height.
+inline std::vector<double> crossings_at_rest(const ContinuousChain& chain, double height, double farthest) {
+    const Path path(kind_of(chain, height, 0), 1, {.farthest = farthest, .with_change = false});
+    std::vector<double> places;
+    for (const Path::Crossing& crossing : path.crossings())
+        if (crossing.arc <= farthest) places.push_back(crossing.arc);
+    return places;
+}
+
+/// The shape next to a path all but right; none where no path could be followed that far.
+inline std::optional<ContinuousShape> finished(const PathKind& kind, double tip_offset, int crossing, double length,
+                                               double height) {
+    for (int round = 0;; ++round) {
+        ShapeSamples samples(kind, tip_offset);
+        const Path path(kind, tip_offset, {.crossings = crossing}, samples);
+        if (!(tip_offset > 0) || static_cast<int>(path.crossings().size()) < crossing) return std::nullopt;
+        const Path::Crossing& support = path.crossings().back();
+        const double step = (length / height - support.arc) / support.rate;  // smaller each time
+        if (std::abs(step) < TipOffset::near * tip_offset || round == 3)
+            return samples.finish(path, crossing, length, height);
+        tip_offset += step;
+    }
+}
+
+/// Of each crossing, ranges of the free end's offset at whose ends it lies on different sides of the support.
+inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length,
+                                                  int count) {
+    std::vector<std::vector<TipRange>> ranges(crossings);
+    std::vector<bool> below(crossings, true);  // at rest, the crossing lies below the support
+    double last = 0;
+    for (int i = 1; i <= count; ++i) {
+        const double x = static_cast<double>(i) / count, tip = i == count ? length : length * x * x * x;
+        const Path path(
+            kind, tip,
+            {.crossings = static_cast<int>(crossings), .farthest = length, .tolerance = 1e-12, .with_change = false});
+        for (std::size_t j = 0; j < crossings; ++j) {
+            const bool now = i < count && j < path.crossings().size() && path.crossings()[j].arc < length;
+            if (now != below[j]) ranges[j].push_back({last, tip, below[j]});
+            below[j] = now;
+        }
+        last = tip;
+    }
+    return ranges;
+}
+
+inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height,
+                                          const ContinuousShapesOptions& options) {
+    const double undecided = 32 * epsilon<double>();  // of a length: on which side of a critical height, nobody can say
+    const double length = chain.length / height;
+    const PathKind kind = kind_of(chain, height, 1);
+    const std::vector<double> at_rest = crossings_at_rest(chain, height, length * (1 + undecided));
+    const auto decided = [&](double place) { return place < length * (1 - undecided); };
+    std::size_t count = at_rest.size();
+    while (count > 0 && !decided(at_rest[count - 1])) --count;
+    ContinuousShapes result;
+    const bool theorem = (chain.density == nullptr && chain.tip_weight == 0) || at_rest.size() <= 1;
+    result.complete = theorem && count == at_rest.size();
+    std::vector<std::vector<TipRange>> ranges(count, {{0, length, true}});
+    if (!theorem && count > 0) ranges = scanned(kind, count, length, options.scanned);
+    CrossingLaw law = CrossingLaw::uniform(static_cast<int>(count));
+    for (std::size_t j = count; j-- > 0;) {
+        const int crossing = static_cast<int>(j) + 1;
+        for (std::size_t i = ranges[j].size(); i-- > 0;) {
+            const TipOffset tip(kind, crossing, at_rest[j], length, ranges[j][i], law);
+            if (auto shape = finished(kind, tip.value(), crossing, chain.length, height)) {
+                result.shapes.push_back(std::move(*shape));
+            } else {
+                result.complete = false;
+            }
+            law = tip.law();
+        }
+        law = law.of_one_before(crossing);
+    }
+    std::reverse(result.shapes.begin(), result.shapes.end());
+    return result;
+}
+
+}  // namespace finite
+
+/// All steady shapes of a chain that whirls at the speed of conical height `height`, the straight one left out, of two
+/// mirror images that with the free end at a positive offset. Where `complete` is false there may be more (see above).
+///
+/// Method: power series of order 24 in the time that makes the equations polynomials (`finite::PathSeries`), Newton's method
+/// on the place of crossing j, its derivative by the series of the change; crossings told by quadrants within every step.
+/// Accuracy: inclinations, and offsets and heights over the length, within `error_bound`: measured against 22 digits for
+/// length/height from 1.4458 to 1e4, tip weights to 1e3 and five densities, never above 0.6 of it. The bound is an estimate,
+/// from how much the shape changes with its length and along it: 1.3e-13 at length/height 500 (measured 3.4e-14, and 3e-16
+/// for offsets), where the sharpest corner turns over a radian in a thousandth of the length; 3e-12 at 1e4 (7e-13). It grows
+/// near a critical height, where the amplitude is ill determined. `residual`: of the first integral of the uniform chain, of the tension carried by its
+/// own series against that of its parts with a density. Cost: a microsecond a step, four and more a half wave: 1.8 ms for the
+/// fourteen shapes at length/height 500 (bench/continuous.cpp); ten times that with a density, and `scanned` paths more.
+/// Throws InvalidArgument for a length or height not positive and finite, a negative tip weight, and a density over another
+/// length.
+inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height,
+                                          const ContinuousShapesOptions& options = {}) {
+    constexpr std::string_view place = "continuous_shapes";
+    finite::check(place, chain);
+    detail::require_positive(place, "conical height", height);
+    if (!(chain.length / height <= 1e6))
+        detail::throw_invalid(place, "length / conical height must be at most 1e6", chain.length / height);
+    if (options.scanned < 1) detail::throw_invalid(place, "scanned must be at least 1", options.scanned);
+    return finite::continuous_shapes(chain, height, options);
+}
+
+/// The same at an angular speed n, lambda = g/n^2.
+inline ContinuousShapes continuous_shapes_at_speed(const ContinuousChain& chain, double angular_speed,
+                                                   double gravity = conical_pendulum::standard_gravity,
+                                                   const ContinuousShapesOptions& options = {}) {
+    return continuous_shapes(chain, conical_pendulum::height(angular_speed, gravity), options);
+}
+
+/// The `count` greatest conical heights at which shapes leave the vertical, descending: those of small amplitude, by the
+/// same series with T = V. Method: the place of crossing j of a chain that goes on beyond its support falls as the height
+/// does: bisection, then the secant within what is left. Accuracy: 4e-15 relative.
+/// Cost: ten paths each, but one for all where the chain is uniform without tip weight.
+/// Throws InvalidArgument as continuous_shapes does, and for a count below 1 or above 1e5.
+inline Vector<double> continuous_critical_heights(const ContinuousChain& chain, Index count) {
+    constexpr std::string_view place = "continuous_critical_heights";
+    finite::check(place, chain);
+    if (count < 1 || count > 100'000) detail::throw_invalid(place, "count must be from 1 to 100000", count);
+    Vector<double> heights(count);
+    const auto place_of = [&](double height, Index crossing) {
+        const finite::Path path(finite::kind_of(chain, height, 0), 1,
+                                {.crossings = static_cast<int>(crossing), .with_change = false});
+        if (static_cast<Index>(path.crossings().size()) < crossing)
+            detail::throw_invalid(
+                place,
+                chain.density != nullptr
+                    ? "the line density is too rough to follow up to critical height"
+                    : "the tip weight is too great beside the chain's to follow up to critical height",
+                crossing);
+        return path.crossings();
+    };
+    if (chain.density == nullptr && chain.tip_weight == 0) {
+        const auto crossings = place_of(1, count);
+        for (Index j = 0; j < count; ++j) heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
+        return heights;
+    }
+    for (Index j = 1; j <= count; ++j) {
+        const auto excess = [&](double height) {
+            return std::log(place_of(height, j).back().arc * height / chain.length);
+        };
+        heights[j - 1] = finite::height_where(excess, j == 1 ? chain.length : heights[j - 2]);
+    }
+    return heights;
+}
+
+}  // namespace revchain

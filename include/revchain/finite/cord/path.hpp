@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "revchain/finite/cord/path_series.hpp"
+#include "revchain/numeric/progress.hpp"
+
+namespace revchain::finite {
+
+/// A path from the free end upwards, whose offset there is given: where it crosses the axis, and how that changes with the
+/// offset. Two crossings have one turn (u = 0) between them, and (eta, u) passes through the four quadrants in one order
+/// only, so the crossings within a step are told by the quadrants at its ends as long as it cannot pass four: by a Prüfer
+/// angle, if step times sqrt(largest T) < 3 pi/2. A step is cut until that holds and there is at most one crossing.
+class Path {
+   public:
+    struct Step {
+        PathState start;
+        double duration;  ///< of the series' own time; of the first step of a chain without tip weight: of sigma
+    };
+    struct Crossing {
+        double arc, rate;  ///< rate: change of arc with the tip's offset
+        std::size_t step;
+        double time;
+    };
+    static constexpr std::size_t most_steps = 50'000;
+
+    struct Options {
+        int crossings = std::numeric_limits<int>::max();
+        double farthest = std::numeric_limits<double>::infinity();
+        double tolerance = PathSeries::rounding;  ///< of a step
+        bool with_change = true;                  ///< whether crossings have rates, and visited series their change
+    };
+
+    /// As far as crossing number `crossings`, or the first step that ends beyond `farthest`, whichever is first;
+    /// `visit(series, duration)` sees every step.
+    template <class Visit>
+    Path(const PathKind& kind, double tip_offset, const Options& options, Visit&& visit)
+        : kind_(kind), tip_offset_(tip_offset) {
+        PathState state{0, tip_offset, -kind.tip * tip_offset, 0};
+        PathChange change{0, 1, -kind.tip, 0};
+        if (starts_by_series()) {
+            const TipSeries series(tip_offset, kind.bend, options.tolerance);
+            steps_.push_back({state, series.reach});
+            visit(series, series.reach);
+            state = series.state(series.reach), change = series.change(series.reach);
+        } else if (kind.density != nullptr) {
+            state = near_tip(kind, tip_offset, first_arc(kind)), change = {0, 1, state.pull / tip_offset, 0};
+        }
+        PathSeries series;
+        while (!ended(options, state)) {
+            revchain::detail::look();
+            series.start(kind, state, options.with_change ? &change : nullptr);
+            double duration = within_piece(series, series.reach(options.tolerance));
+            PathSeries::Reached next = series.reached(duration);
+            int passed = 0;
+            for (int cuts = 0; cuts < 200; ++cuts) {
+                passed = quadrants(state, next.state);
+                const bool told = next.most_phase < 1.5 * std::numbers::pi;
+                if (told && crossings_in(state, passed) <= 1) break;
+                duration *= 0.6;
+                next = series.reached(duration);
+            }
+            if (crossings_in(state, passed) == 1) note_crossing(series, duration, options.with_change);
+            steps_.push_back({state, duration});
+            const bool all_crossed = static_cast<int>(crossings_.size()) >= options.crossings;
+            visit(series, all_crossed ? crossings_.back().time : duration);
+            const double tension = kind.tension(next.state.pull, kind.weight_below(next.state.arc));
+            largest_tension_ = std::max(largest_tension_, tension);
+            discrepancy_ = std::max(discrepancy_, std::abs(next.tension - tension));
+            if (options.with_change) change = at_place(kind, next.state, series.change(duration), series, duration);
+            if (!(next.state.arc > state.arc)) break;  // a density too rough to follow
+            state = next.state;
+        }
+    }
+    Path(const PathKind& kind, double tip_offset, const Options& options)
+        : Path(kind, tip_offset, options, [](const auto&, double) {}) {}
+
+    const std::vector<Crossing>& crossings() const { return crossings_; }
+    const std::vector<Step>& steps() const { return steps_; }
+    double tip_offset() const { return tip_offset_; }
+    bool starts_by_series() const { return kind_.density == nullptr && kind_.tip == 0; }
+    /// Tension carried by its own series against that of u and V, over the largest.
+    double discrepancy() const { return discrepancy_ / largest_tension_; }
+
+    /// Where the path of a chain with a density begins: below, `near_tip`.
+    static double first_arc(const PathKind& kind) {
+        const double little = 0x1p-28 * std::min(1.0, kind.density->length() / kind.unit);
+        return std::max(little, kind.density->end_of_power() / kind.unit);
+    }
+    /// A place of a chain whose density goes like s^p near its free end: the error is of second order in s.
+    static PathState near_tip(const PathKind& kind, double tip_offset, double s) {
+        const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset);
+        if (s == 0) return {0, tip_offset, -kind.tip * tip_offset, 0};
+        const double below = kind.weight_below(s) - kind.tip, moment = kind.density->first_moment(s * kind.unit);
+        return {s, tip_offset - tip_offset * s / secant,
+                -kind.tip * tip_offset - below * tip_offset * (1 - s * moment / secant), s / secant};
+    }
+
+   private:
+    /// The change at a fixed place instead of a fixed time: with it a path goes through a jump of the density unchanged.
+    static PathChange at_place(const PathKind& kind, const PathState& x, const PathChange& change,
+                               const PathSeries& series, double duration) {
+        const double below = kind.weight_below(x.arc), tension = kind.tension(x.pull, below);
+        const double density = kind.density == nullptr ? 1.0 : series.density_at(duration);
+        return {0, change.offset - x.pull / tension * change.arc, change.pull + density * x.offset * change.arc,
+                change.height - below / tension * change.arc};
+    }
+    double within_piece(const PathSeries& series, double duration) const {
+        if (kind_.density == nullptr) return duration;
+        const double end = kind_.density->end_of_piece(series.arc[0] * kind_.unit) / kind_.unit;
+        if (PathSeries::at(series.arc, duration) <= end) return duration;
+        double low = 0, high = duration;  // sigma grows with t
+        for (int i = 0; i < 200 && low < high; ++i) {
+            const double middle = low + (high - low) / 2;
+            if (middle == low || middle == high) break;
+            (PathSeries::at(series.arc, middle) < end ? low : high) = middle;
+        }
+        return high;
+    }
+    bool ended(const Options& options, const PathState& state) const {
+        return static_cast<int>(crossings_.size()) >= options.crossings || state.arc > options.farthest ||
+               steps_.size() >= most_steps;
+    }
+    /// eta > 0 > u: 0, then in the order in which they are passed.
+    static int quadrant(const PathState& x) {
+        if (x.offset > 0) return x.pull <= 0 ? 0 : 3;
+        if (x.offset < 0) return x.pull >= 0 ? 2 : 1;
+        return x.pull <= 0 ? 1 : 3;
+    }
+    static int quadrants(const PathState& from, const PathState& to) { return (quadrant(to) - quadrant(from) + 4) % 4; }
+    /// Quadrants 1 and 3 are entered through the axis.
+    static int crossings_in(const PathState& from, int passed) {
+        const int first = quadrant(from);
+        int count = 0;
+        for (int i = 1; i <= passed; ++i) count += (first + i) % 2;
+        return count;
+    }
+    void note_crossing(const PathSeries& series, double duration, bool with_change) {
+        const double sign = series.offset[0] > 0 ? -1 : 1;
+        const double t = time_of_zero(duration, duration, [&](double time) {
+            double value = series.offset[PathSeries::order], slope = 0;
+            for (std::size_t k = PathSeries::order; k-- > 0;) {
+                slope = slope * time + value;
+                value = value * time + series.offset[k];
+            }
+            return std::pair(sign * value, sign * slope);
+        });
+        Crossing crossing{PathSeries::at(series.arc, t), 0, steps_.size(), t};
+        if (with_change) {
+            const PathChange change = series.change(t);
+            crossing.rate =
+                change.arc - PathSeries::at(series.tension, t) * change.offset / PathSeries::at(series.pull, t);
+        }
+        crossings_.push_back(crossing);
+    }
+
+    PathKind kind_;
+    double tip_offset_;
+    std::vector<Step> steps_;
+    std::vector<Crossing> crossings_;
+    double largest_tension_ = 0, discrepancy_ = 0;
+};
+
+}  // namespace revchain::finite

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "revchain/finite/cord/line_density.hpp"
+
+namespace revchain::finite {
+
+/// A place of a whirling chain, lengths over the conical height lambda: sigma the distance from the free end, eta the offset
+/// from the axis, xi the height above the free end; and u, the pull across the axis over that of a length lambda of chain,
+///     u' = -rho eta,   V' = rho,   eta' = u/T,   xi' = V/T,   T = sqrt(u^2 + V^2)   (' by sigma),
+/// V what hangs below, rho the line density. As paths run upwards, -u/V is the tangent of the inclination.
+struct PathState {
+    double arc = 0, offset = 1, pull = 0, height = 0;
+};
+
+/// How a path changes with the offset of its free end.
+struct PathChange {
+    double arc = 0, offset = 1, pull = 0, height = 0;
+};
+
+/// What a path is one of.
+struct PathKind {
+    double tip = 0;                        ///< weight at the free end
+    double unit = 1;                       ///< conical height in the unit of length of `density`
+    double per_length = 1;                 ///< its values are over this
+    const LineDensity* density = nullptr;  ///< uniform, rho = 1, where there is none
+    double bend = 1;                       ///< 0: small amplitude, T = V
+
+    double weight_below(double arc) const {
+        return tip + (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
+    }
+    double density_at(double arc) const {
+        return density == nullptr ? 1.0 : density->about(arc * unit)[0] / per_length;
+    }
+    double tension(double pull, double below) const { return bend == 0 ? below : std::hypot(pull, below); }
+};
+
+/// The power series of a path about one of its places, in a time t that makes the equations polynomials:
+///     dsigma = T dt:   eta' = u,   u' = -rho T eta,   V' = rho T,   xi' = V,   T' = rho (V - u eta)    (' by t).
+/// For the uniform chain the last has the integral T = C + xi - eta^2/2, coefficient by coefficient. Where the chain turns
+/// sharply (high speed), T goes like a hyperbolic cosine of t: a step of this time spans most of such a corner, however
+/// sharp, where a step of sigma would have to stay within its radius.
+class PathSeries {
+   public:
+    static constexpr int order = 24;
+    static constexpr double rounding = 1e-17;  ///< a tolerance below it
+    using Coefficients = std::array<double, order + 1>;
+
+    PathSeries() = default;
+    PathSeries(const PathKind& kind, const PathState& state) { start(kind, state); }
+
+    /// With `change`, the series of the change too.
+    void start(const PathKind& kind, const PathState& state, const PathChange* change = nullptr) {
+        offset[0] = state.offset, pull[0] = state.pull, arc[0] = state.arc, height[0] = state.height;
+        below[0] = kind.weight_below(state.arc);
+        tension[0] = kind.tension(state.pull, below[0]);
+        has_change_ = change != nullptr, is_dense_ = kind.density != nullptr, pace = 1;
+        if (has_change_) {
+            offset_change[0] = change->offset, pull_change[0] = change->pull;
+            arc_change[0] = change->arc, height_change[0] = change->height;
+        }
+        if (kind.density == nullptr) {
+            if (has_change_) {
+                uniform<true>(kind.bend);
+            } else {
+                uniform<false>(kind.bend);
+            }
+        } else {
+            dense(kind);
+        }
+    }
+
+    /// The longest time for which the first terms left out stay below `tolerance`.
+    double reach(double tolerance) const {
+        const double size = std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
+        const auto of = [&](std::size_t k) {
+            const double largest = std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
+            return std::pow(tolerance / largest, 1.0 / static_cast<double>(k));
+        };
+        return std::min(of(order), of(order - 1));
+    }
+
+    static double at(const Coefficients& c, double t) {
+        double sum = c[order];
+        for (std::size_t k = order; k-- > 0;) sum = sum * t + c[k];
+        return sum;
+    }
+    /// The place at a time; its tension by its own series, and a number the Prüfer angle from then to
+    /// now does not exceed: dtheta/dt <= pace sqrt(largest rho T).
+    struct Reached {
+        PathState state;
+        double tension, most_phase;
+    };
+    Reached reached(double t) const {  // side by side, as each sum waits for itself
+        const Coefficients& pulled = is_dense_ ? mass : tension;
+        Reached x{{arc[order], offset[order], pull[order], height[order]}, tension[order], std::abs(pulled[order])};
+        for (std::size_t k = order; k-- > 0;) {
+            x.state.arc = x.state.arc * t + arc[k];
+            x.state.offset = x.state.offset * t + offset[k];
+            x.state.pull = x.state.pull * t + pull[k];
+            x.state.height = x.state.height * t + height[k];
+            x.tension = x.tension * t + tension[k];
+            x.most_phase = x.most_phase * t + std::abs(pulled[k]);
+        }
+        x.most_phase = pace * t * std::sqrt(x.most_phase);
+        return x;
+    }
+    PathState state(double t) const { return reached(t).state; }
+    /// Of a chain that has one: that of this series' piece, at its end too.
+    double density_at(double t) const { return at(density, t); }
+    PathChange change(double t) const {
+        PathChange x{arc_change[order], offset_change[order], pull_change[order], height_change[order]};
+        for (std::size_t k = order; k-- > 0;) {
+            x.arc = x.arc * t + arc_change[k];
+            x.offset = x.offset * t + offset_change[k];
+            x.pull = x.pull * t + pull_change[k];
+            x.height = x.height * t + height_change[k];
+        }
+        return x;
+    }
+
+    Coefficients arc{}, offset, pull, height, tension, below;
+    double pace = 1;  ///< dsigma = pace T dt
+    Coefficients arc_change, offset_change, pull_change, height_change, tension_change;
+
+   private:
+    /// Coefficient n of a product.
+    static double product(const double* a, const double* b, int n) {
+        double even = 0, odd = 0;
+        int i = 0;
+        for (; i < n; i += 2) even += a[i] * b[n - i], odd += a[i + 1] * b[n - i - 1];
+        return i == n ? even + odd + a[n] * b[0] : even + odd;
+    }
+    static double product(const Coefficients& a, const Coefficients& b, int n) {
+        return product(a.data(), b.data(), n);
+    }
+    /// Coefficient n of a square.
+    static double square(const Coefficients& a, int n) {
+        double sum = 0;
+        const auto last = static_cast<std::size_t>(n);
+        for (std::size_t i = 0; 2 * i < last; ++i) sum += a[i] * a[last - i];
+        return 2 * sum + (n % 2 == 0 ? a[last / 2] * a[last / 2] : 0.0);
+    }
+
+    /// Every new coefficient is at once multiplied into the sums it belongs to, for later: loops without sums across, which
+    /// compilers turn into SIMD code. What is not yet known is 0, so that no pair counts twice.
+    template <bool change>
+    void uniform(double bend) {
+        constexpr std::size_t size = order + 1, block = 4, room = 2 * order + 2 * block;
+        std::array<double, room> e{}, w{}, de{}, dw{};        // eta, T and their changes
+        std::array<double, room> eT{}, ee{}, d_eT{}, d_ee{};  // eta T, eta^2/2 and their changes
+        const auto spread = [&](std::size_t n, double en, double wn, double den, double dwn) {
+            const std::size_t last = std::min(n, order - n);
+            w[n] = wn;
+            if constexpr (change) dw[n] = dwn;
+            for (std::size_t first = 0; first <= last; first += block) {
+                for (std::size_t i = first; i < first + block; ++i) {
+                    eT[n + i] += en * w[i] + wn * e[i];
+                    if constexpr (change) d_eT[n + i] += en * dw[i] + wn * de[i] + den * w[i] + dwn * e[i];
+                }
+            }
+        };
+        const auto spread_square = [&](std::size_t n, double en, double den) {
+            const std::size_t last = std::min(n, size - n);
+            for (std::size_t first = 0; first <= last; first += block) {
+                for (std::size_t i = first; i < first + block; ++i) {
+                    ee[n + i] += en * e[i];
+                    if constexpr (change) d_ee[n + i] += en * de[i] + den * e[i];
+                }
+            }
+            ee[2 * n] += 0.5 * en * en;
+            if constexpr (change) d_ee[2 * n] += en * den;
+        };
+        if constexpr (change)
+            tension_change[0] = (bend * pull[0] * pull_change[0] + below[0] * arc_change[0]) / tension[0];
+        double en = offset[0], den = change ? offset_change[0] : 0.0;
+        for (std::size_t n = 0; n < order; ++n) {
+            const double inverse = 1.0 / static_cast<double>(n + 1);
+            const double wn = tension[n], dwn = change ? tension_change[n] : 0.0;
+            spread_square(n, en, den);
+            spread(n, en, wn, den, dwn);
+            e[n] = en;
+            if constexpr (change) de[n] = den;
+            const double next = pull[n] * inverse, next_change = change ? pull_change[n] * inverse : 0.0;
+            offset[n + 1] = next;
+            arc[n + 1] = below[n + 1] = wn * inverse;
+            height[n + 1] = below[n] * inverse;
+            pull[n + 1] = -eT[n] * inverse;
+            // (eta^2/2)_n+1 lacks its pair (n + 1, 0)
+            tension[n + 1] = height[n + 1] - bend * (ee[n + 1] + next * e[0]);
+            if constexpr (change) {
+                offset_change[n + 1] = next_change;
+                arc_change[n + 1] = dwn * inverse;
+                height_change[n + 1] = arc_change[n] * inverse;
+                pull_change[n + 1] = -d_eT[n] * inverse;
+                tension_change[n + 1] = height_change[n + 1] - bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
+            }
+            en = next, den = next_change;
+        }
+    }
+
+    /// The same with a density: rho(sigma(t)) by Horner's rule on series, all its lines one coefficient at a time. The time
+    /// runs by `pace`, dsigma = pace T dt, so that coefficients stay within range however light the chain is here.
+    void dense(const PathKind& kind) {
+        constexpr int degree = LineDensity::degree;
+        std::array<double, degree + 1> c = kind.density->about(state_arc(kind));
+        double scale = 1 / kind.per_length;
+        for (double& x : c) x *= scale, scale *= kind.unit;
+        std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + (sigma - sigma_0) line[i + 1]
+        pace = 1 / (c[0] * (1 + std::abs(offset[0])));
+        Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{}, below_change{};
+        int last = degree;  // powers that no longer count within the piece are left out
+        const double span = std::min(kind.density->end_of_piece(state_arc(kind)) / kind.unit - arc[0], 1e300);
+        while (last > 0 && std::abs(c[static_cast<std::size_t>(last)]) * std::pow(span, last) < 1e-17 * c[0]) --last;
+        const auto extend = [&](int n) {
+            const auto k = static_cast<std::size_t>(n);
+            line[static_cast<std::size_t>(last)][k] = n == 0 ? c[static_cast<std::size_t>(last)] : 0.0;
+            for (int i = last; i-- > 0;) {
+                const auto& above = line[static_cast<std::size_t>(i) + 1];
+                line[static_cast<std::size_t>(i)][k] =
+                    n == 0 ? c[static_cast<std::size_t>(i)] : product(arc.data() + 1, above.data(), n - 1);
+            }
+            density[k] = line[0][k];
+        };
+        extend(0);
+        for (int n = 0; n < order; ++n) {
+            const auto k = static_cast<std::size_t>(n);
+            const double inverse = pace / (n + 1);
+            offset[k + 1] = pull[k] * inverse;
+            arc[k + 1] = tension[k] * inverse;
+            height[k + 1] = below[k] * inverse;
+            mass[k] = product(density, tension, n);
+            below[k + 1] = mass[k] * inverse;
+            pull[k + 1] = -product(offset, mass, n) * inverse;
+            drive[k] = below[k] - 0.5 * kind.bend / inverse * square(offset, n + 1);  // V - u eta
+            tension[k + 1] = product(density, drive, n) * inverse;
+            extend(n + 1);
+            if (!has_change_) continue;
+            // density' (by sigma) = (density along t)' / (pace T)
+            double of_slope = density[k + 1] / inverse;
+            for (std::size_t i = 1; i <= k; ++i) of_slope -= tension[i] * slope[k - i];
+            slope[k] = of_slope / tension[0];
+            density_change[k] = product(slope, arc_change, n);
+            below_change[k] = product(density, arc_change, n);
+            if (n == 0)
+                tension_change[0] = (kind.bend * pull[0] * pull_change[0] + below[0] * below_change[0]) / tension[0];
+            offset_change[k + 1] = pull_change[k] * inverse;
+            arc_change[k + 1] = tension_change[k] * inverse;
+            height_change[k + 1] = below_change[k] * inverse;
+            mass_change[k] = product(density_change, tension, n) + product(density, tension_change, n);
+            pull_change[k + 1] = -(product(offset_change, mass, n) + product(offset, mass_change, n)) * inverse;
+            drive_change[k] = below_change[k] - kind.bend / inverse * product(offset, offset_change, n + 1);
+            tension_change[k + 1] = (product(density_change, drive, n) + product(density, drive_change, n)) * inverse;
+        }
+        mass[order] = product(density, tension, order);
+    }
+    double state_arc(const PathKind& kind) const { return arc[0] * kind.unit; }
+
+    Coefficients density{}, mass{};  // rho, rho T: with a density
+    bool has_change_ = false, is_dense_ = false;
+};
+
+/// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so, to
+/// 2^-52 of the step and 2^-51 of itself: Newton's method held within the bracket. Unlike `zero_between` it does not go
+/// on to the last digit of the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)`
+/// returns a pair.
+template <class F>
+double time_of_zero(double duration, double latest, const F& value_and_slope) {
+    double low = 0, high = latest, t = duration / 2;
+    for (int i = 0; i < 100; ++i) {
+        const auto [value, slope] = value_and_slope(t);
+        (value < 0 ? low : high) = t;
+        double next = t - value / slope;
+        if (std::abs(next - t) <= std::min(0x1p-52 * duration, 0x1p-51 * t)) break;
+        if (!(next > low && next < high)) next = low + (high - low) / 2;
+        if (next == low || next == high) break;
+        t = next;
+    }
+    return t;
+}
+
+/// The series of a uniform chain without a tip weight about its free end, in sigma, where T = 0: with u = sigma q,
+///     (sigma q)' = -eta,   eta' = q/sqrt(1 + q^2),   xi' = 1/sqrt(1 + q^2),   q(0) = -eta(0).
+class TipSeries {
+   public:
+    static constexpr int order = PathSeries::order;
+    using Coefficients = PathSeries::Coefficients;
+
+    TipSeries(double tip_offset, double bend, double tolerance = PathSeries::rounding) {
+        offset[0] = tip_offset, offset_change[0] = 1, height[0] = 0;
+        Coefficients size{}, cosine{}, cube{}, turn{};  // 1 + q^2, its powers -1/2 and -3/2; change of the sine
+        height_change[0] = 0;
+        for (std::size_t n = 0; n <= order; ++n) {
+            const double inverse = 1.0 / static_cast<double>(n + 1);
+            tangent[n] = -offset[n] * inverse;
+            tangent_change[n] = -offset_change[n] * inverse;
+            size[n] = n == 0 ? 1.0 : 0.0;
+            for (std::size_t i = 0; i <= n; ++i) size[n] += bend * tangent[i] * tangent[n - i];
+            cosine[n] = power(size, cosine, n, -0.5);
+            cube[n] = power(size, cube, n, -1.5);
+            if (n == order) break;
+            turn[n] = 0;
+            for (std::size_t i = 0; i <= n; ++i) turn[n] += tangent_change[i] * cube[n - i];
+            double slope = 0, sink = 0;
+            for (std::size_t i = 0; i <= n; ++i)
+                slope += tangent[i] * cosine[n - i], sink -= bend * tangent[i] * turn[n - i];
+            offset[n + 1] = slope * inverse;
+            offset_change[n + 1] = turn[n] * inverse;
+            height_change[n + 1] = sink * inverse;
+            height[n + 1] = cosine[n] * inverse;
+        }
+        // No zero of eta before max(1.4458, eta_0), j_{0,1}^2/4 the least: a chain bends less than its small theory.
+        const double last = std::max(std::abs(offset[order]) / tip_offset, std::abs(height[order]));
+        const double before = std::max(std::abs(offset[order - 1]) / tip_offset, std::abs(height[order - 1]));
+        reach = std::min({0.9 * std::max(1.4458, tip_offset), std::pow(tolerance / last, 1.0 / order),
+                          std::pow(tolerance / before, 1.0 / (order - 1))});
+    }
+
+    PathState state(double arc) const {
+        return {arc, PathSeries::at(offset, arc), arc * PathSeries::at(tangent, arc), PathSeries::at(height, arc)};
+    }
+    PathChange change(double arc) const {
+        return {0, PathSeries::at(offset_change, arc), arc * PathSeries::at(tangent_change, arc),
+                PathSeries::at(height_change, arc)};
+    }
+
+    Coefficients offset, tangent, height, offset_change, tangent_change, height_change;
+    double reach;
+
+   private:
+    /// Coefficient n of a power of a series, from those before: J. C. P. Miller's recurrence.
+    static double power(const Coefficients& of, const Coefficients& result, std::size_t n, double exponent) {
+        if (n == 0) return std::pow(of[0], exponent);
+        double sum = 0;
+        const auto whole = static_cast<double>(n);
+        for (std::size_t i = 1; i <= n; ++i) {
+            const auto k = static_cast<double>(i);
+            sum += (exponent * k - (whole - k)) * of[i] * result[n - i];
+        }
+        return sum / (whole * of[0]);
+    }
+};
+
+}  // namespace revchain::finite

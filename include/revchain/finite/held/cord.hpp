@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <numbers>
+
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/finite/held/cord_series.hpp"
+#include "revchain/finite/held/curve.hpp"
+
+namespace revchain {
+
+/// A place on a cord held at both ends.
+struct HeldCordPlace {
+    double arc_length;            ///< from the lower end
+    double offset, height;        ///< from the axis; above the lower end
+    double inclination;           ///< to the upward vertical, rad: positive where the cord leads to the axis going up
+    double height_times_tension;  ///< lambda times the tension
+};
+
+/// One steady shape of a uniform cord whose two ends are held on the axis. Forces as in `HeldShape`: times the conical
+/// height. Places are dense where the cord turns sharply: eight to a step.
+struct HeldCordShape {
+    Vector<double> arc_length, offset, height, inclination, height_times_tension;  ///< (n) lower end first
+    std::array<double, 2> lower_pull;  ///< lambda times the cord's pull on its lower bearing: outwards, and up
+    std::array<double, 2> upper_pull;  ///< the same on the upper bearing
+    int half_waves = 1;
+    double span = 0, length = 0, weight = 0, conical_height = 0;
+    double residual = 0;  ///< of T - lambda z w + w y^2/2 at the upper end, over the largest tension; of the gap there
+    double error_bound = 0;  ///< of every inclination, rad, and of every offset over the length: an estimate
+    double condition = 0;    ///< largest change of an inclination for a relative change 1 of span or height
+
+    /// The place at an arc length from the lower end. Throws InvalidArgument outside 0 ... length.
+    HeldCordPlace operator()(double arc) const;
+
+    std::vector<finite::CordPlace> steps;  ///< what places are computed from, lengths over the cord's
+};
+
+struct HeldCordOptions {
+    int most_half_waves = 1;
+};
+
+/// Shapes of a cord held at both ends, one at the most for each number of half waves; see `HeldShapes`.
+struct HeldCordShapes {
+    std::vector<HeldCordShape> shapes;
+    std::vector<int> missing;
+    bool complete = false;  ///< never claimed
+};
+
+namespace finite {
+
+class HeldCord {
+   public:
+    HeldEnd<double> operator()(const HeldForces<double>& forces, bool) const {
+        return CordPath::end(forces, [](const CordSeries&, double) {});
+    }
+    /// A path has no memory.
+    struct Nothing {};
+    static Nothing kept() { return {}; }
+    static void keep(Nothing) {}
+
+    HeldCurve<HeldCord> curve() { return {*this, 1, 1}; }
+
+    std::optional<HeldState> weightless(int half_waves, double span) {
+        const double waves = half_waves * std::numbers::pi, along = 1 / (waves * waves), slack = 1 - span,
+                     first = std::min(slack, 1e-3);
+        auto state = curve().corrected({{-2 * std::sqrt(first) * along, along, 0}, 1 - first});
+        if (state && slack > first) state = curve().to_span(*state, span);
+        return state;
+    }
+};
+
+inline HeldCordPlace place_of(const HeldCordShape& shape, const CordPlace& x) {
+    return {x.arc * shape.length, x.offset * shape.length, x.rise * shape.length, std::atan2(-x.across, x.along),
+            std::hypot(x.across, x.along) * shape.length * shape.weight};
+}
+
+inline HeldCordShape described(const HeldState& state, double span, double length, double weight) {
+    constexpr int per_step = 8;
+    HeldCordShape shape;
+    shape.span = span, shape.length = length, shape.weight = weight;
+    const double lambda = state.forces.height;
+    shape.conical_height = lambda * length;
+    std::vector<CordPlace> places;
+    std::vector<CordChange> changes;
+    double largest_tension = 0, steepest = 0;
+    CordPlace last;
+    const HeldEnd<double> end = CordPath::end(state.forces, [&](const CordSeries& series, double duration) {
+        shape.steps.push_back(series.place(0));
+        for (int i = 0; i < per_step; ++i) {
+            const double t = duration * i / per_step;
+            places.push_back(series.place(t)), changes.push_back(series.change(t, lambda));
+        }
+        last = series.place(duration);
+    });
+    places.push_back(last), changes.push_back(changes.back());
+    const auto count = static_cast<Index>(places.size());
+    for (Vector<double>* v :
+         {&shape.arc_length, &shape.offset, &shape.height, &shape.inclination, &shape.height_times_tension})
+        v->resize(count);
+    double sign = 0;
+    for (Index i = 0; i < count; ++i) {
+        const CordPlace& x = places[static_cast<std::size_t>(i)];
+        const HeldCordPlace p = place_of(shape, x);
+        shape.arc_length[i] = p.arc_length, shape.offset[i] = p.offset, shape.height[i] = p.height;
+        shape.inclination[i] = p.inclination, shape.height_times_tension[i] = p.height_times_tension;
+        const double pull = std::hypot(x.across, x.along);
+        largest_tension = std::max(largest_tension, pull);
+        steepest = std::max(steepest, std::abs(x.along * x.offset + lambda * x.across) / (pull * pull));
+        if (i > 0 && i + 1 < count && x.offset != 0) {
+            if (x.offset * sign < 0) ++shape.half_waves;
+            sign = x.offset > 0 ? 1 : -1;
+        }
+    }
+    shape.arc_length[count - 1] = length, shape.offset[count - 1] = 0, shape.height[count - 1] = span;
+    const double unit = length * weight;
+    shape.lower_pull = {-state.forces.across * unit, state.forces.along * unit};
+    shape.upper_pull = {end.across * unit, -(state.forces.along + lambda) * unit};
+    const double first = std::hypot(state.forces.across, state.forces.along);
+    const double integral = std::hypot(last.across, last.along) - lambda * last.rise + last.offset * last.offset / 2;
+    shape.residual = std::max(
+        {std::abs(integral - first) / largest_tension, std::abs(end.offset), std::abs(end.rise - span / length)});
+
+    // A change of the span, or of the height, asks two forces, and both the inclinations.
+    const double a = end.offset_change[0], b = end.offset_change[1], c = end.rise_change[0], d = end.rise_change[1],
+                 determinant = a * d - b * c;
+    double moved = 0;
+    const auto condition = [&](double y, double z, double direct) {
+        const double across = (d * y - b * z) / determinant, along = (a * z - c * y) / determinant;
+        double most = 0;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const CordPlace& x = places[i];
+            const double squared = x.across * x.across + x.along * x.along;
+            const auto change = [&](double CordPlace::*part) {
+                return changes[i][0].*part * across + changes[i][1].*part * along + changes[i][2].*part * direct;
+            };
+            const double turn = change(&CordPlace::across) * x.along - change(&CordPlace::along) * x.across;
+            most = std::max(most, std::abs(turn) / squared);
+        }
+        return most;
+    };
+    shape.condition = std::max(condition(0, span / length, 0),
+                               condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, lambda));
+    moved = std::max(condition(0, 1, 0), condition(1, 0, 0));
+    // Rounding of the forces and of the end's place, and where it turns sharply of the arc.
+    shape.error_bound = epsilon<double>() * (2 + 2 * shape.condition + 2 * moved + steepest);
+    return shape;
+}
+
+inline HeldCordShapes held_cord_shapes(double length, double span, double height, double weight,
+                                       const HeldCordOptions& options) {
+    constexpr std::string_view place = "held_cord_shapes";
+    revchain::detail::require_positive(place, "length", length);
+    revchain::detail::require_positive(place, "span", span);
+    revchain::detail::require_positive(place, "weight", weight);
+    if (!(height >= 0 && std::isfinite(height)))
+        revchain::detail::throw_invalid(place, "conical height must not be negative, and finite", height);
+    if (!(span < length)) revchain::detail::throw_invalid(place, "span must be less than the length", span);
+    if (options.most_half_waves < 1)
+        revchain::detail::throw_invalid(place, "most half waves must be at least 1", options.most_half_waves);
+    HeldCordShapes result;
+    HeldCord cord;
+    for (int k = 1; k <= options.most_half_waves; ++k) {
+        std::optional<HeldState> state = cord.weightless(k, span / length);
+        if (state && height > 0) state = cord.curve().to_height(*state, height / length);
+        std::optional<HeldCordShape> shape;
+        if (state) shape = described(*state, span, length, weight);
+        if (shape && shape->error_bound < 1e-3)  // else it hangs folded along the axis
+            result.shapes.push_back(std::move(*shape));
+        else
+            result.missing.push_back(k);
+    }
+    return result;
+}
+
+}  // namespace finite
+
+/// Steady shapes of a uniform, perfectly flexible cord whose two ends are held on the axis, `span` apart, at a conical
+/// height: `held_shapes` of more and more links. Height 0 stands for no gravity: Greenhill (1908) §5, y = b sn(K x/a).
+///
+/// Method: power series of degree 24, exact derivatives with the two forces at the lower end, Newton's method along a curve
+/// from the nearly straight cord. Accuracy: 1e-13 of the length (tests/cpp/paper/section_5_held_cord.cpp). Cost: 20 microseconds a
+/// path, some 100 paths a shape.
+/// Throws InvalidArgument for numbers not positive and finite, but the height, which may be 0, and a span not below the
+/// length.
+inline HeldCordShapes held_cord_shapes(double length, double span, double conical_height, double weight = 1,
+                                       const HeldCordOptions& options = {}) {
+    return finite::held_cord_shapes(length, span, conical_height, weight, options);
+}
+
+/// The same for a tension at the upper end instead of the span; see `held_shapes_under_tension`.
+inline HeldCordShapes held_cord_shapes_under_tension(double length, double height_times_tension, double conical_height,
+                                                     double weight = 1, const HeldCordOptions& options = {}) {
+    constexpr std::string_view place = "held_cord_shapes_under_tension";
+    detail::require_positive(place, "height times tension", height_times_tension);
+    detail::require_positive(place, "length", length);
+    detail::require_positive(place, "weight", weight);
+    if (!(conical_height >= 0 && std::isfinite(conical_height)))
+        detail::throw_invalid(place, "conical height must not be negative, and finite", conical_height);
+    if (options.most_half_waves < 1)
+        detail::throw_invalid(place, "most half waves must be at least 1", options.most_half_waves);
+    finite::HeldCord cord;
+    HeldCordShapes result;
+    for (int k = 1; k <= options.most_half_waves; ++k) {
+        const std::size_t before = result.shapes.size();
+        for (const double share : {0.9, 0.5, 0.99, 0.1}) {
+            auto state = cord.weightless(k, share);
+            if (state && conical_height > 0) state = cord.curve().to_height(*state, conical_height / length);
+            if (!state) continue;
+            cord.curve().under(*state, height_times_tension / length / weight, [&](const finite::HeldState& found) {
+                HeldCordShape shape = finite::described(found, found.span * length, length, weight);
+                if (shape.error_bound < 1e-3) result.shapes.push_back(std::move(shape));
+            });
+            break;
+        }
+        if (result.shapes.size() == before) result.missing.push_back(k);
+    }
+    return result;
+}
+
+inline HeldCordPlace HeldCordShape::operator()(double arc) const {
+    if (!(arc >= 0 && arc <= length))
+        detail::throw_invalid("HeldCordShape", "arc length must lie between 0 and the length", arc);
+    const double scaled = arc / length;
+    const auto after = std::upper_bound(steps.begin() + 1, steps.end(), scaled,
+                                        [](double x, const finite::CordPlace& step) { return x < step.arc; });
+    const finite::CordSeries series(*(after - 1), conical_height / length);
+    const double duration = 1.05 * series.reach(finite::CordPath::tolerance);
+    HeldCordPlace place = finite::place_of(*this, series.place(series.time_at(scaled, duration)));
+    place.arc_length = arc;
+    return place;
+}
+
+}  // namespace revchain

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+
+#include "revchain/finite/held/sweep.hpp"
+#include "revchain/numeric/progress.hpp"
+
+namespace revchain::finite {
+
+/// A state of something held at both ends, in double: forces at the lower end, and how far apart the ends are.
+struct HeldState {
+    HeldForces<double> forces;
+    double span;
+};
+
+/// A curve of states whose upper end is on the axis, by its arc: with one of span and conical height kept, the three
+/// others of (forces, span) move along a curve in space, whose tangent is the product of two gradients. `Shooter` sends
+/// forces to the upper end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`, where `keep` tells it that
+/// the state is one to start from. A fold of the curve is passed like any other point.
+template <class Shooter>
+class HeldCurve {
+   public:
+    /// Sizes that weigh steps: total length and weight.
+    HeldCurve(Shooter& shooter, double length, double weight) : shooter_(&shooter), length_(length), weight_(weight) {}
+
+    static constexpr int most_steps = 3000;
+
+    /// Newton's method at span and height of `state`, as far as double goes.
+    std::optional<HeldState> corrected(HeldState state) {
+        revchain::detail::look();
+        double last = std::numeric_limits<double>::infinity();
+        for (int round = 0; round < 25; ++round) {
+            const HeldEnd<double> end = (*shooter_)(state.forces, false);
+            if (!end.known) return {};
+            const double y = end.offset, z = end.rise - state.span;
+            const auto& [a, b, unused] = end.offset_change;
+            const auto& [c, d, unused_too] = end.rise_change;
+            const double determinant = a * d - b * c, across = -(d * y - b * z) / determinant,
+                         along = -(a * z - c * y) / determinant;
+            const double size = std::abs(across) / std::abs(state.forces.across) +
+                                std::abs(along) / (std::abs(state.forces.along) + std::abs(state.forces.across));
+            if (!(size < 1)) return {};
+            state.forces.across += across, state.forces.along += along;
+            if (size < 1e-13 || (size < 1e-7 && size > 0.25 * last)) {
+                (*shooter_)(state.forces, true);
+                return state;
+            }
+            last = size;
+        }
+        return {};
+    }
+
+    /// On, at constant height, to another span; nothing where the curve does not lead there.
+    std::optional<HeldState> to_span(const HeldState& from, double span) {
+        return follow<true>(
+            from, span > from.span, [&](const HeldState& x) { return x.span - span; },
+            [&](HeldState x) { return x.span = span, x; });
+    }
+    /// On, at constant span, to another height.
+    std::optional<HeldState> to_height(const HeldState& from, double height) {
+        return follow<false>(
+            from, height > from.forces.height, [&](const HeldState& x) { return x.forces.height - height; },
+            [&](HeldState x) { return x.forces.height = height, x; });
+    }
+
+    /// lambda times the tension at the upper end.
+    double top_tension(const HeldState& x) {
+        return std::hypot((*shooter_)(x.forces, false).across, x.forces.along + x.forces.height * weight_);
+    }
+    /// Sees the states of constant height, from `from` both ways along the curve, whose top tension is lambda times the one
+    /// wanted; the tension is largest somewhere between, as a rule, so that there are two.
+    template <class Visit>
+    void under(const HeldState& from, double wanted, Visit&& visit) {
+        const auto kept = shooter_->kept();
+        for (const bool up : {true, false}) {
+            shooter_->keep(kept);
+            Tense last{from, top_tension(from) - wanted}, before = last;
+            step_along<true>(from, up, [&](const HeldState& state) {
+                const Tense here{state, top_tension(state) - wanted};
+                const auto there = shooter_->kept();
+                if (here.off * last.off < 0) {
+                    between(last, here, wanted, visit);
+                } else if (before.off * last.off > 0 && std::abs(last.off) < std::abs(before.off) &&
+                           std::abs(last.off) < std::abs(here.off)) {
+                    // nearest to it in between: it may be met there, twice
+                    if (const auto met = crossed(before, here, wanted)) {
+                        between(before, *met, wanted, visit);
+                        between(*met, here, wanted, visit);
+                    }
+                }
+                shooter_->keep(there);
+                before = last, last = here;
+                return state.span > 1e-6 * length_ && length_ - state.span > 1e-12 * length_;
+            });
+        }
+    }
+
+   private:
+    using Triple = std::array<double, 3>;
+
+    struct Tense {
+        HeldState state;
+        double off;  ///< of the top tension from the one wanted
+    };
+    std::optional<Tense> at_share(const Tense& a, const Tense& b, double share, double wanted) {
+        HeldState middle = a.state;
+        middle.span += share * (b.state.span - a.state.span);
+        middle.forces.across += share * (b.state.forces.across - a.state.forces.across);
+        middle.forces.along += share * (b.state.forces.along - a.state.forces.along);
+        const auto state = corrected(middle);
+        if (!state) return {};
+        return Tense{*state, top_tension(*state) - wanted};
+    }
+    /// The state between two at which the top tension is as wanted, by secants that keep a bracket.
+    template <class Visit>
+    void between(Tense a, Tense b, double wanted, Visit&& visit) {
+        std::optional<Tense> best;
+        for (int round = 0; round < 80; ++round) {
+            best = at_share(a, b, round % 3 == 2 ? 0.5 : a.off / (a.off - b.off), wanted);
+            if (!best) return;
+            if (std::abs(best->off) <= 1e-16 * wanted || std::abs(b.state.span - a.state.span) <= 1e-16 * length_)
+                break;
+            (best->off * a.off < 0 ? b : a) = *best;
+        }
+        visit(best->state);
+    }
+    /// A state between two on the other side of the tension wanted, where it is nearest to it.
+    std::optional<Tense> crossed(Tense a, Tense b, double wanted) {
+        for (int round = 0; round < 60; ++round) {
+            const auto first = at_share(a, b, 0.4, wanted), second = at_share(a, b, 0.6, wanted);
+            if (!first || !second) return {};
+            if (first->off * a.off < 0) return first;
+            if (second->off * a.off < 0) return second;
+            (std::abs(first->off) < std::abs(second->off) ? b : a) =
+                std::abs(first->off) < std::abs(second->off) ? *second : *first;
+        }
+        return {};
+    }
+
+    static Triple cross(const Triple& x, const Triple& y) {
+        return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+    }
+    static double dot(const Triple& x, const Triple& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; }
+
+    /// What one step of each of the three is worth.
+    template <bool spans>
+    Triple scales(const HeldState& x) const {
+        const double across = std::abs(x.forces.across), along = std::abs(x.forces.along);
+        const double pull = along + 0.05 * (across + weight_ * x.forces.height);
+        if constexpr (spans) {
+            const double least = x.forces.height == 0 ? along : pull;
+            return {across, least, std::min(std::abs(x.span) + 1e-3 * length_, std::abs(length_ - x.span))};
+        } else {
+            return {across, pull, x.forces.height + 0.3 * (across + along) / weight_};
+        }
+    }
+    template <bool spans>
+    static HeldState moved(const HeldState& from, const Triple& scale, const Triple& by) {
+        HeldState x = from;
+        x.forces.across += scale[0] * by[0], x.forces.along += scale[1] * by[1];
+        (spans ? x.span : x.forces.height) += scale[2] * by[2];
+        return x;
+    }
+    /// Gradients of the end's offset and of its rise less the span, in scaled changes.
+    template <bool spans>
+    std::array<Triple, 2> gradients(const HeldEnd<double>& end, const Triple& scale) const {
+        const auto& y = end.offset_change;
+        const auto& z = end.rise_change;
+        return {Triple{y[0] * scale[0], y[1] * scale[1], spans ? 0.0 : y[2] * scale[2]},
+                Triple{z[0] * scale[0], z[1] * scale[1], spans ? -scale[2] : z[2] * scale[2]}};
+    }
+    static Triple unit(Triple x) {
+        const double size = std::sqrt(dot(x, x));
+        for (double& part : x) part /= size;
+        return x;
+    }
+    static Triple normalised(const Triple& x, const Triple& y) { return unit(cross(unit(x), unit(y))); }
+
+    template <bool spans, class Visit>
+    void step_along(HeldState state, bool up, Visit&& visit) {
+        double step = 0.05;
+        HeldEnd<double> end = (*shooter_)(state.forces, true);
+        if (!end.known) return;
+        Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<spans>(state);
+        for (int count = 0; count < most_steps && step > 1e-9; ++count) {
+            revchain::detail::look();
+            const auto [over_y, over_z] = gradients<spans>(end, scale);
+            Triple tangent = normalised(over_y, over_z);
+            if (!(dot(tangent, tangent) > 0.5)) return;
+            if (dot(tangent, last) < 0) tangent = {-tangent[0], -tangent[1], -tangent[2]};
+            HeldState next;
+            HeldEnd<double> there;
+            int rounds = 0;
+            for (; step > 1e-9; step *= 0.4)
+                if (correct<spans>(state, scale, tangent, step, next, there, rounds)) break;
+            if (!(step > 1e-9)) return;
+            (*shooter_)(next.forces, true);
+            if (!visit(next)) return;
+            // the same tangent in the scales of the new place
+            const Triple before = scale;
+            state = next, end = there, scale = scales<spans>(state);
+            for (std::size_t i = 0; i < 3; ++i) last[i] = tangent[i] * before[i] / scale[i];
+            step *= rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
+            step = std::min(step, 0.3);
+        }
+    }
+
+    /// Back to the curve in the plane across the tangent.
+    template <bool spans>
+    bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step, HeldState& x,
+                 HeldEnd<double>& end, int& rounds) {
+        Triple at{tangent[0] * step, tangent[1] * step, tangent[2] * step};
+        double last = 1;
+        for (rounds = 0; rounds < 8; ++rounds) {
+            x = moved<spans>(from, scale, at);
+            if (x.forces.across * from.forces.across <= 0 || x.forces.height < 0 || x.span >= length_) return false;
+            end = (*shooter_)(x.forces, false);
+            if (!end.known) return false;
+            const auto [over_y, over_z] = gradients<spans>(end, scale);
+            // three equations: both ends' gaps and the plane
+            const double y = end.offset, z = end.rise - x.span, p = dot(tangent, at) - step;
+            const Triple a = cross(over_z, tangent), b = cross(tangent, over_y), c = cross(over_y, over_z);
+            const double determinant = dot(over_y, a);
+            Triple change;
+            for (std::size_t i = 0; i < 3; ++i) change[i] = -(y * a[i] + z * b[i] + p * c[i]) / determinant;
+            const double size = std::sqrt(dot(change, change));
+            if (!(size < 2 * step + 1e-9) || (rounds > 0 && size > 0.9 * last && size > 1e-9)) return false;
+            for (std::size_t i = 0; i < 3; ++i) at[i] += change[i];
+            if (size < 1e-8) {
+                x = moved<spans>(from, scale, at);
+                end = (*shooter_)(x.forces, false);
+                return end.known;
+            }
+            last = size;
+        }
+        return false;
+    }
+
+    template <bool spans, class Off, class Set>
+    std::optional<HeldState> follow(const HeldState& from, bool up, const Off& off, const Set& set) {
+        const double start = off(from);
+        if (start == 0) return corrected(from);
+        std::optional<HeldState> result;
+        HeldState before = from;
+        step_along<spans>(from, up, [&](const HeldState& x) {
+            const double here = off(x);
+            if (here * start > 0) {
+                before = x;
+                return true;
+            }
+            // the height or span wanted lies between: from the nearer by Newton's method, else by smaller steps
+            const double share = off(before) / (off(before) - here);
+            HeldState guess = x;
+            guess.forces.across = before.forces.across + share * (x.forces.across - before.forces.across);
+            guess.forces.along = before.forces.along + share * (x.forces.along - before.forces.along);
+            result = corrected(set(guess));
+            return false;
+        });
+        return result;
+    }
+
+    Shooter* shooter_;
+    double length_, weight_;
+};
+
+}  // namespace revchain::finite

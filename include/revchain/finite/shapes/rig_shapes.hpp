@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/shapes/rigged_links.hpp"
+#include "revchain/steady_shapes.hpp"
+
+namespace revchain {
+
+struct RigShapesOptions {
+    long budget = 3'000'000;   ///< links to look at, as of a chain
+    bool hanging_only = true;  ///< only shapes with each link in the rig's posture: hanging if nothing else is said
+    int sense = 1;             ///< of the rotation, 1 or -1: it matters where flywheels keep momentum
+    double gravity = conical_pendulum::standard_gravity;  ///< which momentum is compared with
+};
+
+namespace finite {
+
+inline bool hangs_at_one_inclination(const RiggedLinks& rig, const Interval<double>& height) {
+    const bool hangs =
+        std::all_of(rig.posture.begin(), rig.posture.end(), [](Posture posture) { return posture == Posture::hangs; });
+    return hangs && !rig.any_turned() && single_valued(swept_links<double>(rig), height);
+}
+
+inline SteadyShape mirrored(SteadyShape shape) {
+    const auto turn = [](Vector<double>& x) {
+        for (double& value : x) value = value == std::numbers::pi ? value : 0 - value;
+    };
+    turn(shape.inclination), turn(shape.reaction_inclination);
+    shape.offset = -shape.offset;
+    return shape;
+}
+
+/// Whether two shapes, each alone within its error bound, are one.
+inline bool same(const SteadyShape& x, const SteadyShape& y) {
+    const double off = x.error_bound + y.error_bound;
+    if (!(off < 1e-12)) return false;
+    for (Index m = 0; m < x.inclination.size(); ++m) {
+        const double apart = x.inclination[m] - y.inclination[m];
+        if (!(std::abs(std::remainder(apart, 2 * std::numbers::pi)) <= off)) return false;  // at pi from both sides
+    }
+    return true;
+}
+
+/// All shapes of a rig, both signs of the lowest link's tangent where the support is off the axis.
+inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, const Wide<double>& speed,
+                                  const RigShapesOptions& asked) {
+    const SteadyShapesOptions options{asked.budget, asked.hanging_only};
+    if (rig == Rig(rig.chain(), {})) return steady_shapes(rig.chain(), height, options);
+    const double scaled = std::ldexp(static_cast<double>(height), -rig.chain().units().length_exponent);
+    SteadyShapes result;
+    const auto leave_all = [&] {
+        const double end = asked.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;
+        result.undecided = {{rig.support().radius > 0 ? -end : 0, end}};
+        return result;
+    };
+    if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) return leave_all();  // tangents overflow
+    RiggedLinks links = rigged_links(rig, height, speed);
+    const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
+    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !asked.hanging_only,
+                                         enclosed<double>(links.support));
+    result = listed(links, lambda, options);
+    const bool unbounded = !links.support.firm &&
+                           left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support)).may_vanish();
+    const auto leave_beyond = [&](SteadyShapes& found) {
+        if (!unbounded) return;
+        const double beyond = std::atan(last);
+        found.undecided.push_back({beyond, asked.hanging_only ? std::numbers::pi / 2 : std::numbers::pi - beyond});
+        found.complete = false;
+    };
+    leave_beyond(result);
+    if (links.support.is_symmetric()) return result;
+    links.support.radius = -links.support.radius;
+    SteadyShapes other =
+        listed(links, lambda, {asked.budget - result.cells * static_cast<long>(rig.size()), asked.hanging_only});
+    leave_beyond(other);
+    const std::size_t count = result.shapes.size();
+    for (SteadyShape& shape : other.shapes) {
+        shape = mirrored(std::move(shape));
+        // A shape is met from both sides with the lowest link in the axis, and where it is near there (or a link that
+        // stands near its own): boxes that hold one shape each reach beyond tangent 0.
+        const auto end = result.shapes.begin() + static_cast<std::ptrdiff_t>(count);
+        if (std::none_of(result.shapes.begin(), end, [&](const SteadyShape& known) { return same(known, shape); }))
+            result.shapes.push_back(std::move(shape));
+    }
+    for (const InclinationRange& range : other.undecided) result.undecided.push_back({-range.high, -range.low});
+    result.cells += other.cells;
+    sort(result);
+    return result;
+}
+
+}  // namespace finite
+
+/// All steady shapes of a rig that whirls at the speed of conical height `height`, in its posture or in any: as
+/// `steady_shapes` of a chain, with a support that yields or is carried round, flywheels, links in a fluid.
+///
+/// A support on the axis: straight shapes are left out, and of two mirror images that whose free end is at a negative
+/// offset. A support carried round (a swing carousel) at radius b: every shape, outwards positive.
+/// Method: that of chains; the sweep ends in  y - b - (H + W y)/(lambda E), y and H/lambda offset and pull of the topmost pin,
+/// W the carriage, E the spring; with b > 0 for tangents of either sign. Pull is tension and n times momentum over length.
+/// Where that is negative (a wheel against the rotation, a float) a link leans against its load: it is followed along each
+/// inclination, as those links are that may have several.
+/// Accuracy, cost, and `complete`: as of chains (measured: tests/cpp/finite/shapes/rigs.cpp); about twice the cost with b > 0.
+/// Also not complete: where one of more than some 160 links is such; and where lambda E is all the weight that moves, to
+/// rounding, and a pin may be any distance away: only shapes within a million times the chain's reach or so are looked for.
+/// Throws InvalidArgument for a height or gravity not positive and finite, a sense not 1 or -1, an effective tension that
+/// vanishes, and weights that move so that the lowest link balances about its pin.
+inline SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options = {}) {
+    detail::require_positive("steady_shapes", "conical height", height);
+    detail::require_positive("steady_shapes", "gravity", options.gravity);
+    if (options.sense != 1 && options.sense != -1)
+        detail::throw_invalid("steady_shapes", "sense must be 1 or -1", options.sense);
+    const Wide<double> speed = sqrt(Wide<double>(options.gravity) / Wide<double>(height));
+    return finite::steady_shapes(rig, Wide<double>(height), options.sense > 0 ? speed : -speed, options);
+}
+
+/// The same at an angular speed, negative for the other sense of rotation; `options.sense` is not looked at.
+inline SteadyShapes steady_shapes_at_speed(const Rig& rig, double angular_speed, const RigShapesOptions& options = {}) {
+    constexpr std::string_view place = "steady_shapes_at_speed";
+    detail::require_positive(place, "gravity", options.gravity);
+    const double size = std::abs(angular_speed);
+    const Wide<double> height = finite::height_at_speed(size, options.gravity);
+    if (!(size > 0) || !std::isfinite(static_cast<double>(height)) || !std::isfinite(size))
+        detail::throw_invalid(place, "angular speed must be finite and not 0, nor so small that g/n^2 overflows",
+                              angular_speed);
+    return finite::steady_shapes(rig, height, Wide<double>(angular_speed), options);
+}
+
+}  // namespace revchain

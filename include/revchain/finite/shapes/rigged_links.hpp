@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/shapes/steady_shape.hpp"
+#include "revchain/numeric/double_double.hpp"
+#include "revchain/rig.hpp"
+
+namespace revchain::finite {
+
+/// The links of a rig at a speed, and what holds them. Of steady motion `pull` is the effective tension sigma + n H/a, H
+/// what flywheels keep, and `moment`, `rest`, `cross` are of the weights that move.
+///
+/// Where it is negative the tangent falls as the load grows. A link of length -a and pull -sigma at the opposite
+/// inclination obeys the same equations: `swept_links` returns that, and sweeps know no other.
+struct RiggedLinks : Links<Wide<double>> {
+    std::vector<RigLink> given;
+    std::vector<Posture> posture;
+    Wide<double> speed{0.0};  ///< n, signed; 0 where no flywheel keeps any momentum
+    Held<Wide<double>> support{};
+    Wide<double> axial_moment{0.0};  ///< of all that turns with the links about their own axes
+    double total_weight = 0;         ///< of the chain
+
+    bool turned(std::size_t m) const { return links[m].pull < Wide<double>(0); }
+    bool any_turned() const {
+        return std::any_of(links.begin(), links.end(), [](const auto& link) { return link.pull < Wide<double>(0); });
+    }
+    /// From swept links to given ones, or back.
+    template <class T>
+    void turn(std::vector<Interval<T>>& tangents) const {
+        for (std::size_t m = 0; m < tangents.size(); ++m)
+            if (turned(m)) tangents[m] = -tangents[m];
+    }
+};
+
+namespace detail {
+
+/// sigma + n H/a, which may cancel: enclosed in two words first.
+template <class T>
+Interval<T> effective_tension(const RigLink& link, const Wide<double>& speed) {
+    if (link.spin == Wide<double>(0)) return enclosed<T>(link.tension);
+    using Far = DoubleDouble;
+    const Interval<Far> pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
+    return {revchain::detail::down(static_cast<T>(pull.low)), revchain::detail::up(static_cast<T>(pull.high))};
+}
+
+}  // namespace detail
+
+inline const Held<Wide<double>>& support_of(const RiggedLinks& rig) { return rig.support; }
+inline const std::vector<Posture>& posture_of(const RiggedLinks& rig) { return rig.posture; }
+inline bool may_all_stand(const RiggedLinks&) { return true; }
+
+template <class T>
+std::vector<Link<Interval<T>>> swept_links(const RiggedLinks& rig) {
+    std::vector<Link<Interval<T>>> result = enclosed<T>(rig.links);
+    for (std::size_t m = 0; m < result.size(); ++m) {
+        result[m].pull = detail::effective_tension<T>(rig.given[m], rig.speed);
+        if (rig.turned(m)) result[m].pull = -result[m].pull, result[m].length = -result[m].length;
+    }
+    return result;
+}
+
+/// 1 - W/(lambda E), W all the weight that moves: what a spring at the support has left to hold its pin with.
+template <class T>
+Interval<T> left_to_the_spring(const std::vector<Link<Interval<T>>>& links, const Held<Interval<T>>& support) {
+    Interval<T> moving = support.carriage;
+    for (const Link<Interval<T>>& link : links) moving = moving + link.moment + link.rest;
+    return Interval<T>(T(1)) - support.compliance * moving;
+}
+
+/// An upper end for the tangent of the lowest link of a rig, whether it hangs or stands. The topmost pin is no farther from the axis than
+/// (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda E)|, the others no farther from it than the links reach; and the lowest
+/// link's balance is  lambda pull t + a X s = moment y. Where lambda E is W, to rounding, there is no such end: then as if the
+/// two were a millionth apart.
+template <class T>
+T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool,
+                   const Held<Interval<T>>& support) {
+    Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
+    for (const Link<Interval<T>>& link : links) {
+        reach = reach + Interval<T>(link.length.size());
+        if (!support.firm)
+            drawn = drawn + support.compliance * Interval<T>(((moving + link.moment) * link.length).size());
+        moving = moving + link.moment + link.rest;
+    }
+    if (!support.firm) {
+        const Interval<T> left = left_to_the_spring(links, support);
+        drawn = drawn / (left.may_vanish() ? Interval<T>(T(1e-6)) : left.negative() ? -left : left);
+    }
+    const Interval<T> turning = links[0].length * links[0].cross;
+    const Interval<T> far = (Interval<T>(links[0].moment.size()) * (reach + drawn) + Interval<T>(turning.size())) /
+                            (height * links[0].pull);
+    return far.high;
+}
+
+namespace detail {
+
+struct BearingWeights {
+    const RiggedLinks& rig;
+    double total = rig.total_weight;
+    double bearing_on(std::size_t m, const Link<Wide<double>>&) const { return static_cast<double>(rig.given[m].hung); }
+};
+
+}  // namespace detail
+
+/// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy holds
+/// the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
+inline SteadyShape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
+    using S = Wide<double>;
+    SteadyShape shape = described(rig, height, found, detail::BearingWeights{rig});
+    const S top = found.offset.back();
+    double last = 0;
+    for (const double y : shape.offset.head(shape.offset.size() - 1))
+        if (y != 0) last = y;
+    if (static_cast<double>(top) * last < 0) ++shape.half_waves;
+    const Held<S>& support = rig.support;
+    const S drawn = top - support.radius,
+            inertia = rig.axial_moment + (support.firm ? S(0) : support.carriage * top * top);
+    S energy = -inertia / (S(2) * height);
+    if (!support.firm) energy = energy + support.stiffness * drawn * drawn / (S(2) * height);
+    const int weight = rig.units.weight_exponent, length = rig.units.length_exponent;
+    shape.moment_of_inertia += std::ldexp(static_cast<double>(inertia), weight + 2 * length);
+    shape.effective_energy += std::ldexp(static_cast<double>(energy), weight + length);
+    return shape;
+}
+
+/// A rig at a height and a speed in its own units. Throws InvalidArgument where an effective tension, or the moment of what
+/// moves of the lowest link, cannot be told from 0.
+inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, const Wide<double>& speed) {
+    using S = Wide<double>;
+    RiggedLinks result;
+    result.units = rig.chain().units();
+    result.given = rig_links(rig);
+    result.total_weight = std::ldexp(rig.chain().total_weight(), -result.units.weight_exponent);
+    if (rig.has_momentum()) result.speed = speed;
+    for (Index m = 0; m < rig.size(); ++m) {
+        const RigLink& link = result.given[static_cast<std::size_t>(m)];
+        const S pull = link.spin == S(0) ? link.tension : link.tension + result.speed * link.spin;
+        const auto reject = [&](std::string_view what) {
+            revchain::detail::throw_invalid("steady_shapes", "link " + std::to_string(m + 1) + ": " + std::string(what),
+                                            pull.high);
+        };
+        if (detail::effective_tension<DoubleDouble>(link, result.speed).may_vanish())
+            reject("the effective tension (tension and n times momentum over length) must not vanish at this speed");
+        if (m == 0 && enclosed<DoubleDouble>(link.moment).may_vanish())
+            reject("the lowest link's weight that moves must not balance about its upper pin");
+        result.links.push_back({link.length, pull, link.cross, link.moment, link.rest});
+        result.posture.push_back(rig.stands(m) ? Posture::stands : Posture::hangs);
+        const double wheel = rig.flywheel(m).axial_moment;
+        result.axial_moment = result.axial_moment +
+                              S(std::ldexp(wheel, -result.units.weight_exponent - 2 * result.units.length_exponent));
+    }
+    const Support& held = rig.support();
+    const auto length = [&](double x) { return S(std::ldexp(x, -result.units.length_exponent)); };
+    const S none(0.0), radius = length(held.radius);
+    result.support = {radius, none, none, none, held.radius == 0, held.is_firm()};
+    if (!held.is_firm()) {
+        const double stiffness =
+            std::ldexp(held.stiffness, result.units.length_exponent - result.units.weight_exponent);
+        result.support.stiffness = ldexp(height, -result.units.length_exponent) * S(stiffness);
+        result.support.compliance = S(1.0) / result.support.stiffness;
+        result.support.carriage = S(std::ldexp(held.carriage_weight, -result.units.weight_exponent));
+    }
+    return result;
+}
+
+}  // namespace revchain::finite

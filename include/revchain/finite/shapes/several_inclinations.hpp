@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/balance/newton.hpp"
+#include "revchain/finite/shapes/posture_search.hpp"
+#include "revchain/numeric/double_double.hpp"
+
+namespace revchain::finite {
+
+/// A shape and how far it may be from the true one.
+struct Settled {
+    Balanced<Wide<double>> shape;
+    double error = 0;      ///< of every inclination, rad
+    double condition = 0;  ///< see WholeBalance::condition
+};
+
+/// Steady shapes with links that have several inclinations under one load, or stand.
+struct SeveralInclinations {
+    std::vector<Settled> shapes;
+    struct Open {
+        Posture lowest;
+        double low, high;  ///< tangents of the lowest link, at which it hangs or stands
+    };
+    std::vector<Open> open;
+    long cells = 0;
+};
+
+namespace detail {
+
+/// A box that holds one zero for certain, as small as two words allow, about one known to double precision.
+template <class End>
+std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble, End>& balance,
+                                           const Box<DoubleDouble>& near) {
+    using Far = DoubleDouble;
+    std::vector<Far> t = middle_of(near);
+    double last = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < 20; ++round) {
+        const auto change = balance.improve(t);
+        if (!change) return std::nullopt;
+        if (*change < 1e-30 || (*change < 1e-20 && !(*change < 0.25 * last))) break;
+        last = *change;
+    }
+    Box<Far> point(t.begin(), t.end());
+    const auto first = balance.narrowed(point);
+    if (!first) return std::nullopt;
+    Box<Far> box(t.size());
+    for (Far factor(4); factor < Far(1e20); factor = factor * Far(16)) {
+        for (std::size_t m = 0; m < t.size(); ++m) {
+            const Far off = factor * (std::max(abs((*first)[m].low - t[m]), abs((*first)[m].high - t[m])) +
+                                      Far(1e-31) * abs(t[m]) + Far(1e-290));
+            box[m] = {t[m] - off, t[m] + off};
+        }
+        const auto narrow = balance.narrowed(box);
+        if (narrow && strictly_within(*narrow, box)) return narrow;
+    }
+    return std::nullopt;
+}
+
+/// Whether offsets found by Newton's method are those of the zero in a box.
+inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
+                   const Box<DoubleDouble>& box) {
+    for (std::size_t m = 0; m < box.size(); ++m) {
+        const DoubleDouble t(tangent_in(found, links, m));
+        const double size = std::abs(static_cast<double>(t));
+        const double off = static_cast<double>(std::max(box[m].low - t, t - box[m].high)) / (1 + size * size);
+        if (!(off <= 1e-18 * std::min(1.0, size))) return false;
+    }
+    return true;
+}
+
+/// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link that
+/// is inclined) is at a positive offset.
+template <class AnyLinks, class End>
+std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height,
+                               const WholeBalance<DoubleDouble, End>& balance, const Box<DoubleDouble>& near) {
+    using S = Wide<double>;
+    const std::vector<Link<S>>& links = chain.links;
+    auto box = sharpened(balance, near);
+    if (!box) return std::nullopt;
+    const auto condition = balance.condition(middle_of(*box));
+    if (!condition) return std::nullopt;
+    const std::size_t n = links.size();
+    std::vector<S> offset(n + 1, S(0));
+    if constexpr (is_held<End>) {
+        std::vector<Interval<DoubleDouble>> sines;
+        for (std::size_t m = 0; m < n; ++m) sines.push_back(balance.sine(m, (*box)[m].middle()));
+        offset[n] = balance.top(sines).middle().word();
+        chain.turn(*box);
+    }
+    S lowest_inclined(0);
+    for (std::size_t m = n; m-- > 0;) {
+        const S sine = balance.sine(m, Interval<DoubleDouble>((*box)[m].middle())).middle().word();
+        offset[m] = offset[m + 1] + links[m].length * sine;
+        if (!(*box)[m].contains(DoubleDouble(0))) lowest_inclined = sine;
+    }
+    Settled result;
+    result.condition = *condition;
+    result.shape = finite::balance(links, height, offset, 60, balance.posture(), support_of(chain));
+    if (!result.shape.converged || !agrees(links, result.shape, *box)) {
+        result.shape = {std::move(offset), balance.posture(), true, {}};
+        for (const DoubleDouble& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
+    }
+    const S tip = result.shape.offset[0];
+    const bool inwards = abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0);
+    if (inwards && balance.is_symmetric()) {
+        for (S& y : result.shape.offset) y = -y;
+        for (S& t : result.shape.tangent) t = -t;
+    }
+    for (std::size_t m = 0; m < n; ++m) {
+        const double middle = static_cast<double>((*box)[m].middle()), width = static_cast<double>((*box)[m].width());
+        const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;  // of an angle below pi, below pi/2
+        result.error = std::max(result.error, width * 1.01 / (1 + middle * middle) + rounded);
+    }
+    return result;
+}
+
+}  // namespace detail
+
+/// All shapes with links in one posture, found in double and, where that leaves parts open, in two words.
+template <class AnyLinks>
+void search_posture(const AnyLinks& chain, const Wide<double>& height, const std::vector<Posture>& posture, double last,
+                    long budget, SeveralInclinations& result) {
+    const std::size_t n = posture.size();
+    const auto cube = static_cast<long>(n * n * n);
+    result.cells += cube / 256;
+    if (cube >= 256 && result.cells >= budget) {  // not even one test of the whole chain
+        result.open.push_back({posture[0], 0.0, last});
+        return;
+    }
+    using Far = DoubleDouble;
+    const auto narrow = swept_links<double>(chain);
+    const auto wide = swept_links<Far>(chain);
+    const auto support = support_of(chain);
+    PostureSearch first(narrow, enclosed<double>(height), posture, enclosed<double>(support));
+    auto path = first.first_path();
+    do {
+        result.cells += first.search({path, 0.0, last}, last, 1e-14, budget - result.cells);
+    } while (result.cells < budget && first.next_path(path));
+    if (result.cells >= budget) result.open.push_back({posture[0], 0.0, last});
+    // In two words, parts that touch are one.
+    PostureSearch second(wide, enclosed<Far>(height), first, enclosed<Far>(support));
+    for (std::size_t i = 0, end = 0; i < first.open().size(); i = end) {
+        const auto& part = first.open()[i];
+        double high = part.high;
+        for (end = i + 1; end < first.open().size() && first.open()[end].path == part.path; ++end) {
+            if (first.open()[end].low != high) break;
+            high = first.open()[end].high;
+        }
+        result.cells +=
+            second.search({part.path, Far(part.low), Far(high)}, Far(last), Far(1e-26), budget - result.cells);
+    }
+    const auto leave_open = [&](const Far& low, const Far& high) {
+        result.open.push_back({posture[0], static_cast<double>(low), static_cast<double>(high)});
+    };
+    for (const auto& part : second.open()) leave_open(part.low, part.high);
+    for (const auto& zero : second.zeros()) {
+        if (zero.straight) continue;
+        if (auto shape = detail::settled(chain, height, second.balance(), zero.near))
+            result.shapes.push_back(std::move(*shape));
+        else
+            leave_open(zero.near[0].low, zero.near[0].high);
+    }
+}
+
+/// Shapes with all links hanging (a rig's: in its own posture) or, if asked, with any of them standing.
+template <class AnyLinks>
+SeveralInclinations several_inclinations(const AnyLinks& chain, const Wide<double>& height, double last,
+                                         bool hanging_only, long budget) {
+    const std::size_t n = chain.links.size();
+    SeveralInclinations result;
+    std::vector<Posture> posture = hanging_only ? posture_of(chain) : std::vector<Posture>(n, Posture::hangs);
+    const auto next = [&] {  // all but the last, in which all stand: there no load would be borne
+        std::size_t m = 0;
+        while (m < n && posture[m] == Posture::stands) posture[m++] = Posture::hangs;
+        if (m < n) posture[m] = Posture::stands;
+        return m < n && (may_all_stand(chain) ||
+                         std::any_of(posture.begin(), posture.end(), [](Posture p) { return p == Posture::hangs; }));
+    };
+    do {
+        search_posture(chain, height, posture, last, budget, result);
+    } while (!hanging_only && result.cells < budget && next());
+    return result;
+}
+
+}  // namespace revchain::finite

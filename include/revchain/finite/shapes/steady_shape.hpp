@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <numbers>
+
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/finite/balance/newton.hpp"
+
+namespace revchain {
+
+/// One steady shape of a whirling chain, links lowest first, pins free end first, in the units of the chain.
+struct SteadyShape {
+    Vector<double> inclination;           ///< (N) of each link to the downward vertical, rad, within (-pi, pi]
+    Vector<double> offset;                ///< (N + 1) of each pin from the axis; the support's 0 last
+    Vector<double> height;                ///< (N + 1) of each pin above the support: negative where it hangs
+    Vector<double> tension;               ///< (N) size of the reaction at each link's upper pin
+    Vector<double> reaction_inclination;  ///< (N) of that reaction to the vertical, rad: phi of §8 (5)
+    int half_waves = 1;                   ///< sign changes of the offsets, and one
+    double conical_height = 0;            ///< of the speed
+    double residual = 0;                  ///< largest moment left over, over total weight and total length
+    double error_bound = 0;               ///< of every inclination, rad: proved (at a fold an estimate)
+    /// Largest change of an inclination, rad, where each force changes by its own size, times it, whatever the signs (in a
+    /// list with links that stand or have several inclinations: each moment about a link's upper pin). On a branch, where
+    /// something else than the height is given, the largest of a few patterns of signs, and of what is given changed.
+    double condition = 0;
+    double moment_of_inertia = 0;  ///< about the axis, weight times length squared (over g: a moment of inertia)
+    double effective_energy = 0;   ///< U = -sum of weight times depth - moment_of_inertia/(2 lambda)
+
+    double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
+        return conical_pendulum::angular_speed(conical_height, gravity);
+    }
+    double angular_momentum(double gravity = conical_pendulum::standard_gravity) const {
+        return moment_of_inertia / gravity * angular_speed(gravity);
+    }
+};
+
+namespace finite {
+
+/// g/n^2 in two words, infinite or 0 where it is out of range.
+inline Wide<double> height_at_speed(double angular_speed, double gravity) {
+    int of_speed = 0, of_gravity = 0;
+    const Wide<double> n(std::frexp(angular_speed, &of_speed)), g(std::frexp(gravity, &of_gravity));
+    return ldexp(g / n / n, of_gravity - 2 * of_speed);
+}
+
+namespace detail {
+
+/// An angle and pi, or less pi, rounded once.
+inline double beyond(double angle, bool backwards) {
+    const DoubleWord<double> sum = two_sum(backwards ? -std::numbers::pi : std::numbers::pi, angle);
+    return sum.high + (sum.low + (backwards ? -1.2246467991473532e-16 : 1.2246467991473532e-16));
+}
+
+}  // namespace detail
+
+/// Weights that bear on the upper pins, from the lowest link up, and in all: of a chain, those that move.
+struct OwnWeights {
+    double total = 0;
+    double bearing_on(std::size_t, const Link<Wide<double>>& link) {
+        return total += static_cast<double>(link.moment + link.rest);
+    }
+};
+
+/// Everything about a shape that the offsets of its pins tell: all but its error bound and condition.
+template <class Weights = OwnWeights>
+SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found,
+                      Weights weights = {}) {
+    using S = Wide<double>;
+    const std::size_t n = chain.links.size();
+    const auto size = static_cast<Index>(n);
+    const auto length = [&](const S& x) { return std::ldexp(static_cast<double>(x), chain.units.length_exponent); };
+    const auto weight = [&](double x) { return std::ldexp(x, chain.units.weight_exponent); };
+    SteadyShape shape;
+    shape.inclination.resize(size), shape.tension.resize(size), shape.reaction_inclination.resize(size);
+    shape.offset.resize(size + 1), shape.height.resize(size + 1);
+    std::vector<S> up(n + 1);
+    for (std::size_t m = n; m-- > 0;)
+        up[m] = up[m + 1] - detail::cosine_in(found, chain.links, m) * chain.links[m].length;
+    S sideways(0), energy(0), inertia(0);  // sideways: lambda times the pull at the upper pin
+    double hung = 0, last_sign = 0, reach = 0, worst_moment = 0;
+    for (std::size_t m = 0; m <= n; ++m) {
+        const auto i = static_cast<Index>(m);
+        shape.offset[i] = length(found.offset[m]), shape.height[i] = length(up[m]);
+        if (m == n) break;
+        const Link<S>& link = chain.links[m];
+        const S &lower = found.offset[m], &upper = found.offset[m + 1];
+        if (const double y = static_cast<double>(lower); y != 0) {
+            if (y * last_sign < 0) ++shape.half_waves;
+            last_sign = y > 0 ? 1 : -1;
+        }
+        const S d = lower - upper, cosine = detail::cosine_in(found, chain.links, m),
+                tangent = detail::tangent_in(found, chain.links, m);
+        const double inclination = std::atan(static_cast<double>(tangent));
+        shape.inclination[i] = found.stands(m) ? detail::beyond(inclination, d < S(0)) : inclination;
+        // the moment about the upper pin of all that hangs there, over the length, times lambda
+        const S left = height * link.pull * tangent + link.cross * d - sideways - link.moment * lower;
+        worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));
+        reach += static_cast<double>(link.length);
+        sideways = sideways + link.moment * lower + link.rest * upper;
+        hung = weights.bearing_on(m, link);
+        const double across = static_cast<double>(sideways / height);
+        shape.tension[i] = weight(std::hypot(hung, across));
+        shape.reaction_inclination[i] = std::atan2(across, hung);
+        // of the element, (lower, upper) [A X; X B] (lower, upper), where A + X = moment and X + B = rest
+        inertia = inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
+        energy = energy - link.pull * link.length * cosine;
+    }
+    shape.residual = worst_moment / (weights.total * reach);
+    shape.conical_height = length(height);
+    shape.moment_of_inertia = weight(std::ldexp(static_cast<double>(inertia), 2 * chain.units.length_exponent));
+    shape.effective_energy = weight(length(energy - inertia / (S(2) * height)));
+    return shape;
+}
+
+}  // namespace finite
+}  // namespace revchain

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <array>
+
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/product.hpp"
+
+namespace revchain {
+
+/// Thomson's gyrostatic string: equal links jointed in a row under one pull, each with a flywheel about its own axis; the
+/// model of light in a magnetised body. Small offsets; the weight of the links tells in their inertia alone.
+///
+/// In a circular wave every pin runs round the line with speed n, positive in the sense of a positive momentum, each a
+/// phase theta behind its neighbour:
+///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),   X = W (h (a - h) - rho^2)/a^2.
+template <Real T>
+struct GyrostaticString {
+    T weight;                ///< W > 0, of a link with its wheel
+    T length;                ///< a > 0, from pin to pin
+    T tension;               ///< T > 0
+    T momentum;              ///< H, kept by the wheels, force times length times time; any sign
+    T centroid;              ///< h, from one of the pins
+    T radius_of_gyration{};  ///< rho >= 0, across the line, about the centre of gravity
+    T gravity = T(conical_pendulum::standard_gravity);  ///< what `weight` is under
+};
+
+/// How a circular wave goes along: exp(i m phase) exp(-m attenuation) from link to link. One of both is 0, but for speeds
+/// at which neighbours move against each other (phase pi) and less and less.
+template <Real T>
+struct LinkPhase {
+    T phase{};        ///< rad, 0 ... pi
+    T attenuation{};  ///< >= 0; 0 where the wave passes
+};
+
+namespace detail {
+
+/// X/W.
+template <Real T>
+T share_across(const GyrostaticString<T>& s) {
+    const T p = s.centroid / s.length, r = s.radius_of_gyration / s.length;
+    return p * (T(1) - p) - r * r;
+}
+
+template <Real T>
+void check(std::string_view place, const GyrostaticString<T>& s) {
+    using std::isfinite;
+    require_positive(place, "weight", s.weight), require_positive(place, "length", s.length);
+    require_positive(place, "tension", s.tension), require_positive(place, "gravity", s.gravity);
+    if (!isfinite(s.momentum)) throw_invalid(place, "momentum must be finite", s.momentum);
+    if (!isfinite(s.centroid)) throw_invalid(place, "centroid must be finite", s.centroid);
+    if (!isfinite(s.radius_of_gyration) || s.radius_of_gyration < T(0))
+        throw_invalid(place, "radius of gyration must be finite and not negative", s.radius_of_gyration);
+    if (!isfinite(share_across(s)))
+        throw_invalid(place,
+                      "length must not be so small that centroid or radius of gyration over it, squared, overflow",
+                      s.length);
+}
+
+/// n H/a^2 over the inertia W n^2/g.
+template <Real T>
+Product<T> spin_ratio(const GyrostaticString<T>& s, const T& n) {
+    return Product<T>::of(s.momentum).over(s.length).over(s.length).over(s.weight).times(s.gravity).over(n);
+}
+
+/// sin^2 and cos^2 of half the phase; of any sign where the wave does not pass.
+template <Real T>
+std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
+    using P = Product<T>;
+    if (n == T(0)) return {P{T(0)}, P{T(1)}};
+    const P pull = P::of(s.tension).over(s.length).over(s.weight).times(s.gravity).over(n).over(n);
+    const P stiffness = pull.plus(spin_ratio(s, n)).plus(share_across(s));  // over the inertia
+    return {P{T(1)}.over(stiffness).over(T(4)), stiffness.plus(T(-0.25)).over(stiffness)};
+}
+
+}  // namespace detail
+
+/// Of a circular wave at speed n, of either sign. Accuracy: 4 ulp, over cos(phase/2) where that is small, and where T/a,
+/// n H/a^2 and (n^2/g) X cancel as many times more (measured: tests/cpp/gyrostatic_string.cpp).
+/// Throws InvalidArgument unless weight, length, tension and gravity are positive and all numbers finite, for a negative
+/// radius of gyration, and for a speed that is not finite.
+template <Real T>
+LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_speed) {
+    using std::asinh;
+    using std::atan2;
+    using std::isfinite;
+    detail::check("link_phase", string);
+    if (!isfinite(angular_speed)) detail::throw_invalid("link_phase", "angular speed must be finite", angular_speed);
+    const auto [sine, cosine] = detail::half_phase(string, angular_speed);
+    if (sine.fraction < T(0)) return {T(0), T(2) * asinh(sine.times(T(-1)).root().value())};
+    if (cosine.fraction < T(0)) return {std::numbers::pi_v<T>, T(2) * asinh(cosine.times(T(-1)).root().value())};
+    return {T(2) * atan2(sine.root().value(), cosine.root().value()), T(0)};
+}
+
+/// The two speeds of a circular wave with a phase: forward (positive) and backward. Accuracy: 4 ulp, with one more for
+/// each bit that 1 - 4 X sin^2/W cancels. Throws InvalidArgument as link_phase does, and unless 0 < phase <= pi.
+template <Real T>
+std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) {
+    using std::abs;
+    using std::sin;
+    detail::check("wave_speeds", string);
+    if (!(phase > T(0)) || !(phase <= std::numbers::pi_v<T>))
+        detail::throw_invalid("wave_speeds", "phase must lie above 0 and not above pi", phase);
+    using P = detail::Product<T>;
+    const T chord = phase < epsilon<T>() ? phase : T(2) * sin(phase / T(2));
+    // A n^2 - B n - C = 0, over chord^2 but for A
+    const P A = P::of(string.weight).over(string.gravity).times(T(1) - chord * chord * detail::share_across(string));
+    const P B = P::of(abs(string.momentum)).over(string.length).over(string.length).times(chord);
+    const P C = P::of(string.tension).over(string.length);
+    const P q = B.plus(B.times(B).plus(A.times(C).times(T(4))).root()).over(T(2));
+    const T slower = C.over(q).times(chord).value();
+    const T faster = B.fraction > T(0) ? q.over(A).times(chord).value() : slower;
+    return string.momentum < T(0) ? std::array<T, 2>{slower, -faster} : std::array<T, 2>{faster, -slower};
+}
+
+/// By how much the plane of a to-and-fro vibration turns from link to link, rad, in the sense of a positive momentum: half
+/// of what the phases of its two circular parts differ. The same for waves running either way: one that comes back is
+/// turned twice. NaN where one of both does not pass. Accuracy: 8 ulp however small the momentum, over the cosine of half
+/// the larger phase where that is small. Throws InvalidArgument as link_phase does, and for a speed not positive.
+template <Real T>
+T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
+    using std::asin;
+    detail::check("plane_rotation", string);
+    detail::require_positive("plane_rotation", "angular speed", angular_speed);
+    const auto [ahead, ahead_rest] = detail::half_phase(string, angular_speed);
+    const auto [back, back_rest] = detail::half_phase(string, T(-angular_speed));
+    for (const auto& square : {ahead, ahead_rest, back, back_rest})
+        if (square.fraction < T(0)) return std::numeric_limits<T>::quiet_NaN();
+    if (string.momentum == T(0)) return T(0);
+    // sin^2 - sin^2 of the halves, in which the tension cancels
+    const auto difference = detail::spin_ratio(string, angular_speed).times(T(8)).times(ahead).times(back);
+    const auto sum = back.times(ahead_rest).root().plus(ahead.times(back_rest).root());
+    return asin(difference.over(sum).value());
+}
+
+}  // namespace revchain

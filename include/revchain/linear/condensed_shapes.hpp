@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/linear/condensed_heights.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+
+namespace revchain::detail {
+
+/// Some neighbouring links as mass, spring, mass: lambda stiffness + cross between at_lower and at_upper.
+template <class T>
+struct LinkChunk {
+    static constexpr Index most = 256;
+    std::array<T, most> stiffness, cross, at_lower, at_upper;
+    Index count = 0;
+
+    /// Links first ... first + links - 1; lengths in `unit`.
+    LinkChunk(const Chain<T>& chain, Index first, Index links, const T& unit) : count(links) {
+        const Wide<T> hung = chain.weight_below(first);
+        CompensatedSum<T> below{hung.high, hung.low};
+        for (Index i = 0; i < count; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            const T w = chain.weight()[first + i], a = chain.length()[first + i];
+            const T p = chain.centroid()[first + i] / a;
+            at_lower[at] = p * w;
+            at_upper[at] = w - at_lower[at];
+            stiffness[at] = (below.high + (below.low + at_lower[at])) / (a / unit);
+            cross[at] = w * (p * (T(1) - p) - static_cast<T>(chain.gyration_ratio()[first + i]));
+            below.add(w);
+        }
+    }
+};
+
+/// Offset and transverse force (over lambda) at a pin, in each lane, compensated: what thousands of links add to them
+/// keeps its digits.
+template <class V>
+struct PinState {
+    CompensatedSum<V> offset, force;
+};
+
+/// Goes down the chunk from the state at its top; `offset[i]` becomes that of the lower pin of link i.
+template <class T>
+void descend(const LinkChunk<T>& links, const Pack<T>& lambda, PinState<Pack<T>>& state, Pack<T>* offset) {
+    using V = Pack<T>;
+    simd([&](auto) __attribute__((always_inline)) {
+        for (Index m = links.count; m-- > 0;) {
+            const auto i = static_cast<std::size_t>(m);
+            state.force.add(-(V(links.at_upper[i]) * state.offset.value()));
+            const V spring = lambda * links.stiffness[i] + V(links.cross[i]);
+            state.offset.add(state.force.value() / spring);
+            const V y = state.offset.value();
+            state.force.add(-(V(links.at_lower[i]) * y));
+            offset[i] = y;
+        }
+    });
+}
+
+/// Forces that are left at the pins but the held one, and the largest sum of sizes that meet at one; from the top down.
+template <class V>
+struct Balance {
+    V force{}, size{};  ///< at the pin reached, of the link above it
+    V worst{}, largest{};
+};
+
+template <class T>
+void weigh(const LinkChunk<T>& links, const Pack<T>& lambda, const Pack<T>& top, bool held, const Pack<T>* offset,
+           Balance<Pack<T>>& balance) {
+    using V = Pack<T>;
+    simd([&](auto) __attribute__((always_inline)) {
+        for (Index m = links.count; m-- > 0;) {
+            const auto i = static_cast<std::size_t>(m);
+            const V lower = offset[i], upper = m + 1 < links.count ? offset[i + 1] : top;
+            const V stiffness = lambda * links.stiffness[i] + V(links.cross[i]);
+            const V pull = stiffness * (lower - upper);
+            const V at_upper = V(links.at_upper[i]) * upper, at_lower = V(links.at_lower[i]) * lower;
+            const V size = abs(stiffness) * (abs(lower) + abs(upper));
+            if (!held || m + 1 < links.count) {
+                balance.worst = max(balance.worst, abs(balance.force - (pull + at_upper)));
+                balance.largest = max(balance.largest, balance.size + size + abs(at_upper));
+            }
+            balance.force = pull - at_lower;
+            balance.size = size + abs(at_lower);
+        }
+    });
+}
+
+/// Four modes on their way down the chain.
+template <class T>
+struct ShapePack {
+    using V = Pack<T>;
+    DoubleWord<V> height;
+    std::vector<DoubleWord<V>> between;  ///< offsets between blocks
+    V scale{T(1)};                       ///< makes the largest offset 1 and the free end's positive
+    V largest{};                         ///< offset seen, unscaled
+    PinState<V> state;
+    V top;  ///< offset of the pin reached, scaled
+    Balance<V> balance;
+    std::array<std::vector<pencil::Crossing<T>>, pack_size> crossing;
+};
+
+/// Stores offsets of a chunk's lower pins in the rows of `shape`, and where they change sign.
+template <class T>
+void store(Modes<T>& modes, ShapePack<T>& pack, std::size_t first, std::size_t lanes, Index link, Index count,
+           const std::vector<Pack<T>>& offset) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        T* row = &modes.shape(static_cast<Index>(first + lane), link);
+        T upper = pack.top[lane];
+        for (Index i = count; i-- > 0;) {
+            const T y = offset[static_cast<std::size_t>(i)][lane];
+            row[i] = y;
+            if ((y < T(0)) != (upper < T(0)) && upper != T(0))  // 0: the held pin
+                pack.crossing[lane].push_back({link + i, y / (y - upper)});
+            upper = y;
+        }
+    }
+}
+
+/// Stage 2 of `modes` after `heights_by_compression`: shapes, residuals and nodes of all its modes. Offsets between blocks
+/// by twisted recursions in double words; from each block's upper pin down, link by link, with compensated sums. False
+/// where offsets leave the range of T; sure shapes are then still to be found.
+/// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the top
+/// pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
+template <std::floating_point T>
+bool shapes_by_compression(Modes<T>& modes, const Chain<T>& chain, const CompressedChain<T>& compressed,
+                           const std::vector<Height<T>>& heights, Progress* progress, double from) {
+    using std::ldexp;
+    using V = Pack<T>;
+    using P = DoubleWord<V>;
+    using S = Wide<T>;
+    const auto& blocks = compressed.pencil.blocks;
+    const Index size = chain.size();
+    const auto lanes_from = [&](std::size_t first) { return std::min(pack_size, heights.size() - first); };
+    std::vector<ShapePack<T>> packs((heights.size() + pack_size - 1) / pack_size);
+    bool scaled = true;
+    for (std::size_t k = 0; k < packs.size(); ++k) {
+        ShapePack<T>& pack = packs[k];
+        const std::size_t first = k * pack_size, lanes = lanes_from(first);
+        for (std::size_t lane = 0; lane < pack_size; ++lane) {
+            const S unrounded = heights[first + std::min(lane, lanes - 1)].unrounded;
+            const S height = ldexp(unrounded, chain.units().length_exponent) / S(compressed.unit_length);
+            pack.height.high.set(lane, height.high);
+            pack.height.low.set(lane, height.low);
+        }
+        pack.between = pencil::offsets_between<P>(compressed.pencil, pack.height);
+        V least(std::numeric_limits<T>::max()), largest{};
+        for (std::size_t b = 0; b < blocks.size(); ++b) {
+            largest = max(largest, abs(pack.between[b].high));
+            least = if_less(abs(pack.between[b].high), least, abs(pack.between[b].high), least);
+        }
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            if (!(least[lane] > std::numeric_limits<T>::min() / epsilon<T>()) || !(largest[lane] < T(1e100)))
+                return false;
+            scaled = scaled && abs(pack.between[0].high)[lane] >= largest[lane];
+        }
+        if (scaled) pack.scale = V(T(1)) / pack.between[0].high;  // the largest offset is plainly the free end's
+    }
+    std::vector<V> offset(LinkChunk<T>::most);
+    const int rounds = scaled ? 1 : 2;  // first for the largest offset, then to store
+    for (int round = 0; round < rounds; ++round) {
+        const bool storing = round + 1 == rounds;
+        Index above = size;
+        for (std::size_t b = blocks.size(); b-- > 0;) {
+            for (ShapePack<T>& pack : packs) {
+                const auto e = pencil::element_at<P>(blocks[b], pack.height);
+                const P& upper = pack.between[b + 1];
+                const P force = (pack.between[b] - upper) * e.spring + e.upper * upper;
+                pack.state = {{upper.high, upper.low}, {force.high, force.low}};
+                pack.top = upper.high * pack.scale;
+            }
+            const Index bottom = above - blocks[b].links;
+            while (above > bottom) {
+                const Index count = std::min(above - bottom, LinkChunk<T>::most);
+                above -= count;
+                const LinkChunk<T> chunk(chain, above, count, compressed.unit_length);
+                for (std::size_t k = 0; k < packs.size(); ++k) {
+                    ShapePack<T>& pack = packs[k];
+                    descend(chunk, pack.height.high, pack.state, offset.data());
+                    if (above == bottom) offset[0] = pack.between[b].high + pack.between[b].low;
+                    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+                        pack.largest = max(pack.largest, abs(offset[i]));
+                        offset[i] = offset[i] * pack.scale;
+                    }
+                    if (storing) {
+                        weigh(chunk, pack.height.high, pack.top, above + count == size, offset.data(), pack.balance);
+                        store(modes, pack, k * pack_size, lanes_from(k * pack_size), above, count, offset);
+                    }
+                    pack.top = offset[0];
+                }
+            }
+            advance(progress, 1 - (1 - from) *
+                                      (static_cast<double>(above) / static_cast<double>(size) + (rounds - 1 - round)) /
+                                      rounds);
+        }
+        for (ShapePack<T>& pack : packs)
+            if (!storing) pack.scale = if_less(pack.between[0].high, V{}, V(T(-1)), V(T(1))) / pack.largest;
+    }
+    for (std::size_t k = 0; k < packs.size(); ++k)
+        for (std::size_t lane = 0; lane < lanes_from(k * pack_size); ++lane) {
+            const auto j = static_cast<Index>(k * pack_size + lane);
+            auto& crossing = packs[k].crossing[lane];
+            modes.shape(j, size) = T(0);
+            modes.residual[j] =
+                max(packs[k].balance.worst, abs(packs[k].balance.force))[lane] / packs[k].balance.largest[lane];
+            std::reverse(crossing.begin(), crossing.end());
+            modes.nodes[static_cast<std::size_t>(j)] = nodes(chain, crossing);
+        }
+    return true;
+}
+
+}  // namespace revchain::detail
+
+#pragma GCC diagnostic pop

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "revchain/chain.hpp"
+
+namespace revchain {
+
+/// What is asked of a chain: the conical heights of modes number `first`, ..., each to a relative tolerance; 0: as
+/// accurate as there is.
+struct Question {
+    Index first = 1;  ///< number of the slowest mode wanted, from 1
+    Index count = 1;
+    double rtol = 0;
+    double inclination = 0;  ///< of the lowest link, rad, below a right angle: of the shape that grows out of the mode
+
+    Index last() const { return first - 1 + count; }
+};
+
+/// Heights and what bounds their relative errors.
+struct Answer {
+    Vector<double> conical_height;
+    Vector<double> error_bound;
+    /// Whether the model had an answer after all.
+    bool found = true;
+    Vector<double> conical_height_low{};  ///< what a double cannot hold of the heights; empty where it is not known
+
+    static Answer none() { return {{}, {}, false}; }
+    double worst_bound() const {
+        return error_bound.size() > 0 && found ? error_bound.maxCoeff() : std::numeric_limits<double>::infinity();
+    }
+};
+
+/// The properties of a chain that the models need before they are asked. Cost O(log N). Equal links that are stored one
+/// by one are compared, which costs O(N).
+struct ChainKind {
+    Index size = 0;
+    Index mode_count = 0;
+    bool equal = false;           ///< one number of each kind serves all links
+    bool plummets = false;        ///< equal plummets
+    bool rods = false;            ///< equal uniform rods
+    double length = 0;            ///< of the whole chain
+    std::optional<double> taper;  ///< `Chain::taper`
+    // of the links looked at
+    bool centroids_below = true;   ///< none lies above its pin
+    bool short_pendulums = false;  ///< all are plummets, or all pendulum lengths below the links'
+    bool point_masses = true;      ///< all are plummets
+    double long_pendulums = 0;     ///< share of links whose pendulum is longer than they, or whose centroid is above
+    // of unlike links
+    bool negative_pins = false;  ///< of two neighbours looked at, so much weight lies beyond their pin that less than
+                                 ///< nothing is left on it
+    double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
+    Index light = 0;    ///< links at the top that weigh less than 2e-14 of what hangs below them, about
+    /// Up to 32 stretches of the chain, lowest first: the phase that a wave of conical height 1 passes through in each,
+    /// the integral of sqrt(dW ds / S), S the weight below.
+    std::array<double, 32> phase{};
+    Index stretches = 0;
+    double links_per_stretch = 0;
+    double tip_share = 0;      ///< weight of the lowest link over that of the chain
+    double greatest_pull = 0;  ///< largest S / W of a link, of means over stretches
+    double range = 0;          ///< mean of log2 of greatest_pull W / S
+    double tilt = 0;  ///< conical height of the chain turning as if it were one rigid link: less than the largest
+
+   private:
+    template <class V>
+    static bool is_one(const Column<V>& column) {
+        const V* const numbers = column.data();
+        return std::all_of(numbers, numbers + column.stored(), [&](const V& x) { return x == numbers[0]; });
+    }
+
+    /// All of at most 100 links, of more a sample spread over the chain; of equal ones the first.
+    void look_at_links(const Chain<double>& chain) {
+        const Index looked_at = equal ? 1 : size <= 100 ? size : 32;
+        bool points = true, shorter = true;
+        Index longer = 0;
+        for (Index i = 0; i < looked_at; ++i) {
+            const Index m = i * size / looked_at;
+            const double p = chain.centroid()[m] / chain.length()[m], r = chain.gyration_ratio()[m].high;
+            points = points && p == 1 && r == 0;
+            shorter = shorter && r > 0 && p * (1 - p) > r;
+            centroids_below = centroids_below && p >= 0;
+            longer += p >= 0 && p * (1 - p) >= r ? 0 : 1;
+            if (p <= 1 || m + 1 == size) continue;
+            const double above = chain.centroid()[m + 1] / chain.length()[m + 1];
+            negative_pins = negative_pins || chain.weight()[m] * (1 - p) + chain.weight()[m + 1] * above <= 0;
+        }
+        short_pendulums = points || shorter, point_masses = points;
+        long_pendulums = static_cast<double>(longer) / static_cast<double>(looked_at);
+    }
+    /// Samples the weights along the chain. Up to 255 links are all read. For longer chains weights come from the
+    /// stored sums, and lengths are taken as spread evenly.
+    void look_at_stretches(const Chain<double>& chain) {
+        const bool few = size < segment_size;
+        const Index pieces = few ? size : (size - 1) / segment_size + 1, most = static_cast<Index>(phase.size());
+        const Index step = ((pieces - 1) / most + 1) * (few ? 1 : segment_size);
+        const double tip = chain.weight()[0], total = static_cast<double>(chain.total_weight());
+        links_per_stretch = static_cast<double>(step), tip_share = tip / total;
+        double below = 0, at = 0, inertia = 0, stiffness = 0, exponents = 0;
+        for (Index first = 0; first < size; first += step, ++stretches) {
+            const Index end = std::min(first + step, size);
+            double above = 0, run = length * static_cast<double>(end - first) / static_cast<double>(size);
+            if (few) {
+                above = below, run = 0;
+                for (Index m = first; m < end; ++m) above += chain.weight()[m], run += chain.length()[m];
+            } else {
+                above = static_cast<double>(chain.weight_below(end));
+            }
+            // the lowest link is a weight at the tip
+            const double least = std::max(below, tip), weight = above - least, links = static_cast<double>(end - first);
+            phase[static_cast<std::size_t>(stretches)] =
+                2 * std::sqrt(run * weight) / (std::sqrt(above) + std::sqrt(least));
+            const double outside = 1 - (at + run / 2) / length, pull = links * above / (above - below);
+            inertia += (above - below) * outside * outside, stiffness += (above + below) / 2 * run;
+            greatest_pull = std::max(greatest_pull, pull);
+            exponents += std::log2(pull);
+            below = above, at += run;
+        }
+        range = std::log2(greatest_pull) - exponents / static_cast<double>(stretches);
+        tilt = inertia / stiffness * length * length;
+    }
+    /// As if they grew lighter upwards: a search among the sums at hand.
+    static Index light_links(const Chain<double>& chain) {
+        const auto& below = chain.partial_weights();
+        if (below.size() < 3) return 0;
+        std::size_t first = 1, last = below.size() - 1;
+        while (first < last) {
+            const std::size_t middle = (first + last) / 2;
+            const double weight = static_cast<double>(below[middle + 1] - below[middle]);
+            if (weight < 2e-14 * segment_size * static_cast<double>(below[middle]))
+                last = middle;
+            else
+                first = middle + 1;
+        }
+        return std::max<Index>(0, chain.size() - static_cast<Index>(first) * segment_size);
+    }
+
+   public:
+    explicit ChainKind(const Chain<double>& chain)
+        : size(chain.size()), mode_count(chain.mode_count()), length(chain.total_length()), taper(chain.taper()) {
+        equal = is_one(chain.weight()) && is_one(chain.length()) && is_one(chain.centroid()) &&
+                is_one(chain.gyration_ratio());
+        look_at_links(chain);
+        if (!equal) {
+            if (size >= segment_size) {
+                const double half = static_cast<double>(chain.weight_below(size / 2));
+                growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
+            }
+            light = light_links(chain);
+            look_at_stretches(chain);
+            return;
+        }
+        const Link<double> link = chain.link(0);
+        plummets = link == plummet(link.weight, link.length);
+        rods = link == uniform_rod(link.weight, link.length);
+    }
+};
+
+/// A height and what bounds its relative error.
+struct Enclosed {
+    double height, error_bound;
+};
+
+/// Whatever `enclosed(number)` says of every mode asked for.
+template <class F>
+Answer answer_of_each(const Question& question, const F& enclosed) {
+    Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
+    for (Index i = 0; i < question.count; ++i) {
+        const Enclosed one = enclosed(question.first + i);
+        answer.conical_height[i] = one.height, answer.error_bound[i] = one.error_bound;
+    }
+    return answer;
+}
+
+/// Whether a model can answer, and if not why: a sentence that lives for ever.
+struct Fit {
+    bool applies = true;
+    std::string_view reason{};
+
+    static Fit no(std::string_view why) { return {false, why}; }
+};
+
+/// One theory or method: whether it applies to a question, how large its error can be (relative, of every height asked
+/// for; a bound, before anything is computed), what it costs (seconds, predicted), and its answer, with the bounds
+/// reached.
+template <class M>
+concept Model = requires(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
+    { M::name } -> std::convertible_to<std::string_view>;
+    { model.applies(kind, question) } -> std::same_as<Fit>;
+    { model.error_bound(kind, question) } -> std::same_as<double>;
+    { model.cost(kind, question) } -> std::same_as<double>;
+    { model.solve(chain, kind, question) } -> std::same_as<Answer>;
+};
+
+/// Whether a model is of the theory of small inclinations, as all are that do not say otherwise.
+template <class M>
+constexpr bool is_linear() {
+    if constexpr (requires { M::is_linear; })
+        return M::is_linear;
+    else
+        return true;
+}
+
+/// How far the theory of small inclinations is off where the lowest link has one that is not: at most 1/cos - 1, if no
+/// link leans more than the lowest. Offsets of a shape are those of a mode of the straight chain with links as long as
+/// they reach down (`transferred_to_axis`), and no link made longer as a whole lowers a height. Of equal links the
+/// lowest leans most in the slowest modes: up to number 1.15 sqrt(N) of plummets, 1.6 sqrt(N) of rods as the linear
+/// theory has it, and no more than a third of them; here up to sqrt(N), found so up to 80 degrees
+/// (tests/cpp/models/models.cpp). Infinite of others.
+inline double error_of_small_inclinations(const ChainKind& kind, const Question& question) {
+    if (!(question.inclination > 0)) return 0;
+    const Index last = question.last();
+    if (!(kind.plummets || kind.rods) || (last > 1 && (3 * last > kind.size || last * last > kind.size)))
+        return std::numeric_limits<double>::infinity();
+    const double sine = std::sin(question.inclination / 2);
+    return 2 * sine * sine / std::cos(question.inclination) * (1 + 1e-15);
+}
+
+}  // namespace revchain

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/models/model.hpp"
+#include "revchain/modes.hpp"
+
+/// The four ways of `modes` to the heights of any chain (docs/design.md), each as a model. All bounds are proved.
+/// Costs: fitted to `bench_models` (x86-64, AVX2, 2 cores, GCC 12), flat within a factor of 2.
+namespace revchain::models {
+
+namespace detail {
+inline ModesOptions<double> options_for(const Question& question) {
+    ModesOptions<double> options{.first = question.first, .count = question.count};
+    if (question.rtol > 2 * std::numeric_limits<double>::epsilon()) options.rtol = question.rtol;
+    options.shapes = false;
+    return options;
+}
+inline ModeRange range_of(const Question& question) { return {question.first, question.count}; }
+
+/// A way is asked alone, not through `modes`: where it has no heights, no other does the work.
+inline Answer answered(const Chain<double>& chain, const revchain::detail::Heights<double>& found) {
+    const Index count = static_cast<Index>(found.height.size());
+    Answer answer{Vector<double>(count), Vector<double>(count)};
+    for (Index j = 0; j < count; ++j) {
+        const auto& height = found.height[static_cast<std::size_t>(j)];
+        answer.conical_height[j] = std::ldexp(height.value, chain.units().length_exponent);
+        answer.error_bound[j] = height.error_bound;
+    }
+    return answer;
+}
+inline Answer answered(const Chain<double>& chain, const std::optional<revchain::detail::Heights<double>>& found) {
+    return found ? answered(chain, *found) : Answer::none();
+}
+
+inline double real(Index x) { return static_cast<double>(x); }
+
+/// Heights are proved to a half at least.
+inline double goal(const Question& question) { return std::min(question.rtol, 0.5); }
+
+/// Of bisection without double words, for each link: passes over all links for each digit, and a proof a mode.
+inline double loose_cost(double rtol, Index count, double pass) {
+    const double digits = std::max(0.0, -std::log10(rtol));
+    const double each = count == 1 ? 1.05 : count == 2 ? 1.6 : 3.3 * std::ceil(real(count) / 8);
+    return 6e-9 + 2.4e-8 * real(count) + pass * (3 + each * digits);
+}
+}  // namespace detail
+
+/// Counts in single precision, eight to a register, and two of each height in double for the proof: loose tolerances.
+/// Bound foreseen: what was found to be proved (tests/cpp/models/models.cpp).
+struct SinglePrecision {
+    static constexpr std::string_view name = "single precision";
+
+    Fit applies(const ChainKind& kind, const Question&) const {
+        if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        return {};
+    }
+    double error_bound(const ChainKind& kind, const Question& question) const {
+        return std::max(detail::goal(question), 1e-8 * (100 + detail::real(kind.size)));
+    }
+    double cost(const ChainKind& kind, const Question& question) const {
+        return 2.5e-7 + 2e-7 * detail::real(question.count) +
+               detail::real(kind.size) * detail::loose_cost(error_bound(kind, question), question.count, 5.7e-9);
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
+        const auto found = revchain::detail::loose_heights<float>(
+            chain, detail::range_of(question), error_bound(kind, question) * (1 - 1e-6), [](Index) {});
+        return detail::answered(chain, found);
+    }
+};
+
+/// Halving between counts, one mode after the other: any chain, any modes, to the tolerance or 2 ulp.
+struct ElementBisection {
+    static constexpr std::string_view name = "element bisection";
+    static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
+
+    Fit applies(const ChainKind&, const Question&) const { return {}; }
+    double error_bound(const ChainKind& kind, const Question& question) const {
+        return is_loose(kind, question) ? detail::goal(question) : bound;
+    }
+    double cost(const ChainKind& kind, const Question& question) const {
+        const double count = detail::real(question.count);
+        if (is_loose(kind, question))
+            return 3e-7 + 2e-7 * count +
+                   detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9);
+        return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        ModesOptions<double> options = detail::options_for(question);
+        options.method = ModesMethod::bisection;
+        const Modes<double> found = modes(chain, options);
+        return {found.conical_height, found.error_bound};
+    }
+
+   private:
+    /// Where counts in double suffice, no digit more than asked is found.
+    static bool is_loose(const ChainKind& kind, const Question& question) {
+        return detail::goal(question) > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
+    }
+};
+
+/// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp. Links that weigh next
+/// to nothing beside what hangs below them join one by one.
+struct Blocks {
+    static constexpr std::string_view name = "compressed blocks";
+    static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
+
+    Fit applies(const ChainKind& kind, const Question& question) const {
+        if (kind.size < 256) return Fit::no("fewer than 256 links");
+        if (question.last() > kind.size / 8) return Fit::no("more than an eighth of the modes");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question&) const { return bound; }
+    double cost(const ChainKind& kind, const Question& question) const {
+        const double count = detail::real(question.count), skipped = detail::real(question.first - 1);
+        // Long pendulums are not condensed. Light links above leave little to condense. Light links below, and modes of
+        // high number, have short waves, so there are many blocks.
+        const double few = kind.growth < -5 && kind.size < 2000 ? 0.35 : 1;
+        return 3e-5 + 1.7e-9 * detail::real(kind.size) +
+               detail::real(kind.size) * (1e-6 + 2e-7 * count) * kind.long_pendulums + 3e-7 * detail::real(kind.light) +
+               2e-5 * std::max(0.0, kind.growth) +
+               few *
+                   (5e-5 * count * (1 + count / 20) + 7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        const auto found = revchain::detail::heights_by_compression(chain, detail::range_of(question),
+                                                                    detail::options_for(question), 1.0);
+        return found ? detail::answered(chain, found->found) : Answer::none();
+    }
+};
+
+/// All modes of a small chain at once in SIMD lanes. Plummets, or links whose pendulum length is less than their
+/// length: others are found out at once, as those of whom 1e-14 or the tolerance cannot be proved. Bound foreseen: that
+/// of most chains; of looser tolerances up to 3e-11 was found to be proved of links far apart.
+struct AllTogether {
+    static constexpr std::string_view name = "all together";
+    static constexpr double bound = 1e-14;
+
+    Fit applies(const ChainKind& kind, const Question&) const {
+        if (kind.size > 100) return Fit::no("more than 100 links");
+        if (!kind.short_pendulums) return Fit::no("pendulums as long as their links or longer, or of two kinds");
+        if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
+        // measured, one heavy tip and weights graded from the tip up: numbers then leave the range of double
+        const double n = detail::real(kind.size);
+        const bool far_apart =
+            kind.point_masses ? kind.range > 19.5 || n * kind.range > 790 : kind.greatest_pull * std::pow(n, 1.5) > 3e8;
+        if (!kind.equal && far_apart) return Fit::no("links that weigh too little beside what hangs below them");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question&) const { return bound; }
+    double cost(const ChainKind& kind, const Question&) const {
+        const double n = detail::real(kind.size);
+        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n;
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+        Question loose = question;
+        loose.rtol = std::max(question.rtol, bound);
+        return detail::answered(chain, revchain::detail::heights_all_together(chain, detail::range_of(question),
+                                                                              detail::options_for(loose)));
+    }
+};
+
+/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. Foreseen as that of
+/// `AllTogether`.
+struct Spectrum {
+    static constexpr std::string_view name = "interpolated spectrum";
+    static constexpr double fine = 2.001 * std::numeric_limits<double>::epsilon(), loose = 1e-14;
+
+    Fit applies(const ChainKind& kind, const Question& question) const {
+        if (kind.size < 12) return Fit::no("fewer than 12 links");
+        if (question.count < 8) return Fit::no("fewer than 8 modes asked for");
+        if (kind.negative_pins) return Fit::no("centroids too far below their links");
+        return {};
+    }
+    double error_bound(const ChainKind&, const Question& question) const {
+        return question.rtol >= loose ? loose : fine;
+    }
+    double cost(const ChainKind& kind, const Question& question) const {
+        const double each = question.rtol >= loose ? 2.5e-9 : 5e-9;
+        return 2.5e-5 + detail::real(kind.size) * (5e-7 + each * detail::real(question.count));
+    }
+    Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
+        revchain::detail::LazyCounter<double> assembled(chain);
+        return detail::answered(
+            chain, revchain::detail::heights_by_spectrum(assembled, detail::range_of(question), kind.mode_count,
+                                                         detail::options_for(question), 1.0));
+    }
+};
+
+}  // namespace revchain::models

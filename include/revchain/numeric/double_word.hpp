@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <type_traits>
+
+#include "revchain/numeric/scalar.hpp"
+#include "revchain/simd/pack.hpp"
+
+namespace revchain {
+
+/// An unevaluated sum high + low with |low| <= ulp(high)/2: twice the digits of T.
+///
+/// Relative error of one operation (u = epsilon/2): + and - 3u^2, * 5u^2, / 15u^2, up to terms in u^3; none of it is
+/// larger than `operation_error<DoubleWord<T>>()`, which leaves a factor of two for compilers that contract a product
+/// and a sum into one fused operation. Valid while no low part underflows.
+/// Algorithms: Joldes, Muller, Popescu (2017), doi:10.1145/3121432, numbers 4, 6, 9, 12, 15, 17.
+/// Own type because no header-only library that is kept up offers one without Boost: the core needs Eigen alone.
+template <Word T>
+struct DoubleWord {
+    static_assert(std::numeric_limits<Lane<T>>::is_iec559, "double words need correctly rounded sums");
+    T high{};
+    T low{};
+
+    constexpr DoubleWord() = default;
+    [[gnu::always_inline]] constexpr DoubleWord(const T& x)
+        : high(x) {}  // NOLINT(google-explicit-constructor): a T is a DoubleWord
+    template <class Number>
+    requires(std::is_arithmetic_v<Number>&& std::numeric_limits<Number>::digits <=
+             std::numeric_limits<T>::digits) constexpr DoubleWord(Number x)
+        : high(static_cast<T>(x)) {}  // NOLINT(google-explicit-constructor)
+    [[gnu::always_inline]] constexpr DoubleWord(const T& h, const T& l) : high(h), low(l) {}
+    [[gnu::always_inline]] constexpr explicit operator T() const { return high; }
+
+    friend constexpr bool operator==(const DoubleWord& x, const DoubleWord& y) = default;
+    // high first, then low
+    friend constexpr auto operator<=>(const DoubleWord& x,
+                                      const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
+    friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
+};
+
+namespace detail {
+
+/// x itself. The compiler must not fuse the operation that computed x with the one that uses it. Error-free
+/// transformations need this: GCC fuses a product with every sum that uses it, also across functions that it inlines
+/// into one compiled for a processor with fused operations. Clang fuses within one expression, and under
+/// -ffp-contract=fast only a product that is used once: the transformations use each argument more than once.
+template <Word T>
+[[gnu::always_inline]] constexpr T rounded(const T& x) {
+#if defined(__clang__)
+    return x;
+#elif __has_builtin(__builtin_assoc_barrier)
+    if constexpr (IsPack<T>)
+        return x.rounded();
+    else
+        return __builtin_assoc_barrier(x);
+#else
+#error "revchain needs GCC 12 or Clang 14, or later versions"
+#endif
+}
+
+}  // namespace detail
+
+/// x + y = high + low exactly (Knuth).
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> two_sum(const T& x_given, const T& y_given) {
+    const T x = detail::rounded(x_given), y = detail::rounded(y_given);
+    const T s = x + y;
+    const T v = s - x;
+    return {s, (x - (s - v)) + (y - v)};
+}
+
+/// x + y = high + low exactly, for |x| >= |y| or x = 0 (Dekker).
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> fast_two_sum(const T& x_given, const T& y_given) {
+    const T x = detail::rounded(x_given), y = detail::rounded(y_given);
+    const T s = x + y;
+    return {s, y - (s - x)};
+}
+
+namespace detail {
+template <class T>
+inline constexpr bool has_fast_fma =
+#if (defined(__FP_FAST_FMA) && defined(__FP_FAST_FMAF)) || defined(__FMA__)
+    std::is_same_v<T, double> || std::is_same_v<T, float>;
+#else
+    false;
+#endif
+}  // namespace detail
+
+/// x y = high + low exactly, while x y 2^-digits is normal and |x|, |y| are below half the largest number.
+/// With `fused` by one fused multiply-add, which must be fast where this is compiled; else by Dekker's product. (A
+/// library call of fma costs more.) Without `fused` the result is right on every target: the halves of float and double
+/// are cut from the bits, so all their products are exact, and fusing them with sums changes nothing. Veltkamp's split,
+/// which would not survive fusing, serves long double alone.
+template <bool fused, Word T>
+[[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
+    const T p = detail::rounded(T(x * y));
+    if constexpr (fused && IsPack<T>) {
+        T rest;
+        for (std::size_t i = 0; i < T::size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
+        return {p, rest};
+    } else if constexpr (fused) {
+        return {p, std::fma(x, y, -p)};
+    } else {
+        const T xh = upper_half(x), yh = upper_half(y);
+        const T xl = x - xh, yl = y - yh;
+        return {p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl};
+    }
+}
+
+/// The same, fused where the whole program is compiled for a machine that has it.
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
+    return two_product<detail::has_fast_fma<Lane<T>>, T>(x, y);
+}
+
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+    const DoubleWord<T> s = two_sum(x.high, y.high);
+    const DoubleWord<T> t = two_sum(x.low, y.low);
+    const DoubleWord<T> v = fast_two_sum(s.high, s.low + t.high);
+    return fast_two_sum(v.high, t.low + v.low);
+}
+
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> operator+(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+    const DoubleWord<T> s = two_sum(x.high, y);
+    return fast_two_sum(s.high, x.low + s.low);
+}
+
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+    return x + (-y);
+}
+
+template <Word T>
+[[gnu::always_inline]] constexpr DoubleWord<T> operator-(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+    return x + (-y);
+}
+
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+    const DoubleWord<T> p = two_product(x.high, y.high);
+    return fast_two_sum(p.high, p.low + (x.low * y.low + x.high * y.low + x.low * y.high));
+}
+
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> operator*(const DoubleWord<T>& x, const std::type_identity_t<T>& y) {
+    const DoubleWord<T> p = two_product(x.high, y);
+    return fast_two_sum(p.high, p.low + x.low * y);
+}
+
+template <Word T>
+[[gnu::always_inline]] inline DoubleWord<T> operator/(const DoubleWord<T>& x, const DoubleWord<T>& y) {
+    const T q = x.high / y.high;
+    const DoubleWord<T> r = y * q;
+    return fast_two_sum(q, ((x.high - r.high) + (x.low - r.low)) / y.high);
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> abs(const DoubleWord<T>& x) {
+    return x.high < T(0) || (x.high == T(0) && x.low < T(0)) ? -x : x;
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> ldexp(const DoubleWord<T>& x, int exponent) {
+    return {std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)};
+}
+
+template <std::floating_point T>
+inline DoubleWord<T> frexp(const DoubleWord<T>& x, int* exponent) {
+    const T high = std::frexp(x.high, exponent);
+    return {high, std::ldexp(x.low, -*exponent)};
+}
+
+template <std::floating_point T>
+inline bool isfinite(const DoubleWord<T>& x) {
+    return std::isfinite(x.high) && std::isfinite(x.low);
+}
+
+/// Finite, and the low part no more than what rounding the sum leaves over: what every operation here returns.
+template <std::floating_point T>
+inline bool is_normalised(const DoubleWord<T>& x) {
+    return std::isfinite(x.high) && x.high + x.low == x.high;
+}
+
+/// One Newton step on the root of the high part.
+template <std::floating_point T>
+inline DoubleWord<T> sqrt(const DoubleWord<T>& x) {
+    const T s = std::sqrt(x.high);
+    if (!(s > T(0))) return DoubleWord<T>(s);
+    const DoubleWord<T> rest = x - two_product(s, s);
+    return fast_two_sum(s, rest.high / (s + s));
+}
+
+/// a where x < y, else b, lane by lane.
+template <IsPack V>
+[[gnu::always_inline]] inline DoubleWord<V> if_less(const V& x, const V& y, const DoubleWord<V>& a,
+                                                    const DoubleWord<V>& b) {
+    return {if_less(x, y, a.high, b.high), if_less(x, y, a.low, b.low)};
+}
+
+namespace detail {
+template <class T>
+struct Wider {
+    using type = T;
+};
+template <>
+struct Wider<float> {
+    using type = double;
+};
+template <>
+struct Wider<double> {
+    using type = DoubleWord<double>;
+};
+template <>
+struct Wider<long double> {
+    using type = DoubleWord<long double>;
+};
+}  // namespace detail
+
+/// The arithmetic in which results in T are certified: double for float, a double word for double and long double,
+/// T itself for other types (whose bounds then grow with the number of links).
+template <class T>
+using Wide = typename detail::Wider<T>::type;
+
+namespace detail {
+template <class S>
+inline constexpr bool is_double_word = false;
+template <class T>
+inline constexpr bool is_double_word<DoubleWord<T>> = true;
+
+template <class S>
+struct Narrower {
+    using type = S;
+};
+template <class T>
+struct Narrower<DoubleWord<T>> {
+    using type = T;
+};
+}  // namespace detail
+
+/// The type in which sizes and errors of numbers of type S are kept: T for a double word of T, S itself otherwise.
+template <class S>
+using Narrow = typename detail::Narrower<S>::type;
+
+/// Whether x is a number as arithmetic returns it: finite and, as a double word, normalised.
+template <Real S>
+bool is_normalised(const S& x) {
+    using std::isfinite;
+    return isfinite(x);
+}
+
+/// Bound on the relative error of one operation + - * / in S.
+template <class S>
+constexpr Narrow<S> operation_error() {
+    return static_cast<Narrow<S>>(std::numeric_limits<S>::epsilon()) / Narrow<S>(2);
+}
+
+}  // namespace revchain
+
+template <std::floating_point T>
+struct std::numeric_limits<revchain::DoubleWord<T>> : std::numeric_limits<T> {
+    static constexpr int digits = 2 * std::numeric_limits<T>::digits;
+    static constexpr int digits10 = (digits - 1) * 30103 / 100000;
+    static constexpr int max_digits10 = 2 + digits * 30103 / 100000;
+    static constexpr bool is_iec559 = false;
+    static constexpr revchain::DoubleWord<T> min() { return std::numeric_limits<T>::min(); }
+    static constexpr revchain::DoubleWord<T> max() { return std::numeric_limits<T>::max(); }
+    static constexpr revchain::DoubleWord<T> lowest() { return std::numeric_limits<T>::lowest(); }
+    static constexpr revchain::DoubleWord<T> infinity() { return std::numeric_limits<T>::infinity(); }
+    static constexpr revchain::DoubleWord<T> quiet_NaN() { return std::numeric_limits<T>::quiet_NaN(); }
+    /// 64 u^2: four times the bound of the least accurate operation, division.
+    static constexpr revchain::DoubleWord<T> epsilon() {
+        return std::numeric_limits<T>::epsilon() * std::numeric_limits<T>::epsilon() * T(16);
+    }
+};

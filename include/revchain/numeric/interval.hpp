@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+
+#include "revchain/numeric/double_word.hpp"
+
+/// Numbers known to lie between two others: what a proof computes with.
+///
+/// Every result is rounded to nearest and then widened by three times what an operation may be off, so that it holds in
+/// any rounding mode's absence, with or without contraction. Libraries that switch the rounding mode (Boost.Numeric.
+/// Interval) need -frounding-math in whatever program includes them, which a header-only library cannot ask for; the
+/// digit and a half that widening costs is returned by wider numbers where it matters.
+namespace revchain {
+
+/// low <= number <= high. NaN where nothing is known (an overflow), so that comparisons with it decide nothing.
+template <Real T>
+struct Interval {
+    T low{}, high{};
+
+    constexpr Interval() = default;
+    constexpr Interval(const T& x) : low(x), high(x) {}  // NOLINT(google-explicit-constructor): a T is an interval
+    constexpr Interval(const T& l, const T& h) : low(l), high(h) {}
+
+    bool positive() const { return low > T(0); }
+    bool negative() const { return high < T(0); }
+    /// Also where nothing is known.
+    bool may_vanish() const { return !(positive() || negative()); }
+    bool contains(const T& x) const { return low <= x && x <= high; }
+    /// 1 or -1, or 0 where it may vanish.
+    int sign() const { return positive() ? 1 : negative() ? -1 : 0; }
+    /// The largest of its numbers in size; NaN where an end is.
+    T size() const {
+        using std::abs;
+        const T a = abs(low), b = abs(high);
+        return !(a == a) || a > b ? a : b;
+    }
+    T width() const { return high - low; }
+    T middle() const { return low + (high - low) / T(2); }
+
+    friend Interval operator-(const Interval& x) { return {-x.high, -x.low}; }
+};
+
+namespace detail {
+
+/// Bound on the absolute error of an operation whose low word underflows. Such an operation makes at most five
+/// roundings of the smallest number.
+template <Real T>
+inline constexpr auto underflow = 16 * std::numeric_limits<T>::denorm_min();
+
+/// Not above, and not below, what was rounded to x.
+template <Real T>
+T down(const T& x) {
+    using std::abs;
+    return x - (abs(x) * (T(3) * operation_error<T>()) + underflow<T>);
+}
+template <Real T>
+T up(const T& x) {
+    using std::abs;
+    return x + (abs(x) * (T(3) * operation_error<T>()) + underflow<T>);
+}
+
+/// Quotients and roots of two words lose digits where the number they divide or take the root of is below 2^-960: an
+/// interval that holds x, its ends 0 or not so small. Other scalars are rounded correctly.
+template <Real T>
+Interval<T> without_faint_ends(const Interval<T>& x) {
+    if constexpr (std::numeric_limits<T>::is_iec559) {
+        return x;
+    } else {
+        const T least(0x1p-960), zero(0);
+        return {-least < x.low && x.low < least ? (x.low < zero ? T(-least) : zero) : x.low,
+                -least < x.high && x.high < least ? (x.high > zero ? least : zero) : x.high};
+    }
+}
+
+/// A number in two words and how far it may be off.
+inline Interval<Wide<double>> around(const Wide<double>& x, double error) {
+    using S = Wide<double>;
+    return {x - S(error), x + S(error)};
+}
+
+}  // namespace detail
+
+template <Real T>
+Interval<T> operator+(const Interval<T>& x, const Interval<T>& y) {
+    return {detail::down(T(x.low + y.low)), detail::up(T(x.high + y.high))};
+}
+template <Real T>
+Interval<T> operator-(const Interval<T>& x, const Interval<T>& y) {
+    return {detail::down(T(x.low - y.high)), detail::up(T(x.high - y.low))};
+}
+template <Real T>
+Interval<T> operator*(const Interval<T>& x, const Interval<T>& y) {
+    if (x.low >= T(0)) {
+        const T low = y.low < T(0) ? x.high * y.low : x.low * y.low;
+        const T high = y.high < T(0) ? x.low * y.high : x.high * y.high;
+        return {detail::down(low), detail::up(high)};
+    }
+    if (y.low >= T(0)) return y * x;
+    const T a = x.low * y.low, b = x.low * y.high, c = x.high * y.low, d = x.high * y.high;
+    if (!(a == a && b == b && c == c && d == d)) return {a + b + c + d, a + b + c + d};  // NaN: nothing is known
+    return {detail::down(std::min(std::min(a, b), std::min(c, d))),
+            detail::up(std::max(std::max(a, b), std::max(c, d)))};
+}
+/// NaN unless y keeps away from 0.
+template <Real T>
+Interval<T> operator/(const Interval<T>& dividend, const Interval<T>& y) {
+    if (y.negative()) return -dividend / -y;
+    const Interval<T> x = detail::without_faint_ends(dividend);
+    if (!y.positive()) return {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::quiet_NaN()};
+    const T low = x.low < T(0) ? x.low / y.low : x.low / y.high;
+    const T high = x.high < T(0) ? x.high / y.high : x.high / y.low;
+    return {detail::down(low), detail::up(high)};
+}
+template <Real T>
+Interval<T> square(const Interval<T>& x) {
+    using std::abs;
+    const T a = abs(x.low), b = abs(x.high), high = x.size();
+    const T low = x.may_vanish() ? T(0) : std::min(a, b);
+    return {std::max(T(0), detail::down(T(low * low))), detail::up(T(high * high))};
+}
+/// Of what is not negative.
+template <Real T>
+Interval<T> sqrt(const Interval<T>& radicand) {
+    using std::sqrt;
+    const Interval<T> x = detail::without_faint_ends(radicand);
+    return {std::max(T(0), detail::down(T(sqrt(std::max(T(0), x.low))))), detail::up(T(sqrt(x.high)))};
+}
+
+/// Of two that hold the same number, what they agree on.
+template <Real T>
+Interval<T> common(const Interval<T>& x, const Interval<T>& y) {
+    return {x.low > y.low || !(y.low == y.low) ? x.low : y.low,
+            x.high < y.high || !(y.high == y.high) ? x.high : y.high};
+}
+/// The smallest interval that contains both. An end is NaN if that end of x or of y is NaN.
+template <Real T>
+Interval<T> hull(const Interval<T>& x, const Interval<T>& y) {
+    return {!(x.low == x.low) || x.low < y.low ? x.low : y.low,
+            !(x.high == x.high) || x.high > y.high ? x.high : y.high};
+}
+
+}  // namespace revchain

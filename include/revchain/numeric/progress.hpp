@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <atomic>
+
+#include "revchain/numeric/status.hpp"
+
+namespace revchain {
+
+/// What a long computation shares with another thread: how far it is, and whether it should stop.
+class Progress {
+   public:
+    /// From 0 to 1; a hint, not a promise about time.
+    double fraction() const { return fraction_.load(std::memory_order_relaxed); }
+    void report(double fraction) { fraction_.store(fraction, std::memory_order_relaxed); }
+    /// The computation throws `Cancelled` at its next look.
+    void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+    bool cancelled() const { return cancelled_.load(std::memory_order_relaxed); }
+
+   private:
+    std::atomic<double> fraction_ = 0;
+    std::atomic<bool> cancelled_ = false;
+};
+
+namespace detail {
+/// A function that a program may set before it computes. Every loop that can take longer than 0.1 s calls it at least so
+/// often, on the thread that runs it. What it throws ends the computation and reaches the caller.
+inline std::atomic<void (*)()> interrupt = nullptr;
+inline void look() {
+    if (void (*const call)() = interrupt.load(std::memory_order_relaxed)) call();
+}
+
+/// Nothing where nobody looks on.
+inline void advance(Progress* progress, double fraction) {
+    look();
+    if (progress == nullptr) return;
+    if (progress->cancelled()) throw Cancelled("revchain: cancelled");
+    progress->report(fraction);
+}
+}  // namespace detail
+}  // namespace revchain

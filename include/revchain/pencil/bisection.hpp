@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+
+#include "revchain/numeric/progress.hpp"
+#include "revchain/pencil/sturm.hpp"
+
+namespace revchain::pencil {
+
+/// lower < eigenvalue <= upper, by count; `isolated` when no other eigenvalue shares the bracket.
+template <Real T>
+struct Bracket {
+    T lower{};
+    T upper{};
+    bool isolated = true;
+};
+
+/// Half way between two positive numbers, in ratio while they are far apart.
+template <Real T>
+T between(const T& lower, const T& upper) {
+    using std::sqrt;
+    return upper > T(4) * lower ? sqrt(lower) * sqrt(upper) : lower + (upper - lower) / T(2);
+}
+
+namespace detail {
+
+/// A bracket of the eigenvalues `first` ... `last - 1` (descending, from 0).
+template <Real T>
+struct Segment {
+    T lower{}, upper{};
+    Index first = 0, last = 0;
+};
+
+/// A bracket of the eigenvalues `first` ... `last - 1`, from `guess` on and by counts.
+template <class Pencil, Real T>
+Segment<T> enclose(const Pencil& pencil, Index first, Index last, T guess) {
+    using std::ldexp;
+    Segment<T> all{guess, guess, first, last};
+    std::array<T, lanes> shifts;
+    for (bool found = false; !found;) {  // upwards, by factors of 4
+        for (std::size_t i = 0; i < lanes; ++i) shifts[i] = all.upper = i == 0 ? all.upper : all.upper * T(4);
+        const auto above = count_above(pencil, shifts);
+        for (std::size_t i = 0; i < lanes && !found; ++i)
+            if (above[i] <= first) {
+                all.upper = shifts[i];
+                found = true;
+            } else {
+                all.lower = shifts[i];
+            }
+        // nothing in this scalar, or a guess that was no positive number
+        if (!(all.upper > T(0) && all.upper <= ldexp(T(1), std::numeric_limits<T>::max_exponent - 10))) return all;
+    }
+    all.lower = std::min(all.lower, all.upper / T(4));
+    T ratio(4);  // downwards, squaring the stride: the modes asked for may lie far below
+    for (bool found = false; !found;) {
+        shifts[0] = all.lower;
+        for (std::size_t i = 1; i < lanes; ++i) shifts[i] = shifts[i - 1] / ratio;
+        const auto above = count_above(pencil, shifts);
+        for (std::size_t i = 0; i < lanes && !found; ++i) {
+            all.lower = shifts[i];
+            found = above[i] >= last;
+            if (above[i] <= first) all.upper = shifts[i];
+        }
+        if (ratio < T(256)) ratio = ratio * ratio;
+        if (all.lower < std::numeric_limits<T>::min() * T(1e12)) break;
+    }
+    return all;
+}
+
+/// Inner points that cut (lower, upper) in halves of halves, ascending: 2^levels - 1 of them.
+template <Real T>
+void subdivide(T* points, std::size_t count, const T& lower, const T& upper) {
+    if (count == 0) return;
+    const std::size_t half = count / 2;
+    points[half] = between(lower, upper);
+    subdivide(points, half, lower, points[half]);
+    subdivide(points + half + 1, half, points[half], upper);
+}
+
+/// Cuts `segment` at the shifts counted; pieces that hold eigenvalues go to `keep(lower, upper, first, last)`.
+template <Real T, class Keep>
+void split(const Segment<T>& segment, const T* shifts, const Index* above, std::size_t count, Keep keep) {
+    T lower = segment.lower;
+    Index last = segment.last;
+    for (std::size_t c = 0; c <= count; ++c) {
+        const T upper = c < count ? shifts[c] : segment.upper;
+        // Counts may waver by rounding within a few ulp; clamping keeps the pieces nested and loses none.
+        const Index first = c < count ? std::clamp(above[c], segment.first, last) : segment.first;
+        if (last > first) keep(Segment<T>{lower, upper, first, last});
+        lower = upper;
+        last = first;
+    }
+}
+
+}  // namespace detail
+
+/// Pencil: whatever has a `count_above` for `lanes` shifts. Brackets of the `count` eigenvalues from number `first` on (from 0, descending), each no wider than `tolerance`
+/// relative or a few ulp; eigenvalues that share a bracket at the tolerance are bisected on, down to a few ulp.
+/// Preconditions: first >= 0; count >= 1; first + count <= number of finite eigenvalues; tolerance >= 0; guess > 0.
+/// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues asked for, whatever `first`. Accuracy: that of
+/// `count_above`. `finished(done)` is called after every pass with the number of eigenvalues bracketed so far, and may
+/// throw.
+template <class Pencil, Real T, class Finished>
+std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T tolerance, T guess,
+                               Finished finished) {
+    const T finest = T(4) * epsilon<T>();
+    std::vector<Bracket<T>> brackets(static_cast<std::size_t>(count));
+    std::vector<detail::Segment<T>> work{detail::enclose(pencil, first, first + count, guess)}, now;
+    std::array<T, lanes> shifts;
+    shifts.fill(guess);
+    Index done = 0;
+    const auto keep = [&](const detail::Segment<T>& s) {
+        const T width = s.upper - s.lower;
+        const bool alone = s.last - s.first == 1;
+        const T middle = between(s.lower, s.upper);
+        const bool divisible = s.lower < middle && middle < s.upper;  // else never done, among subnormal numbers
+        if (divisible && width > finest * s.lower && (width > tolerance * s.lower || !alone)) {
+            work.push_back(s);
+        } else {
+            for (Index j = s.first; j < s.last; ++j)
+                brackets[static_cast<std::size_t>(j - first)] = {s.lower, s.upper, alone};
+            done += s.last - s.first;
+        }
+    };
+    while (!work.empty()) {
+        revchain::detail::look();
+        const std::size_t taken = std::min(lanes, work.size());
+        now.assign(work.end() - static_cast<std::ptrdiff_t>(taken), work.end());
+        work.resize(work.size() - taken);
+        // Few segments: cut each into 4 or 8 at once, so that all lanes work.
+        const std::size_t cuts = taken == 1 ? 7 : taken == 2 ? 3 : 1;
+        for (std::size_t i = 0; i < taken; ++i) detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
+        const auto above = count_above(pencil, shifts);
+        for (std::size_t i = 0; i < taken; ++i) detail::split(now[i], &shifts[i * cuts], &above[i * cuts], cuts, keep);
+        finished(done);
+    }
+    return brackets;
+}
+
+}  // namespace revchain::pencil

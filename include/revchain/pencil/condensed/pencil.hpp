@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "revchain/pencil/condensed/transfer.hpp"
+#include "revchain/pencil/sturm.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+
+namespace revchain::pencil {
+
+/// A run of links condensed to its two end pins, exactly up to rounding and truncation: a spring between the pins and a
+/// mass at each, all depending on mu = 1/lambda. With z = -mu and t = 1 + b1 z + b2 z^2 + ... they are
+///
+///     lambda k / t + cross,    (lower + a1 z + ...) / t,    (upper + d1 z + ...) / t.
+///
+/// The leading numbers are kept in `Wide<T>`; the rest, smaller by mu (mass)/(stiffness) of the block, in T.
+template <Real T>
+struct Block {
+    static constexpr std::size_t degree = 6;
+    Wide<T> stiffness{}, lower{}, upper{};
+    Wide<T> cross{};  ///< off-diagonal mass of a link that stands alone; its spring may be negative
+    std::array<T, degree> b{};
+    std::array<T, degree - 1> a{}, d{};
+    Index links = 0;
+};
+
+/// A chain of blocks, lowest first; the last one's upper pin is held. Valid for shifts lambda >= `least_shift`.
+template <Real T>
+struct BlockPencil {
+    std::vector<Block<T>> blocks;
+    T least_shift{};
+    /// Every eigenvalue above `least_shift` is within this (relative) of the exact chain's: docs/accuracy.md.
+    T error{};
+};
+
+/// Dynamic stiffness of a block at one shift, lambda K - M:
+///
+///     spring [ 1 -1 ; -1 1 ]  -  [ lower 0 ; 0 upper ].
+template <class S>
+struct LumpedElement {
+    S spring{}, lower{}, upper{};
+};
+
+namespace detail {
+
+/// A number of `Wide<T>` in S, a scalar or pack of T or a double word of one.
+template <class S, class W>
+[[gnu::always_inline]] inline S spread(const W& x) {
+    if constexpr (IsPack<S>) {
+        return S(static_cast<Lane<S>>(x));
+    } else if constexpr (revchain::detail::is_double_word<S> && revchain::detail::is_double_word<W>) {
+        using N = Narrow<S>;
+        return {N(x.high), N(x.low)};
+    } else {
+        return static_cast<S>(x);
+    }
+}
+
+template <class N, class T, std::size_t Count>
+[[gnu::always_inline]] inline N horner(const std::array<T, Count>& coefficient, const N& z) {
+    N value(coefficient[Count - 1]);
+    for (std::size_t i = Count - 1; i-- > 0;) value = N(coefficient[i]) + z * value;
+    return z * value;
+}
+
+}  // namespace detail
+
+/// The block's dynamic stiffness at a shift in S: T, `Wide<T>`, packs of T or double words of packs, one shift a lane.
+/// The corrections are evaluated in T: they are small.
+template <class S, Real T>
+[[gnu::always_inline]] inline LumpedElement<S> element_at(const Block<T>& block, const S& shift) {
+    using N = Narrow<S>;
+    const N z = N(T(-1)) / static_cast<N>(shift);
+    const N series = detail::horner(block.b, z);
+    const S change(-series / (N(T(1)) + series));  // 1/t - 1
+    const S stiffness = shift * detail::spread<S>(block.stiffness);
+    const S lower = detail::spread<S>(block.lower) + S(detail::horner(block.a, z));
+    const S upper = detail::spread<S>(block.upper) + S(detail::horner(block.d, z));
+    return {stiffness + stiffness * change + detail::spread<S>(block.cross), lower + lower * change,
+            upper + upper * change};
+}
+
+/// For each shift the number of eigenvalues above it, as `count_above` of an ElementPencil.
+/// Preconditions: shifts >= least_shift. Cost: 15 ns per block for 8 shifts of double.
+template <Real T, std::size_t L>
+std::array<Index, L> count_above(const BlockPencil<T>& pencil, const std::array<T, L>& shifts) {
+    using V = Pack<T>;
+    return simd([&](auto) __attribute__((always_inline)) {
+        constexpr std::size_t packs = (L + pack_size - 1) / pack_size;
+        std::array<V, packs> shift, below{}, negative{};
+        for (std::size_t i = 0; i < packs * pack_size; ++i)
+            shift[i / pack_size].set(i % pack_size, shifts[std::min(i, L - 1)]);
+        for (const Block<T>& block : pencil.blocks)
+            for (std::size_t i = 0; i < packs; ++i) {
+                const LumpedElement<V> e = element_at<V>(block, shift[i]);
+                const V hung = below[i] - e.lower;
+                const V sum = e.spring + hung;
+                const V pivot = if_equal(sum, V{}, e.spring * (epsilon<T>() * epsilon<T>()), sum);
+                negative[i] += if_less(pivot, V{}, V(T(1)), V{});
+                below[i] = e.spring * (hung / pivot) - e.upper;
+            }
+        std::array<Index, L> result;
+        for (std::size_t i = 0; i < L; ++i) result[i] = static_cast<Index>(negative[i / pack_size][i % pack_size]);
+        return result;
+    });
+}
+
+/// Counts at the shifts of a pack of double words, in numbers of T; `proved` is 1 or 0.
+template <class V>
+struct CertifiedCounts {
+    V above{}, proved{};
+};
+
+/// The count with a running bound on the error of the recursion from rounding, for the chain of exactly these elements:
+/// `proved` as in sturm.hpp. Cost: 40 ns per block for the four shifts of a pack.
+template <Real T>
+CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
+    using V = Pack<T>;
+    using S = DoubleWord<V>;
+    return simd([&](auto) __attribute__((always_inline)) {
+        const T unit = T(2) * operation_error<DoubleWord<T>>();
+        const T inflate = T(1) + T(16) * epsilon<T>();
+        const T underflow = std::numeric_limits<T>::min() * T(4);
+        const V zero{}, one(T(1));
+        S below{};
+        V error{};
+        CertifiedCounts<V> result{zero, one};
+        for (const Block<T>& block : pencil.blocks) {
+            const LumpedElement<S> e = element_at<S>(block, shift);
+            const S hung = below - e.lower;
+            const S pivot = hung + e.spring;
+            const V spring = abs(e.spring.high), size = abs(pivot.high);
+            const V hung_error = (error + unit * abs(hung.high)) * inflate + underflow;
+            const V least = size * (T(1) - T(4) * epsilon<T>());
+            const V least_with_below = least - hung_error;
+            result.proved = if_less(zero, least_with_below, result.proved, zero);
+            result.above += if_less(pivot.high, zero, one, zero);
+            const S carried = e.spring * (hung / pivot);  // a pivot of 0 leaves the count unproved
+            below = carried - e.upper;
+            error = inflate * ((spring / least) * (spring / least_with_below) * hung_error +
+                               (T(3) * unit) * abs(carried.high) + unit * abs(below.high)) +
+                    underflow;
+        }
+        return result;
+    });
+}
+
+/// Offsets of the pins between blocks, free end first, the held pin last (0), at an eigenvalue in each lane; 1 at the pin
+/// where upper and lower part balance best. See `eigenvector` in twisted.hpp. S: a pack, or a double word of one.
+/// Cost: 30 ns per block in packs of doubles, 150 in double words of such.
+template <class S, Real T>
+std::vector<S> offsets_between(const BlockPencil<T>& pencil, const S& eigenvalue) {
+    using V = Pack<T>;
+    return simd([&](auto) __attribute__((always_inline)) {
+        const std::size_t n = pencil.blocks.size();
+        const S one(V(T(1)));
+        const auto not_zero = [](const S& pivot, const S& spring) __attribute__((always_inline)) {
+            const V tiny = static_cast<V>(spring) * (epsilon<T>() * epsilon<T>());
+            return pivot + S(if_equal(static_cast<V>(pivot), V{}, tiny, V{}));
+        };
+        struct Pin {
+            LumpedElement<S> element;  // above this pin
+            S below;                   // dynamic stiffness of what hangs there
+            S down;                    // offset of this pin over that of the pin above
+            S up;                      // offset of the pin above over that of this pin
+        };
+        std::vector<Pin> pins(n);
+        S below{};
+        for (std::size_t m = 0; m < n; ++m) {
+            const LumpedElement<S> e = element_at<S>(pencil.blocks[m], eigenvalue);
+            const S hung = below - e.lower;
+            const S down = e.spring / not_zero(e.spring + hung, e.spring);
+            pins[m] = {e, below, down, S{}};
+            below = down * hung - e.upper;
+        }
+        S above{};
+        V least(std::numeric_limits<T>::infinity()), twist{};
+        for (std::size_t m = n; m-- > 0;) {
+            const LumpedElement<S>& e = pins[m].element;
+            V forces = static_cast<V>(e.spring) + static_cast<V>(e.lower);
+            if (m + 1 == n) {
+                above = e.spring - e.lower;
+            } else {
+                const S held = above - e.upper;
+                pins[m].up = e.spring / not_zero(e.spring + held, e.spring);
+                above = pins[m].up * held - e.lower;
+            }
+            if (m > 0) forces += static_cast<V>(pins[m - 1].element.spring) + static_cast<V>(pins[m - 1].element.upper);
+            const V unbalanced = abs(static_cast<V>(pins[m].below + above)) / forces;
+            twist = if_less(unbalanced, least, V(static_cast<T>(m)), twist);
+            least = if_less(unbalanced, least, unbalanced, least);
+        }
+        // Outwards from the twist, which stands elsewhere in each lane.
+        std::vector<S> offset(n + 1);
+        for (std::size_t m = n; m-- > 0;)
+            offset[m] = if_less(V(static_cast<T>(m)), twist, pins[m].down * offset[m + 1],
+                                if_less(twist, V(static_cast<T>(m)), S{}, one));
+        for (std::size_t m = 0; m + 1 < n; ++m)
+            offset[m + 1] = if_less(V(static_cast<T>(m)), twist, offset[m + 1], pins[m].up * offset[m]);
+        return offset;
+    });
+}
+
+/// A shift and by how much it has changed.
+template <class S>
+struct Improved {
+    S shift{};
+    Narrow<S> change{};
+};
+
+/// One step of Newton's method on  y^T (lambda K - M) y = 0  for each lane, y being the twisted vector at `shift`: where
+/// one eigenvalue is near, the step cubes the error. S, a pack or a double word of one, says how accurately the form is
+/// summed. Cost: 100 to 200 ns per block.
+template <class S, Real T>
+Improved<S> improved(const BlockPencil<T>& pencil, const S& shift) {
+    using V = Pack<T>;
+    return simd([&](auto) __attribute__((always_inline)) {
+        const V at = static_cast<V>(shift), step = at * T(1e-5);
+        const std::vector<V> offset = offsets_between<V>(pencil, at);
+        // The form at the shift, in S; its derivative from a second value, in T.
+        S form{};
+        V ahead{};
+        for (std::size_t m = 0; m < pencil.blocks.size(); ++m) {
+            const V lower = offset[m], upper = offset[m + 1], stretched = lower - upper;
+            const S stretch = S(lower) - S(upper);
+            const LumpedElement<S> e = element_at<S>(pencil.blocks[m], shift);
+            form =
+                form + (stretch * stretch * e.spring - (S(lower) * S(lower) * e.lower + S(upper) * S(upper) * e.upper));
+            const LumpedElement<V> f = element_at<V>(pencil.blocks[m], at + step);
+            ahead += f.spring * stretched * stretched - (f.lower * lower * lower + f.upper * upper * upper);
+        }
+        const S change = form / S((ahead - static_cast<V>(form)) / step);
+        return Improved<S>{shift - change, -static_cast<V>(change)};
+    });
+}
+
+}  // namespace revchain::pencil
+
+#pragma GCC diagnostic pop

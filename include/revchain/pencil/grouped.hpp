@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/pencil/element.hpp"
+
+namespace revchain::pencil {
+
+/// A pencil of fewer elements whose eigenvalues, descending as they are, bracket those of the whole:
+///
+///     coarse <= exact <= coarse + spread.
+template <std::floating_point T>
+struct GroupedPencil {
+    ElementPencil<T> pencil;
+    T spread{};
+};
+
+namespace detail {
+
+/// Neighbouring elements condensed into one by the shape they take without inertia: with c the flexibility from the
+/// lowest pin on and F all of it, a pin inside stands at (1 - c/F) (lower end) + (c/F) (upper end).
+template <std::floating_point T>
+class Group {
+   public:
+    /// With one more element on top. Of terms that do not cancel: cross masses would, of links whose radius of gyration
+    /// is many times their length.
+    Group with(const Element<T>& e) const {
+        Group more = *this;
+        const T c = flexibility_, f = T(1) / e.stiffness, leaning = (e.cross + e.upper) * f;
+        more.flexibility_ = c + f, more.weight_ += e.weight, more.size_ += 1;
+        more.first_ += e.weight * c + leaning;
+        more.bound_ += e.weight * c + e.upper * f;
+        more.second_ += c * (e.weight * c + T(2) * leaning) + f * (e.upper * f);
+        more.far_ = far_ || !(e.upper - e.turning <= T(4) * e.weight);
+        return more;
+    }
+    Index size() const { return size_; }
+
+    /// No less than the largest eigenvalue of the group between held ends: the trace of K^-1 M there.
+    T spread() const { return size_ < 2 ? T(0) : bound_ - second_ / flexibility_ + rounding(size_) * bound_; }
+    /// Whether that is so, nothing outweighs lambda k by more than 8 (the square of a mode's phase is at most about
+    /// that), and no centroid is farther above or below its link than twice its length.
+    bool is_within(const T& spread, const T& least) const {
+        return (bound_ * (T(1) + rounding(size_)) - spread) * flexibility_ <= second_ &&
+               weight_ * flexibility_ <= T(8) * least && bound_ <= T(8) * least && !far_;
+    }
+    /// A sum of n terms of some products each, and what is made of it: relative to the sum of their sizes.
+    static T rounding(Index n) { return epsilon<T>() * T(n + 10); }
+
+    Element<T> element() const {
+        const T mean = first_ / flexibility_, square = second_ / (flexibility_ * flexibility_);
+        const T beside = weight_ > T(0) ? square - mean * (mean / weight_) : T(0);
+        return {T(1) / flexibility_, weight_ - T(2) * mean + square, square, mean - square, beside, weight_};
+    }
+
+   private:
+    T flexibility_{}, weight_{};
+    T first_{}, second_{}, bound_{};  // sums of mass times c, and c^2; `bound_`: as the trace wants it
+    bool far_ = false;                // a centroid far from its link
+    Index size_ = 0;
+};
+
+}  // namespace detail
+
+/// Groups as long as their spread stays within `spread`; an element alone stays what it is.
+///
+/// Restricting pins to such shapes lowers every eigenvalue (Courant, Fischer). With t the largest eigenvalue that a
+/// group has between held ends, and x = 1/lambda < 1/t, what the pins inside take away from the condensed K - x M is
+/// x^2 C' (K_i - x M_i)^-1 C with C' M_i^-1 C <= M and M_i <= t K_i, so no more than x^2 t/(1 - x t) M. The exact count
+/// at lambda is thus at most the coarse one at lambda - t, which gives the other side.
+/// Preconditions: one unit; it will be asked at lambda >= `least`.
+/// `entry_error` takes in the roundings here, relative to lambda k and the entry: with f the flexibility of an element,
+/// q the place of its centroid, |q| <= 2, and F of its group, what is summed up is W, W q f/F and B f/F at most, of
+/// which no group has more than 8 lambda k; cross masses, which are not so limited, come in as X + B = W q with an
+/// error of |X| + B <= 2 B + 2.5 W. All in all no more than 120 times the elements' error, and as many of the sums'.
+/// Cost: 6 ns an element.
+template <std::floating_point T>
+GroupedPencil<T> grouped(const ElementPencil<T>& pencil, const T& least, const T& spread) {
+    GroupedPencil<T> result;
+    detail::Group<T> group;
+    const Element<T>* lowest = nullptr;
+    Index longest = 1;
+    const auto close = [&] {
+        result.pencil.elements.push_back(group.size() == 1 ? *lowest : group.element());
+        result.spread = std::max(result.spread, group.spread());
+        longest = std::max(longest, group.size());
+    };
+    for (const Element<T>& e : pencil.elements) {
+        const detail::Group<T> more = group.with(e);
+        if (group.size() > 0 && !more.is_within(spread, least)) {
+            close();
+            group = detail::Group<T>().with(e);
+        } else {
+            group = more;
+        }
+        if (group.size() == 1) lowest = &e;
+    }
+    close();
+    result.pencil.entry_error = pencil.entry_error;
+    if (longest > 1) result.pencil.entry_error = T(128) * (pencil.entry_error + detail::Group<T>::rounding(longest));
+    result.pencil.stiffness_underflow = pencil.stiffness_underflow;
+    result.spread *= T(1) + result.pencil.entry_error;
+    return result;
+}
+
+}  // namespace revchain::pencil

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <array>
+
+#include "revchain/numeric/scalar.hpp"
+#include "revchain/simd/pack.hpp"
+
+/// All eigenvalues of a small pencil of pinned links, four of them to a pack: what is done link by link.
+namespace revchain::pencil::small {
+
+/// The largest chain served; its numbers stand on the stack.
+inline constexpr std::size_t most_links = 128;
+/// Links between two looks at sizes and sums.
+inline constexpr std::size_t leg = 16;
+
+/// A chain of links as lumped masses at the pins, springs between them, and the mass -X that only the difference of a
+/// link's two offsets feels (see `spectrum::LumpedLink`). In double: rounded as `Roundings` says.
+struct LumpedLinks {
+    using Numbers = std::array<double, most_links>;
+    std::size_t size = 0;
+    bool rigid = false;      ///< whether the five columns from `swing` on are there; else all X are 0
+    Numbers mass;            ///< of the lower pin of link m
+    Numbers stiffness;       ///< k
+    Numbers flexibility;     ///< 1/k
+    Numbers swing;           ///< X/k >= 0
+    Numbers quarter_weight;  ///< W/4
+    Numbers skew;            ///< 2 h/a - 1
+    Numbers turn;            ///< W rho^2/a^2
+    double least_shift = 0;  ///< all eigenvalues mu = 1/lambda lie between
+    double greatest_shift = 0;
+};
+
+using Four = Pack<double>;
+
+/// y at the support for a free end at 1, carried up without division: a polynomial in mu whose zeros are the eigenvalues.
+template <bool rigid>
+struct Offset {
+    Four value{1.0}, force{0.0};
+
+    [[gnu::always_inline]] void rise(const LumpedLinks& links, std::size_t m, const Four& mu) {
+        force += (Four(links.mass[m]) * mu) * value;
+        if constexpr (rigid) {
+            const Four stretch = Four(1.0) + mu * Four(links.swing[m]);
+            value = stretch * value - Four(links.flexibility[m]) * force;
+            force = stretch * force;
+        } else {
+            value -= Four(links.flexibility[m]) * force;
+        }
+    }
+};
+
+/// The same with its derivative.
+template <bool rigid>
+struct OffsetAndSlope {
+    Four value{1.0}, force{0.0}, slope{0.0}, force_slope{0.0};
+
+    [[gnu::always_inline]] void rise(const LumpedLinks& links, std::size_t m, const Four& mu) {
+        const Four mass(links.mass[m]), flexibility(links.flexibility[m]), pull = mass * mu;
+        force += pull * value;
+        force_slope = (force_slope + mass * value) + pull * slope;  // the slope was last to come
+        if constexpr (rigid) {
+            const Four swing(links.swing[m]), stretch = Four(1.0) + mu * swing;
+            slope = (stretch * slope + swing * value) - flexibility * force_slope;
+            value = stretch * value - flexibility * force;
+            force_slope = stretch * force_slope + swing * force;
+            force = stretch * force;
+        } else {
+            slope -= flexibility * force_slope;
+            value -= flexibility * force;
+        }
+    }
+};
+
+/// A vector built link by link from one end: offset y and spring force G of the link ahead, mu y^T M y and y^T K y so
+/// far. The sums belong to the offsets as stored and to their differences, whatever rounding did to the recurrence.
+/// `tall`: of more links than a leg.
+template <bool rigid, bool tall>
+struct Walk {
+    Four offset{0.0}, force{0.0}, inertia{0.0}, stiffness{0.0}, earlier_inertia{0.0}, earlier_stiffness{0.0};
+
+    [[gnu::always_inline]] Four all_inertia() const { return tall ? inertia + earlier_inertia : inertia; }
+    [[gnu::always_inline]] Four all_stiffness() const { return tall ? stiffness + earlier_stiffness : stiffness; }
+
+    [[gnu::always_inline]] void pass_pin(const LumpedLinks& links, std::size_t m, const Four& mu, bool up) {
+        const Four pull = Four(links.mass[m]) * (mu * offset);
+        force = up ? force + pull : force - pull;
+        if constexpr (!rigid) inertia += pull * offset;
+    }
+    /// `yield`: 1/(k + mu X).
+    [[gnu::always_inline]] void pass_link(const LumpedLinks& links, std::size_t m, const Four& yield, bool up) {
+        const Four before = offset;
+        Four d = yield * force;
+        offset = up ? before - d : before + d;
+        d = up ? before - offset : offset - before;
+        const Four square = d * d;
+        stiffness += Four(links.stiffness[m]) * square;
+        if constexpr (rigid) {
+            const Four centroid = (before + offset) + Four(links.skew[m]) * d;
+            inertia += Four(links.quarter_weight[m]) * (centroid * centroid) + Four(links.turn[m]) * square;
+        }
+    }
+    /// Puts the sums of a leg away and brings the larger number to 1 ... 2, by a power of two for each lane.
+    [[gnu::always_inline]] void tidy() {
+        earlier_inertia += inertia;
+        earlier_stiffness += stiffness;
+        inertia = stiffness = Four(0.0);
+        const Four by = inverse_power(max(abs(offset), abs(force)));
+        offset = offset * by;
+        force = force * by;
+        earlier_inertia = (earlier_inertia * by) * by;  // by * by may leave the range
+        earlier_stiffness = (earlier_stiffness * by) * by;
+    }
+};
+
+/// What a twisted vector at a shift mu gives.
+struct Quotients {
+    Four ratio;   ///< Rayleigh quotient times mu: 1 at an eigenvalue
+    Four square;  ///< squared residual, in the norm of K^-1 over that of K, but for rounding
+    Four energy;  ///< y^T K y
+    Four scale;   ///< the lesser of the two factors that joined the energies of the walks
+};
+
+/// For `P` packs of shifts the quotients of vectors carried from both ends and joined at the pin where the residual is
+/// least. `flexibility_above[t]`: sum of 1/k from link t up.
+template <bool rigid, bool tall, std::size_t P>
+[[gnu::always_inline]] inline std::array<Quotients, P> quotients(const LumpedLinks& links,
+                                                                 const double* flexibility_above,
+                                                                 const std::array<Four, P>& mu) {
+    constexpr std::size_t kept = rigid ? 5 : 4;
+    alignas(Four) std::byte memory[kept * P * most_links * sizeof(Four)];  // not initialised: what is written is read
+    Four* const at_pins = reinterpret_cast<Four*>(memory);
+    std::array<Walk<rigid, tall>, P> walk;
+#pragma GCC unroll 3
+    for (std::size_t p = 0; p < P; ++p) walk[p].offset = Four(1.0);
+    for (std::size_t m = 0; m < links.size; ++m) {
+#pragma GCC unroll 3
+        for (std::size_t p = 0; p < P; ++p) {
+            Walk<rigid, tall>& up = walk[p];
+            Four* const here = at_pins + kept * (P * m + p);
+            up.pass_pin(links, m, mu[p], true);
+            here[0] = up.offset;
+            here[1] = up.force;
+            here[2] = up.all_inertia();
+            here[3] = up.all_stiffness();
+            Four yield(links.flexibility[m]);
+            if constexpr (rigid) here[4] = yield = yield / (Four(1.0) + mu[p] * Four(links.swing[m]));
+            up.pass_link(links, m, yield, true);
+            if (tall && m % leg == leg - 1) up.tidy();
+        }
+    }
+    std::array<Quotients, P> best;
+#pragma GCC unroll 3
+    for (std::size_t p = 0; p < P; ++p) {
+        walk[p] = {};
+        walk[p].force = Four(1.0);
+        best[p] = {Four(0.0), Four(1.0), Four(0.0), Four(0.0)};
+    }
+    for (std::size_t m = links.size; m-- > 0;) {
+#pragma GCC unroll 3
+        for (std::size_t p = 0; p < P; ++p) {
+            Walk<rigid, tall>& down = walk[p];
+            Quotients& joined = best[p];
+            const Four* const here = at_pins + kept * (P * m + p);
+            down.pass_link(links, m, rigid ? here[kept - 1] : Four(links.flexibility[m]), false);
+            // Each scaled by the other's offset, so that they meet.
+            const Four scale_up = down.offset * down.offset, scale_down = here[0] * here[0];
+            const Four gap = here[1] * down.offset - down.force * here[0];
+            const Four energy = here[3] * scale_up + down.all_stiffness() * scale_down;
+            const Four inertia = here[2] * scale_up + down.all_inertia() * scale_down;
+            const Four square = gap * gap * Four(flexibility_above[m]);
+            const Four other = joined.square * energy, own = square * joined.energy;  // never for a NaN
+            joined.ratio = if_less(own, other, inertia, joined.ratio);
+            joined.square = if_less(own, other, square, joined.square);
+            joined.energy = if_less(own, other, energy, joined.energy);
+            joined.scale = if_less(own, other, min(scale_up, scale_down), joined.scale);
+            down.pass_pin(links, m, mu[p], false);
+            if (tall && m % leg == 0) down.tidy();
+        }
+    }
+#pragma GCC unroll 3
+    for (std::size_t p = 0; p < P; ++p) {
+        const Four inertia = rigid ? mu[p] * best[p].ratio : best[p].ratio;
+        best[p] = {inertia / best[p].energy, best[p].square / best[p].energy, best[p].energy, best[p].scale};
+    }
+    return best;
+}
+
+/// f(P packs, first lane) for all packs, three at a time: they share what is loaded and fill each other's waits.
+template <class F>
+[[gnu::always_inline]] inline void for_packs(std::size_t count, const F& f) {
+    std::size_t i = 0;
+    for (; i + 8 < count; i += 12) f(std::integral_constant<std::size_t, 3>(), i);
+    if (i + 4 < count)
+        f(std::integral_constant<std::size_t, 2>(), i);
+    else if (i < count)
+        f(std::integral_constant<std::size_t, 1>(), i);
+}
+
+}  // namespace revchain::pencil::small

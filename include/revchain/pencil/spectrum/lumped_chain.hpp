@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "revchain/pencil/element.hpp"
+
+namespace revchain::pencil::spectrum {
+
+/// One link in the form the all-modes engine walks: an elastic, massless link between two pins that carry lumped mass,
+/// and the mass -X that only the difference of the two offsets feels. A link's own inertia is
+///
+///     A y_l^2 + 2 X y_l y_u + B y_u^2 = W (p y_l + q y_u)^2 + turn (y_l - y_u)^2,    p = h/a, q = 1 - p,
+///
+/// motion of the centroid and rotation about it: two squares, whatever the sign of X.
+struct LumpedLink {
+    double flexibility;  ///< 1/k
+    double stiffness;    ///< k
+    double mass;         ///< of the pin above: B + X of this link and A + X of the next
+    double swing;        ///< X/k
+    double weight;       ///< W
+    double lower_share;  ///< (A + X)/W = h/a
+    double upper_share;  ///< (B + X)/W = 1 - h/a
+    double turn;         ///< the element's c = W rho^2/a^2
+};
+
+/// What of the pencil's numbers is left when they are rounded to those of `LumpedLink`; and the cross mass X.
+struct PinnedRest {
+    double stiffness, mass, cross, cross_rest;
+};
+
+/// Links between two looks at sizes and sums, at most.
+inline constexpr std::size_t longest_leg = 16;
+
+/// What rounding bounds need to know of a run of links: the largest X/k, and of k/m, m the mass of the pin above, the
+/// largest root and the largest root times X/k.
+struct Bounds {
+    double swing = 0, root = 0, swing_root = 0;
+};
+
+/// The pencil as lumped pins and links, every number within `data_error` (relative) of the exact one.
+struct LumpedChain {
+    std::vector<LumpedLink> links;
+    std::vector<PinnedRest> rests;          ///< of each link
+    std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
+    double tip_mass = 0;                    ///< of pin 0
+    double tip_mass_rest = 0;
+    double rounding_root = 0;           ///< root of C of docs/accuracy.md: sum over j of k_j (sum of 1/k from j up)
+    std::vector<Bounds> bounds;         ///< of each run of `longest_leg` links
+    double largest_swing = 0;           ///< max X/k
+    double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
+    double skew_against_turn = 0;       ///< max p q (W / turn)^(1/2): how much a link's two offsets can cancel
+    double skew_against_stiffness = 0;  ///< max p q (W / k)^(1/2)
+    double data_error = 0;              ///< what the wide entries' own error may come to, of any number
+    bool swings = false;                ///< some X is not 0
+    bool fit = true;                    ///< masses >= 0 and all numbers in a range whose squares are normal
+
+    std::size_t size() const { return links.size(); }
+};
+
+template <Real S>
+LumpedChain pinned(const ElementPencil<S>& wide) {
+    LumpedChain chain;
+    const std::size_t n = wide.elements.size();
+    chain.links.reserve(n);
+    chain.rests.reserve(n);
+    chain.fit = wide.units.empty();
+    double cancelled = 1;
+    const S zero(0.0);
+    const auto in_range = [](double x) { return x > 0x1p-150 && x < 0x1p150; };
+    S carried = zero;  // B + X of the link below
+    double carried_size = 0;
+    for (std::size_t m = 0; m < n; ++m) {
+        const Element<S>& e = wide.elements[m];
+        const S cross = e.cross, mass = carried + (e.lower + cross);
+        const double x = static_cast<double>(cross);
+        const double cross_size = std::abs(x) + 2 * static_cast<double>(e.turning);  // what its error is relative to
+        const double size = carried_size + (static_cast<double>(e.lower) + cross_size);
+        carried = e.upper + cross;
+        carried_size = static_cast<double>(e.upper) + cross_size;
+        const double pin = static_cast<double>(mass), rest = static_cast<double>(mass - S(pin));
+        // negative masses are not served, nor sums that cancel to less than a 2^-30th
+        chain.fit = chain.fit && (pin == 0 || in_range(pin));
+        if (pin != 0) cancelled = std::max(cancelled, size / pin);
+        (m == 0 ? chain.tip_mass : chain.links[m - 1].mass) = pin;
+        (m == 0 ? chain.tip_mass_rest : chain.rests[m - 1].mass) = rest;
+        const double k = static_cast<double>(e.stiffness);
+        const double swing = static_cast<double>(cross / e.stiffness);
+        const S weight(e.weight);
+        const bool massless = e.weight == 0;
+        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, swing, e.weight,
+                               massless ? 0.0 : static_cast<double>((e.lower + cross) / weight),
+                               massless ? 0.0 : static_cast<double>((e.upper + cross) / weight),
+                               static_cast<double>(e.turning)});
+        chain.rests.push_back({static_cast<double>(e.stiffness - S(k)), 0.0, x, static_cast<double>(cross - S(x))});
+        const LumpedLink& last = chain.links.back();
+        const double shares = last.lower_share * last.upper_share;
+        if (shares != 0 && last.lower_share != 0.5) {
+            const double skewed = shares * std::sqrt(e.weight);
+            chain.skew_against_turn = std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
+            chain.skew_against_stiffness = std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
+        }
+        chain.swings = chain.swings || x != 0;
+        chain.fit = chain.fit && in_range(k) && (cross == zero || in_range(x));
+        if (cross != zero) cancelled = std::max(cancelled, cross_size / x);
+    }
+    chain.fit = chain.fit && cancelled < 0x1p30;
+    chain.data_error = 16 * cancelled * static_cast<double>(wide.entry_error);
+    chain.bounds.assign((n - 1) / longest_leg + 1, {});
+    for (std::size_t m = 0; m < n; ++m) {
+        const LumpedLink& link = chain.links[m];
+        Bounds& b = chain.bounds[m / longest_leg];
+        const double root = m + 1 < n ? std::sqrt(link.stiffness / link.mass) : 0;  // the held pin does not move
+        b.swing = std::max(b.swing, link.swing);
+        chain.largest_swing = std::max(chain.largest_swing, link.swing);
+        b.root = std::max(b.root, root);
+        b.swing_root = std::max(b.swing_root, root * link.swing);
+    }
+    chain.flexibility_above.assign(n + 1, 0.0);
+    double square = 0;
+    for (std::size_t m = n; m-- > 0;) {
+        const LumpedLink& link = chain.links[m];
+        chain.flexibility_above[m] = chain.flexibility_above[m + 1] + link.flexibility;
+        square += link.stiffness * chain.flexibility_above[m];
+        const double below = m == 0 ? chain.tip_mass : chain.links[m - 1].mass;
+        chain.max_mass_to_stiffness =
+            std::max(chain.max_mass_to_stiffness,
+                     (std::max(link.mass, below) + std::abs(link.swing) * link.stiffness) * link.flexibility);
+    }
+    chain.rounding_root = std::sqrt(square) * (1 + 0x1p-20);
+    return chain;
+}
+
+/// How many links may be walked before sizes are looked at, a power of 2: the growth stays below 2^300.
+inline std::size_t stretch_length(const LumpedChain& chain, double largest_shift, std::size_t longest) {
+    const double growth = std::log2(4.0 + 2.0 * largest_shift * chain.max_mass_to_stiffness);
+    return std::bit_floor(std::clamp(static_cast<std::size_t>(300.0 / growth), std::size_t(1), longest));
+}
+
+/// Whether some of the sizes between `least` and `most` are to be brought back near 1.
+template <class V>
+[[gnu::always_inline]] inline bool strays(const V& least, const V& most) {
+    return any((bits(least) - bits(V(0x1p-100))) | (bits(V(0x1p100)) - bits(most)));  // NaN included
+}
+
+}  // namespace revchain::pencil::spectrum

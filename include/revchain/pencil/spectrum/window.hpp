@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/pencil/spectrum/chebyshev.hpp"
+#include "revchain/pencil/spectrum/samples.hpp"
+
+namespace revchain::pencil::spectrum {
+
+/// The eigenvalues mu number first ... last - 1 (from 0, ascending) lie in [lower, upper), by counts in double.
+struct Window {
+    double lower = 0, upper = 0;
+    Index first = 0, last = 0;
+
+    Index size() const { return last - first; }
+};
+
+/// Cuts the spectrum from eigenvalue `first` to `last` (mu = 1/lambda, ascending) into windows of at most `most`
+/// eigenvalues each, by counts. Windows end at the ends of the range only where other eigenvalues are cut off, so the
+/// first and the last may hold more than was asked. Ascending. Cost: about 2 (last - first)/most counts.
+inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index last, Index most) {
+    const Index piece = std::max<Index>(most / 5, 1);  // merged at the end: windows are then nearly full
+    // all of them: mu from 0 up, by powers of 4 until the count suffices. Not by round numbers: at those a part of a chain of
+    // equal links may have an eigenvalue, and no count is proved.
+    double upper = 1 + 0x1.b7p-7;
+    Window whole{0, 0, 0, 0};
+    for (bool found = false; !found && upper < 0x1p900;) {
+        std::vector<double> shifts(24);
+        for (double& s : shifts) s = upper, upper *= 4;
+        const auto counted = sample_all(chain, shifts);
+        for (std::size_t i = 0; i < shifts.size() && !found; ++i) {
+            if (counted[i].below >= last) {
+                whole.upper = shifts[i], whole.last = counted[i].below;
+                found = true;
+            } else if (counted[i].below <= first && counted[i].below >= whole.first) {
+                whole.lower = shifts[i], whole.first = counted[i].below;
+            }
+        }
+        if (!found) continue;
+    }
+    std::vector<Window> work{whole}, done;
+    std::vector<double> shifts;
+    while (!work.empty()) {
+        std::vector<std::size_t> pieces;
+        shifts.clear();
+        for (const Window& w : work) {
+            const std::size_t cuts =
+                static_cast<std::size_t>(std::clamp<Index>((w.size() + piece - 1) / piece - 1, 1, 31));
+            pieces.push_back(cuts);
+            const bool wide = w.upper > 4 * w.lower && w.lower > 0;
+            for (std::size_t c = 1; c <= cuts; ++c) {
+                const double share = static_cast<double>(c) / static_cast<double>(cuts + 1);
+                shifts.push_back(wide ? w.lower * std::pow(w.upper / w.lower, share)
+                                      : w.lower + (w.upper - w.lower) * share);
+            }
+        }
+        const auto counted = sample_all(chain, shifts);
+        std::vector<Window> next;
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < work.size(); ++i) {
+            Window rest = work[i];
+            const auto keep = [&](const Window& w) {
+                if (w.last <= std::max(first, w.first) || w.first >= last) return;
+                const bool wide = w.upper > 4 * w.lower;
+                const bool divisible = w.upper - w.lower > 0x1p-40 * w.upper;
+                ((w.size() > piece || wide) && divisible ? next : done).push_back(w);
+            };
+            for (std::size_t c = 0; c < pieces[i]; ++c, ++at) {
+                // counts may waver within a few ulp: clamped, no eigenvalue is lost
+                const Index below = std::clamp(counted[at].below, rest.first, rest.last);
+                keep({rest.lower, shifts[at], rest.first, below});
+                rest.lower = shifts[at], rest.first = below;
+            }
+            keep(rest);
+        }
+        work = std::move(next);
+    }
+    std::sort(done.begin(), done.end(), [](const Window& a, const Window& b) { return a.first < b.first; });
+    std::vector<Window> merged;
+    for (const Window& w : done) {
+        Window* last_one = merged.empty() ? nullptr : &merged.back();
+        if (last_one != nullptr && last_one->last == w.first && w.last - last_one->first <= most &&
+            w.upper <= 4 * last_one->lower)
+            last_one->upper = w.upper, last_one->last = w.last;
+        else
+            merged.push_back(w);
+    }
+    return merged;
+}
+
+/// Nodes for a window, a multiple of 8: a sine with as many zeros needs pi/2 each and a margin that grows with the cube root.
+inline std::size_t node_count(Index modes) {
+    const double c = 1.65 * static_cast<double>(modes);
+    return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + 7) / 8 * 8;
+}
+
+/// Approximate eigenvalues of a window from samples of the characteristic polynomial at its Chebyshev nodes, ascending:
+/// the zeros of the interpolant of f exp(-trend), where the trend, quadratic in the shift, takes the exponential growth
+/// out of f and leaves its zeros where they are. Empty where their number is not that of the counts, or where one is
+/// less certain than 1/1000 of its distance to the next: then `sure` windows have to be smaller.
+inline std::vector<double> interpolated(const Window& window, const Sample* samples, std::size_t n, bool sure) {
+    std::vector<double> values(n), nodes(n);
+    std::vector<int> exponents(n);
+    double t0 = 0, t1 = 0, t2 = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        values[i] = std::frexp(samples[i].value, &exponents[i]);
+        exponents[i] += samples[i].exponent;
+        const double size = std::log2(std::abs(values[i]) + 1e-30) + exponents[i], x = nodes[i] = Chebyshev::node(i, n);
+        t0 += size, t1 += size * x, t2 += size * (2 * x * x - 1);
+    }
+    const double count = static_cast<double>(n);
+    const int level = static_cast<int>(t0 / count);
+    t1 *= 2 / count, t2 *= 2 / count;
+    for (std::size_t i = 0; i < n; ++i)  // the large exponents cancel before anything is rounded
+        values[i] *= std::exp2((exponents[i] - level) - (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
+    std::vector<double> roots;
+    simd([&](auto registers) __attribute__((always_inline)) {
+        // As many at a time as the latency of one fused multiply-add has room for and registers can hold.
+        using V = Pack<double, registers.doubles, registers.bytes / 16>;
+        const Chebyshev p = interpolant<V>(values);
+        roots = zeros<V>(p, window.size());
+        if (sure && !certain<V>(p, roots)) roots.clear();
+    });
+    if (static_cast<Index>(roots.size()) != window.size()) return {};
+    for (double& x : roots) x = window.lower + (window.upper - window.lower) * 0.5 * (1 + x);
+    return roots;
+}
+
+/// Cuts a window in four by counts.
+inline std::vector<Window> quartered(const LumpedChain& chain, const std::vector<Window>& windows) {
+    std::vector<double> shifts;
+    for (const Window& w : windows)
+        for (int i = 1; i < 4; ++i) shifts.push_back(w.lower + (w.upper - w.lower) * (0.25 * i + 0.01));
+    const auto counts = sample_all(chain, shifts);
+    std::vector<Window> result;
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        Window rest = windows[i];
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            const Index below = std::clamp(counts[c].below, rest.first, rest.last);
+            if (below > rest.first) result.push_back({rest.lower, shifts[c], rest.first, below});
+            rest.lower = shifts[c], rest.first = below;
+        }
+        if (rest.size() > 0) result.push_back(rest);
+    }
+    return result;
+}
+
+/// Approximate shifts of the eigenvalues `first` ... `last - 1` and those that share their windows, into
+/// `candidates[.].shift`, ascending, and the links below where they live into `.place`. Windows whose interpolant has not as many zeros as counts say are cut up; false if
+/// that does not end.
+template <class Candidate>
+bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Window>& found,
+             std::vector<Candidate>& candidates) {
+    found = windows(chain, first, last, 48);
+    if (found.empty() || found.front().first > first || found.back().last < last) return false;
+    const Index begin = found.front().first;
+    candidates.assign(static_cast<std::size_t>(found.back().last - begin), {});
+    std::vector<Window> work = found;
+    for (int round = 0; round < 12 && !work.empty(); ++round) {
+        if (round > 0) work = quartered(chain, work);
+        std::vector<double> shifts;
+        for (const Window& w : work) {
+            const std::size_t n = node_count(w.size());
+            for (std::size_t i = 0; i < n; ++i)
+                shifts.push_back(w.lower + (w.upper - w.lower) * 0.5 * (1 + Chebyshev::node(i, n)));
+        }
+        std::vector<std::uint64_t> history;
+        const auto samples = sample_all(chain, shifts, &history);
+        const std::size_t words = history_words(chain.size());
+        std::vector<Window> failed;
+        struct Neighbours {
+            std::size_t number, below, above;  // of the candidate, and of samples with no other zero between
+        };
+        std::vector<Neighbours> placed;
+        std::vector<double> between_roots;
+        std::size_t at = 0;
+        for (const Window& w : work) {
+            const std::size_t n = node_count(w.size());
+            const auto roots = interpolated(w, &samples[at], n, round < 3);
+            if (static_cast<Index>(roots.size()) != w.size()) {
+                failed.push_back(w);
+            } else {
+                std::size_t cell = n - 1;  // nodes descend
+                for (std::size_t i = 0; i < roots.size(); ++i) {
+                    const std::size_t before = cell;
+                    while (cell > 1 && shifts[at + cell - 1] < roots[i]) --cell;
+                    const std::size_t number = static_cast<std::size_t>(w.first - begin) + i;
+                    candidates[number].shift = roots[i];
+                    Neighbours around{number, at + cell, at + cell - 1};
+                    if (i > 0 && before == cell) {  // two between the same nodes: another sample between them
+                        placed.back().above = around.below = samples.size() + between_roots.size();
+                        between_roots.push_back(roots[i - 1] + 0.5 * (roots[i] - roots[i - 1]));
+                    }
+                    placed.push_back(around);
+                }
+            }
+            at += n;
+        }
+        std::vector<std::uint64_t> more;
+        sample_all(chain, between_roots, &more);
+        history.resize(samples.size() * words);
+        history.insert(history.end(), more.begin(), more.end());
+        for (const Neighbours& i : placed)
+            candidates[i.number].place = place(&history[i.below * words], &history[i.above * words], chain.size());
+        work = std::move(failed);
+    }
+    // What is left has a bracket too narrow for the interpolant to tell its zeros apart: counts will have to.
+    for (const Window& w : work)
+        for (Index j = w.first; j < w.last; ++j)
+            candidates[static_cast<std::size_t>(j - begin)].shift = w.lower + (w.upper - w.lower) / 2;
+    return true;
+}
+
+}  // namespace revchain::pencil::spectrum

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "revchain/pencil/element.hpp"
+
+namespace revchain::pencil {
+
+namespace detail {
+
+/// cross / pivot, the ratio of two neighbouring offsets, from its difference to 1 where that is small: the slope of a
+/// smooth mode is then not the difference of two rounded offsets. The difference in digits of T, enough for offsets that
+/// are rounded to T in the end.
+template <class T, Real S>
+S ratio(const S& cross, const S& pivot) {
+    using std::abs;
+    const T change = static_cast<T>(cross - pivot) / static_cast<T>(pivot);
+    return abs(static_cast<Narrow<S>>(change)) < Narrow<S>(0.5) ? S(T(1)) + S(change) : cross / pivot;
+}
+
+/// Dynamic stiffness carried across an element by the one of equations (1) and (2) that rounds less, and the ratio of the
+/// offset at `near`'s pin to that at the other; `near_mass` and `far_mass` are the element's own at the two pins.
+template <Real S>
+struct Across {
+    S stiffness, ratio;
+};
+
+template <class Ratio, Real S>
+Across<S> across(const Element<S>& e, const S& stiffness, const S& near, const S& near_mass, const S& far_mass) {
+    using std::abs;
+    using T = Narrow<S>;
+    const S coupling = stiffness + e.cross;
+    const S pivot = not_zero(near + (stiffness - near_mass), stiffness);
+    const S inverse = S(T(1)) / pivot;
+    const T k = static_cast<T>(stiffness), far = static_cast<T>(far_mass), p = abs(static_cast<T>(pivot));
+    const T by_coupling =
+        T(2) * abs(static_cast<T>(coupling)) * ((k + e.weight + static_cast<T>(near_mass) + far) / p) + (k + far);
+    const T by_weight = (k + far) * (abs(static_cast<T>(near)) / p) + (k + static_cast<T>(e.turning)) * (e.weight / p);
+    return {by_coupling < by_weight ? carried_by_coupling(stiffness, far_mass, coupling, inverse)
+                                    : carried(e, stiffness, near, far_mass, inverse),
+            ratio<Ratio>(coupling, pivot)};
+}
+
+/// x in another unit, held where it would leave the range of the scalar: all but rigid.
+template <Real S>
+S rescaled(const S& x, int step) {
+    using std::abs;
+    using std::ldexp;
+    using T = Narrow<S>;
+    if (step == 0) return x;
+    const S limit(ldexp(T(1), std::numeric_limits<T>::max_exponent / 2));
+    if (step > 0 && abs(x) > ldexp(limit, -step)) return x < S(T(0)) ? -limit : limit;
+    return ldexp(x, step);
+}
+
+}  // namespace detail
+
+/// Where a mode crosses the axis: in `element`, at `share` of its length from its lower pin.
+template <Real T>
+struct Crossing {
+    Index element{};
+    T share{};
+};
+
+/// Offsets of pins 0 ... N, free end first, the held pin last (0): the largest is 1 in size, the free end positive.
+/// Crossings and the free end's sign are those of the exact ratios of neighbours: they outlast offsets that underflow.
+template <Real T>
+struct Eigenvector {
+    Vector<T> offset;
+    std::vector<Crossing<T>> crossings;  ///< lowest first, the held pin left out
+};
+
+/// The same from offsets alone, as dense solvers give them.
+template <Real T>
+Eigenvector<T> normalised(Vector<T> offset) {
+    using std::abs;
+    Eigenvector<T> result;
+    T largest(0), side(0), sign(0);  // side: the offset last seen off the axis; sign: the first
+    for (Index m = 0; m < offset.size(); ++m) {
+        const T y = offset[m];
+        if (abs(y) > largest) largest = abs(y);
+        if (y == T(0)) continue;
+        if (sign == T(0)) sign = y;
+        if (m + 1 < offset.size() && side != T(0) && (y < T(0)) != (side < T(0)))
+            result.crossings.push_back({m - 1, offset[m - 1] == T(0) ? T(0) : offset[m - 1] / (offset[m - 1] - y)});
+        side = y;
+    }
+    if (sign < T(0)) largest = -largest;
+    for (T& y : offset) y = y / largest + T(0);  // no -0
+    result.offset = std::move(offset);
+    return result;
+}
+
+/// The same before it is rounded to the narrower scalar: offsets over `largest`, whose sign makes the free end positive.
+template <Real S>
+struct UnroundedEigenvector {
+    std::vector<S> offset;
+    S largest;
+    std::vector<Crossing<Narrow<S>>> crossings;
+};
+
+/// Eigenvector of the pencil at an eigenvalue.
+///
+/// Twisted factorisation: dynamic stiffness D of what hangs below each pin, going up, and E of what holds it from
+/// above, going down; they balance best (|D + E| least) where the mode is largest, and from there the offsets follow
+/// outwards by ratios without cancellation. The plain upward recurrence loses 3e-11 near the support at N = 1e5.
+/// Dhillon, Parlett (2004), doi:10.1016/j.laa.2003.12.028, carried over to elements.
+/// Cost: two passes, four numbers of S per link of scratch. Accuracy, of the largest offset, measured: with S a double
+/// word 3.5e-16 for all modes up to N = 1000 and 6e-17 for the slowest at N = 1e5 (tests/cpp/pencil/twisted.cpp); with
+/// S = double 1.5e-15 / gap up to N = 1000 and 6e-13 at 1e5, where gap (at most 1) is the relative distance to the next
+/// eigenvalue. An error e in `eigenvalue` adds e / gap.
+/// Ratio: what the ratios of neighbours are kept in. With S itself the slopes, too, are good to the digits of S.
+template <class Ratio, Real S>
+UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
+    using std::abs;
+    using T = Narrow<S>;
+    const Index n = pencil.size();
+    const S zero(T(0));
+    struct Pin {
+        S stiffness_below;  // D
+        S down;             // offset of this pin over that of the pin above
+        S up;               // offset of the pin above over that of this pin
+    };
+    std::vector<Pin> pins(static_cast<std::size_t>(n));
+    S below = zero;
+    for (std::size_t m = 0; m < pins.size(); ++m) {
+        const Element<S>& e = pencil.elements[m];
+        pins[m].stiffness_below = below = detail::rescaled(below, pencil.step_down(m));
+        const auto across = detail::across<Ratio>(e, eigenvalue * e.stiffness, below, e.lower, e.upper);
+        below = across.stiffness;
+        pins[m].down = across.ratio;
+    }
+    std::size_t twist = pins.size() - 1;
+    T least = std::numeric_limits<T>::infinity();
+    S above = zero;
+    for (std::size_t m = pins.size(); m-- > 0;) {
+        const Element<S>& e = pencil.elements[m];
+        const S stiffness = eigenvalue * e.stiffness;
+        if (m + 1 == pins.size()) {  // the held pin: infinitely stiff above
+            pins[m].up = zero;
+            above = stiffness - e.lower;
+        } else {
+            above = detail::rescaled(above, -pencil.step_down(m + 1));
+            const auto across = detail::across<Ratio>(e, stiffness, above, e.upper, e.lower);
+            pins[m].up = across.ratio;
+            above = across.stiffness;
+        }
+        // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the mode,
+        // and the ratios between them cancel.
+        T forces = static_cast<T>(stiffness) + static_cast<T>(e.lower);
+        if (m > 0) {
+            const Element<S>& hung = pencil.elements[m - 1];
+            forces = forces + detail::rescaled(static_cast<T>(eigenvalue * hung.stiffness) + static_cast<T>(hung.upper),
+                                               pencil.step_down(m));
+        }
+        const T balance = abs(static_cast<T>(pins[m].stiffness_below + above)) / forces;
+        if (balance < least) {
+            least = balance;
+            twist = m;
+        }
+    }
+    std::vector<S> offset(pins.size() + 1);
+    offset[twist] = S(T(1));
+    for (std::size_t m = twist; m-- > 0;) offset[m] = pins[m].down * offset[m + 1];
+    for (std::size_t m = twist; m < pins.size(); ++m) offset[m + 1] = pins[m].up * offset[m];
+
+    UnroundedEigenvector<S> result{{}, zero, {}};
+    S& largest = result.largest;
+    for (const S& y : offset)
+        if (abs(y) > largest) largest = abs(y);
+    for (std::size_t m = 0; m < pins.size(); ++m) {
+        const T down = static_cast<T>(pins[m].down), up = static_cast<T>(pins[m].up);
+        if (m < twist && down < T(0)) {
+            result.crossings.push_back({static_cast<Index>(m), down / (down - T(1))});
+            largest = -largest;  // the free end is to be positive, and each crossing below the twist changes its sign
+        }
+        if (m >= twist && up < T(0)) result.crossings.push_back({static_cast<Index>(m), T(1) / (T(1) - up)});
+    }
+    result.offset = std::move(offset);
+    return result;
+}
+
+/// The same rounded.
+template <Real S>
+Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
+    using T = Narrow<S>;
+    UnroundedEigenvector<S> vector = unrounded_eigenvector<Narrow<S>>(pencil, eigenvalue);
+    Eigenvector<T> result{Vector<T>(pencil.size() + 1), std::move(vector.crossings)};
+    for (Index m = 0; m <= pencil.size(); ++m)
+        result.offset[m] = static_cast<T>(vector.offset[static_cast<std::size_t>(m)] / vector.largest + S(T(0)));
+    return result;
+}
+
+namespace detail {
+
+/// Offsets of an element's pins, brought to one unit for all elements where their own differ: forces are as offsets times
+/// weights (`share` 1), energies as squares of offsets times weights (`share` 2). The largest is then of the order of 1.
+template <Real S, Real T>
+class InOneUnit {
+   public:
+    InOneUnit(const ElementPencil<S>& pencil, const Vector<T>& offset, int share)
+        : pencil_(pencil), offset_(offset), share_(share) {
+        using std::abs;
+        using std::frexp;
+        bool first = true;
+        for (std::size_t m = 0; m < pencil.units.size(); ++m)
+            for (Index pin = static_cast<Index>(m); pin < static_cast<Index>(m) + 2; ++pin) {
+                if (offset[pin] == T(0)) continue;
+                int exponent = 0;
+                frexp(offset[pin], &exponent);
+                exponent += pencil.units[m] / share;
+                if (first || exponent > largest_) largest_ = exponent;
+                first = false;
+            }
+    }
+    S operator()(std::size_t element, Index pin) const {
+        using std::ldexp;
+        const T& y = offset_[pin];
+        return S(static_cast<Narrow<S>>(
+            pencil_.units.empty() ? y : T(ldexp(y, pencil_.units[element] / share_ - largest_))));
+    }
+
+   private:
+    const ElementPencil<S>& pencil_;
+    const Vector<T>& offset_;
+    int share_;
+    int largest_ = 0;
+};
+
+}  // namespace detail
+
+/// lambda = y^T M y / y^T K y in S, element by element, from offsets in a narrower scalar: its error is the square of
+/// theirs, so that offsets good to 1e-13 give a quotient good to 1e-25. Both sums have positive terms only.
+/// Preconditions: offsets of pins 0 ... N, not all 0. Cost: one pass, no division.
+template <Real S, Real T>
+S rayleigh_quotient(const ElementPencil<S>& pencil, const Vector<T>& offset) {
+    const detail::InOneUnit<S, T> offsets(pencil, offset, 2);
+    S inertia(0), stiffness(0);
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        const Element<S>& e = pencil.elements[m];
+        const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
+        const S difference = lower - upper;
+        const S twice_cross = e.cross * S(Narrow<S>(2));
+        inertia = inertia + (lower * (e.lower * lower + twice_cross * upper) + e.upper * upper * upper);
+        stiffness = stiffness + e.stiffness * difference * difference;
+    }
+    return inertia / stiffness;
+}
+
+/// Backward error of (eigenvalue, offset): the largest force left unbalanced at a pin, relative to the largest sum of
+/// the forces' terms that meet at a pin, max |(lambda K - M) y| / max (|lambda K| |y| + |M| |y|). Evaluated in S, so
+/// that what is reported is the error of the offsets and not of the evaluation. Cost: one pass.
+template <Real S, Real T>
+T relative_residual(const ElementPencil<S>& pencil, const T& eigenvalue, const Vector<T>& offset) {
+    using std::abs;
+    using M = Narrow<S>;
+    const auto size_of = [](const S& x) { return abs(static_cast<M>(x)); };
+    const detail::InOneUnit<S, T> offsets(pencil, offset, 1);
+    M largest(0), worst(0), size(0);
+    S force(M(0));  // carried over from the link below
+    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        const Element<S>& e = pencil.elements[m];
+        const S k = e.stiffness * S(static_cast<M>(eigenvalue));
+        const S cross = e.cross;
+        const S lower = offsets(m, static_cast<Index>(m)), upper = offsets(m, static_cast<Index>(m) + 1);
+        const S spring = k * (lower - upper);
+        const M spring_size = size_of(k) * (size_of(lower) + size_of(upper));
+        worst = std::max(worst, size_of(force + (spring - (e.lower * lower + cross * upper))));
+        largest = std::max(largest, size + spring_size + size_of(e.lower * lower) + size_of(cross * upper));
+        force = -spring - (cross * lower + e.upper * upper);
+        size = spring_size + size_of(cross * lower) + size_of(e.upper * upper);
+    }
+    return largest > M(0) ? static_cast<T>(worst / largest) : T(0);
+}
+
+}  // namespace revchain::pencil

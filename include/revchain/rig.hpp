@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "revchain/chain.hpp"
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/numeric/status.hpp"
+#include "revchain/system/link.hpp"
+
+namespace revchain {
+
+/// What the uppermost pin is held by. As it stands: a firm point on the axis.
+struct Support {
+    double stiffness = std::numeric_limits<double>::infinity();  ///< sideways, force over length; infinite where firm
+    double carriage_weight = 0;  ///< of what moves sideways with the pin, on a support that yields
+    double radius = 0;           ///< of the circle in which the support's place of rest is carried round; 0 on the axis
+
+    bool is_firm() const { return std::isinf(stiffness); }
+    friend bool operator==(const Support&, const Support&) = default;
+};
+
+/// A pin that slides sideways on a spring, Greenhill (1908) §2 (7): for small amplitudes a thread of length W/E, W all
+/// that hangs from it. Throws InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
+inline Support horizontal_spring(double stiffness, double carriage_weight = 0) {
+    detail::require_positive("horizontal_spring", "stiffness", stiffness);
+    if (!(carriage_weight >= 0) || !std::isfinite(carriage_weight))
+        detail::throw_invalid("horizontal_spring", "carriage weight must be finite and not negative", carriage_weight);
+    return {stiffness, carriage_weight, 0};
+}
+
+/// A pin carried round the axis: a chair on the arm of a carousel, a hand, Greenhill (1908) §1 (9).
+/// Throws InvalidArgument unless radius >= 0 and finite.
+inline Support carried_round(double radius) {
+    if (!(radius >= 0) || !std::isfinite(radius))
+        detail::throw_invalid("carried_round", "radius must be finite and not negative", radius);
+    return {.radius = radius};
+}
+
+/// Angular momentum that a link carries along its own axis, counted from its lower pin to its upper one: for a hanging
+/// link the sense of a positive bodily rotation. What of it is kept and what turns with the link are two numbers,
+///     p = momentum + axial_moment n cos(inclination) / g.
+/// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
+struct Flywheel {
+    double momentum = 0;      ///< H, kept whatever the link does; weight times length times time, any sign
+    double axial_moment = 0;  ///< C >= 0, weight times length squared (over g: a moment of inertia)
+
+    friend bool operator==(const Flywheel&, const Flywheel&) = default;
+};
+
+namespace detail {
+inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration, double spin,
+                                double gravity) {
+    const auto not_negative = [&](std::string_view name, double x) {
+        if (!(x >= 0) || !std::isfinite(x))
+            throw_invalid(place, std::string(name) + " must be finite and not negative", x);
+    };
+    not_negative("weight", weight), not_negative("radius of gyration", radius_of_gyration);
+    if (!std::isfinite(spin)) throw_invalid(place, "spin must be finite", spin);
+    require_positive(place, "gravity", gravity);
+    const double moment = weight * radius_of_gyration * radius_of_gyration, momentum = moment / gravity * spin;
+    if (!std::isfinite(moment) || !std::isfinite(momentum))
+        throw_invalid(place, "weight radius of gyration^2 spin / gravity must be finite; radius of gyration",
+                      radius_of_gyration);
+    return {momentum, moment};
+}
+}  // namespace detail
+
+/// A wheel on free bearings: it keeps its spin, `spin` rad/s about the link's axis as seen from outside.
+/// Throws InvalidArgument for negative weight or radius of gyration, gravity not positive, numbers not finite.
+inline Flywheel free_flywheel(double weight, double radius_of_gyration, double spin,
+                              double gravity = conical_pendulum::standard_gravity) {
+    return {detail::turned_flywheel("free_flywheel", weight, radius_of_gyration, spin, gravity).momentum, 0};
+}
+
+/// A wheel that a motor turns with `spin` rad/s relative to a link, which itself turns about its axis with the whole.
+/// Throws as free_flywheel does.
+inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double spin,
+                                double gravity = conical_pendulum::standard_gravity) {
+    return detail::turned_flywheel("driven_flywheel", weight, radius_of_gyration, spin, gravity);
+}
+
+/// The fluid around a chain: at rest, or turning bodily with it.
+enum class Fluid { still, turning };
+
+/// What a link displaces. Its centre of buoyancy and radius of gyration are those of the fluid that would fill it.
+struct Displaced {
+    double weight = 0;                 ///< B >= 0, of the fluid displaced
+    double centroid = 0;               ///< of it, from the upper pin, positive towards the lower
+    Wide<double> gyration_ratio{0.0};  ///< (radius of gyration / length of the link)^2, about that centroid
+    double added_weight = 0;           ///< of fluid that has to move with the link, in still fluid; spread as B is
+
+    friend bool operator==(const Displaced&, const Displaced&) = default;
+};
+
+/// Of a body of one density throughout, whose fluid it displaces has its centre and radius of gyration.
+inline Displaced displaced_by(const Link<double>& link, double weight, double added_weight = 0) {
+    return {weight, link.centroid, link.gyration_ratio, added_weight};
+}
+
+/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0).
+enum class Posture { hangs = 1, stands = -1 };
+
+/// What a chain may be rigged with; each list has one entry for each link, lowest first, or is empty.
+struct Rigging {
+    Support support{};
+    std::vector<Posture> posture{};  ///< in which the straight chain balances
+    std::vector<Flywheel> flywheels{};
+    Fluid fluid = Fluid::still;
+    std::vector<Displaced> displaced{};
+
+    friend bool operator==(const Rigging&, const Rigging&) = default;
+};
+
+/// A chain and what it is rigged with: a support that yields or is carried round, links that stand, flywheels, a fluid
+/// that bears part of the weight. A chain without any of it is a `Chain` and pays for none of it.
+///
+/// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the chain, numbers that are
+/// not finite, a support without stiffness, and a negative carriage weight, radius, axial moment, weight displaced or added. Cost O(N) once.
+class Rig {
+   public:
+    Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
+
+    const Chain<double>& chain() const { return chain_; }
+    const Support& support() const { return with_.support; }
+    const Rigging& rigging() const { return with_; }
+    Index size() const { return chain_.size(); }
+    Fluid fluid() const { return with_.fluid; }
+
+    bool stands(Index m) const {
+        return !with_.posture.empty() && with_.posture[static_cast<std::size_t>(m)] == Posture::stands;
+    }
+    Flywheel flywheel(Index m) const {
+        return with_.flywheels.empty() ? Flywheel{} : with_.flywheels[static_cast<std::size_t>(m)];
+    }
+    /// The fluid that link m displaces. A link without an entry, or with a default one, displaces nothing; the centre
+    /// and the radius of gyration are then those of the link.
+    Displaced displaced(Index m) const {
+        const Displaced given = with_.displaced.empty() ? Displaced{} : with_.displaced[static_cast<std::size_t>(m)];
+        return given == Displaced{} ? displaced_by(chain_.link(m), 0) : given;
+    }
+    /// Whether what link m displaces, if anything, is spread as the link itself.
+    bool fills_its_link(Index m) const {
+        const Displaced fluid = displaced(m);
+        const Link<double> link = chain_.link(m);
+        return (fluid.weight == 0 && fluid.added_weight == 0) ||
+               (fluid.centroid == link.centroid && fluid.gyration_ratio == link.gyration_ratio);
+    }
+    /// Whether any link's angular momentum is its own, so that the two senses of rotation differ.
+    bool has_momentum() const {
+        return std::any_of(with_.flywheels.begin(), with_.flywheels.end(),
+                           [](const Flywheel& wheel) { return wheel.momentum != 0; });
+    }
+
+    friend bool operator==(const Rig&, const Rig&) = default;
+
+   private:
+    void check() const;
+
+    Chain<double> chain_;
+    Rigging with_;
+};
+
+inline void Rig::check() const {
+    const auto need = [](bool good, std::string_view place, std::string_view sentence, double value) {
+        if (!good) detail::throw_invalid(place, sentence, value);
+    };
+    const auto not_negative = [](double x) { return x >= 0 && std::isfinite(x); };
+    const auto as_long = [&](std::size_t stored, std::string_view name) {
+        if (stored != 0 && stored != static_cast<std::size_t>(size()))
+            detail::throw_invalid("Rig",
+                                  std::string(name) + " must be empty or have one entry for each of the " +
+                                      std::to_string(size()) + " links",
+                                  stored);
+    };
+    as_long(with_.posture.size(), "posture"), as_long(with_.flywheels.size(), "flywheels");
+    as_long(with_.displaced.size(), "displaced");
+    const Support& support = with_.support;
+    need(support.stiffness > 0, "Rig", "the stiffness of the support must be positive", support.stiffness);
+    need(not_negative(support.carriage_weight), "Rig", "carriage weight must be finite and not negative",
+         support.carriage_weight);
+    need(not_negative(support.radius), "Rig", "radius of the support must be finite and not negative", support.radius);
+    for (Index m = 0; m < size(); ++m) {
+        const std::string place = "Rig: link " + std::to_string(m + 1);
+        const Flywheel wheel = flywheel(m);
+        need(std::isfinite(wheel.momentum), place, "momentum must be finite", wheel.momentum);
+        need(not_negative(wheel.axial_moment), place, "axial moment must be finite and not negative",
+             wheel.axial_moment);
+        const Displaced fluid = displaced(m);
+        need(not_negative(fluid.weight), place, "weight displaced must be finite and not negative", fluid.weight);
+        need(std::isfinite(fluid.centroid), place, "centre of buoyancy must be finite", fluid.centroid);
+        need(not_negative(fluid.added_weight), place, "added weight must be finite and not negative",
+             fluid.added_weight);
+        need(not_negative(static_cast<double>(fluid.gyration_ratio)), place,
+             "(radius of gyration / length)^2 of the fluid displaced must be finite and not negative",
+             static_cast<double>(fluid.gyration_ratio));
+    }
+}
+
+/// What a rigged link is at its two pins, in the units of `Rig::chain().units()`.
+///
+/// Greenhill (1908) §8 with weights that bear (less what the fluid does) apart from those that move (with what it adds).
+/// At any inclination, y the offsets, t and s tangent and sine, R the moment about the upper pin as if the link hung
+/// vertically over the distance between the pins, n the speed and lambda = g/n^2:
+///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
+///     y = y_below - length s,          H = R + rest y.
+/// Of small inclinations the stiffness is (tension + n spin)/length, negative where the link stands, the mass
+/// [lower cross; cross upper].
+struct RigLink {
+    using S = Wide<double>;
+    S length;   ///< a
+    S tension;  ///< (W h + a S)/a of the weights that bear; of a standing link a thrust
+    S spin;     ///< momentum over length
+    S moment;   ///< W h/a of the weights that move
+    S rest;     ///< W (a - h)/a of them
+    S cross;    ///< X
+    S lower, upper;
+    S hung;  ///< weight that bears on the upper pin, of this link and all below
+    /// Sums of the sizes of the terms of each: a number is within `error_part` of that sum of the exact one.
+    struct Sizes {
+        double tension, lower, upper, cross, hung;
+    } size;
+    static constexpr double error_part = 64 * operation_error<S>();
+};
+
+/// The numbers of a rig's links, lowest first, in `Wide<double>`, each as near as `RigLink::error_part` says: three
+/// operations for a body's share, a few for their sum, and weights hung below in a sum that carries its own rounding.
+/// Cost O(N). Throws InvalidArgument where the chain's weights are more than 1e123 apart.
+inline std::vector<RigLink> rig_links(const Rig& rig) {
+    using S = Wide<double>;
+    const Chain<double>& chain = rig.chain();
+    if (!chain.has_one_weight_unit())
+        detail::throw_invalid("rig_links", "weights must not be more than 1e123 apart", chain.total_weight());
+    const ChainUnits units = chain.units();
+    const auto in_weights = [&](double x) { return std::ldexp(x, -units.weight_exponent); };
+    const auto in_lengths = [&](double x) { return std::ldexp(x, -units.length_exponent); };
+    std::vector<RigLink> links;
+    links.reserve(static_cast<std::size_t>(rig.size()));
+    detail::RunningSum<S> hung;
+    double hung_size = 0;
+    for (Index m = 0; m < rig.size(); ++m) {
+        const Link<double> link = chain.link(m);
+        const Displaced fluid = rig.displaced(m);
+        const Flywheel wheel = rig.flywheel(m);
+        const S a(in_lengths(link.length)), none(0.0), below = hung.value();
+        RigLink result{a, below, none, none, none, none, none, none, below, {hung_size, 0, 0, 0, hung_size}};
+        /// A body of the link: bearing (or borne, if less than 0) by one weight, moving by another.
+        const auto add = [&](const S& bears, const S& moves, double centroid, const S& gyration) {
+            const S h(in_lengths(centroid)), p = h / a, q = (a - h) / a;
+            hung.add(bears);
+            result.tension = result.tension + bears * p;
+            result.moment = result.moment + moves * p, result.rest = result.rest + moves * q;
+            result.cross = result.cross + (p * q - gyration) * moves;
+            result.lower = result.lower + (p * p + gyration) * moves;
+            result.upper = result.upper + (q * q + gyration) * moves;
+            const double near = std::abs(p.high), far = std::abs(q.high), turn = gyration.high;
+            const double weight = std::abs(bears.high), moved = std::abs(moves.high);
+            result.size.tension += weight * near, result.size.hung += weight;
+            result.size.lower += moved * (near * near + turn), result.size.upper += moved * (far * far + turn);
+            result.size.cross += moved * (near * far + turn);
+        };
+        const S weight(in_weights(link.weight)), borne(in_weights(fluid.weight));
+        const S carried = rig.fluid() == Fluid::turning ? -borne : S(in_weights(fluid.added_weight));
+        if (rig.fills_its_link(m)) {  // one body of the net weight, which may be none at all
+            add(weight - borne, weight + carried, link.centroid, link.gyration_ratio);
+        } else {
+            add(weight, weight, link.centroid, link.gyration_ratio);
+            add(-borne, carried, fluid.centroid, fluid.gyration_ratio);
+        }
+        if (wheel.axial_moment != 0) {  // turning with the link it lessens what a body resists turning with
+            const S turning = S(std::ldexp(in_weights(wheel.axial_moment), -2 * units.length_exponent)) / (a * a);
+            result.cross = result.cross + turning;
+            result.lower = result.lower - turning, result.upper = result.upper - turning;
+            result.size.lower += turning.high, result.size.upper += turning.high, result.size.cross += turning.high;
+        }
+        result.spin = S(std::ldexp(in_weights(wheel.momentum), -units.length_exponent)) / a;
+        result.hung = hung.value(), hung_size = result.size.hung;
+        links.push_back(result);
+    }
+    return links;
+}
+
+}  // namespace revchain

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <limits>
+#include <numbers>
+
+#include "revchain/numeric/progress.hpp"
+#include "revchain/special/bessel_zero.hpp"
+#include "revchain/special/chain_arguments.hpp"
+
+/// The uniform chain of Greenhill (1908) §4 with a particle at its free end, at small amplitude. `tip` is the length of
+/// chain that weighs as much as the particle, x the distance from the free end, the tension that of tip + x of chain.
+/// With z = 2 sqrt((tip + x)/lambda), z_0 at the particle and z_L at the support, the offset is a cylinder function of
+/// order 0 of z, and the heights solve Y_2(z_0) J_0(z_L) = J_2(z_0) Y_0(z_L). With theta the phases of J + iY:
+///     theta_0(z_L) - theta_2(z_0) = mode pi;
+/// at a fixed z_0/z_L the left side rises from 0 to infinity, as M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2): one
+/// height to every mode, none left out.
+/// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, a tip that is
+/// negative or above 1e250 lengths, and x outside [0, length]. tip = 0 is the chain of `heavy_chain`.
+namespace revchain::analytic::tip_mass {
+
+namespace detail {
+
+using analytic::detail::Cylinders;
+using analytic::detail::PhaseSeries;
+using analytic::detail::two_word_pi;
+using analytic::detail::TwoDoubles;
+
+inline const PhaseSeries& series(int order) {
+    static const std::array<PhaseSeries, 3> all{PhaseSeries(0), PhaseSeries(1), PhaseSeries(2)};
+    return all[static_cast<std::size_t>(order)];
+}
+
+/// The particle's end: J_2 and Y_2 at z_0, and theta_2 to a tenth or so.
+struct LowerEnd {
+    static constexpr double series_from = 30, nothing_below = 1e-5;  // J_2/Y_2 < 1e-21
+
+    double z, rate, rough;  ///< rate: theta_2'
+    TwoDoubles J2{0.0}, Y2{-1.0};
+
+    explicit LowerEnd(const TwoDoubles& place) : z(place.high), rate(0), rough(-0.5 * std::numbers::pi) {
+        if (z >= series_from) {
+            rate = 1 / series(2).density(z);
+        } else if (z >= nothing_below) {
+            const Cylinders f(place);
+            J2 = f.J2, Y2 = f.Y2;
+            rate = 2 / (std::numbers::pi * z * (J2.high * J2.high + Y2.high * Y2.high));
+        }
+        if (z > 1.5) rough = z - 1.25 * std::numbers::pi + 1.875 / z;
+    }
+    bool is_far() const { return z >= series_from; }
+};
+
+/// theta_0 - theta_2(z_0) - i pi at z_0 + apart, and theta_0' there.
+struct Excess {
+    double value, rate;
+
+    Excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart, Index i) {
+        const double z = place.high, turns = static_cast<double>(i);
+        if (end.is_far()) {
+            rate = 1 / series(0).density(z);
+            value = (apart - two_word_pi * (turns - 1)).high + (series(2).lag(end.z) - series(0).lag(z));
+            return;
+        }
+        TwoDoubles J0, Y0;
+        if (z < 45) {
+            const Cylinders f(z < LowerEnd::nothing_below ? TwoDoubles(LowerEnd::nothing_below) : place);
+            J0 = f.J0, Y0 = f.Y0;
+            rate = 2 / (std::numbers::pi * z * (J0.high * J0.high + Y0.high * Y0.high));
+        } else {
+            rate = 1 / series(0).density(z);
+            const TwoDoubles phase = place - two_word_pi * 0.25 - series(0).lag(z);
+            const double c = std::cos(phase.high), s = std::sin(phase.high);
+            J0 = two_sum(c, -s * phase.low), Y0 = two_sum(s, c * phase.low);
+        }
+        const TwoDoubles sine = end.J2 * Y0 - end.Y2 * J0, cosine = end.J2 * J0 + end.Y2 * Y0;
+        value = std::atan(sine.high / cosine.high);
+        const double rough = std::max(z - 0.25 * std::numbers::pi - 0.125 / z, -0.5 * std::numbers::pi);
+        value += std::numbers::pi * std::round((rough - end.rough - value) / std::numbers::pi - turns);
+    }
+};
+
+inline void check(std::string_view place, std::string_view name, Index number, double length, double tip) {
+    const std::string where = "analytic::tip_mass::" + std::string(place);
+    analytic::detail::check_number_and_length(where, name, number, length);
+    if (!(tip >= 0 && tip / length <= 1e250))
+        revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
+}
+
+/// What all modes of one chain share, and z_L - z_0 of each.
+struct Ends {
+    TwoDoubles share;  ///< length / (length + tip)
+    TwoDoubles ratio;  ///< z_0 / z_L
+    TwoDoubles gap;    ///< 1 - ratio
+
+    Ends(double length, double tip) {
+        int unit = 0;  // a power of two near the larger: no sum, no split product overflows
+        std::frexp(std::max(length, tip), &unit);
+        length = std::ldexp(length, -unit), tip = std::ldexp(tip, -unit);
+        const TwoDoubles whole = two_sum(length, tip);
+        share = TwoDoubles(length) / whole;
+        ratio = sqrt(TwoDoubles(tip) / whole);
+        gap = share / (ratio + 1.0);
+    }
+
+    /// z_L - z_0 by Newton's method on the phases, kept between bounds.
+    TwoDoubles apart(Index mode) const {
+        const double r = ratio.high, g = gap.high, k = static_cast<double>(mode);
+        double low = g * (k - 0.25) * std::numbers::pi, high = std::numeric_limits<double>::infinity();
+        const double strings = (k - 1) * std::numbers::pi, c = r > 0 ? 4 * g * (0.125 + 1.875 / r) : 0;
+        double w = 0.5 * (strings + std::sqrt(strings * strings + c));  // both ends far out
+        if (!(w * r > 2 * g)) w = low * (1 + 1e-3);
+        for (int round = 0;; ++round) {
+            const TwoDoubles place = TwoDoubles(w) / gap;
+            const LowerEnd end(place * ratio);
+            const Excess e(end, place, TwoDoubles(w), mode);
+            (e.value < 0 ? low : high) = w;
+            double rate = (e.rate - r * end.rate) / g;
+            if (end.is_far()) {  // the same without cancellation
+                const double d0 = 1 + series(0).density_above_one(place.high),
+                             d2 = 1 + series(2).density_above_one(end.z);
+                const double more = series(2).density_above_one(end.z) - series(0).density_above_one(place.high);
+                rate = more / (d0 * d2) / g + 1 / d2;
+            }
+            const double step = e.value / rate;
+            if (std::abs(step) <= 1e-9 * w || round == 60) return TwoDoubles(w) - step;
+            w = w - step > low && w - step < high ? w - step : (high < 1e300 ? low + 0.5 * (high - low) : 2 * w);
+        }
+    }
+
+    double height(const TwoDoubles& apart, double length) const {
+        int unit = 0;
+        const double part = std::frexp(length, &unit);
+        const TwoDoubles q = TwoDoubles(2.0) / (ratio + 1.0);
+        return std::ldexp((share / apart * q * (q / apart) * part).high, unit);
+    }
+};
+
+}  // namespace detail
+
+/// Conical heights of the `count` slowest modes, descending. A heavy tip leaves nearly a plummet, lambda_1 = length +
+/// ..., and the string of half waves between its ends, z_L - z_0 = (mode - 1) pi + ...
+/// Accuracy: 2 ulp (measured 1.04). Cost: 0.15 microseconds where z_0 > 30, else 3 to 5, 10 to 15 where z_L < 45.
+inline Vector<double> conical_heights(Index count, double length, double tip) {
+    detail::check("conical_heights", "count", count, length, tip);
+    const detail::Ends ends(length, tip);
+    Vector<double> heights(count);
+    for (Index k = 1; k <= count; ++k) {
+        revchain::detail::look();
+        heights[k - 1] = ends.height(ends.apart(k), length);
+    }
+    return heights;
+}
+
+/// One mode. Cost: that of its height.
+class Mode {
+   public:
+    Mode(Index mode, double length, double tip)
+        : mode_((detail::check("Mode", "mode", mode, length, tip), mode)),
+          length_(length),
+          ends_(length, tip),
+          apart_(ends_.apart(mode)),
+          place_(apart_ / ends_.gap * ends_.ratio),
+          end_(place_) {
+        height_ = ends_.height(apart_, length);
+        if (end_.is_far()) return;
+        const detail::TwoDoubles quarter = ldexp(place_ * place_, -2), scale = detail::two_word_pi * quarter;
+        if (end_.z < detail::LowerEnd::nothing_below) {
+            a_ = quarter + 1.0, b_ = scale * ldexp(quarter, -1);
+        } else {
+            a_ = -(scale * end_.Y2), b_ = scale * end_.J2;
+        }
+    }
+
+    double conical_height() const { return height_; }
+
+    /// Offset at x, 1 at the free end: (pi z_0^2/4) (J_2(z_0) Y_0(z) - Y_2(z_0) J_0(z)).
+    /// Accuracy: absolute error 6e-16 (1 + z_L - z_0) of the largest offset, which is 1 for mode 1 and can reach
+    /// sqrt(1 + tip/lambda) for others. Cost: 0.1 to 0.3 microseconds, 2 where z_0 > 1 and z < 45.
+    double shape(double x) const {
+        const double w = apart_at(x, "shape"), z = end_.z + w;
+        if (end_.is_far())
+            return -0.5 * end_.z * std::sqrt(density(0, z) * density(2, end_.z) * (end_.z / z)) *
+                   std::sin(w - (lag(0, z) - lag(2, end_.z)));
+        if (cancels(z)) {
+            const detail::Cylinders f(place_ + w);
+            return (a_ * f.J0 + b_ * f.Y0).high;
+        }
+        return a_.high * value(gsl_sf_bessel_J0_e, z) + (b_.high != 0 ? b_.high * value(gsl_sf_bessel_Y0_e, z) : 0.0);
+    }
+
+    /// dy/dx of that, -1/lambda at the free end. Accuracy: the same, of the largest slope.
+    double slope(double x) const {
+        const double w = apart_at(x, "slope"), z = end_.z + w;
+        if (end_.is_far())
+            return -std::sqrt(density(1, z) * density(2, end_.z) * (end_.z / z)) * (end_.z / z) *
+                   std::cos(w - (lag(1, z) - lag(2, end_.z))) / height_;
+        if (cancels(z)) {
+            const detail::Cylinders f(place_ + w);
+            return -(a_ * f.J1 + b_ * f.Y1).high / (0.5 * z) / height_;
+        }
+        if (!(z > 0)) return -1 / height_;
+        const double second = b_.high != 0 ? b_.high * value(gsl_sf_bessel_Y1_e, z) : 0.0;
+        return -(a_.high * value(gsl_sf_bessel_J1_e, z) + second) / (0.5 * z) / height_;
+    }
+
+    /// Where the chain crosses the axis, ascending, the support left out: theta_0(z) - theta_2(z_0) = i pi, i < mode.
+    /// Accuracy: 1e-15 length. Cost: 0.2 to 10 microseconds each.
+    Vector<double> nodes() const {
+        Vector<double> points(mode_ - 1);
+        double high = apart_.high;
+        for (Index i = mode_ - 1; i >= 1; --i) {
+            revchain::detail::look();
+            double low = 0, w = std::max(high - std::numbers::pi, 0.5 * high);
+            if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // next to a heavy particle
+            for (int round = 0; round < 60; ++round) {
+                const detail::Excess e(end_, place_ + w, detail::TwoDoubles(w), i);
+                (e.value < 0 ? low : high) = w;
+                const double next = w - e.value / e.rate;
+                const bool done = std::abs(next - w) <= 1e-9 * w;
+                w = done || (next > low && next < high) ? next : 0.5 * (low + high);
+                if (done) break;
+            }
+            high = w;
+            points[i - 1] = length_ * (w / apart_.high) * ((w + 2 * end_.z) / (apart_.high + 2 * end_.z));
+        }
+        return points;
+    }
+
+   private:
+    static double value(int (*function)(double, gsl_sf_result*), double z) {
+        return analytic::detail::gsl_value(function, z);
+    }
+    static double lag(int order, double z) { return detail::series(order).lag(z); }
+    static double density(int order, double z) { return detail::series(order).density(z); }
+
+    /// Where the two terms of the offset are greater than it in double.
+    bool cancels(double z) const { return end_.z > 1 && z < 45; }
+
+    /// z - z_0 at x, without the difference.
+    double apart_at(double x, std::string_view place) const {
+        analytic::detail::check_place("analytic::tip_mass::Mode::" + std::string(place), x, length_);
+        const double r = ends_.ratio.high, share = x / length_;
+        if (!(share > 0)) return 0;
+        const double root = std::sqrt(r * r + share * ends_.share.high);
+        return apart_.high * (share * ((1 + r) / (root + r)));
+    }
+
+    Index mode_;
+    double length_, height_ = 0;
+    detail::Ends ends_;
+    detail::TwoDoubles apart_, place_;  // z_L - z_0, z_0
+    detail::TwoDoubles a_, b_;          // the offset is a J_0 + b Y_0
+    detail::LowerEnd end_;
+};
+
+}  // namespace revchain::analytic::tip_mass

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "revchain/numeric/double_word.hpp"
+#include "revchain/numeric/progress.hpp"
+
+namespace revchain {
+
+/// A quantity of every link: one number each, or a single number that serves all of them (and is stored once).
+template <class V>
+class Column {
+   public:
+    Column(V value) : values_(1, std::move(value)) {}                          // NOLINT(google-explicit-constructor)
+    Column(std::vector<V> values) : values_(std::move(values)), stride_(1) {}  // NOLINT(google-explicit-constructor)
+
+    /// Numbers that stay where they are, and must stay what they are while this column, or a chain made of it or a copy,
+    /// is used: of a million links, copying them takes half as long as the ten slowest modes.
+    static Column borrowed(const V* numbers, std::size_t count) {
+        Column column(std::vector<V>{});
+        column.borrowed_ = numbers;
+        column.count_ = count;
+        return column;
+    }
+
+    bool is_scalar() const { return stride_ == 0; }
+    std::size_t stored() const { return borrowed_ == nullptr ? values_.size() : count_; }
+    const V* data() const { return borrowed_ == nullptr ? values_.data() : borrowed_; }
+    const V& operator[](Index m) const { return data()[m * stride_]; }
+    friend bool operator==(const Column& x, const Column& y) {
+        return x.stride_ == y.stride_ && std::equal(x.data(), x.data() + x.stored(), y.data(), y.data() + y.stored());
+    }
+
+   private:
+    std::vector<V> values_;
+    const V* borrowed_ = nullptr;
+    std::size_t count_ = 0;
+    Index stride_ = 0;
+};
+
+/// How many numbers of a column are summed at a time.
+inline constexpr Index segment_size = 256;
+
+/// Sum and least of some numbers. A number that is not finite leaves a sum that is not.
+template <Real T>
+struct Summary {
+    Wide<T> sum{T(0)};
+    T least = std::numeric_limits<T>::infinity();
+};
+
+namespace detail {
+
+/// Lanes that are summed side by side, so that compilers turn the loops into SIMD code (0.5 ns a number with SSE2).
+inline constexpr std::size_t sum_lanes = 16;
+
+/// Numbers whose sums are kept in double words.
+template <class T>
+concept Compensated = Real<T> && std::floating_point<T> && !std::floating_point<Wide<T>>;
+
+/// Sum of non-negative numbers with one word more than they have: what is left over is about one rounding, however
+/// many are added.
+template <Real S>
+class RunningSum {
+   public:
+    void add(const S& x) {
+        if constexpr (std::floating_point<S>) {
+            const DoubleWord<S> s = two_sum(sum_, x);
+            sum_ = s.high;
+            rest_ += s.low;
+        } else if constexpr (is_double_word<S>) {
+            const auto high = two_sum(sum_.high, x.high);
+            const auto low = two_sum(sum_.low, x.low);
+            const auto middle = two_sum(high.low, low.high);
+            sum_ = {high.high, middle.high};
+            rest_ += middle.low + low.low;
+        } else {
+            sum_ = sum_ + x;
+        }
+    }
+    S value() const { return sum_ + S(rest_); }
+
+   private:
+    S sum_{Narrow<S>(0)};
+    Narrow<S> rest_{};
+};
+
+}  // namespace detail
+
+/// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12 operations of `Wide<T>`
+/// at worst where that is a double word (measured: 0.27), else 20. For double words the lanes, and the tree that joins
+/// them, carry the rounding errors of their 20 sums along; what is rounded there is 19 u of 20 u of the sum of sizes at
+/// most.
+template <Real T>
+Summary<T> summary(const T* x, Index count) {
+    using S = std::conditional_t<detail::Compensated<T>, T, Wide<T>>;
+    return simd([&](auto) __attribute__((always_inline)) {
+        S sum[detail::sum_lanes]{}, error[detail::sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
+        T least[detail::sum_lanes];
+        std::fill_n(least, detail::sum_lanes, x[0]);
+        const auto take = [&](const T* y, const T* z) __attribute__((always_inline)) {
+            for (std::size_t i = 0; i < detail::sum_lanes; ++i) {
+                const S s = sum[i] + S(y[i]);
+                if constexpr (detail::Compensated<T>) {  // two_sum
+                    const S v = s - sum[i];
+                    error[i] += (sum[i] - (s - v)) + (y[i] - v);
+                }
+                sum[i] = s;
+                least[i] = z[i] < least[i] ? z[i] : least[i];
+            }
+        };
+        const auto lanes = static_cast<Index>(detail::sum_lanes), whole = count - count % lanes;
+        for (Index m = 0; m < whole; m += lanes) take(x + m, x + m);
+        if (whole < count) {
+            T last[detail::sum_lanes]{}, filled[detail::sum_lanes];
+            std::fill_n(filled, detail::sum_lanes, x[0]);
+            std::copy(x + whole, x + count, last);
+            std::copy(x + whole, x + count, filled);
+            take(last, filled);
+        }
+        for (std::size_t half = detail::sum_lanes / 2; half > 0; half /= 2)
+            for (std::size_t i = 0; i < half; ++i) {
+                const S s = sum[i] + sum[i + half];
+                if constexpr (detail::Compensated<T>) {
+                    const S v = s - sum[i];
+                    error[i] += error[i + half] + ((sum[i] - (s - v)) + (sum[i + half] - v));
+                }
+                sum[i] = s;
+            }
+        Summary<T> result{{}, *std::min_element(least, least + detail::sum_lanes)};
+        if constexpr (detail::Compensated<T>)
+            result.sum = two_sum(sum[0], error[0]);
+        else
+            result.sum = sum[0];
+        return result;
+    });
+}
+
+/// count times x: one operation, whatever the unit of x.
+template <Real T>
+Wide<T> times(const T& x, Index count) {
+    using std::frexp;
+    using std::ldexp;
+    int exponent = 0;
+    const Wide<T> digits(frexp(x, &exponent));
+    return ldexp(digits * Wide<T>(static_cast<Narrow<Wide<T>>>(count)), exponent);
+}
+
+/// Summary of a column over `size` links; a single number is multiplied. `below`, if given, receives the sums of the
+/// numbers below each segment and, last, of all: within one operation of the segments' own errors.
+template <Real T>
+Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* below = nullptr) {
+    using S = Wide<T>;
+    if (column.is_scalar()) return {times(column[0], size), column[0]};
+    T least = column[0];
+    detail::RunningSum<S> sum;
+    if (below != nullptr) below->reserve(static_cast<std::size_t>(size / segment_size + 2));
+    for (Index m = 0; m < size; m += segment_size) {
+        detail::look();
+        if (below != nullptr) below->push_back(sum.value());
+        const Summary<T> segment = summary(column.data() + m, std::min(segment_size, size - m));
+        sum.add(segment.sum);
+        least = std::min(least, segment.least);
+    }
+    if (below != nullptr) below->push_back(sum.value());
+    return {sum.value(), least};
+}
+
+/// The largest |x| in a column without NaNs.
+template <Real T>
+T largest_size(const Column<T>& column) {
+    using std::abs;
+    T most[detail::sum_lanes]{};
+    const std::size_t stored = column.stored(), whole = stored - stored % detail::sum_lanes;
+    for (std::size_t m = 0; m < whole; m += detail::sum_lanes)
+        for (std::size_t i = 0; i < detail::sum_lanes; ++i) {
+            const T x = abs(column.data()[m + i]);
+            most[i] = x > most[i] ? x : most[i];
+        }
+    for (std::size_t m = whole; m < stored; ++m) most[0] = std::max(most[0], T(abs(column.data()[m])));
+    return *std::max_element(most, most + detail::sum_lanes);
+}
+
+}  // namespace revchain

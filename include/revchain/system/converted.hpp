@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/chain.hpp"
+
+namespace revchain {
+
+namespace detail {
+
+/// One or two words as another scalar: rounded, or exact where there is room.
+template <class To, class From>
+To from_words(const From& x) {
+    if constexpr (std::is_same_v<To, From>) {
+        return x;
+    } else if constexpr (is_double_word<From> && std::floating_point<To>) {
+        return static_cast<To>(x.high);
+    } else if constexpr (is_double_word<From> && is_double_word<To>) {
+        return two_sum(static_cast<Narrow<To>>(x.high), static_cast<Narrow<To>>(x.low));
+    } else {
+        return To(x);
+    }
+}
+
+/// Throws InvalidArgument where a number that is not 0 becomes 0, or one that is finite infinite.
+template <class To, class From>
+Column<To> converted(std::string_view name, const Column<From>& column) {
+    using std::isfinite;
+    std::vector<To> values;
+    values.reserve(column.stored());
+    for (std::size_t m = 0; m < column.stored(); ++m) {
+        const From& x = column.data()[m];
+        values.push_back(from_words<To>(x));
+        if ((values.back() == To(0)) != (x == From(0)) || !isfinite(values.back()))
+            throw_invalid("Chain",
+                          "link " + std::to_string(m + 1) + ": " + std::string(name) +
+                              " must lie in the range of the precision; use a wider one, or another unit",
+                          static_cast<double>(x));
+    }
+    if (column.is_scalar()) return Column<To>(values[0]);
+    return values;
+}
+
+}  // namespace detail
+
+/// The chain whose numbers are those of `chain` in another scalar: the same where it is wider, else rounded. Cost O(N).
+/// Throws InvalidArgument where a number leaves the range of `To`.
+template <Real To, Real From>
+Chain<To> converted(const Chain<From>& chain) {
+    // in this order, so that the refusal names the first
+    const auto weight = detail::converted<To>("weight", chain.weight());
+    const auto length = detail::converted<To>("length", chain.length());
+    const auto centroid = detail::converted<To>("centroid", chain.centroid());
+    return Chain<To>(chain.size(), weight, length, centroid,
+                     detail::converted<Wide<To>>("(radius of gyration / length)^2", chain.gyration_ratio()));
+}
+
+}  // namespace revchain

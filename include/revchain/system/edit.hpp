@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <vector>
+
+#include "revchain/chain.hpp"
+
+/// Chains made from others: a weight attached, a thread put in between, two links clamped together.
+/// What two bodies are as one is formed in two words; weight and centroid are then rounded once, as every link keeps
+/// them, and (rho/a)^2 is kept in two. Conical heights are those of the exact body within 3 ulp, measured
+/// (tests/cpp/system/edit.cpp). Cost O(N).
+namespace revchain {
+
+namespace detail {
+
+/// A rigid body of a link: its weight, centroid and squared radius of gyration, both over the link's length.
+template <Real T>
+struct Body {
+    T weight{};
+    Wide<T> centroid{};
+    Wide<T> gyration_ratio{};
+};
+
+/// Two bodies of one link of this length, rigidly joined: the centroid between both, and about it the moments of both and
+/// of their distance, all positive.
+template <Real T>
+Link<T> joined(const T& length, const Body<T>& one, const Body<T>& other) {
+    using std::frexp;
+    using std::ldexp;
+    using S = Wide<T>;
+    const T weight = one.weight + other.weight;
+    if (weight == T(0)) return plummet<T>(weight, length);
+    int exponent = 0;
+    frexp(weight, &exponent);
+    const S w1(ldexp(one.weight, -exponent)), w2(ldexp(other.weight, -exponent)), both = w1 + w2;
+    const S share = w2 / both, rest = w1 / both, apart = other.centroid - one.centroid;
+    const S centroid = one.centroid + share * apart;
+    const S gyration = rest * one.gyration_ratio + share * other.gyration_ratio + share * rest * apart * apart;
+    return {weight, length, times_length<T>(centroid, length), gyration};
+}
+
+template <Real T>
+Body<T> body(const Link<T>& link) {
+    return {link.weight, in_lengths<T>(link.centroid, link.length), link.gyration_ratio};
+}
+
+template <Real T>
+std::vector<Link<T>> links_of(const Chain<T>& chain) {
+    std::vector<Link<T>> links;
+    links.reserve(static_cast<std::size_t>(chain.size()) + 1);
+    for (Index m = 0; m < chain.size(); ++m) links.push_back(chain.link(m));
+    return links;
+}
+
+}  // namespace detail
+
+/// The chain with a body fixed to the link above `pin`, its centre of gravity in that pin: 0 the free end, else the pin
+/// that links number `pin` and `pin` + 1 share. A point weight leaves `radius_of_gyration` 0; it moves as one on the pin
+/// itself, a body turns as the link above does.
+/// Throws InvalidArgument for a pin that is none or the support, a weight not positive, a radius of gyration that is
+/// negative, and where no chain comes of it.
+template <Real T>
+Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0, const T& radius_of_gyration = T(0)) {
+    constexpr std::string_view place = "with_weight";
+    detail::require_positive(place, "weight", weight);
+    if (pin < 0 || pin >= chain.size())
+        detail::throw_invalid(place, "pin must be from 0, the free end, to " + std::to_string(chain.size() - 1), pin);
+    auto links = detail::links_of(chain);
+    Link<T>& link = links[static_cast<std::size_t>(pin)];
+    const Wide<T> gyration = detail::gyration_from_radius<T>(place, link.length, radius_of_gyration);
+    link = detail::joined<T>(link.length, detail::body(link), {weight, Wide<T>(T(1)), gyration});
+    return Chain<T>(links);
+}
+
+/// The chain with a massless thread put in at `pin`: above the link of that number, from 1, below the next one or, where
+/// `pin` is the number of links, the support. Throws InvalidArgument for other pins and a length not positive.
+template <Real T>
+Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
+    constexpr std::string_view place = "with_thread";
+    detail::require_positive(place, "length", length);
+    if (pin < 1 || pin > chain.size())
+        detail::throw_invalid(place, "pin must be from 1 to " + std::to_string(chain.size()) + ", the support", pin);
+    auto links = detail::links_of(chain);
+    links.insert(links.begin() + pin, plummet<T>(T(0), length));
+    return Chain<T>(links);
+}
+
+/// The chain with links number `link` and `link` + 1, from 1 for the lowest, locked in line: one rigid link in place of two.
+/// Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
+/// Throws InvalidArgument for numbers outside 1 ... N - 1.
+template <Real T>
+Chain<T> clamped(const Chain<T>& chain, Index link) {
+    if (link < 1 || link >= chain.size())
+        detail::throw_invalid(
+            "clamped", "link must be from 1 to " + std::to_string(chain.size() - 1) + ", the next to highest", link);
+    auto links = detail::links_of(chain);
+    const Link<T> lower = links[static_cast<std::size_t>(link) - 1], upper = links[static_cast<std::size_t>(link)];
+    using S = Wide<T>;
+    const T length = lower.length + upper.length;
+    const S ratio = detail::in_lengths<T>(lower.length, length);
+    const S upper_ratio = detail::in_lengths<T>(upper.length, length);
+    const detail::Body<T> above{upper.weight, detail::in_lengths<T>(upper.centroid, length),
+                                upper.gyration_ratio * (upper_ratio * upper_ratio)};
+    const detail::Body<T> below{lower.weight, upper_ratio + detail::in_lengths<T>(lower.centroid, length),
+                                lower.gyration_ratio * (ratio * ratio)};
+    links[static_cast<std::size_t>(link)] = detail::joined<T>(length, above, below);
+    links.erase(links.begin() + link - 1);
+    return Chain<T>(links);
+}
+
+}  // namespace revchain

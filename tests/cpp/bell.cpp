@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "revchain/bell.hpp"
+
+#include "revchain/modes.hpp"
+#include "revchain/two_links.hpp"
+#include "support/catch.hpp"
+#include "support/chains.hpp"
+#include "support/truth.hpp"
+
+using revchain::Chain;
+using revchain::Index;
+using support::Quad;
+
+namespace {
+
+using Numbers = std::array<Quad, 7>;  // by BellDatum
+
+/// The slower mode's ratio of inclinations in quadruple precision, from Lagrange's equations in the two angles.
+Quad ratio(const Numbers& x) {
+    const auto& [W1, h1, k1, W2, a2, h2, k2] = x;
+    // inertia [W1 (h1^2 + k1^2), W1 h1 a2; ., W2 (h2^2 + k2^2) + W1 a2^2], moments W1 h1, W2 h2 + W1 a2
+    const Quad A = W1 * (h1 * h1 + k1 * k1), B = W1 * h1 * a2, C = W2 * (h2 * h2 + k2 * k2) + W1 * a2 * a2;
+    const Quad p = W1 * h1, q = W2 * h2 + W1 * a2;
+    const Quad half = (A / p + C / q) / 2, rest = (A * C - B * B) / (p * q);
+    const Quad lambda = half + sqrtq(half * half - rest);
+    return B / (lambda * p - A);
+}
+
+Chain<double> chain_of(const Numbers& x) {
+    const auto d = [&](std::size_t i) { return static_cast<double>(x[i]); };
+    return Chain<double>({revchain::compound_pendulum<double>(
+                              {.weight = d(0), .length = 1, .centroid = d(1), .radius_of_gyration = d(2)}),
+                          revchain::compound_pendulum<double>(
+                              {.weight = d(3), .length = d(4), .centroid = d(5), .radius_of_gyration = d(6)})});
+}
+
+std::vector<Numbers> bells() {
+    support::Random random(23);
+    std::vector<Numbers> all;
+    while (all.size() < 300) {
+        const double W2 = random.log_between(1, 1e3), W1 = random.log_between(0.1, 100),
+                     a2 = random.log_between(0.05, 1);
+        const double h2 = random.between(-0.3, 0.6);
+        if (W2 * h2 + W1 * a2 < 1e-3 * W2 || h2 == 0) continue;
+        all.push_back({W1, random.between(0.1, 1), random.between(0.01, 0.5), W2, a2, h2, random.between(0.05, 1)});
+    }
+    return all;
+}
+
+}  // namespace
+
+TEST_CASE("ratios of inclinations and their derivatives, against quadruple precision", "[linear]") {
+    double worst = 0, worst_height = 0, worst_derivative = 0;
+    for (const Numbers& x : bells()) {
+        const auto chain = chain_of(x);
+        const auto found = revchain::bell_and_clapper(chain);
+        const auto m = revchain::modes(chain);
+        const Quad exact = ratio(x);
+        const auto off = [](double y, Quad t) { return static_cast<double>(fabsq((y - t) / t)) / 0x1p-52; };
+        worst = std::max(worst, off(found.inclination_ratio[0], exact));
+        for (std::size_t j = 0; j < 2; ++j)
+            worst_height =
+                std::max(worst_height, off(found.conical_height[j], m.conical_height[static_cast<Index>(j)]));
+        CHECK(found.inclination_ratio[1] < 0);
+        double largest = 0;
+        std::array<double, 7> errors;
+        for (std::size_t d = 0; d < 7; ++d) {
+            const Quad step = Quad(1e-10) * fabsq(x[d]);
+            Numbers up = x, down = x;
+            up[d] += step, down[d] -= step;
+            const Quad derivative = (ratio(up) - ratio(down)) / (2 * step);
+            errors[d] = static_cast<double>(fabsq((found.derivative[d] - derivative) * x[d]));
+            largest = std::max(largest, static_cast<double>(fabsq(derivative * x[d])));
+            CHECK(off(found.present[d], x[d] == 0 ? Quad(1) : x[d]) <= 2);
+        }
+        for (const double error : errors) worst_derivative = std::max(worst_derivative, error / largest);
+    }
+    CAPTURE(worst, worst_height, worst_derivative);
+    CHECK(worst <= 1);
+    CHECK(worst_height <= 2);
+    CHECK(worst_derivative <= 1e-15);
+}
+
+TEST_CASE("the values that give a ratio do, and those that make one piece are the paper's", "[linear]") {
+    int given = 0;
+    for (const Numbers& x : bells())
+        for (const double wanted : {1.0, 0.8, 1.3}) {
+            const auto chain = chain_of(x);
+            const auto values = revchain::bell_and_clapper_with_ratio(chain, wanted);
+            for (std::size_t d = 0; d < 7; ++d) {
+                if (std::isnan(values[d])) continue;
+                ++given;
+                Numbers changed = x;
+                changed[d] = values[d];
+                if (d == 2 || d == 6) changed[d] = fabsq(changed[d]);
+                CAPTURE(d, wanted, values[d]);
+                const auto again = revchain::bell_and_clapper(chain_of(changed));
+                const double slack = 4e-16 * (1 + std::abs(again.derivative[d] * values[d]));
+                CHECK(std::abs(again.inclination_ratio[0] - wanted) <= slack);
+                if (wanted == 1) {
+                    const auto& [W1, h1, k1, W2, a2, h2, k2] = changed;  // the sum of the sizes of its terms
+                    const Quad f = W2 / W1, l1 = h1 + k1 * k1 / h1;
+                    const Quad size = h1 + (f * fabsq(h2) / a2 + 1) * l1 + f * (fabsq(h2) + (h2 * h2 + k2 * k2) / a2);
+                    CHECK(std::abs(again.mismatch) <= 4e-16 * static_cast<double>(size));
+                    CHECK(std::abs(again.conical_height[0] / again.silent_height - 1) <= slack);
+                }
+            }
+            // the joint is the one of pin_of_silent_clapper, where that knows one
+            if (wanted == 1 && x[5] > 0 && std::isfinite(values[4])) {
+                const auto d = [&](std::size_t i) { return static_cast<double>(x[i]); };
+                const revchain::CompoundLink<double> bell{d(5), d(6)}, clapper{d(1), d(2)};
+                CHECK(std::abs(values[4] / revchain::pin_of_silent_clapper(d(3), bell, d(0), clapper) - 1) < 1e-13);
+            }
+        }
+    CHECK(given > 1000);
+}
+
+TEST_CASE("a silent bell is the clamped one", "[linear]") {
+    const Numbers x{18, 0.52, 0.08, 500, 0.15, 0.2, 0.30};
+    auto silent = x;
+    silent[5] = revchain::bell_and_clapper_with_ratio(chain_of(x), 1.0)[5];
+    CHECK(std::abs(static_cast<double>(silent[5]) - 0.177) < 0.05);  // examples/python/silent_bell.py
+    const auto found = revchain::bell_and_clapper(chain_of(silent));
+    CHECK(std::abs(found.inclination_ratio[0] - 1) < 1e-14);
+    CHECK(std::abs(found.mismatch) < 1e-15);
+}
+
+TEST_CASE("what is no bell and clapper is refused", "[linear]") {
+    CHECK_THROWS_AS(revchain::bell_and_clapper(Chain<double>::uniform_rods(3)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::bell_and_clapper_with_ratio(Chain<double>::uniform_rods(2), 0.0),
+                    revchain::InvalidArgument);
+    const Chain<double> thread({revchain::plummet(1.0, 1.0), revchain::plummet(0.0, 1.0)});
+    CHECK_THROWS_AS(revchain::bell_and_clapper(thread), revchain::InvalidArgument);
+}

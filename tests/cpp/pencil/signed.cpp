@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MPL-2.0
+// Proved counts of families whose numbers have any sign, against pivots in quadruple precision of the same elements,
+// closer and closer to an eigenvalue; discs of complex double words against quadruple precision.
+#include "revchain/pencil/signed.hpp"
+
+#include "revchain/pencil/complex/complex_word.hpp"
+#include "support/catch.hpp"
+#include "support/chains.hpp"
+#include "support/truth.hpp"
+
+using revchain::Index;
+using revchain::Wide;
+using revchain::pencil::SignedElement;
+using revchain::pencil::SignedPencil;
+using support::Quad;
+using support::quad;
+using support::Random;
+using S = Wide<double>;
+
+namespace {
+
+Index negative(const SignedPencil<S>& pencil, Quad x) {
+    const auto f = pencil.quadratic ? std::pair(x * x, x) : std::pair(x, Quad(0));
+    Index count = 0;
+    Quad below = 0;
+    for (const SignedElement<S>& e : pencil.elements) {
+        const Quad L = f.first * quad(e.stiffness) + f.second * quad(e.spin), X = quad(e.cross);
+        const Quad A = quad(e.lower), B = quad(e.upper), p = below + L - A;
+        count += p < 0;
+        below = ((L - B) * below - (L * (A + B + 2 * X) - (A * B - X * X))) / p;
+    }
+    return count;
+}
+
+/// `stiff`: how many decades some links' stiffness is above the others'.
+SignedPencil<S> random_pencil(Random& random, Index n, bool quadratic, double stiff = 0) {
+    SignedPencil<S> pencil;
+    pencil.quadratic = quadratic;
+    for (Index m = 0; m < n; ++m) {
+        const auto any = [&] { return S(random.log_between(1e-2, 1e2) * (random() < 0.3 ? -1 : 1)); };
+        const S stiffness = any() * S(stiff > 0 ? std::pow(10.0, std::floor(stiff * random())) : 1.0);
+        pencil.elements.push_back({stiffness, quadratic ? any() : S(0.0), any(), any(), any() * S(0.3)});
+    }
+    pencil.errors.resize(pencil.elements.size());
+    return pencil;
+}
+
+}  // namespace
+
+TEST_CASE("a proved count is right, however close to an eigenvalue; and mostly proved to 1e-26", "[linalg]") {
+    Random random(81);
+    int proved = 0, asked = 0, unproved_at_it = 0, roots = 0;
+    for (int i = 0; i < 800; ++i) {
+        const auto pencil = random_pencil(random, 1 + i % 12, i % 2 == 0, i < 400 ? 0 : 30);
+        Quad lower = random.log_between(1e-3, 1e3), upper = lower * random.between(2, 50);
+        const Index low = negative(pencil, lower), high = negative(pencil, upper);
+        if (low == high) continue;
+        ++roots;
+        for (int step = 0; step < 110; ++step) {
+            const Quad middle = (lower + upper) / 2;
+            (negative(pencil, middle) == low ? lower : upper) = middle;
+        }
+        for (int digits = 8; digits <= 30; digits += 2)
+            for (const int side : {-1, 1}) {
+                const Quad x = lower * (1 + side * powq(10, -digits));
+                const double head = static_cast<double>(x);
+                const S shift = revchain::fast_two_sum(head, static_cast<double>(x - Quad(head)));
+                const auto count = revchain::pencil::certified_count<S, 1>(pencil, {shift})[0];
+                if (count.proved) REQUIRE(count.above == negative(pencil, quad(shift)));
+                if (digits <= 26) ++asked, proved += count.proved;
+                if (digits == 30) unproved_at_it += !count.proved;
+            }
+    }
+    CHECK(roots > 200);
+    CHECK(proved >= asked * 0.98);
+    CHECK(unproved_at_it >= roots);
+}
+
+TEST_CASE("errors of the entries withdraw a proof where they could change the count", "[linalg]") {
+    SignedPencil<S> pencil;
+    pencil.elements = {{S(1.0), S(0.0), S(1.0), S(0.0), S(0.0)}};  // x - 1
+    pencil.errors = {{0, 0, 1e-10, 0, 0}};
+    for (const auto& [x, sure] :
+         {std::pair(1 + 2e-10, true), std::pair(1 + 0.9e-10, false), std::pair(1 - 2e-10, true)})
+        CHECK(revchain::pencil::certified_count<S, 1>(pencil, {S(x)})[0].proved == sure);
+    pencil.errors[0].lower = std::nan("");
+    CHECK(!revchain::pencil::certified_count<S, 1>(pencil, {S(3.0)})[0].proved);
+}
+
+TEST_CASE("discs hold what comes of any numbers in them", "[linalg]") {
+    using revchain::pencil::ComplexWord;
+    using revchain::pencil::Disc;
+    Random random(82);
+    struct Z {
+        Quad re, im;
+    };
+    const auto inside = [](const Disc& d, const Z& z) {
+        const Quad x = z.re - quad(d.centre.real), y = z.im - quad(d.centre.imag);
+        return sqrtq(x * x + y * y) <= Quad(d.radius);
+    };
+    for (int i = 0; i < 20'000; ++i) {
+        const auto make = [&](Z& z) {
+            const double scale = random.log_between(1e-5, 1e5), angle = random.between(0, 7),
+                         turn = random.between(0, 7);
+            const S re = S(scale * std::cos(angle)) + S(scale * 1e-17 * random()), im = S(scale * std::sin(angle));
+            const double radius = i % 3 == 0 ? 0 : scale * random.log_between(1e-33, 0.3);
+            z = {quad(re) + Quad(radius * 0.999999 * std::cos(turn)),
+                 quad(im) + Quad(radius * 0.999999 * std::sin(turn))};
+            return Disc(ComplexWord(re, im), radius);
+        };
+        Z a{}, b{};
+        const Disc x = make(a), y = make(b);
+        const Quad size = b.re * b.re + b.im * b.im;
+        REQUIRE(inside(x + y, {a.re + b.re, a.im + b.im}));
+        REQUIRE(inside(x - y, {a.re - b.re, a.im - b.im}));
+        REQUIRE(inside(x * y, {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}));
+        const Disc q = x / y;
+        REQUIRE(inside(q, {(a.re * b.re + a.im * b.im) / size, (a.im * b.re - a.re * b.im) / size}));
+        if (x.radius == 0 && y.radius == 0) CHECK((x * y).radius <= 1e-29 * size_of(x.centre) * size_of(y.centre));
+    }
+    CHECK(std::isinf((Disc(S(1.0)) / Disc(ComplexWord(S(1.0)), 1.0)).radius));
+}
