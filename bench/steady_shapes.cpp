@@ -7,6 +7,7 @@
 #include <string>
 
 #include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"

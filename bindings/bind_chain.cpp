@@ -11,7 +11,7 @@ using revchain::Index;
 using Chain = revchain::Chain<double>;
 using Wide = revchain::Wide<double>;
 using revchain::Column;
-using revchain::detail::refuse;
+using revchain::detail::throw_invalid;
 
 Column<double> column(const Array& array, const std::string& name) {
     if (array.ndim() == 0) return *array.data();

@@ -104,7 +104,7 @@ class Diagram {
             result_.remark = "no shape leaves the vertical at this height or above";
             return std::move(result_);
         }
-        const double first = modes(chain_, {.count = 1, .shapes = false}).conical_height[0];
+        const double first = height_of(1);
         for (Index mode = 1; mode <= count; ++mode) {
             result_.branches.push_back(branch(chain_, mode, result_.conical_height, options_.branch));
             settle(result_.branches.back().end);
@@ -120,9 +120,7 @@ class Diagram {
     }
 
    private:
-    double height_of(Index mode) const {
-        return modes(chain_, {.first = mode, .count = 1, .shapes = false}).conical_height[0];
-    }
+    double height_of(Index mode) const { return revchain::detail::one_mode(chain_, mode, false).conical_height; }
     static double highest(const Branch& branch) {
         return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
     }

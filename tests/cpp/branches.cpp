@@ -2,6 +2,7 @@
 #include "revchain/branches.hpp"
 
 #include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 

@@ -76,7 +76,8 @@ inline bool pin(LumpedChain& small, const Chain<double>& chain) {
 
 /// Where finding all modes at once pays, few of them asked for or not: up to 40 times (10 links, all modes), never less
 /// than 0.9 times (measured with plummets and rods, N = 2 ... 100). Tighter tolerances would often be refused.
-inline bool all_together_pays(const Chain<double>& chain, const ModeRange& range, const ModesOptions<double>& options) {
+inline bool all_together_pays(const Chain<double>& chain, const ModeRange& range,
+                              const HeightsOptions<double>& options) {
     const Index n = chain.size(), count = range.count;
     return options.rtol.value_or(0.0) >= 1e-14 && (n <= 32 || (n <= 64 && count >= 3) || (n <= 100 && 2 * count >= n));
 }
@@ -84,7 +85,7 @@ inline bool all_together_pays(const Chain<double>& chain, const ModeRange& range
 /// Stage 1 of `modes` for small chains where the tolerance leaves room for bounds of some 20 ulp; nothing where it does
 /// not, or for chains that `pencil::small_spectrum` does not serve. Cost: as there, and 10 ns a link.
 inline std::optional<Heights<double>> heights_all_together(const Chain<double>& chain, const ModeRange& range,
-                                                           const ModesOptions<double>& options) {
+                                                           const HeightsOptions<double>& options) {
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);
     if (goal < 16 * epsilon<double>() || chain.size() > static_cast<Index>(pencil::small::most_links) ||
         chain.mode_count() != chain.size() || !chain.has_one_weight_unit())

@@ -89,7 +89,7 @@ struct CompressedHeights {
 /// Cost: `compress`, and 20 microseconds a mode.
 template <std::floating_point T>
 std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain, const ModeRange& range,
-                                                           const ModesOptions<T>& options, double share) {
+                                                           const HeightsOptions<T>& options, double share) {
     using std::ldexp;
     using S = Wide<T>;
     if (options.rtol && *options.rtol < T(2) * epsilon<T>()) return std::nullopt;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/linear/condensed_heights.hpp"
+#include "revchain/linear/mode_table.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linear/mode_table.hpp"
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "revchain/count.hpp"
 #include "revchain/linear/plain_pencil.hpp"
+#include "revchain/numeric/progress.hpp"
 #include "revchain/pencil/certificate.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 /// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
 namespace revchain::detail {
@@ -23,10 +29,18 @@ struct Heights {
     const char* method = "";
 };
 
+/// What the first stage is asked, beside the range.
+template <Real T>
+struct HeightsOptions {
+    std::optional<T> rtol{};  ///< absent: as accurate as T allows
+    bool shapes = false;      ///< whether shapes are wanted afterwards
+    Progress* progress = nullptr;
+};
+
 /// Whether all can be done in T: counts in T are proved down to about an ulp for each link; below that the certificate
 /// needs `Wide<T>`.
 template <Real T>
-bool is_loose(const Chain<T>& chain, const ModesOptions<T>& options) {
+bool is_loose(const Chain<T>& chain, const HeightsOptions<T>& options) {
     return std::min(options.rtol.value_or(T(0)), T(0.5)) > T(64) * epsilon<T>() * T(chain.size());
 }
 
@@ -96,7 +110,7 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
 /// This one serves every valid chain; cost as said there.
 template <Real T>
 Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled, const ModeRange& range,
-                                const ModesOptions<T>& options, double share) {
+                                const HeightsOptions<T>& options, double share) {
     const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
     const bool loose = is_loose(chain, options);
     const double count = static_cast<double>(range.count);

@@ -10,14 +10,14 @@
 namespace revchain::detail {
 
 /// Whether quotients in double are not enough.
-inline bool is_fine(const ModesOptions<double>& options) {
+inline bool is_fine(const HeightsOptions<double>& options) {
     return options.rtol.value_or(0.0) < pencil::spectrum::loosest_fine;
 }
 
 /// Where interpolating the characteristic polynomial pays: several modes, and more of them than blocks do well with, who
 /// are also faster with shapes to the last digit (measured with plummets and rods, N = 4 ... 10,000; flat within a factor
 /// of 2 in the last number).
-inline bool spectrum_pays(const Chain<double>& chain, const ModeRange& range, const ModesOptions<double>& options) {
+inline bool spectrum_pays(const Chain<double>& chain, const ModeRange& range, const HeightsOptions<double>& options) {
     const Index last = range.first - 1 + range.count;
     const bool blocks_pay = compression_pays(chain, range) && options.shapes && is_fine(options);
     return range.count >= 8 && chain.size() >= 12 && last >= chain.size() / (blocks_pay ? 16 : 256);
@@ -26,7 +26,7 @@ inline bool spectrum_pays(const Chain<double>& chain, const ModeRange& range, co
 /// Stage 1 of `modes` for many modes; nothing for chains that `pencil::all_eigenvalues` has no fast way for. Reports
 /// progress up to `share`. Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
 inline std::optional<Heights<double>> heights_by_spectrum(LazyCounter<double>& assembled, const ModeRange& range,
-                                                          Index mode_count, const ModesOptions<double>& options,
+                                                          Index mode_count, const HeightsOptions<double>& options,
                                                           double share) {
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();

@@ -1,87 +1,19 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "revchain/count.hpp"
-#include "revchain/numeric/progress.hpp"
 #include "revchain/pencil/twisted.hpp"
 
 namespace revchain {
 
-/// How heights are found. Bounds are proved whichever way.
-enum class ModesMethod {
-    automatic,  ///< the cheapest of those below that keeps the tolerance
-    bisection,  ///< counts, one by one: any chain, any modes, any tolerance
-    blocks,     ///< the chain condensed first: some of the slowest modes of a long chain, to 2 ulp
-    together,   ///< of a small chain all modes at once: to some 20 ulp
-    spectrum,   ///< the characteristic polynomial interpolated: many modes
-};
-
-/// Which modes, and how. Which: numbers `first`, `first + 1`, ..., or those in one window, never both.
+// revchain/modes.hpp
 template <Real T>
-struct ModesOptions {
-    Index first = 1;                                  ///< number of the slowest mode wanted, from 1
-    std::optional<Index> count{};                     ///< so many from `first` on; absent: all
-    std::optional<HeightWindow<T>> conical_height{};  ///< instead: low < conical height <= high
-    std::optional<SpeedWindow<T>> angular_speed{};    ///< instead: low <= whirl speed < high
-    std::optional<T> rtol{};  ///< relative tolerance of the conical heights; absent: as accurate as T allows
-    bool shapes = true;       ///< also shapes, residuals and nodes
-    bool certify = false;     ///< also the intervals that are proved to hold the heights, and the counts that prove it
-    Progress* progress = nullptr;  ///< watched and stopped from another thread
-    /// `blocks`, `together` and `spectrum` where they can: else bisection, and `Modes::method` says so.
-    ModesMethod method = ModesMethod::automatic;
-};
-
-/// Intervals lower < exact conical height <= upper, and why: of the exact heights of the stored numbers, mode k being
-/// one of them, `above_lower` >= k exceed `lower` and `above_upper` < k exceed `upper`. Both counts are proved;
-/// `count_modes` gives them too. An end that no count could be proved at is 0 or infinite.
+struct ModesOptions;
 template <Real T>
-struct Certificate {
-    Vector<T> lower;  ///< (k,) in the chain's unit of length
-    Vector<T> upper;
-    Vector<Index> above_lower;
-    Vector<Index> above_upper;
-};
-
-/// Whirl modes of a chain, slowest first. Mode k, the k-th slowest of all, stands at index k - first. None may be there
-/// where a window was asked for; `first` is then the number that the next faster mode has.
-template <Real T>
-struct Modes {
-    Index first = 1;           ///< number of the slowest mode here
-    Vector<T> conical_height;  ///< (k,) lambda, descending, in the chain's unit of length
-    Vector<T> error_bound;     ///< (k,) relative to the exact conical height of the stored numbers; proved by counts
-    Table<T> shape;      ///< (k, N+1) offsets of the pins, free end first, support last (0); largest |offset| = 1,
-                         ///< free end positive; empty without shapes
-    Vector<T> residual;  ///< (k,) force left unbalanced at a pin, relative to the forces that meet there
-    std::vector<Vector<T>> nodes;  ///< k lists: distances from the free end where the mode crosses the axis
-    Certificate<T> certificate;    ///< empty unless asked for
-    std::string method;
-    Status status = Status::success;
-
-    Index size() const { return conical_height.size(); }
-    ModeRange range() const { return {first, size()}; }
-    /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.
-    Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        return each(gravity, &conical_pendulum::angular_speed<T>);
-    }
-    /// Seconds for one revolution.
-    Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        return each(gravity, &conical_pendulum::period<T>);
-    }
-    Vector<T> revolutions_per_second(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        return each(gravity, &conical_pendulum::revolutions_per_second<T>);
-    }
-
-   private:
-    Vector<T> each(const T& gravity, T (*function)(const T&, const T&)) const {
-        Vector<T> result(size());
-        for (Index j = 0; j < size(); ++j) result[j] = function(conical_height[j], gravity);
-        return result;
-    }
-};
+struct Modes;
 
 namespace detail {
 

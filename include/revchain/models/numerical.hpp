@@ -9,11 +9,9 @@
 namespace revchain::models {
 
 namespace detail {
-inline ModesOptions<double> options_for(const Question& question) {
-    ModesOptions<double> options{.first = question.first, .count = question.count};
-    if (question.rtol > 2 * std::numeric_limits<double>::epsilon()) options.rtol = question.rtol;
-    options.shapes = false;
-    return options;
+inline revchain::detail::HeightsOptions<double> options_for(const Question& question) {
+    if (question.rtol > 2 * std::numeric_limits<double>::epsilon()) return {.rtol = question.rtol};
+    return {};
 }
 inline ModeRange range_of(const Question& question) { return {question.first, question.count}; }
 
@@ -85,7 +83,8 @@ struct ElementBisection {
         return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        ModesOptions<double> options = detail::options_for(question);
+        ModesOptions<double> options{.first = question.first, .count = question.count};
+        options.rtol = detail::options_for(question).rtol, options.shapes = false;
         options.method = ModesMethod::bisection;
         const Modes<double> found = modes(chain, options);
         return {found.conical_height, found.error_bound};

@@ -33,12 +33,11 @@ using OwnRegisters = Registers<16, own_fused>;
 #endif
 
 template <class F>
-[[gnu::flatten]] auto for_own(const F& f) {
+auto for_own(const F& f) {
     return f(OwnRegisters{});
 }
 
-// Under the address sanitizer one version is enough: three, each with its checks, take the compiler half an hour.
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
+#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && \
     !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
 template <class F>
 [[gnu::flatten, gnu::target("avx2,fma")]] auto for_avx2(const F& f) {
@@ -74,9 +73,10 @@ auto for_this(const F& f) {
 
 }  // namespace detail
 
-/// f(Registers<...>{}), compiled for several kinds of x86-64 processor, in the form that is best for the one at hand: a
-/// portable build then runs within some percent of one for the machine. Another kind of processor may change last digits
-/// (products and sums are fused where the compiler may do so).
+/// f(Registers<...>{}), compiled for the instruction set of the compiler's flags. With REVCHAIN_DISPATCH it is compiled
+/// for SSE2, AVX2 and AVX-512 and the best form is chosen at run time: a portable build then runs within some percent of
+/// one for the machine, and takes twice as long to compile. The Python module and revchain::compiled are built that
+/// way. Another kind of processor may change last digits (products and sums are fused where the compiler may do so).
 ///
 /// f and all it calls that handles packs have to be always_inline: what is not stays code for the oldest processor, and
 /// packs must not be handed across that border by value.

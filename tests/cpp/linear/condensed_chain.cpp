@@ -17,19 +17,13 @@ namespace {
 
 using Links = std::vector<Link<double>>;
 
-ModesOptions<double> values_only() {
-    ModesOptions<double> options;
-    options.shapes = false;
-    return options;
-}
-
 /// What heights are before they are rounded, against those of bisection (good to 1e-20), in units of the blocks' error
 /// and the margin.
 double error_of(const Chain<double>& chain, Index first, Index count) {
-    const auto fast = detail::heights_by_compression(chain, {first, count}, values_only(), 1.0);
+    const auto fast = detail::heights_by_compression(chain, {first, count}, {}, 1.0);
     if (!fast) return -1;
     detail::LazyCounter<double> assembled(chain);
-    const auto sure = detail::heights_by_bisection(chain, assembled, {first, count}, values_only(), 1.0);
+    const auto sure = detail::heights_by_bisection(chain, assembled, {first, count}, {}, 1.0);
     double worst = 0;
     for (std::size_t j = 0; j < sure.height.size(); ++j) {
         CHECK(fast->found.height[j].error_bound <= 0x1p-51);
@@ -41,7 +35,7 @@ double error_of(const Chain<double>& chain, Index first, Index count) {
 
 /// Whether height number j (from 1) is what `heights_by_compression` says, by exact counts; true where it gives up.
 bool is_within(const Chain<double>& chain, Index j) {
-    const auto found = detail::heights_by_compression(chain, {j, 1}, values_only(), 1.0);
+    const auto found = detail::heights_by_compression(chain, {j, 1}, {}, 1.0);
     if (!found) return true;
     const auto& height = found->found.height[0];
     const double value = std::ldexp(height.value, chain.units().length_exponent);

@@ -20,8 +20,7 @@ struct Comparison {
 };
 
 Comparison compare(const Chain<double>& chain, Index first, Index count) {
-    ModesOptions<double> options;
-    options.shapes = false;
+    const detail::HeightsOptions<double> options;
     const ModeRange range{first, count};
     const auto fast = detail::heights_by_compression(chain, range, options, 1.0);
     detail::LazyCounter<double> assembled(chain);

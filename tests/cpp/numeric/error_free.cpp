@@ -164,7 +164,7 @@ void in_each_kind(const F& f) {
         INFO("registers of this program");
         CHECK(revchain::detail::for_own(f) == 0);
     }
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && \
+#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && \
     !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
     const auto processor = revchain::detail::processor();
     if (processor != revchain::detail::Processor::basic) {

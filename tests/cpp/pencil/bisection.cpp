@@ -8,7 +8,7 @@
 
 using revchain::Index;
 using support::Quad;
-namespace pencil = revchain::linalg;
+namespace pencil = revchain::pencil;
 
 namespace {
 const auto nothing = [](Index) {};

@@ -8,7 +8,7 @@
 
 using revchain::Index;
 using support::Quad;
-namespace pencil = revchain::linalg;
+namespace pencil = revchain::pencil;
 using WideDouble = revchain::Wide<double>;
 
 TEST_CASE("a wrong height or a wrong number is not certified", "[linalg]") {

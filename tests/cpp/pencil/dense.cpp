@@ -6,7 +6,7 @@
 #include "support/chains.hpp"
 
 using revchain::Index;
-namespace pencil = revchain::linalg;
+namespace pencil = revchain::pencil;
 
 TEST_CASE("assembled matrices: definite, symmetric, and of the right sums", "[linalg]") {
     for (const auto& family : support::families()) {

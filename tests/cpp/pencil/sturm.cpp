@@ -9,7 +9,7 @@
 using revchain::Index;
 using support::Quad;
 using support::Truth;
-namespace pencil = revchain::linalg;
+namespace pencil = revchain::pencil;
 using WideDouble = revchain::Wide<double>;
 
 // A proved count has to be right at any shift: random ones, and ones next to eigenvalues.

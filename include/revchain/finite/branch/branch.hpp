@@ -8,7 +8,7 @@
 #include "revchain/finite/branch/onset.hpp"
 #include "revchain/finite/shapes/steady_shape.hpp"
 #include "revchain/finite/shapes/verification.hpp"
-#include "revchain/modes.hpp"
+#include "revchain/linear/one_mode.hpp"
 
 namespace revchain {
 
@@ -107,11 +107,11 @@ struct BranchRoot {
         if (mode < 1 || mode > chain.mode_count())
             revchain::detail::throw_invalid(
                 place, "mode must be from 1 to the number of modes, " + std::to_string(chain.mode_count()), mode);
-        const auto found = modes(chain, {.first = mode, .count = 1});
+        const auto found = revchain::detail::one_mode(chain, mode);
         auto links = links_of(chain);
-        const double height = found.conical_height[0], unit = std::ldexp(1.0, -links.units.length_exponent);
+        const double height = found.conical_height, unit = std::ldexp(1.0, -links.units.length_exponent);
         auto narrow = rounded<double>(links.links);
-        BranchOnset onset(narrow, found.shape.row(0), height * unit);
+        BranchOnset onset(narrow, found.shape, height * unit);
         return {std::move(links), Corrector(std::move(narrow)), std::move(onset), height};
     }
 };

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "revchain/pencil/spectrum/aberth_walks.hpp"
 
@@ -18,20 +20,24 @@ struct SmallRoundings {
 
 /// Eigenvalues lambda, descending, and a bound on the relative error of each.
 struct SmallSpectrum {
-    small::LumpedLinks::Numbers eigenvalue, bound;
+    alignas(small::Four) std::array<double, small::walked(small::most_links)> eigenvalue;
+    std::array<double, small::most_links> bound;
 };
 
 namespace small {
 
 /// Numbers for every root; what is beyond the last is a copy of it.
 struct Roots {
-    static constexpr std::size_t room = most_links;
+    static constexpr std::size_t room = walked(most_links);
     std::size_t count;
     alignas(Four) double shift[room];
 
-    std::size_t packs() const { return (count + 3) / 4; }
     void fill_up() {
-        for (std::size_t i = count; i < 4 * packs(); ++i) shift[i] = shift[count - 1];
+        for (std::size_t i = count; i < walked(count); ++i) shift[i] = shift[count - 1];
+    }
+    void sort() {
+        if (!std::is_sorted(shift, shift + count)) std::sort(shift, shift + count);
+        fill_up();
     }
     /// No NaN is among them then.
     bool lie_between(double lower, double upper) const {
@@ -45,42 +51,42 @@ struct Roots {
 /// sign from pin to pin, which number the zeros below (Sturm). A zero alone between two points is interpolated.
 template <bool rigid>
 [[gnu::always_inline]] inline bool first_roots(const LumpedLinks& links, Roots& roots) {
-    const std::size_t points = 4 * (((rigid || links.size > 12 ? 3 : 2) * links.size + 7) / 4);
-    alignas(Four) double at[3 * most_links + 16], value[3 * most_links + 16], below[3 * most_links + 16];
+    constexpr std::size_t P = packs_at_once;
+    const std::size_t points = walked((rigid || links.size > 12 ? 3 : 2) * links.size + 4);
+    constexpr std::size_t room = walked(3 * most_links + 4) + 1;
+    alignas(Four) double at[room], value[room], below[room];
     double root = std::sqrt(links.greatest_shift / links.least_shift);
     int squarings = 1;
     for (; squarings < 6 && root > 8 * static_cast<double>(links.size); ++squarings) root = std::sqrt(root);
     const double step = (root - 1) / static_cast<double>(points - 1);
-    for_packs(
-        points, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
-                                   std::size_t i) __attribute__((always_inline)) {
-            std::array<Four, P> mu, changes{};
-            std::array<Offset<rigid>, P> y;
+    for (std::size_t i = 0; i < points; i += 4 * P) {
+        std::array<Four, P> mu, changes{};
+        std::array<Offset<rigid>, P> y;
+#pragma GCC unroll 3
+        for (std::size_t p = 0; p < P; ++p) {
+            mu[p] = Four(1.0) + Four(step) * (Four(static_cast<double>(i + 4 * p)) + Four(0.0, 1.0, 2.0, 3.0));
+            for (int s = 0; s < squarings; ++s) mu[p] = mu[p] * mu[p];
+            mu[p] = mu[p] * Four(links.least_shift);
+        }
+        for (std::size_t m = 0; m < links.size; ++m)
 #pragma GCC unroll 3
             for (std::size_t p = 0; p < P; ++p) {
-                mu[p] = Four(1.0) + Four(step) * (Four(static_cast<double>(i + 4 * p)) + Four(0.0, 1.0, 2.0, 3.0));
-                for (int s = 0; s < squarings; ++s) mu[p] = mu[p] * mu[p];
-                mu[p] = mu[p] * Four(links.least_shift);
+                const Four before = y[p].value;
+                y[p].rise(links, m, mu[p]);
+                changes[p] += if_less(before * y[p].value, Four(0.0), Four(1.0), Four(0.0));
             }
-            for (std::size_t m = 0; m < links.size; ++m)
 #pragma GCC unroll 3
-                for (std::size_t p = 0; p < P; ++p) {
-                    const Four before = y[p].value;
-                    y[p].rise(links, m, mu[p]);
-                    changes[p] += if_less(before * y[p].value, Four(0.0), Four(1.0), Four(0.0));
-                }
-#pragma GCC unroll 3
-            for (std::size_t p = 0; p < P; ++p) {
-                mu[p].store(at + i + 4 * p);
-                y[p].value.store(value + i + 4 * p);
-                changes[p].store(below + i + 4 * p);
-            }
-        });
+        for (std::size_t p = 0; p < P; ++p) {
+            mu[p].store(at + i + 4 * p);
+            y[p].value.store(value + i + 4 * p);
+            changes[p].store(below + i + 4 * p);
+        }
+    }
     if (below[0] != 0 || below[points - 1] != static_cast<double>(links.size)) return false;
     at[points] = at[points - 1];
     value[points] = value[points - 1];
     std::fill_n(roots.shift, roots.count, 0.0);
-    double guess[3 * most_links + 16];
+    double guess[room];
     for (std::size_t i = 0; i < points; i += 4) {
         const Four from = Four::load(at + i), v = Four::load(value + i);
         const Four share = v / (v - Four::load(value + i + 1));
@@ -114,43 +120,85 @@ template <bool rigid>
 [[gnu::always_inline]] inline void improve(const LumpedLinks& links, Roots& roots) {
     constexpr std::size_t chunk = 12;  // differences multiplied before they are divided
     constexpr double last_step = 2e-4;
+    constexpr std::size_t P = packs_at_once;
     alignas(Four) double next[Roots::room];
     for (int round = 0; round < 16; ++round) {
         Four largest(0.0);
-        for_packs(
-            roots.count, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
-                                            std::size_t i) __attribute__((always_inline)) {
-                std::array<Four, P> mu, others;
-                std::array<OffsetAndSlope<rigid>, P> y;
+        for (std::size_t i = 0; i < roots.count; i += 4 * P) {
+            std::array<Four, P> mu, others{};
+            std::array<OffsetAndSlope<rigid>, P> y;
 #pragma GCC unroll 3
-                for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + i + 4 * p);
-                for (std::size_t m = 0; m < links.size; ++m)
+            for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + i + 4 * p);
+            for (std::size_t m = 0; m < links.size; ++m)
 #pragma GCC unroll 3
-                    for (std::size_t p = 0; p < P; ++p) y[p].rise(links, m, mu[p]);
-                for (std::size_t first = 0; first < roots.count; first += chunk) {
-                    std::array<Four, P> product, derivative{};
-                    product.fill(Four(1.0));
-                    for (std::size_t j = first; j < std::min(first + chunk, roots.count); ++j)
+                for (std::size_t p = 0; p < P; ++p) y[p].rise(links, m, mu[p]);
+            for (std::size_t first = 0; first < roots.count; first += chunk) {
+                std::array<Four, P> product, derivative{};
+                product.fill(Four(1.0));
+                for (std::size_t j = first; j < std::min(first + chunk, roots.count); ++j)
 #pragma GCC unroll 3
-                        for (std::size_t p = 0; p < P; ++p) {
-                            const Four distance = mu[p] - Four(roots.shift[j]), zero(0.0);
-                            derivative[p] =
-                                if_equal(distance, zero, derivative[p], derivative[p] * distance + product[p]);
-                            product[p] = if_equal(distance, zero, product[p], product[p] * distance);
-                        }
+                    for (std::size_t p = 0; p < P; ++p) {
+                        const Four distance = mu[p] - Four(roots.shift[j]), zero(0.0);
+                        derivative[p] = if_equal(distance, zero, derivative[p], derivative[p] * distance + product[p]);
+                        product[p] = if_equal(distance, zero, product[p], product[p] * distance);
+                    }
 #pragma GCC unroll 3
-                    for (std::size_t p = 0; p < P; ++p) others[p] += derivative[p] / product[p];
-                }
+                for (std::size_t p = 0; p < P; ++p) others[p] += derivative[p] / product[p];
+            }
 #pragma GCC unroll 3
-                for (std::size_t p = 0; p < P; ++p) {
-                    const Four step = y[p].value / (y[p].slope - y[p].value * others[p]);
-                    (mu[p] - step).store(next + i + 4 * p);
-                    largest = max(largest, abs(step) - Four(last_step) * mu[p]);
-                }
-            });
+            for (std::size_t p = 0; p < P; ++p) {
+                const Four step = y[p].value / (y[p].slope - y[p].value * others[p]);
+                (mu[p] - step).store(next + i + 4 * p);
+                largest = max(largest, abs(step) - Four(last_step) * mu[p]);
+            }
+        }
         for (std::size_t i = 0; i < roots.count; i += 4) Four::load(next + i).store(roots.shift + i);
         if (!(largest[0] > 0 || largest[1] > 0 || largest[2] > 0 || largest[3] > 0)) return;
     }
+}
+
+/// Quotients and squared residuals of the vectors at all shifts; false where some number is of no use.
+template <bool rigid>
+[[gnu::always_inline]] inline bool set_quotients(const LumpedLinks& links, const double* flexibility_above,
+                                                 const Roots& roots, SmallSpectrum& result, double* residual) {
+    constexpr std::size_t P = packs_at_once;
+    Four odd(0.0);
+    for (std::size_t first = 0; first < links.size; first += 4 * P) {
+        std::array<Four, P> mu;
+#pragma GCC unroll 3
+        for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
+        const auto all = quotients<rigid>(links, flexibility_above, mu);
+#pragma GCC unroll 3
+        for (std::size_t p = 0; p < P; ++p) {
+            const Quotients& q = all[p];
+            (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
+            q.square.store(residual + first + 4 * p);
+            odd += if_less(Four(0x1p-960), q.scale, Four(0.0), Four(1.0)) +
+                   if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
+                   if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
+                   if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
+                   if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
+        }
+    }
+    return odd[0] + odd[1] + odd[2] + odd[3] == 0;
+}
+
+/// The bounds from the quotients and the sizes of their residuals; false where one exceeds the goal. Disjoint intervals, as
+/// many as eigenvalues: one in each. Then Kato and Temple. `rounding`: of the quotients.
+inline bool set_bounds(SmallSpectrum& result, std::size_t n, const double* residual, double rounding, double goal) {
+    constexpr double slack = 1 + 0x1p-30;
+    const double blurred = 1.01 * rounding + 0x1p-50;  // what is stored is the vector's quotient but for rounding
+    const auto& value = result.eigenvalue;
+    double upper_end = std::numeric_limits<double>::infinity();  // of the room eigenvalue i has for itself
+    bool good = true;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double lower_end = i + 1 < n ? value[i + 1] + (residual[i + 1] + blurred) * value[i + 1] : 0.0;
+        const double room = std::min(upper_end - value[i], value[i] - lower_end) - blurred * value[i];
+        result.bound[i] = (residual[i] * (residual[i] * value[i]) / room + rounding) * slack;
+        good = good && room > residual[i] * value[i] && result.bound[i] <= goal;
+        upper_end = value[i] - (residual[i] + blurred) * value[i];
+    }
+    return good;
 }
 
 /// See `small_spectrum`. What its constants count: docs/accuracy.md, "All modes of small chains".
@@ -176,8 +224,7 @@ inline bool solve(const LumpedLinks& links, const SmallRoundings& roundings, dou
         if (!fit || !first_roots<rigid>(links, roots)) return false;
         improve<rigid>(links, roots);
         if (!roots.lie_between(lowest, highest)) return false;
-        if (!std::is_sorted(roots.shift, roots.shift + n)) std::sort(roots.shift, roots.shift + n);
-        roots.fill_up();
+        roots.sort();
 
         const double additions = static_cast<double>(std::min(n, leg) + (n - 1) / leg - 1);
         const double rounding =
@@ -185,48 +232,13 @@ inline bool solve(const LumpedLinks& links, const SmallRoundings& roundings, dou
         const double goal = std::min(tolerance, 0x1p-32);  // above, squares of bounds would count
         alignas(Four) double residual[Roots::room];
         for (int round = 0; round < 2; ++round) {
-            bool sane = true;
-            for_packs(
-                n, [&]<std::size_t P>(std::integral_constant<std::size_t, P>, std::size_t first)
-                       __attribute__((always_inline)) {
-                           std::array<Four, P> mu;
-#pragma GCC unroll 3
-                           for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
-                           const auto all = n <= leg ? quotients<rigid, false, P>(links, above, mu)
-                                                     : quotients<rigid, true, P>(links, above, mu);
-#pragma GCC unroll 3
-                           for (std::size_t p = 0; p < P; ++p) {
-                               const Quotients& q = all[p];
-                               (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
-                               q.square.store(residual + first + 4 * p);
-                               const Four odd = if_less(Four(0x1p-960), q.scale, Four(0.0), Four(1.0)) +
-                                                if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
-                                                if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
-                                                if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
-                                                if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
-                               sane = sane && odd[0] + odd[1] + odd[2] + odd[3] == 0;
-                           }
-                       });
-            if (!sane) return false;
+            if (!set_quotients<rigid>(links, above, roots, result, residual)) return false;
             for (std::size_t i = 0; i < n; ++i) {
                 const double stretch = rigid ? 1 + roots.shift[i] * swing : 1;
                 const double rounded = 1.01 * unit * stretch * ((10 + 2 * roundings.mass) * root + roundings.drop);
                 residual[i] = 2 * (std::sqrt(residual[i]) * slack + rounded);  // 2 > 1 / ratio
             }
-            // Disjoint intervals, as many as eigenvalues: one in each. Then Kato and Temple. `blurred`: what is stored is the
-            // vector's quotient but for rounding.
-            const auto& value = result.eigenvalue;
-            const double blurred = 1.01 * rounding + 0x1p-50;
-            double upper_end = std::numeric_limits<double>::infinity();  // of the room eigenvalue i has for itself
-            bool good = true;
-            for (std::size_t i = 0; i < n; ++i) {
-                const double lower_end = i + 1 < n ? value[i + 1] + (residual[i + 1] + blurred) * value[i + 1] : 0.0;
-                const double room = std::min(upper_end - value[i], value[i] - lower_end) - blurred * value[i];
-                result.bound[i] = (residual[i] * (residual[i] * value[i]) / room + rounding) * slack;
-                good = good && room > residual[i] * value[i] && result.bound[i] <= goal;
-                upper_end = value[i] - (residual[i] + blurred) * value[i];
-            }
-            if (good) return true;
+            if (set_bounds(result, n, residual, rounding, goal)) return true;
             for (std::size_t i = 0; i < n; ++i) roots.shift[i] = 1 / result.eigenvalue[i];
             if (!roots.lie_between(lowest, highest)) return false;
             roots.fill_up();

@@ -2,6 +2,7 @@
 #include "revchain/finite/branch/branch.hpp"
 
 #include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/modes.hpp"
 #include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "support/catch.hpp"

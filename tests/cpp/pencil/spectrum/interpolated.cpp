@@ -8,7 +8,7 @@
 
 using revchain::Index;
 using support::Quad;
-namespace pencil = revchain::linalg;
+namespace pencil = revchain::pencil;
 namespace spectrum = revchain::pencil::spectrum;
 using Wide = revchain::Wide<double>;
 

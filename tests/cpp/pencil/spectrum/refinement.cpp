@@ -10,7 +10,7 @@
 
 using revchain::Index;
 using support::Quad;
-namespace pencil = revchain::linalg;
+namespace pencil = revchain::pencil;
 namespace spectrum = revchain::pencil::spectrum;
 
 namespace {
