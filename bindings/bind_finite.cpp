@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/finite/shapes/rig_shapes.hpp"
 #include "revchain/finite/stability/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 

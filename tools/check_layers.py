@@ -69,8 +69,7 @@ PUBLIC = {
 }
 UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
 # A scene pays for what it holds: these read nothing of what a chain can be rigged with.
-PLAIN = {"chain.hpp", "modes.hpp", "batch.hpp", "steady_shapes.hpp", "branches.hpp"}
-PLAIN |= {"finite/stability/stability.hpp", "finite/cord/continuous_chain.hpp"}
+PLAIN = {"chain.hpp", "modes.hpp", "batch.hpp", "finite/cord/continuous_chain.hpp"}
 RIGGING = {"rig.hpp", "system/edit.hpp"}
 MAX_LINES = 400
 

@@ -4,7 +4,7 @@
 #include "revchain/finite/held/proof.hpp"
 #include "revchain/finite/held/shape.hpp"
 #include "revchain/finite/held/taut.hpp"
-#include "revchain/finite/shapes/steady_shape.hpp"
+#include "revchain/finite/shapes/described.hpp"
 
 namespace revchain {
 

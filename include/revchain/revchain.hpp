@@ -15,7 +15,6 @@
 #include "revchain/finite/branch/shape_on_branch.hpp"  // IWYU pragma: export
 #include "revchain/finite/cord/continuous_chain.hpp"   // IWYU pragma: export
 #include "revchain/finite/held/cord.hpp"               // IWYU pragma: export
-#include "revchain/finite/shapes/rig_shapes.hpp"       // IWYU pragma: export
 #include "revchain/held.hpp"                           // IWYU pragma: export
 #include "revchain/hoop.hpp"                           // IWYU pragma: export
 #include "revchain/linear/rig_sensitivity.hpp"         // IWYU pragma: export
@@ -29,6 +28,7 @@
 #include "revchain/response.hpp"                       // IWYU pragma: export
 #include "revchain/rig.hpp"                            // IWYU pragma: export
 #include "revchain/statics.hpp"                        // IWYU pragma: export
+#include "revchain/steady_shapes.hpp"                  // IWYU pragma: export
 #include "revchain/steady_shapes.hpp"                  // IWYU pragma: export
 #include "revchain/swing.hpp"                          // IWYU pragma: export
 #include "revchain/system/edit.hpp"                    // IWYU pragma: export

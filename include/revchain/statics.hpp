@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "revchain/finite/shapes/steady_shape.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/scalar.hpp"
 #include "revchain/numeric/status.hpp"
+#include "revchain/steady_shapes.hpp"
 #include "revchain/two_links.hpp"
 
 namespace revchain {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz.hpp"
-#include "revchain/finite/shapes/rig_shapes.hpp"
 #include "revchain/linear/rig_modes.hpp"
 #include "revchain/linear/rig_sensitivity.hpp"
 #include "revchain/response.hpp"
+#include "revchain/steady_shapes.hpp"
 
 void fuzz::rigs(Random& random) {
     const std::uint64_t kind = random.below(3);

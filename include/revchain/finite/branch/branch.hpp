@@ -6,9 +6,9 @@
 #include "revchain/finite/branch/continuation.hpp"
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/onset.hpp"
-#include "revchain/finite/shapes/steady_shape.hpp"
 #include "revchain/finite/shapes/verification.hpp"
 #include "revchain/linear/one_mode.hpp"
+#include "revchain/steady_shapes.hpp"
 
 namespace revchain {
 

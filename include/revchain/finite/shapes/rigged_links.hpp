@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/shapes/steady_shape.hpp"
+#include "revchain/finite/shapes/described.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/rig.hpp"
 
@@ -103,9 +103,10 @@ struct BearingWeights {
 
 /// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy holds
 /// the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
-inline SteadyShape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
+template <class Shape = SteadyShape>
+Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
     using S = Wide<double>;
-    SteadyShape shape = described(rig, height, found, detail::BearingWeights{rig});
+    Shape shape = described<Shape>(rig, height, found, detail::BearingWeights{rig});
     const S top = found.offset.back();
     double last = 0;
     for (const double y : shape.offset.head(shape.offset.size() - 1))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/shapes/steady_shape.hpp"
+#include "revchain/finite/shapes/described.hpp"
 #include "revchain/numeric/double_double.hpp"
 
 namespace revchain::finite {
@@ -216,10 +216,10 @@ void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
 /// images that with the free end at a positive offset. All links hang. The bound is infinite where nothing is proved. Else,
 /// where the height is given, the digits are those of `verified`; where it was found too they stay, as next to the vertical
 /// the height's own rounding moves the shape, and the bound holds what they are off.
-template <class AnyLinks>
-SteadyShape verified_shape(const AnyLinks& chain, const std::vector<Link<Interval<DoubleDouble>>>& enclosed_links,
-                           const Wide<double>& height, const Interval<DoubleDouble>& within,
-                           Balanced<Wide<double>> found, bool height_is_given) {
+template <class Shape = SteadyShape, class AnyLinks>
+Shape verified_shape(const AnyLinks& chain, const std::vector<Link<Interval<DoubleDouble>>>& enclosed_links,
+                     const Wide<double>& height, const Interval<DoubleDouble>& within, Balanced<Wide<double>> found,
+                     bool height_is_given) {
     std::vector<Wide<double>>& y = found.offset;
     const auto support = enclosed<DoubleDouble>(support_of(chain));
     const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()}, support);
@@ -235,7 +235,7 @@ SteadyShape verified_shape(const AnyLinks& chain, const std::vector<Link<Interva
         }
     }
     turn_outwards(found, support);
-    SteadyShape shape = described(chain, height, found);
+    Shape shape = described<Shape>(chain, height, found);
     shape.error_bound = proved.inclination_error + off + 0x1p-52;  // and two roundings of an angle below pi/2
     shape.condition = proved.condition;
     return shape;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/shapes/steady_shape.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
+#include "revchain/steady_shapes.hpp"
 
 namespace revchain {
 

@@ -2,7 +2,7 @@
 // Steady shapes of rigs against: closed forms (N = 1); torques on the bodies as vectors in quadruple precision, whose
 // zeros Newton's method finds from random starts (support/quad_rig.hpp); a sweep in long double, scanned for changes of
 // sign. Error: the largest of an inclination, rad. A zero that is not in the list is a failure, whatever found it.
-#include "revchain/finite/shapes/rig_shapes.hpp"
+#include "revchain/steady_shapes.hpp"
 
 #include "revchain/conical_pendulum.hpp"
 #include "support/catch.hpp"

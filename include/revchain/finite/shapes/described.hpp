@@ -8,31 +8,7 @@
 
 namespace revchain {
 
-/// One steady shape of a whirling chain, links lowest first, pins free end first, in the units of the chain.
-struct SteadyShape {
-    Vector<double> inclination;           ///< (N) of each link to the downward vertical, rad, within (-pi, pi]
-    Vector<double> offset;                ///< (N + 1) of each pin from the axis; the support's 0 last
-    Vector<double> height;                ///< (N + 1) of each pin above the support: negative where it hangs
-    Vector<double> tension;               ///< (N) size of the reaction at each link's upper pin
-    Vector<double> reaction_inclination;  ///< (N) of that reaction to the vertical, rad: phi of §8 (5)
-    int half_waves = 1;                   ///< sign changes of the offsets, and one
-    double conical_height = 0;            ///< of the speed
-    double residual = 0;                  ///< largest moment left over, over total weight and total length
-    double error_bound = 0;               ///< of every inclination, rad: proved (at a fold an estimate)
-    /// Largest change of an inclination, rad, where each force changes by its own size, times it, whatever the signs (in a
-    /// list with links that stand or have several inclinations: each moment about a link's upper pin). On a branch, where
-    /// something else than the height is given, the largest of a few patterns of signs, and of what is given changed.
-    double condition = 0;
-    double moment_of_inertia = 0;  ///< about the axis, weight times length squared (over g: a moment of inertia)
-    double effective_energy = 0;   ///< U = -sum of weight times depth - moment_of_inertia/(2 lambda)
-
-    double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
-        return conical_pendulum::angular_speed(conical_height, gravity);
-    }
-    double angular_momentum(double gravity = conical_pendulum::standard_gravity) const {
-        return moment_of_inertia / gravity * angular_speed(gravity);
-    }
-};
+struct SteadyShape;  // revchain/steady_shapes.hpp
 
 namespace finite {
 
@@ -62,15 +38,15 @@ struct OwnWeights {
 };
 
 /// Everything about a shape that the offsets of its pins tell: all but its error bound and condition.
-template <class Weights = OwnWeights>
-SteadyShape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found,
-                      Weights weights = {}) {
+template <class Shape = SteadyShape, class Weights = OwnWeights>
+Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found,
+                Weights weights = {}) {
     using S = Wide<double>;
     const std::size_t n = chain.links.size();
     const auto size = static_cast<Index>(n);
     const auto length = [&](const S& x) { return std::ldexp(static_cast<double>(x), chain.units.length_exponent); };
     const auto weight = [&](double x) { return std::ldexp(x, chain.units.weight_exponent); };
-    SteadyShape shape;
+    Shape shape;
     shape.inclination.resize(size), shape.tension.resize(size), shape.reaction_inclination.resize(size);
     shape.offset.resize(size + 1), shape.height.resize(size + 1);
     std::vector<S> up(n + 1);

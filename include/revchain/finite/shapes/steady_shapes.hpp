@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "revchain/finite/shapes/list.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain {
 
-struct RigShapesOptions {
-    long budget = 3'000'000;   ///< links to look at, as of a chain
-    bool hanging_only = true;  ///< only shapes with each link in the rig's posture: hanging if nothing else is said
-    int sense = 1;             ///< of the rotation, 1 or -1: it matters where flywheels keep momentum
-    double gravity = conical_pendulum::standard_gravity;  ///< which momentum is compared with
-};
-
 namespace finite {
+
+inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>& height,
+                                  const SteadyShapesOptions& options) {
+    const auto links = links_of(chain);
+    return listed<SteadyShapes>(links, ldexp(height, -links.units.length_exponent), options);
+}
 
 inline bool hangs_at_one_inclination(const RiggedLinks& rig, const Interval<double>& height) {
     const bool hangs =
@@ -58,7 +63,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
     const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !asked.hanging_only,
                                          enclosed<double>(links.support));
-    result = listed(links, lambda, options);
+    result = listed<SteadyShapes>(links, lambda, options);
     const bool unbounded = !links.support.firm &&
                            left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support)).may_vanish();
     const auto leave_beyond = [&](SteadyShapes& found) {
@@ -70,8 +75,8 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     leave_beyond(result);
     if (links.support.is_symmetric()) return result;
     links.support.radius = -links.support.radius;
-    SteadyShapes other =
-        listed(links, lambda, {asked.budget - result.cells * static_cast<long>(rig.size()), asked.hanging_only});
+    const SteadyShapesOptions rest{asked.budget - result.cells * static_cast<long>(rig.size()), asked.hanging_only};
+    auto other = listed<SteadyShapes>(links, lambda, rest);
     leave_beyond(other);
     const std::size_t count = result.shapes.size();
     for (SteadyShape& shape : other.shapes) {
@@ -90,21 +95,28 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
 
 }  // namespace finite
 
-/// All steady shapes of a rig that whirls at the speed of conical height `height`, in its posture or in any: as
-/// `steady_shapes` of a chain, with a support that yields or is carried round, flywheels, links in a fluid.
-///
-/// A support on the axis: straight shapes are left out, and of two mirror images that whose free end is at a negative
-/// offset. A support carried round (a swing carousel) at radius b: every shape, outwards positive.
-/// Method: that of chains; the sweep ends in  y - b - (H + W y)/(lambda E), y and H/lambda offset and pull of the topmost pin,
-/// W the carriage, E the spring; with b > 0 for tangents of either sign. Pull is tension and n times momentum over length.
-/// Where that is negative (a wheel against the rotation, a float) a link leans against its load: it is followed along each
-/// inclination, as those links are that may have several.
-/// Accuracy, cost, and `complete`: as of chains (measured: tests/cpp/finite/shapes/rigs.cpp); about twice the cost with b > 0.
-/// Also not complete: where one of more than some 160 links is such; and where lambda E is all the weight that moves, to
-/// rounding, and a pin may be any distance away: only shapes within a million times the chain's reach or so are looked for.
-/// Throws InvalidArgument for a height or gravity not positive and finite, a sense not 1 or -1, an effective tension that
-/// vanishes, and weights that move so that the lowest link balances about its pin.
-inline SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options = {}) {
+inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options) {
+    detail::require_positive("steady_shapes", "conical height", height);
+    return finite::steady_shapes(chain, Wide<double>(height), options);
+}
+
+inline SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, double angular_speed,
+                                           double gravity,
+                                           const SteadyShapesOptions& options) {
+    detail::require_positive("steady_shapes_at_speed", "angular speed", angular_speed);
+    detail::require_positive("steady_shapes_at_speed", "gravity", gravity);
+    constexpr double least = std::numeric_limits<double>::min();
+    const double near = gravity / angular_speed / angular_speed;
+    if (near > std::numeric_limits<double>::max() / 4) {  // far above any critical height
+        SteadyShapes none;
+        none.complete = true;
+        return none;
+    }
+    if (near < least / epsilon<double>()) return steady_shapes(chain, std::max(near, least), options);
+    return finite::steady_shapes(chain, finite::height_at_speed(angular_speed, gravity), options);
+}
+
+inline SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options) {
     detail::require_positive("steady_shapes", "conical height", height);
     detail::require_positive("steady_shapes", "gravity", options.gravity);
     if (options.sense != 1 && options.sense != -1)
@@ -113,8 +125,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapes
     return finite::steady_shapes(rig, Wide<double>(height), options.sense > 0 ? speed : -speed, options);
 }
 
-/// The same at an angular speed, negative for the other sense of rotation; `options.sense` is not looked at.
-inline SteadyShapes steady_shapes_at_speed(const Rig& rig, double angular_speed, const RigShapesOptions& options = {}) {
+inline SteadyShapes steady_shapes_at_speed(const Rig& rig, double angular_speed, const RigShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes_at_speed";
     detail::require_positive(place, "gravity", options.gravity);
     const double size = std::abs(angular_speed);

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "revchain/finite/balance/sweep.hpp"
+#include "revchain/finite/shapes/scan.hpp"
+#include "revchain/finite/shapes/several_inclinations.hpp"
+#include "revchain/finite/shapes/described.hpp"
+#include "revchain/finite/shapes/verification.hpp"
+#include "revchain/numeric/double_double.hpp"
+
+/// The list of all steady shapes at a height. `Result` and `Options` are those of revchain/steady_shapes.hpp.
+namespace revchain::finite {
+
+/// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the chain
+/// reaches.  y0 = lambda t + (a X/moment) s.
+template <class T>
+T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool either_posture = false,
+                   OnAxis = {}) {
+    Interval<T> reach(T(0));
+    for (const Link<Interval<T>>& link : links) reach = reach + link.length;
+    const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
+    const Interval<T> beyond = hull(Interval<T>(T(0)), either_posture ? hull(turning, -turning) : -turning);
+    return ((reach + Interval<T>(beyond.high)) / height).high;
+}
+
+/// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
+template <class T>
+bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
+    return std::all_of(links.begin() + 1, links.end(), [&](const Link<Interval<T>>& link) {
+        return grows_fast(height * link.pull, link.length * link.cross);
+    });
+}
+
+inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Interval<double>& height) {
+    return single_valued(enclosed<double>(links.links), height);
+}
+
+/// Isolated in double, where that leaves cells open in two words; what the proof leaves open is scanned.
+template <class AnyLinks>
+Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, double last,
+                                 long links_to_look_at) {
+    using Far = DoubleDouble;
+    const long budget = links_to_look_at / static_cast<long>(chain.links.size());
+    const auto narrow = swept_links<double>(chain);
+    const Interval<double> lambda = enclosed<double>(height);
+    const auto support = enclosed<double>(support_of(chain));
+    const auto sign_at = [&](double t) { return detail::sign_at(narrow, lambda, t, support); };
+    const int first_sign = support.is_symmetric() ? 0 : sign_at(0);
+    const Isolation<double> first =
+        detail::isolate<double>(narrow, lambda, {0.0, last, first_sign, sign_at(last)}, 1e-14, budget, support);
+    Isolation<Far> found;
+    found.cells = first.cells;
+    for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
+    if (first.undecided.empty()) return found;
+    const auto wide = swept_links<Far>(chain);
+    const Interval<Far> height_wide = enclosed<Far>(height);
+    const auto support_wide = enclosed<Far>(support_of(chain));
+    const auto wide_sign_at = [&](const Far& t) { return detail::sign_at(wide, height_wide, t, support_wide); };
+    const std::size_t count = first.undecided.size();
+    for (std::size_t i = 0, end = 0; i < count; i = end) {
+        for (end = i + 1; end < count && first.undecided[end].low == first.undecided[end - 1].high;) ++end;
+        const Far low(first.undecided[i].low), high(first.undecided[end - 1].high);  // cells that touch are one
+        const int low_sign = low == Far(0) ? first_sign : wide_sign_at(low);
+        const auto again = detail::isolate<Far>(wide, height_wide, {low, high, low_sign, wide_sign_at(high)},
+                                                Far(1e-26), std::max(0L, budget - found.cells), support_wide);
+        found.cells += again.cells;
+        found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
+        for (const Bracket<Far>& b : again.undecided) {
+            if (!found.undecided.empty() && found.undecided.back().high == b.low)
+                found.undecided.back().high = b.high;
+            else
+                found.undecided.push_back(b);
+        }
+    }
+    if (found.undecided.empty()) return found;
+    const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
+        const int sign = sign_at(static_cast<double>(t));
+        return sign != 0 ? sign : wide_sign_at(t);
+    });
+    found.shapes.insert(found.shapes.end(), more.begin(), more.end());
+    return found;
+}
+
+/// A shape and the tangent of its lowest link.
+struct Finished {
+    Balanced<Wide<double>> shape;
+    Wide<double> tangent;
+};
+
+/// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
+template <class AnyLinks>
+std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& height,
+                                 const Bracket<DoubleDouble>& bracket) {
+    using S = Wide<double>;
+    const std::vector<Link<S>>& links = chain.links;
+    const auto support = support_of(chain);
+    S low = bracket.low.word(), high = bracket.high.word();
+    const auto falls_short = [&](const S& t) { return missed(links, height, t, support) < S(0); };
+    const bool rises = falls_short(low);
+    const auto halve = [&]() {
+        const S middle = low + (high - low) * S(0.5);
+        (falls_short(middle) == rises ? low : high) = middle;
+        return middle;
+    };
+    for (int round = 0; round < 16; ++round) {
+        auto found = balance(links, height, swept(links, height, halve()), 60, {}, support);
+        if (found.converged) {
+            const S tangent = detail::tangent_in(found, links, 0);
+            if (bracket.low.word() < tangent && tangent < bracket.high.word())
+                return Finished{std::move(found), tangent};
+        }
+        for (int i = 0; i < 6; ++i) halve();
+    }
+    return std::nullopt;
+}
+
+/// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of the
+/// support's offset on both sides of its lowest tangent, as near as two words can tell, and what all links then may do.
+template <class End>
+double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
+                         const Bracket<DoubleDouble>& bracket, const Finished& found,
+                         const std::vector<Link<Wide<double>>>& middle, const End& support) {
+    using Far = DoubleDouble;
+    const Interval<Far> lambda = enclosed<Far>(height);
+    const Far tangent(found.tangent);
+    Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
+    for (int round = 0;; ++round, reach = reach * Far(16)) {
+        const bool far = round == 300;  // 16^300 overflows
+        const Far low = far ? bracket.low : std::max(bracket.low, tangent - reach);
+        const Far high = far ? bracket.high : std::min(bracket.high, tangent + reach);
+        const bool whole = low == bracket.low && high == bracket.high;
+        const auto sign_at = [&](const Far& t) { return detail::sign_at(links, lambda, t, support); };
+        if (!far && !whole && sign_at(low) * sign_at(high) != -1) continue;
+        std::vector<Interval<Far>> tangents;
+        detail::support_offset(links, lambda, Interval<Far>(low, high), &tangents);
+        double worst = 0;
+        for (std::size_t m = 0; m < tangents.size(); ++m) {
+            const Far t(detail::tangent_in(found.shape, middle, m));
+            const Interval<Far> both = hull(tangents[m], Interval<Far>(t));
+            const double near = both.may_vanish() ? 0.0 : static_cast<double>(std::min(abs(both.low), abs(both.high)));
+            const double change =
+                static_cast<double>(std::max(abs(both.high - t), abs(t - both.low))) / (1 + near * near);
+            worst = std::max(worst, change == change ? change : std::numeric_limits<double>::infinity());
+        }
+        return worst * 1.01;
+    }
+}
+
+/// A bracket of a shape, halved by proved signs until rounding leaves a sign open.
+template <class End>
+Bracket<DoubleDouble> narrowed(const std::vector<Link<Interval<DoubleDouble>>>& links,
+                               const Interval<DoubleDouble>& lambda, const End& support,
+                               Bracket<DoubleDouble> bracket) {
+    using Far = DoubleDouble;
+    const int low_sign = detail::sign_at(links, lambda, bracket.low, support);
+    for (int round = 0; round < 200; ++round) {
+        const Far middle = Interval<Far>(bracket.low, bracket.high).middle();
+        const int sign = detail::sign_at(links, lambda, middle, support);
+        if (sign == 0 || !(bracket.low < middle && middle < bracket.high)) break;
+        (sign == low_sign ? bracket.low : bracket.high) = middle;
+    }
+    return bracket;
+}
+
+/// A shape whose links are too near the horizontal for `finished`: found from the tangents of all links in a `part` of
+/// the bracket. Nothing if it cannot be proved.
+template <class AnyLinks>
+std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
+                                            const Bracket<DoubleDouble>& bracket, const Bracket<DoubleDouble>& part) {
+    using Far = DoubleDouble;
+    const auto links = swept_links<Far>(chain);
+    const auto lambda = enclosed<Far>(height);
+    const auto support = enclosed<Far>(support_of(chain));
+    Box<Far> near;
+    detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), &near, support);
+    const WholeBalance balance(links, lambda, posture_of(chain), support);
+    auto found = detail::settled(chain, height, balance, near);
+    if (!found) return std::nullopt;
+    const Far tangent = abs(Far(detail::tangent_in(found->shape, chain.links, 0)));
+    const bool inside = abs(bracket.low) <= tangent && tangent <= abs(bracket.high);
+    return inside ? std::move(found) : std::nullopt;
+}
+
+template <class AnyLinks, class Result>
+void add(const AnyLinks& links, const Wide<double>& height, const Settled& settled, Result& result) {
+    using Shape = typename decltype(result.shapes)::value_type;
+    result.shapes.push_back(described<Shape>(links, height, settled.shape));
+    result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
+}
+
+/// Adds all shapes where each link hangs at one inclination for what hangs below it.
+template <class AnyLinks, class Result>
+void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget, Result& result) {
+    using Shape = typename decltype(result.shapes)::value_type;
+    const auto narrow = swept_links<DoubleDouble>(links);
+    const auto support = enclosed<DoubleDouble>(support_of(links));
+    const auto isolation = isolated(links, height, last, budget);
+    result.cells = isolation.cells;
+    const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
+        const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
+        result.undecided.push_back({inclination(b.low), inclination(b.high)});
+    };
+    for (const auto& bracket : isolation.undecided) leave_open(bracket);
+    for (const auto& bracket : isolation.shapes) {
+        const std::size_t before = result.shapes.size();
+        if (auto found = finished(links, height, bracket)) {
+            Shape& shape = result.shapes.emplace_back(
+                verified_shape<Shape>(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
+            if (shape.error_bound <= 0x1.8p-52) continue;
+            // all but horizontal, or all but critical: the sweep may say more
+            const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
+            if (error < shape.error_bound) {
+                const double condition = shape.condition;
+                turn_outwards(found->shape, support);
+                shape = described<Shape>(links, height, found->shape);
+                shape.error_bound = error, shape.condition = condition;
+            }
+            if (shape.error_bound < 0x1p-48) continue;
+        }
+        // or the tangents
+        const auto part = narrowed(narrow, enclosed<DoubleDouble>(height), support, bracket);
+        if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
+            result.shapes.resize(before);
+            add(links, height, *settled, result);
+        } else if (result.shapes.size() == before) {
+            leave_open(part);
+        }
+    }
+}
+
+/// Adds all shapes where a link may have several inclinations.
+template <class AnyLinks, class Options, class Result>
+void add_several_valued(const AnyLinks& links, const Wide<double>& height, double last, const Options& options,
+                        Result& result) {
+    const auto found = several_inclinations(links, height, last, options.hanging_only,
+                                            options.budget / static_cast<long>(links.links.size()));
+    result.cells = found.cells;
+    for (const Settled& settled : found.shapes) add(links, height, settled, result);
+    for (const auto& part : found.open) {
+        const double low = std::atan(part.low), high = std::atan(part.high);
+        if (part.lowest == Posture::hangs)
+            result.undecided.push_back({low, high});
+        else
+            result.undecided.push_back({std::numbers::pi - high, std::numbers::pi - low});
+    }
+}
+
+template <class Result>
+void sort(Result& found) {
+    std::sort(found.shapes.begin(), found.shapes.end(), [](const auto& x, const auto& y) {
+        return x.half_waves != y.half_waves ? x.half_waves < y.half_waves : x.inclination[0] < y.inclination[0];
+    });
+    found.complete = found.undecided.empty();
+}
+
+/// All shapes at a height in the units of the links.
+template <class Result, class AnyLinks, class Options>
+Result listed(const AnyLinks& links, const Wide<double>& scaled, const Options& options) {
+    Result result;
+    // A little beyond: a link all but horizontal is at the end itself, to rounding.
+    const double last = 1.01 * farthest_tangent(swept_links<double>(links), enclosed<double>(scaled),
+                                                !options.hanging_only, enclosed<double>(support_of(links)));
+    if (!(static_cast<double>(scaled) >= 0x1p-50 && last < 0x1p960)) {
+        result.undecided.push_back({0, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi});
+        return result;
+    }
+    if (options.hanging_only && hangs_at_one_inclination(links, enclosed<double>(scaled)))
+        add_single_valued(links, scaled, last, options.budget, result);
+    else
+        add_several_valued(links, scaled, last, options, result);
+    sort(result);
+    return result;
+}
+
+}  // namespace revchain::finite
