@@ -62,4 +62,12 @@ Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options
 
 }  // namespace revchain
 
+#if defined(REVCHAIN_COMPILED)
+namespace revchain {
+extern template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);
+extern template Table<double> conical_heights(const ChainBatch<double>&, const BatchOptions&);
+extern template Table<long double> conical_heights(const ChainBatch<long double>&, const BatchOptions&);
+}  // namespace revchain
+#else
 #include "revchain/linear/batch.hpp"
+#endif

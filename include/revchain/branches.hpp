@@ -5,6 +5,7 @@
 
 #include "revchain/finite/branch/branch.hpp"
 #include "revchain/finite/branch/diagram_proof.hpp"
+#include "revchain/finite/shapes/list.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain {

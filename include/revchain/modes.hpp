@@ -107,4 +107,12 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
 }  // namespace revchain
 
+#if defined(REVCHAIN_COMPILED)
+namespace revchain {
+extern template Modes<float> modes(const Chain<float>&, const ModesOptions<float>&);
+extern template Modes<double> modes(const Chain<double>&, const ModesOptions<double>&);
+extern template Modes<long double> modes(const Chain<long double>&, const ModesOptions<long double>&);
+}  // namespace revchain
+#else
 #include "revchain/linear/modes.hpp"
+#endif

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "revchain/finite/shapes/described.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/scalar.hpp"

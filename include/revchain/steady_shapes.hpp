@@ -110,4 +110,6 @@ SteadyShapes steady_shapes_at_speed(const Rig& rig, double angular_speed, const 
 
 }  // namespace revchain
 
+#if !defined(REVCHAIN_COMPILED)
 #include "revchain/finite/shapes/steady_shapes.hpp"
+#endif

@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/linear/mode_shape.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"
+#include "revchain/pencil/twisted.hpp"
+#include "revchain/system/converted.hpp"
 
 namespace revchain {
 

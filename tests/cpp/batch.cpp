@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Batches against quadruple precision, against `modes`, and against themselves in other company.
+#include "revchain/linear/batch.hpp"
+#include "revchain/modes.hpp"
 #include "revchain/batch.hpp"
 
 #include <cstring>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
+#include "revchain/finite/shapes/list.hpp"
 #include "revchain/steady_shapes.hpp"
 
 #include "revchain/modes.hpp"

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/linear/modes.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/dense.hpp"
+#include "revchain/pencil/twisted.hpp"
 #include "revchain/recurrence.hpp"
 
 /// The same modes by two formulations that share no step with `modes`: slow, less accurate, and for that very reason

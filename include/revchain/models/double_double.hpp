@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/linear/modes.hpp"
 #include "revchain/models/model.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/linear/aberth_heights.hpp"
+#include "revchain/linear/condensed_heights.hpp"
+#include "revchain/linear/interpolated_heights.hpp"
 #include "revchain/models/model.hpp"
 #include "revchain/modes.hpp"
 

@@ -4,6 +4,8 @@
 #include <map>
 #include <sstream>
 
+#include "revchain/system/converted.hpp"
+#include "revchain/linear/modes.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "support/catch.hpp"

@@ -8,6 +8,7 @@
 
 #include "revchain/finite/shapes/list.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain {
@@ -95,14 +96,14 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
 
 }  // namespace finite
 
-inline SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options) {
+REVCHAIN_INLINE SteadyShapes steady_shapes(const Chain<double>& chain, double height,
+                                           const SteadyShapesOptions& options) {
     detail::require_positive("steady_shapes", "conical height", height);
     return finite::steady_shapes(chain, Wide<double>(height), options);
 }
 
-inline SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, double angular_speed,
-                                           double gravity,
-                                           const SteadyShapesOptions& options) {
+REVCHAIN_INLINE SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, double angular_speed, double gravity,
+                                                    const SteadyShapesOptions& options) {
     detail::require_positive("steady_shapes_at_speed", "angular speed", angular_speed);
     detail::require_positive("steady_shapes_at_speed", "gravity", gravity);
     constexpr double least = std::numeric_limits<double>::min();
@@ -116,7 +117,7 @@ inline SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, double an
     return finite::steady_shapes(chain, finite::height_at_speed(angular_speed, gravity), options);
 }
 
-inline SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options) {
+REVCHAIN_INLINE SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options) {
     detail::require_positive("steady_shapes", "conical height", height);
     detail::require_positive("steady_shapes", "gravity", options.gravity);
     if (options.sense != 1 && options.sense != -1)
@@ -125,7 +126,8 @@ inline SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapes
     return finite::steady_shapes(rig, Wide<double>(height), options.sense > 0 ? speed : -speed, options);
 }
 
-inline SteadyShapes steady_shapes_at_speed(const Rig& rig, double angular_speed, const RigShapesOptions& options) {
+REVCHAIN_INLINE SteadyShapes steady_shapes_at_speed(const Rig& rig, double angular_speed,
+                                                    const RigShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes_at_speed";
     detail::require_positive(place, "gravity", options.gravity);
     const double size = std::abs(angular_speed);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include "revchain/finite/balance/links.hpp"
+#include "revchain/finite/balance/newton.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
 #include "revchain/steady_shapes.hpp"
 

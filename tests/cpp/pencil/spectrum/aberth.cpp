@@ -203,7 +203,7 @@ std::array<double, 2> worst_roundings(const std::vector<Body>& bodies, const sma
     const auto yield = [&](std::size_t m) {
         return small::Four(links.flexibility[m]) / (small::Four(1.0) + mu * small::Four(rigid ? links.swing[m] : 0.0));
     };
-    small::Walk<rigid> walk;
+    small::Walk<rigid, false> walk;
     walk.offset = small::Four(1.0);
     for (std::size_t m = 0; m < n; ++m) {
         walk.pass_pin(links, m, mu, true);
@@ -222,7 +222,7 @@ std::array<double, 2> worst_roundings(const std::vector<Body>& bodies, const sma
         down[m] = walk.offset;
         walk.pass_pin(links, m, mu, false);
     }
-    const auto found = small::quotients<rigid>(links, above.data(), {mu, mu, mu})[0];
+    const auto found = small::quotients<rigid, false, 1>(links, above.data(), {mu})[0];
     // Data are exact but for 1/k and X/k, which `drop` counts with three more operations and the product.
     const double allowed = 0x1p-53 * ((rigid ? 18 : 15) + 2 * static_cast<double>(n - 1));
     std::array<double, 2> worst{};

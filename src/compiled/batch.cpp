@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "revchain/linear/batch.hpp"
+
+namespace revchain {
+template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);
+template Table<double> conical_heights(const ChainBatch<double>&, const BatchOptions&);
+template Table<long double> conical_heights(const ChainBatch<long double>&, const BatchOptions&);
+}  // namespace revchain

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MPL-2.0
+#include "revchain/linear/modes.hpp"
+
+namespace revchain {
+template Modes<float> modes(const Chain<float>&, const ModesOptions<float>&);
+template Modes<double> modes(const Chain<double>&, const ModesOptions<double>&);
+}  // namespace revchain
