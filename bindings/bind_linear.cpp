@@ -8,6 +8,7 @@
 #include "interrupt.hpp"
 #include "revchain/count.hpp"
 #include "revchain/linear/dense_reference.hpp"
+#include "revchain/linear/modes.hpp"  // also for double-double
 #include "revchain/modes.hpp"
 #include "scalars.hpp"
 

@@ -102,6 +102,16 @@ pip() {
   "$venv/bin/python" -m pip --disable-pip-version-check --quiet "$@"
 }
 
+# The package with its EXTRAS, showing ninja's count; all that was printed, where it fails.
+build_package() {
+  log=$root/build/python.log
+  mkdir -p "$root/build"
+  { "$venv/bin/python" -m pip --disable-pip-version-check --verbose install --no-build-isolation \
+    --config-settings=build-dir="$root/build/python" "${root}[$1]" 2>&1 && echo built || echo failed; } |
+    tee "$log" | awk '/^ *\[[0-9]+\/[0-9]+\]/ { sub(/^ */, ""); print; fflush() }'
+  [ "$(tail -n 1 "$log")" = built ] || { cat "$log" >&2; return 1; }
+}
+
 set_up() {
   extras=$1; shift
   stamp=$venv/revchain-$extras.stamp
@@ -111,12 +121,12 @@ set_up() {
   install_needs "$@"
   [ -x "$venv/bin/python" ] || "${PYTHON:-python3}" -m venv "$venv"
   touch "$stamp.new" # before the build: what is edited while it runs counts as newer
-  echo "building the Python package in .venv"
+  echo "building the Python package in .venv: each step below is a file, and takes some seconds"
   # Without isolation, and in a folder that stays, so that the second build does only what has changed.
   # shellcheck disable=SC2046  # one requirement a line
   pip install $("$venv/bin/python" -c 'import sys, tomllib
 print(*tomllib.load(open(sys.argv[1], "rb"))["build-system"]["requires"], sep="\n")' "$root/pyproject.toml")
-  pip install --no-build-isolation --config-settings=build-dir="$root/build/python" "${root}[$extras]"
+  build_package "$extras"
   mv "$stamp.new" "$stamp"
 }
 

@@ -49,6 +49,21 @@ if grep -qE 'revchain::(Rig|Flywheel|Displaced|Support|linear::Driven)' symbols;
   fail 'a program of plain chains carries what chains can be rigged with'
 fi
 
+say 'find_package(revchain COMPONENTS compiled)'
+refuses "the component 'compiled' was not installed" 'revchain REQUIRED COMPONENTS compiled'
+quietly cmake -S "$root" -B with_library -DCMAKE_BUILD_TYPE=Release -DREVCHAIN_BUILD_COMPILED=ON \
+  -DREVCHAIN_BUILD_EXAMPLES=OFF -DBUILD_TESTING=OFF -DREVCHAIN_ANALYTIC=OFF
+quietly cmake --build with_library
+quietly cmake --install with_library --prefix "$work/with_library_installed"
+build compiled core -DCMAKE_PREFIX_PATH="$work/with_library_installed" -DLIBRARY=compiled
+
+say 'a plain checkout installs with Eigen alone, no Catch2 on the machine; BUILD_TESTING=OFF builds no tests'
+quietly cmake -S "$root" -B plain -DCMAKE_DISABLE_FIND_PACKAGE_Catch2=ON -DCMAKE_DISABLE_FIND_PACKAGE_GSL=ON
+quietly cmake --install plain --prefix "$work/plain_installed"
+quietly cmake -S "$root" -B untested -DBUILD_TESTING=OFF
+ctest --test-dir untested -N >log
+grep -q '^Total Tests: 0$' log || { cat log; fail 'BUILD_TESTING=OFF leaves tests'; }
+
 say 'find_package(revchain COMPONENTS analytic)'
 build analytic analytic
 
@@ -68,6 +83,9 @@ say 'add_subdirectory: none of our tests among theirs'
 build subdirectory subdirectory -DREVCHAIN_SOURCE="$root"
 ctest --test-dir subdirectory -N >log
 grep -q '^Total Tests: 1$' log || { cat log; fail 'the consumer has one test of its own and no other'; }
+
+say 'FetchContent'
+build fetched subdirectory -DREVCHAIN_SOURCE="$root" -DFETCH=ON
 
 say 'pkg-config'
 export PKG_CONFIG_PATH=$work/moved/share/pkgconfig:${PKG_CONFIG_PATH-}
