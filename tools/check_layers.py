@@ -73,6 +73,7 @@ MACROS = {"numeric/compiled.hpp"}  # declares nothing but a macro
 PLAIN = {"chain.hpp", "modes.hpp", "batch.hpp", "finite/cord/continuous_chain.hpp"}
 RIGGING = {"rig.hpp", "system/edit.hpp"}
 MAX_LINES = 400
+MAX_COLUMNS = 120
 
 # What a library leaves to its caller: printing, ending the process. (static_assert is another word.)
 FORBIDDEN = {
@@ -130,6 +131,9 @@ def check_header(path: Path) -> list[str]:
         complain(path, 1, "includes and declares nothing of its own: no folder umbrellas")
 
     ours = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > MAX_COLUMNS:
+            complain(path, number, f"{len(line)} columns; at most {MAX_COLUMNS}")
     for number, line in enumerate(code.splitlines(), 1):
         for pattern, why in FORBIDDEN.items():
             if re.search(pattern, line):

@@ -43,18 +43,19 @@ struct BatchOptions {
 /// The slowest `count` conical heights of every chain of a batch, descending: a row for each chain, in its unit of
 /// length. Greenhill (1908) §8 (21) with sec delta = 1.
 ///
-/// In float and double one chain to a SIMD lane (pencil/batch/spectrum.hpp); chains for which that proves nothing, those
-/// with massless links or centroids at or above the pin, and all chains in other scalars are done one by one by `modes`.
-/// Accuracy: 2.8 ulp for plummets and rods up to N = 100; in a million chains of all kinds of 1 to 6 links 29 heights were
-/// off by more than 4 ulp, the worst by 4.8, all where weights span 1e12 or the mass of a link is one point between its
-/// pins. Verified by counts to 16 + N/4 ulp.
+/// In float and double one chain to a SIMD lane (pencil/batch/spectrum.hpp); chains for which that proves nothing,
+/// those with massless links or centroids at or above the pin, and all chains in other scalars are done one by one by
+/// `modes`.
+/// Accuracy: 2.8 ulp for plummets and rods up to N = 100; in a million chains of all kinds of 1 to 6 links 29 heights
+/// were off by more than 4 ulp, the worst by 4.8, all where weights span 1e12 or the mass of a link is one point
+/// between its pins. Verified by counts to 16 + N/4 ulp.
 /// Results are bitwise the same whatever the number of threads, the place of a chain in the batch and its neighbours
 /// there; another `count` or another kind of processor may change last digits.
-/// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp). Memory: the result, and a few
-/// numbers for each link of 16 chains a thread.
+/// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp). Memory: the result, and a
+/// few numbers for each link of 16 chains a thread.
 ///
-/// Throws InvalidArgument for a batch, count or number of threads that is none, and, before anything else, for the first
-/// chain with a number that `Chain` refuses, naming chain, link and value; for a count beyond the modes of some
+/// Throws InvalidArgument for a batch, count or number of threads that is none, and, before anything else, for the
+/// first chain with a number that `Chain` refuses, naming chain, link and value; for a count beyond the modes of some
 /// chain (massless links cost modes: chains that have unlike numbers of modes need a count). Throws it later only for a
 /// chain whose heights cannot be proved to half the digits of T.
 template <Real T>

@@ -10,8 +10,8 @@
 /// Greenhill (1908) §8 (13)-(16).
 namespace revchain {
 
-/// What a bell and its clapper are: suffix 1 of the paper is the clapper, 2 the bell. `joint` is a2, from the bell's axle
-/// to the clapper's pin.
+/// What a bell and its clapper are: suffix 1 of the paper is the clapper, 2 the bell. `joint` is a2, from the bell's
+/// axle to the clapper's pin.
 enum class BellDatum {
     clapper_weight,
     clapper_centroid,
@@ -29,8 +29,8 @@ inline constexpr std::array<std::string_view, 7> bell_datum_names{
 template <Real T>
 using ByBellDatum = std::array<T, bell_datum_names.size()>;
 
-/// The two modes, slower first. In the slower one bell and clapper lean the same way, in the faster one opposite ways: they
-/// can be one piece in the slower one alone.
+/// The two modes, slower first. In the slower one bell and clapper lean the same way, in the faster one opposite ways:
+/// they can be one piece in the slower one alone.
 template <Real T>
 struct BellAndClapper {
     std::array<T, 2> conical_height;
@@ -102,8 +102,8 @@ S nearest_root(const S& a, const S& b, const S& c, const S& x0, const May& may) 
 
 }  // namespace detail
 
-/// Both modes of a bell (upper link) and its clapper (lower link), how far they are from swinging as one piece, and how the
-/// slower mode's ratio of inclinations r changes with every datum: dr/dx = -(dG/dx)/(dG/dr).
+/// Both modes of a bell (upper link) and its clapper (lower link), how far they are from swinging as one piece, and how
+/// the slower mode's ratio of inclinations r changes with every datum: dr/dx = -(dG/dx)/(dG/dr).
 /// Accuracy: heights and ratios 2 ulp, derivatives 4 ulp of the sum of their terms' sizes, measured
 /// (tests/cpp/bell.cpp). Cost O(1). Throws InvalidArgument unless there are two links, both with weight.
 template <Real T>
@@ -145,10 +145,10 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain) {
     return result;
 }
 
-/// For each datum the value nearest to the present one that gives the slower mode a ratio of inclinations `ratio`, the others
-/// held; NaN where none does. With a ratio of 1 bell and clapper become one piece; to keep them from it, ask for one as far
-/// from 1 as it takes. Each is a root of a quadratic. Cost O(1). Throws as `bell_and_clapper` does, and for a ratio not
-/// positive.
+/// For each datum the value nearest to the present one that gives the slower mode a ratio of inclinations `ratio`, the
+/// others held; NaN where none does. With a ratio of 1 bell and clapper become one piece; to keep them from it, ask for
+/// one as far from 1 as it takes. Each is a root of a quadratic. Cost O(1). Throws as `bell_and_clapper` does, and for
+/// a ratio not positive.
 template <Real T>
 ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio) {
     using std::ldexp;

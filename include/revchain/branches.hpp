@@ -30,8 +30,8 @@ struct BranchesOptions {
 
 namespace finite {
 
-/// The states of a branch at one height, in the order of the arc. Between the vertical and the next point the law of the
-/// onset leads to it: the height hardly changes there.
+/// The states of a branch at one height, in the order of the arc. Between the vertical and the next point the law of
+/// the onset leads to it: the height hardly changes there.
 inline std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, double conical_height) {
     std::vector<SteadyShape> found;
     if (branch.size() == 0) return found;
@@ -62,8 +62,8 @@ inline std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corre
     return found;
 }
 
-/// The branch through a state, followed from there on the side of `across`, a direction it does not lie across, until it
-/// comes back or down to `log_end`.
+/// The branch through a state, followed from there on the side of `across`, a direction it does not lie across, until
+/// it comes back or down to `log_end`.
 inline Branch branch_from(const Chain<double>& chain, const BranchState& at, const BranchState& across, int half_waves,
                           double log_end, const BranchOptions& options) {
     Branch result;
@@ -228,18 +228,18 @@ class Diagram {
 
 }  // namespace finite
 
-/// The whole diagram of branches from the first critical speed to that of `conical_height`: those that leave the vertical,
-/// and isolated ones that are born in a fold.
+/// The whole diagram of branches from the first critical speed to that of `conical_height`: those that leave the
+/// vertical, and isolated ones that are born in a fold.
 ///
 /// Method: `branch` from every mode; then proved lists of all shapes (`steady_shapes`) at `lists` heights from the end
 /// up, each shape matched with a crossing; one that no branch meets is on an isolated branch, which is followed from it
 /// both ways. `consistent` where all lists are proved complete and every shape in them is met once. Then
-/// finite::DiagramProver, which shows that no loop opens and closes between two of the heights, or finds it: `complete`.
-/// It leaves it false where its budget ends, and where links could hang at several inclinations; `remark` says between
-/// which heights. The proof is about where branches are; that a branch as followed is one of them is checked (see
-/// finite::BranchWalk).
-/// Cost: that of the lists, 10 ms for three plummets, and of the proof: down to 1/200 of the length 5 to 50 ms for three
-/// links, 0.05 to 0.3 s for five, 0.2 to 0.7 s for six (8,000 to 40,000 rectangles of five and six).
+/// finite::DiagramProver, which shows that no loop opens and closes between two of the heights, or finds it:
+/// `complete`. It leaves it false where its budget ends, and where links could hang at several inclinations; `remark`
+/// says between which heights. The proof is about where branches are; that a branch as followed is one of them is
+/// checked (see finite::BranchWalk).
+/// Cost: that of the lists, 10 ms for three plummets, and of the proof: down to 1/200 of the length 5 to 50 ms for
+/// three links, 0.05 to 0.3 s for five, 0.2 to 0.7 s for six (8,000 to 40,000 rectangles of five and six).
 /// Throws InvalidArgument for a height not positive and finite and for `lists` below 1.
 inline Branches branches(const Chain<double>& chain, double conical_height, const BranchesOptions& options = {}) {
     detail::require_positive("branches", "conical height", conical_height);

@@ -6,8 +6,8 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/two_links.hpp"
 
-/// Two railway carriages, coupled by a spring, that run against a buffer stop: in contact they swing as two plummets do,
-/// and "the system is seen to deal a double blow". Greenhill (1908) §2.
+/// Two railway carriages, coupled by a spring, that run against a buffer stop: in contact they swing as two plummets
+/// do, and "the system is seen to deal a double blow". Greenhill (1908) §2.
 namespace revchain {
 
 /// What is given, in any consistent units. The coupling is slack at first, both carriages run with `speed`.
@@ -30,13 +30,13 @@ struct Blow {
     double impulse;  ///< what the buffer takes from the momentum, the integral of its force
 };
 
-/// The motion in time. Accuracy: 1e-13 of speed x time for places, of the speed and acceleration x time for speeds, of the
-/// end for times (measured: tests/cpp/paper/section_2.cpp), where no blow only grazes. Cost: 2 microseconds a blow (carriages
-/// of about one mass deal one to three, a heavy one behind a light one hundreds), 0.1 for a state.
+/// The motion in time. Accuracy: 1e-13 of speed x time for places, of the speed and acceleration x time for speeds, of
+/// the end for times (measured: tests/cpp/paper/section_2.cpp), where no blow only grazes. Cost: 2 microseconds a blow
+/// (carriages of about one mass deal one to three, a heavy one behind a light one hundreds), 0.1 for a state.
 class BufferImpact {
    public:
-    /// Throws InvalidArgument unless all numbers are positive and finite, and their quotients, or for over 100,000 blows
-    /// or ten million steps to find their times.
+    /// Throws InvalidArgument unless all numbers are positive and finite, and their quotients, or for over 100,000
+    /// blows or ten million steps to find their times.
     explicit BufferImpact(const Carriages& given);
 
     const std::vector<Blow>& blows() const { return blows_; }
@@ -45,7 +45,8 @@ class BufferImpact {
 
    private:
     static constexpr long most_steps = 10'000'000;
-    /// Offset of the front carriage c + v t + sum of a cos(w t) + b sin(w t), of the rear one with `ratio` a and b for a, b.
+    /// Offset of the front carriage c + v t + sum of a cos(w t) + b sin(w t), of the rear one with `ratio` a and b for
+    /// a, b.
     struct Phase {
         double start, centre = 0, drift = 0;
         std::array<double, 2> cosine{}, sine{}, frequency{}, ratio{};

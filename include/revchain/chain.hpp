@@ -24,8 +24,8 @@ struct ChainUnits {
 ///
 /// Throws InvalidArgument, naming the link (counted from 1, lowest first), for: no links; numbers that are not finite;
 /// lengths <= 0; negative weights; a massless lowest link; weights whose sum overflows; a link that would stand rather
-/// than hang (W h + a S <= 0, S the weight hung below it); lengths, of any kind, too far apart for T (2^(max_exponent/4):
-/// 1e77 in double).
+/// than hang (W h + a S <= 0, S the weight hung below it); lengths, of any kind, too far apart for T
+/// (2^(max_exponent/4): 1e77 in double).
 /// Cost O(N) once; memory one number per stored number.
 template <Real T>
 class Chain {
@@ -61,11 +61,11 @@ class Chain {
         return repeated("Chain::uniform_rods", count, length, weight, &uniform_rod<T>);
     }
 
-    /// `count` straight links of equal length, each the piece of a cord whose line density is as x^exponent, x from the free
-    /// end: 0 is `uniform_rods`, 1 a cord that thickens upwards; towards -1 the mass gathers at the free end.
+    /// `count` straight links of equal length, each the piece of a cord whose line density is as x^exponent, x from the
+    /// free end: 0 is `uniform_rods`, 1 a cord that thickens upwards; towards -1 the mass gathers at the free end.
     /// Greenhill (1908) §4. `length` and `weight` are those of the whole chain.
-    /// Throws InvalidArgument, too, for an exponent that is not above -1 or above 1000, and where the lowest link would be
-    /// left with no weight that T can hold. Accuracy and cost: system/tapered_links.hpp.
+    /// Throws InvalidArgument, too, for an exponent that is not above -1 or above 1000, and where the lowest link would
+    /// be left with no weight that T can hold. Accuracy and cost: system/tapered_links.hpp.
     static Chain tapered(Index count, T length, double exponent, T weight = T(1)) {
         constexpr std::string_view place = "Chain::tapered";
         if (!is_taper(exponent)) detail::throw_invalid(place, "exponent must be above -1 and at most 1000", exponent);

@@ -31,8 +31,8 @@ struct CompoundLink {
         const Wide<T> k(radius_of_gyration);
         return detail::Product<Wide<T>>{}.times(k).times(k).over(centroid);
     }
-    /// Of Maxwell's two particles that move as the link does, the share of its weight at the centre of oscillation, h/l;
-    /// the rest is at the pin. §6.
+    /// Of Maxwell's two particles that move as the link does, the share of its weight at the centre of oscillation,
+    /// h/l; the rest is at the pin. §6.
     T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
 };
 
@@ -96,9 +96,10 @@ struct SwungLink {
 };
 
 /// A link turning at the speed whose conical height is `height`: inclined as a plummet at its centre of oscillation,
-/// cos(inclination) = height/l, it pulls at its axle with its weight downwards and W (h/height) sin(inclination) outwards.
-/// §6 (1), (2). Accuracy: 4 ulp, for the data as given, however near `height` and l are. There the inclination changes by
-/// up to `condition` times as much as the data, in ratio:  cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l).
+/// cos(inclination) = height/l, it pulls at its axle with its weight downwards and W (h/height) sin(inclination)
+/// outwards. §6 (1), (2). Accuracy: 4 ulp, for the data as given, however near `height` and l are. There the
+/// inclination changes by up to `condition` times as much as the data, in ratio:  cot d / d (1 + (|h - k^2/h| + 2
+/// k^2/h)/l).
 /// Throws InvalidArgument for a height that is not positive and finite.
 template <Real T>
 SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {

@@ -108,9 +108,9 @@ struct InclinedPendulum {
     T tension;      ///< over the weight
 };
 
-/// A plummet on a thread of `length` turning at the speed whose conical height is `height`: it leaves the vertical where
-/// height < length, and then hangs at that depth, cos(inclination) = height/length, tension length/height. §1 (1), §6 (1).
-/// For a compound link `length` is its pendulum length, and the tension's part is not that of the pin.
+/// A plummet on a thread of `length` turning at the speed whose conical height is `height`: it leaves the vertical
+/// where height < length, and then hangs at that depth, cos(inclination) = height/length, tension length/height. §1
+/// (1), §6 (1). For a compound link `length` is its pendulum length, and the tension's part is not that of the pin.
 template <Real T>
 InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
     using std::asin;
@@ -133,9 +133,9 @@ struct HeldPlummet {
         lower_taut;  ///< tensions not negative: else that thread is slack, and the plummet swings on the other
 };
 
-/// `upper_thread` and `lower_thread` from two points of the axis, the lower `distance` below the upper; the equations of
-/// the polygon KN, NP, PC', C'K of §1. The lower thread is taut where depth > height. Accuracy: 3 ulp; where a depth or
-/// a tension nearly vanishes, 1e-29 of the larger of the two terms whose difference it is.
+/// `upper_thread` and `lower_thread` from two points of the axis, the lower `distance` below the upper; the equations
+/// of the polygon KN, NP, PC', C'K of §1. The lower thread is taut where depth > height. Accuracy: 3 ulp; where a depth
+/// or a tension nearly vanishes, 1e-29 of the larger of the two terms whose difference it is.
 /// Throws InvalidArgument unless the three lengths make a triangle.
 template <Real T>
 HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const T& distance, const T& height) {
@@ -170,8 +170,9 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     return {radius, static_cast<T>(depth), upper, lower, upper >= T(0), lower >= T(0)};
 }
 
-/// The whirling machine: a plummet whose thread hangs from an arm `arm` long, its length adjusted until the arm stands at
-/// right angles to the vertical plane through axis and plummet. Resistance of the air over the weight, CA / CN. §1 (8)
+/// The whirling machine: a plummet whose thread hangs from an arm `arm` long, its length adjusted until the arm stands
+/// at right angles to the vertical plane through axis and plummet. Resistance of the air over the weight, CA / CN. §1
+/// (8)
 template <Real T>
 T air_resistance(const T& arm, const T& height) {
     detail::require_positive("air_resistance", "arm", arm);
@@ -179,7 +180,8 @@ T air_resistance(const T& arm, const T& height) {
     return arm / height;
 }
 
-/// The thread that the machine then needs for the plummet to run in a circle of `radius`: sqrt(arm^2 + height^2 + radius^2).
+/// The thread that the machine then needs for the plummet to run in a circle of `radius`: sqrt(arm^2 + height^2 +
+/// radius^2).
 template <Real T>
 T whirling_thread(const T& arm, const T& height, const T& radius) {
     using std::hypot;
@@ -195,9 +197,9 @@ T whirling_thread(const T& arm, const T& height, const T& radius) {
 /// Greenhill (1908) §1 (9).
 namespace revchain {
 
-/// Offset of the plummet over that of its support while the thread is nearly vertical: lambda / (lambda - l), of one sign
-/// with it where lambda > l and against it where lambda < l; infinite at resonance. Accuracy: 1.1 ulp, in lambda and l as
-/// given. Throws InvalidArgument unless both are positive and finite.
+/// Offset of the plummet over that of its support while the thread is nearly vertical: lambda / (lambda - l), of one
+/// sign with it where lambda > l and against it where lambda < l; infinite at resonance. Accuracy: 1.1 ulp, in lambda
+/// and l as given. Throws InvalidArgument unless both are positive and finite.
 template <Real T>
 T carried_response(const T& length, const T& height) {
     detail::require_positive("carried_response", "length", length);

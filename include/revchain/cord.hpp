@@ -6,10 +6,10 @@
 #include "revchain/special/bessel_zero.hpp"
 #include "revchain/special/chain_arguments.hpp"
 
-/// The uniform flexible chain hung from one end, at small amplitude: the limit of many links. Greenhill (1908) §4.
-/// x is the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length or
-/// amplitude that is not positive and finite, and x outside [0, length]. With a particle at the free end: tip_mass.hpp;
-/// of varying density: tapered_chain.hpp.
+/// The uniform flexible chain hung from one end, at small amplitude: the limit of many links. Greenhill (1908) §4. x is
+/// the distance from the FREE end. Functions throw InvalidArgument for a mode or count below 1, a length or amplitude
+/// that is not positive and finite, and x outside [0, length]. With a particle at the free end: special/tip_mass.hpp;
+/// of varying density: below.
 namespace revchain::analytic::heavy_chain {
 
 namespace detail {

@@ -34,8 +34,8 @@ struct ModeRange {
 /// one O(N) pass for each question.
 ///
 /// The count is proved, in T (15 ns per link in double) and where rounding leaves that in doubt in `Wide<T>`. A conical
-/// height that agrees with the one asked to within 2^20 roundings of `Wide<T>` (4e-25 in double) is held equal to it, so
-/// that neither exceeds the other.
+/// height that agrees with the one asked to within 2^20 roundings of `Wide<T>` (4e-25 in double) is held equal to it,
+/// so that neither exceeds the other.
 template <Real T>
 class ModeCounter {
    public:

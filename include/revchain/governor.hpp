@@ -41,10 +41,11 @@ struct GovernorState {
 
 /// The motion  theta'' = n^2 sin theta cos theta - (g/l) sin theta.
 ///
-/// Method: with tau = tan(theta/2),  4 tau'^2 = e + 2 b tau^2 + f tau^4,  e and f the squares of theta' at the bottom and
-/// at the top, so that kappa or kappa' follow from e, f and b without a difference, next to the separatrices too.
-/// Accuracy: 1e-14 (|theta| + |t theta'|) and as much of theta', where e and f are not themselves lost in rounding: they
-/// are given to 1e-16 (theta'^2 + n^2 + |g/l|) by the start. Lengths near the conical height are told from it to the last digit. Cost: a microsecond, and 0.2 for each time.
+/// Method: with tau = tan(theta/2),  4 tau'^2 = e + 2 b tau^2 + f tau^4,  e and f the squares of theta' at the bottom
+/// and at the top, so that kappa or kappa' follow from e, f and b without a difference, next to the separatrices too.
+/// Accuracy: 1e-14 (|theta| + |t theta'|) and as much of theta', where e and f are not themselves lost in rounding:
+/// they are given to 1e-16 (theta'^2 + n^2 + |g/l|) by the start. Lengths near the conical height are told from it to
+/// the last digit. Cost: a microsecond, and 0.2 for each time.
 class GovernorMotion {
    public:
     /// Throws InvalidArgument for numbers that are not finite, a length not positive, an axial inertia outside [0, 1].

@@ -8,8 +8,8 @@
 
 namespace revchain {
 
-/// Thomson's gyrostatic string: equal links jointed in a row under one pull, each with a flywheel about its own axis; the
-/// model of light in a magnetised body. Small offsets; the weight of the links tells in their inertia alone.
+/// Thomson's gyrostatic string: equal links jointed in a row under one pull, each with a flywheel about its own axis;
+/// the model of light in a magnetised body. Small offsets; the weight of the links tells in their inertia alone.
 ///
 /// In a circular wave every pin runs round the line with speed n, positive in the sense of a positive momentum, each a
 /// phase theta behind its neighbour:
@@ -25,8 +25,8 @@ struct GyrostaticString {
     T gravity = T(conical_pendulum::standard_gravity);  ///< what `weight` is under
 };
 
-/// How a circular wave goes along: exp(i m phase) exp(-m attenuation) from link to link. One of both is 0, but for speeds
-/// at which neighbours move against each other (phase pi) and less and less.
+/// How a circular wave goes along: exp(i m phase) exp(-m attenuation) from link to link. One of both is 0, but for
+/// speeds at which neighbours move against each other (phase pi) and less and less.
 template <Real T>
 struct LinkPhase {
     T phase{};        ///< rad, 0 ... pi
@@ -75,10 +75,10 @@ std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
 
 }  // namespace detail
 
-/// Of a circular wave at speed n, of either sign. Accuracy: 4 ulp, over cos(phase/2) where that is small, and where T/a,
-/// n H/a^2 and (n^2/g) X cancel as many times more (measured: tests/cpp/gyrostatic_string.cpp).
-/// Throws InvalidArgument unless weight, length, tension and gravity are positive and all numbers finite, for a negative
-/// radius of gyration, and for a speed that is not finite.
+/// Of a circular wave at speed n, of either sign. Accuracy: 4 ulp, over cos(phase/2) where that is small, and where
+/// T/a, n H/a^2 and (n^2/g) X cancel as many times more (measured: tests/cpp/gyrostatic_string.cpp).
+/// Throws InvalidArgument unless weight, length, tension and gravity are positive and all numbers finite, for a
+/// negative radius of gyration, and for a speed that is not finite.
 template <Real T>
 LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asinh;
@@ -113,10 +113,10 @@ std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) 
     return string.momentum < T(0) ? std::array<T, 2>{slower, -faster} : std::array<T, 2>{faster, -slower};
 }
 
-/// By how much the plane of a to-and-fro vibration turns from link to link, rad, in the sense of a positive momentum: half
-/// of what the phases of its two circular parts differ. The same for waves running either way: one that comes back is
-/// turned twice. NaN where one of both does not pass. Accuracy: 8 ulp however small the momentum, over the cosine of half
-/// the larger phase where that is small. Throws InvalidArgument as link_phase does, and for a speed not positive.
+/// By how much the plane of a to-and-fro vibration turns from link to link, rad, in the sense of a positive momentum:
+/// half of what the phases of its two circular parts differ. The same for waves running either way: one that comes back
+/// is turned twice. NaN where one of both does not pass. Accuracy: 8 ulp however small the momentum, over the cosine of
+/// half the larger phase where that is small. Throws InvalidArgument as link_phase does, and for a speed not positive.
 template <Real T>
 T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asin;

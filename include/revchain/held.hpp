@@ -151,18 +151,18 @@ inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wid
 
 }  // namespace finite
 
-/// Steady shapes of a chain whose lower end too is held on the axis, `span` below its upper end, at a conical height: the
-/// blade of a wind turbine (troposkien), a skipping rope with gravity along its axis. 0 stands for no gravity: then shapes
-/// do not depend on the speed. For each number of half waves up to `options.most_half_waves`, the shape that is reached
-/// from the nearly straight chain without gravity by drawing the ends together, then letting gravity grow. In all of them
-/// every link is in tension, as threads must be.
+/// Steady shapes of a chain whose lower end too is held on the axis, `span` below its upper end, at a conical height:
+/// the blade of a wind turbine (troposkien), a skipping rope with gravity along its axis. 0 stands for no gravity: then
+/// shapes do not depend on the speed. For each number of half waves up to `options.most_half_waves`, the shape that is
+/// reached from the nearly straight chain without gravity by drawing the ends together, then letting gravity grow. In
+/// all of them every link is in tension, as threads must be.
 ///
-/// Method: two forces at the lower end as unknowns, exact derivatives of the upward sweep of Greenhill (1908) §8 (21), a
-/// curve followed by its arc in double, Newton's method in two words, Krawczyk's test in intervals of two words.
-/// Accuracy: the inclinations correctly rounded but for 1e-20 (tests/cpp/paper/section_5_held_chain.cpp), the bound proved mostly.
-/// That there are no others is not shown. Cost: some 100 sweeps of 0.1 microseconds a link.
-/// Throws InvalidArgument for a span that is not positive and less than the length, a height that is negative or not finite,
-/// and weights more than 1e123 apart.
+/// Method: two forces at the lower end as unknowns, exact derivatives of the upward sweep of Greenhill (1908) §8 (21),
+/// a curve followed by its arc in double, Newton's method in two words, Krawczyk's test in intervals of two words.
+/// Accuracy: the inclinations correctly rounded but for 1e-20 (tests/cpp/paper/section_5_held_chain.cpp), the bound
+/// proved mostly. That there are no others is not shown. Cost: some 100 sweeps of 0.1 microseconds a link.
+/// Throws InvalidArgument for a span that is not positive and less than the length, a height that is negative or not
+/// finite, and weights more than 1e123 apart.
 inline HeldShapes held_shapes(const Chain<double>& chain, double span, double conical_height,
                               const HeldOptions& options = {}) {
     if (!(conical_height >= 0 && std::isfinite(conical_height)))
@@ -179,10 +179,10 @@ inline HeldShapes held_shapes_at_speed(const Chain<double>& chain, double span, 
     return finite::held_shapes(chain, span, finite::height_at_speed(angular_speed, gravity), options);
 }
 
-/// The same for a tension at the upper end instead of the span: `height_times_tension` is conical height times tension, of
-/// weights; without gravity, of masses, tension over the square of the speed. A branch has a narrow range of these: of the
-/// skipping rope, from 1/(pi k)^2 to 1/(8 k^2) of weight times length; with gravity it is largest in between, so that two
-/// spans go with one tension. The tension is met to 1e-15 of it, the span as well as that tells it.
+/// The same for a tension at the upper end instead of the span: `height_times_tension` is conical height times tension,
+/// of weights; without gravity, of masses, tension over the square of the speed. A branch has a narrow range of these:
+/// of the skipping rope, from 1/(pi k)^2 to 1/(8 k^2) of weight times length; with gravity it is largest in between, so
+/// that two spans go with one tension. The tension is met to 1e-15 of it, the span as well as that tells it.
 /// Cost: the whole branch, some thousand sweeps.
 inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double height_times_tension,
                                             double conical_height, const HeldOptions& options = {}) {

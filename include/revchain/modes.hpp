@@ -89,10 +89,10 @@ struct Modes {
 /// without the ones before, or those in a window of heights or speeds (which modes lie in it is decided by
 /// `ModeCounter::within`, by proved counts, not by the heights returned: a height just above `low` may round to it).
 ///
-/// Method: bisection on counts in T, eight shifts to a pass; a twisted shape and its Rayleigh quotient in `Wide<T>`; two
-/// proved counts for every mode; and the shape in `Wide<T>`. With a loose `rtol` the quotient is left out and the rest
-/// done in T. In double faster ways to the same heights where they pay: `ModesMethod`; a chain of floats is solved in
-/// double and the result rounded, its bound half an ulp of float.
+/// Method: bisection on counts in T, eight shifts to a pass; a twisted shape and its Rayleigh quotient in `Wide<T>`;
+/// two proved counts for every mode; and the shape in `Wide<T>`. With a loose `rtol` the quotient is left out and the
+/// rest done in T. In double faster ways to the same heights where they pay: `ModesMethod`; a chain of floats is solved
+/// in double and the result rounded, its bound half an ulp of float.
 /// Accuracy: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up to 1e5, ten kinds
 /// of chain: tests/cpp/modes.cpp), error bound 2 ulp and proved; a loose `rtol` is kept by the bound. Shapes
 /// 3.5e-16 of the largest offset; with a loose `rtol` as good as their height, rtol / (gap to the next height). Where
@@ -100,8 +100,8 @@ struct Modes {
 /// Cost: about 0.55 microseconds per link and mode with shapes, 0.3 without (double), for many modes 0.25 and 0.005;
 /// O(N k) memory.
 /// Throws InvalidArgument for numbers outside 1 ... `chain.mode_count()`, for a window that is none, for numbers and a
-/// window together, and for a tolerance that is negative or NaN. An empty window gives no modes. A tolerance out of reach
-/// is `Status::tolerance_not_met` with the bounds reached.
+/// window together, and for a tolerance that is negative or NaN. An empty window gives no modes. A tolerance out of
+/// reach is `Status::tolerance_not_met` with the bounds reached.
 template <Real T>
 Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 

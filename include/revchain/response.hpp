@@ -175,20 +175,21 @@ Response responses(const Carried& carried, const std::vector<double>& given, boo
 
 /// What a chain does whose support is carried round a circle of radius b (or to and fro) at given conical heights, once
 /// free motions have died away: small amplitudes, K y = M y / lambda with y = b at the support. A `Rig` as well as a
-/// `Chain`: on a spring it is the spring's place of rest that is carried round. Lowest links that weigh nothing in a fluid
-/// that turns with them hang along with the link above; where that is so of all, straight below what carries them.
+/// `Chain`: on a spring it is the spring's place of rest that is carried round. Lowest links that weigh nothing in a
+/// fluid that turns with them hang along with the link above; where that is so of all, straight below what carries
+/// them.
 ///
 /// Method: the dynamic stiffness of what hangs below a pin is carried up in words of two doubles, several speeds to a
-/// pass, and with it a bound of its error; ratios of neighbouring offsets lead down again. What that leaves in doubt, next
-/// to a resonance or where a pin is all but a node, is done once more by intervals.
-/// Accuracy: offsets half an ulp of themselves until within 1e-12 or so of a resonance, `error_bound` proved whatever the
-/// chain. Counts of modes are proved with them: below every resonance a chain goes with its support, and each one passed
-/// turns it round.
-/// Cost: 10 to 40 ns for each link and speed where registers hold eight doubles, twice that where two (bench/response.cpp:
-/// the more where all pins are kept, and where a long chain asks for the sharper bound); memory the result,
-/// less where `pins` asks for a few.
-/// Throws InvalidArgument for heights, radius or gravity that are not positive and finite or out of all proportion to the
-/// chain (2^250), and for pins there are not. Greenhill (1908) §1 (9), for one plummet: b lambda / (lambda - l).
+/// pass, and with it a bound of its error; ratios of neighbouring offsets lead down again. What that leaves in doubt,
+/// next to a resonance or where a pin is all but a node, is done once more by intervals.
+/// Accuracy: offsets half an ulp of themselves until within 1e-12 or so of a resonance, `error_bound` proved whatever
+/// the chain. Counts of modes are proved with them: below every resonance a chain goes with its support, and each one
+/// passed turns it round.
+/// Cost: 10 to 40 ns for each link and speed where registers hold eight doubles, twice that where two
+/// (bench/response.cpp: the more where all pins are kept, and where a long chain asks for the sharper bound); memory
+/// the result, less where `pins` asks for a few.
+/// Throws InvalidArgument for heights, radius or gravity that are not positive and finite or out of all proportion to
+/// the chain (2^250), and for pins there are not. Greenhill (1908) §1 (9), for one plummet: b lambda / (lambda - l).
 inline Response response(const Chain<double>& chain, const std::vector<double>& conical_height,
                          const ResponseOptions& options = {}) {
     return detail::responses(chain, conical_height, false, options);

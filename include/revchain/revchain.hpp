@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-// Everything that needs Eigen alone, but for what solves dense eigenproblems, which costs seconds of compile time:
-// revchain/linear/dense_reference.hpp, rig_modes.hpp and revchain/finite/stability/stability.hpp, stability_windows.hpp,
-// held_stability.hpp, revchain/models/with_dense.hpp. What needs GSL is in revchain/analytic.hpp.
+// Everything that needs Eigen alone, except what solves dense eigenproblems, which costs seconds of compile time:
+// linear/dense_reference.hpp, linear/rig_modes.hpp, finite/stability/*.hpp, models/with_dense.hpp. What needs GSL is in
+// revchain/analytic.hpp.
 
 #include "revchain/bell.hpp"                           // IWYU pragma: export
 #include "revchain/branches.hpp"                       // IWYU pragma: export

@@ -120,7 +120,8 @@ struct Rigging {
 /// that bears part of the weight. A chain without any of it is a `Chain` and pays for none of it.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the chain, numbers that are
-/// not finite, a support without stiffness, and a negative carriage weight, radius, axial moment, weight displaced or added. Cost O(N) once.
+/// not finite, a support without stiffness, and a negative carriage weight, radius, axial moment, weight displaced or
+/// added. Cost O(N) once.
 class Rig {
    public:
     Rig(Chain<double> chain, Rigging with) : chain_(std::move(chain)), with_(std::move(with)) { check(); }
@@ -203,9 +204,9 @@ inline void Rig::check() const {
 
 /// What a rigged link is at its two pins, in the units of `Rig::chain().units()`.
 ///
-/// Greenhill (1908) §8 with weights that bear (less what the fluid does) apart from those that move (with what it adds).
-/// At any inclination, y the offsets, t and s tangent and sine, R the moment about the upper pin as if the link hung
-/// vertically over the distance between the pins, n the speed and lambda = g/n^2:
+/// Greenhill (1908) §8 with weights that bear (less what the fluid does) apart from those that move (with what it
+/// adds). At any inclination, y the offsets, t and s tangent and sine, R the moment about the upper pin as if the link
+/// hung vertically over the distance between the pins, n the speed and lambda = g/n^2:
 ///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
 ///     y = y_below - length s,          H = R + rest y.
 /// Of small inclinations the stiffness is (tension + n spin)/length, negative where the link stands, the mass

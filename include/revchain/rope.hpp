@@ -14,8 +14,8 @@
 #include "revchain/special/root_between.hpp"
 
 /// The rope that whirls between two points of its axis, gravity left out: y = b sn(K x/a). Greenhill (1908) §5.
-/// Neighbouring nodes are 2 a apart, b is the sag, lambda = g/n^2 the conical height, and h the length of rope that weighs
-/// as much as the tension in the middle of a half wave; the form depends on lambda h alone.
+/// Neighbouring nodes are 2 a apart, b is the sag, lambda = g/n^2 the conical height, and h the length of rope that
+/// weighs as much as the tension in the middle of a half wave; the form depends on lambda h alone.
 namespace revchain::analytic {
 
 /// What is known: two of span, length (or slack = length - span, where the two nearly agree), sag, and tension together
@@ -40,8 +40,9 @@ struct RopePoint {
 /// Accuracy: 1e-14 relative in what the two given determine well. Cost: 20 microseconds, a point 0.2, by its arc 10.
 class SkippingRope {
    public:
-    /// Throws InvalidArgument for numbers that are not positive and finite, too few or too many of them, and for what no
-    /// rope does: a length not above the span, a sag not below half the length, a rope too slow or too tight to bend.
+    /// Throws InvalidArgument for numbers that are not positive and finite, too few or too many of them, and for what
+    /// no rope does: a length not above the span, a sag not below half the length, a rope too slow or too tight to
+    /// bend.
     explicit SkippingRope(const RopeGiven& given);
 
     Index half_waves() const { return half_waves_; }
@@ -256,8 +257,8 @@ inline SkippingRope SkippingRope::drawn_to(double span) const {
 ///     R = R1 cn^2 u + R2 sn^2 u,   arc = d E(am u) - (r/d) u,   theta = sqrt(R2 R3/R1)/d Pi(1 - R2/R1; am u).
 namespace revchain::analytic {
 
-/// What is given; positive, but for the least radius, which may be 0 (the plane rope) and at most the greatest (equal: a
-/// helix).
+/// What is given; positive, but for the least radius, which may be 0 (the plane rope) and at most the greatest (equal:
+/// a helix).
 struct TortuousGiven {
     double least_radius, greatest_radius;
     double angular_speed;                                 ///< n

@@ -13,14 +13,14 @@
 
 namespace revchain {
 
-/// The graphical construction of a steady shape, Greenhill (1908) §3, Figs. 3 and 5, as data. Links lowest first, pins free
-/// end first; points as rows (x from the axis, z upwards).
+/// The graphical construction of a steady shape, Greenhill (1908) §3, Figs. 3 and 5, as data. Links lowest first, pins
+/// free end first; points as rows (x from the axis, z upwards).
 ///
-/// Funicular polygon: its vertices are the pins, its sides the links, its loads `load`. Diagram of force: from the pole O
-/// the line of load goes vertically upwards, one segment for each load; rays OQ_m end at the level of the segment's end.
-/// OQ_m is parallel to link m and as long as what pulls along it. Plummets have their weights on the pins and Q_m is the
-/// reaction, too; a link of another kind shares weight and centrifugal force between its pins as balance about them asks,
-/// and the reaction at a pin lies between the rays of the two links that meet there.
+/// Funicular polygon: its vertices are the pins, its sides the links, its loads `load`. Diagram of force: from the pole
+/// O the line of load goes vertically upwards, one segment for each load; rays OQ_m end at the level of the segment's
+/// end. OQ_m is parallel to link m and as long as what pulls along it. Plummets have their weights on the pins and Q_m
+/// is the reaction, too; a link of another kind shares weight and centrifugal force between its pins as balance about
+/// them asks, and the reaction at a pin lies between the rays of the two links that meet there.
 struct ForceDiagram {
     Table<double> pin;  ///< (N + 1, 2) vertices of the funicular polygon; the support's 0, 0 last
     Table<double>
@@ -37,10 +37,10 @@ struct ForceDiagram {
     double conical_height = 0;
 };
 
-/// The diagram of a shape of this chain. Rays are sums of the loads from below, not taken from the inclinations: that they
-/// are parallel to the links is the proof of the figure, and holds to rounding: to 5 ulp of the sum of all loads' sizes,
-/// measured (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument if the shape has other links than
-/// the chain.
+/// The diagram of a shape of this chain. Rays are sums of the loads from below, not taken from the inclinations: that
+/// they are parallel to the links is the proof of the figure, and holds to rounding: to 5 ulp of the sum of all loads'
+/// sizes, measured (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument if the shape has other links than the
+/// chain.
 inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape) {
     const Index n = chain.size();
     if (shape.inclination.size() != n)
@@ -78,10 +78,10 @@ inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape&
     return d;
 }
 
-/// The chain's links, each as long only as it reaches down, hung along the axis: its weights transferred to the axis, level
-/// with where they were. Small whirling of that straight chain obeys the very equations of the shape: the shape's conical
-/// height is one of its heights and the shape's offsets are that mode, at any inclination and for links of any kind.
-/// Perpendicular to the turning plane, too, weights and tensions of the shape are as stiff as this chain.
+/// The chain's links, each as long only as it reaches down, hung along the axis: its weights transferred to the axis,
+/// level with where they were. Small whirling of that straight chain obeys the very equations of the shape: the shape's
+/// conical height is one of its heights and the shape's offsets are that mode, at any inclination and for links of any
+/// kind. Perpendicular to the turning plane, too, weights and tensions of the shape are as stiff as this chain.
 /// Accuracy: lengths to 2 ulp of the shape's heights. Throws InvalidArgument as `force_diagram`.
 inline Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape) {
     if (shape.inclination.size() != chain.size())
@@ -118,8 +118,8 @@ void check_string(std::string_view where, const Vector<T>& weight, const Vector<
 
 namespace revchain {
 
-/// Weights on a thread between two supports, at rest in a vertical plane: a funicular polygon, from the first support to
-/// the last.
+/// Weights on a thread between two supports, at rest in a vertical plane: a funicular polygon, from the first support
+/// to the last.
 template <Real T>
 struct FunicularPolygon {
     Vector<T> place;   ///< (n + 2) x of supports and weights
@@ -131,8 +131,8 @@ struct FunicularPolygon {
     T horizontal_tension{};  ///< the same in all sides
 };
 
-/// The polygon of given horizontal component of tension, the pole's distance from the line of load: rays from the pole to
-/// the line of load, sides parallel to them. Weights (n) and places (n + 2), supports among them, in any units.
+/// The polygon of given horizontal component of tension, the pole's distance from the line of load: rays from the pole
+/// to the line of load, sides parallel to them. Weights (n) and places (n + 2), supports among them, in any units.
 /// Accuracy: heights to half an ulp and 1e-28 of the drop below the chord. Cost O(n). Throws InvalidArgument unless
 /// weights are positive, places increase and all is finite, heights and tensions too.
 template <Real T>
@@ -174,13 +174,14 @@ FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& 
 
 }  // namespace revchain
 
-/// Transverse oscillation of a string of weights held at both ends, and of a funicular polygon perpendicular to its plane.
+/// Transverse oscillation of a string of weights held at both ends, and of a funicular polygon perpendicular to its
+/// plane.
 namespace revchain {
 
 /// A string of weights as a chain that hangs: its weights and spacings, the last support above, and at the other end
-/// instead of the first support a weight 2^(digits + 47) times all others together, which stretches it evenly and does not
-/// move, both to less than a rounding of a rounding. Its modes from the second on, heights times `factor`, are those of
-/// the string.
+/// instead of the first support a weight 2^(digits + 47) times all others together, which stretches it evenly and does
+/// not move, both to less than a rounding of a rounding. Its modes from the second on, heights times `factor`, are
+/// those of the string.
 template <Real T>
 struct StringOfWeights {
     Chain<T> chain;
@@ -189,10 +190,10 @@ struct StringOfWeights {
 
 /// Weights (n) at places (n + 2, both supports among them) on a thread of uniform tension.
 ///
-/// Greenhill (1908) §3: the weights of a funicular polygon between two supports, transferred vertically to one horizontal
-/// line and held there on a thread of uniform tension, the horizontal component in the polygon, oscillate as the weights
-/// of the polygon do perpendicular to its plane. Exactly so while oscillations are small: a side of length a and tension T
-/// resists with T/a, which is the horizontal component over the horizontal length.
+/// Greenhill (1908) §3: the weights of a funicular polygon between two supports, transferred vertically to one
+/// horizontal line and held there on a thread of uniform tension, the horizontal component in the polygon, oscillate as
+/// the weights of the polygon do perpendicular to its plane. Exactly so while oscillations are small: a side of length
+/// a and tension T resists with T/a, which is the horizontal component over the horizontal length.
 /// Throws InvalidArgument unless there are weights, all positive, places increase and all is finite.
 template <Real T>
 StringOfWeights<T> string_of_weights(const Vector<T>& weight, const Vector<T>& place, const T& tension,
@@ -226,8 +227,8 @@ struct TransverseModes {
 };
 
 /// All of them, by `modes` of the equivalent chain. Accuracy: heights to 2 ulp (measured;
-/// tests/cpp/finite/funicular_polygon.cpp), within `error_bound`, which adds to the proved bound of `modes` the roundings
-/// of spacings and factor. Throws as string_of_weights does, and where a height is out of range.
+/// tests/cpp/finite/funicular_polygon.cpp), within `error_bound`, which adds to the proved bound of `modes` the
+/// roundings of spacings and factor. Throws as string_of_weights does, and where a height is out of range.
 template <Real T>
 TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& place, const T& tension) {
     using std::isfinite;

@@ -20,9 +20,10 @@ struct SteadyShape {
     double conical_height = 0;            ///< of the speed
     double residual = 0;                  ///< largest moment left over, over total weight and total length
     double error_bound = 0;               ///< of every inclination, rad: proved (at a fold an estimate)
-    /// Largest change of an inclination, rad, where each force changes by its own size, times it, whatever the signs (in a
-    /// list with links that stand or have several inclinations: each moment about a link's upper pin). On a branch, where
-    /// something else than the height is given, the largest of a few patterns of signs, and of what is given changed.
+    /// Largest change of an inclination, rad, where each force changes by its own size, times it, whatever the signs
+    /// (in a list with links that stand or have several inclinations: each moment about a link's upper pin). On a
+    /// branch, where something else than the height is given, the largest of a few patterns of signs, and of what is
+    /// given changed.
     double condition = 0;
     double moment_of_inertia = 0;  ///< about the axis, weight times length squared (over g: a moment of inertia)
     double effective_energy = 0;   ///< U = -sum of weight times depth - moment_of_inertia/(2 lambda)
@@ -61,26 +62,27 @@ struct RigShapesOptions {
 };
 
 /// All hanging shapes (every link within a right angle of the downward vertical) of a chain that whirls steadily at the
-/// speed of conical height `height`, or all shapes in any posture; straight ones left out, of two mirror images that with
-/// the free end at a positive offset (if it is on the axis, the lowest link that is inclined).
+/// speed of conical height `height`, or all shapes in any posture; straight ones left out, of two mirror images that
+/// with the free end at a positive offset (if it is on the axis, the lowest link that is inclined).
 ///
-/// Method: the offset of the support as a function of the lowest link's tangent, Greenhill (1908) §8 (4), (12), in interval
-/// arithmetic with first and second derivatives, 0 ... the farthest tangent split until every part holds no zero or one;
-/// Newton's method and then Krawczyk's test on all pins in two words. Links that stand, or hang at several inclinations
-/// under one load (l > a and lambda <= W h (l - a)/(W h + a S)), are followed along each of them; there a part ends in a
-/// box about the tangents of all links that is proved to hold no zero or one (Krawczyk).
+/// Method: the offset of the support as a function of the lowest link's tangent, Greenhill (1908) §8 (4), (12), in
+/// interval arithmetic with first and second derivatives, 0 ... the farthest tangent split until every part holds no
+/// zero or one; Newton's method and then Krawczyk's test on all pins in two words. Links that stand, or hang at several
+/// inclinations under one load (l > a and lambda <= W h (l - a)/(W h + a S)), are followed along each of them; there a
+/// part ends in a box about the tangents of all links that is proved to hold no zero or one (Krawczyk).
 /// Accuracy: every inclination within `error_bound`, proved: mostly 2.3e-16 (4.4e-16 of links that stand), and 2 ulp of
-/// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at exactly
-/// a critical speed or a fold, where the budget ends, as it does for chains of 20 links and more at heights of some
-/// 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one inclination).
+/// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at
+/// exactly a critical speed or a fold, where the budget ends, as it does for chains of 20 links and more at heights of
+/// some 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one
+/// inclination).
 /// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and `complete`
 /// is false: a sideways pull is an offset over the height, and two words hold offsets to 2^-104 of that length. Below
 /// that, tensions would lose their digits.
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
-/// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four (64 of
-/// equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.
-/// No shape in any posture exists above the first critical height: with E = +-1 for the postures and D = lambda diag(kappa
-/// |sec d|) > G, E D s = G s would give |E w| = |D^-1/2 G D^-1/2 w| < |w|.
+/// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four
+/// (64 of equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.
+/// No shape in any posture exists above the first critical height: with E = +-1 for the postures and D = lambda
+/// diag(kappa |sec d|) > G, E D s = G s would give |E w| = |D^-1/2 G D^-1/2 w| < |w|.
 /// Throws InvalidArgument for a height not positive and finite.
 SteadyShapes steady_shapes(const Chain<double>& chain, double height, const SteadyShapesOptions& options = {});
 
@@ -94,15 +96,17 @@ SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, double angular_s
 ///
 /// A support on the axis: straight shapes are left out, and of two mirror images that whose free end is at a negative
 /// offset. A support carried round (a swing carousel) at radius b: every shape, outwards positive.
-/// Method: that of chains; the sweep ends in  y - b - (H + W y)/(lambda E), y and H/lambda offset and pull of the topmost pin,
-/// W the carriage, E the spring; with b > 0 for tangents of either sign. Pull is tension and n times momentum over length.
-/// Where that is negative (a wheel against the rotation, a float) a link leans against its load: it is followed along each
-/// inclination, as those links are that may have several.
-/// Accuracy, cost, and `complete`: as of chains (measured: tests/cpp/finite/shapes/rigs.cpp); about twice the cost with b > 0.
-/// Also not complete: where one of more than some 160 links is such; and where lambda E is all the weight that moves, to
-/// rounding, and a pin may be any distance away: only shapes within a million times the chain's reach or so are looked for.
-/// Throws InvalidArgument for a height or gravity not positive and finite, a sense not 1 or -1, an effective tension that
-/// vanishes, and weights that move so that the lowest link balances about its pin.
+/// Method: that of chains; the sweep ends in  y - b - (H + W y)/(lambda E), y and H/lambda offset and pull of the
+/// topmost pin, W the carriage, E the spring; with b > 0 for tangents of either sign. Pull is tension and n times
+/// momentum over length. Where that is negative (a wheel against the rotation, a float) a link leans against its load:
+/// it is followed along each inclination, as those links are that may have several.
+/// Accuracy, cost, and `complete`: as of chains (measured: tests/cpp/finite/shapes/rigs.cpp); about twice the cost with
+/// b > 0.
+/// Also not complete: where one of more than some 160 links is such; and where lambda E is all the weight that moves,
+/// to rounding, and a pin may be any distance away: only shapes within a million times the chain's reach or so are
+/// looked for.
+/// Throws InvalidArgument for a height or gravity not positive and finite, a sense not 1 or -1, an effective tension
+/// that vanishes, and weights that move so that the lowest link balances about its pin.
 SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options = {});
 
 /// Shapes of a rig at an angular speed, negative for the other sense of rotation; `options.sense` is ignored.

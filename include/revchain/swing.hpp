@@ -65,8 +65,8 @@ class OscillatingChain {
         each([&](const auto& e, Index m) { sum += e.stiffness * (x[m] - x[m + 1]) * (y[m] - y[m + 1]); });
         return sum;
     }
-    /// Bound on the norm of (height K - M) y in the inverse of K, over the height: forces summed from the free end up are
-    /// what the links carry, sum of force^2 / k. What rounding does to them is added.
+    /// Bound on the norm of (height K - M) y in the inverse of K, over the height: forces summed from the free end up
+    /// are what the links carry, sum of force^2 / k. What rounding does to them is added.
     double residual(const S& height, const Offsets& y) const {
         const double unit = 0x1p-100;
         S inertial(0), pin(0);
@@ -95,9 +95,9 @@ class OscillatingChain {
             result[m] = result[m + 1] + (1 + 1e-14) / static_cast<double>(element(m).stiffness);
         return result;
     }
-    /// The offsets in which a chain with these is in equilibrium as far as it has no inertia: those of least y^T K y with
-    /// the same M y. By (h K + M) y' = M y, repeated; h is small beside the least conical height. `change` is the size of
-    /// the last correction, many times the one left out.
+    /// The offsets in which a chain with these is in equilibrium as far as it has no inertia: those of least y^T K y
+    /// with the same M y. By (h K + M) y' = M y, repeated; h is small beside the least conical height. `change` is the
+    /// size of the last correction, many times the one left out.
     Offsets settled(const Offsets& given, const S& h, double& change) const {
         Offsets result = given;
         const std::size_t n = static_cast<std::size_t>(size());
@@ -210,8 +210,8 @@ inline Vector<double> checked_start(const Chain<double>& chain, std::string_view
 /// free end first, superposed from its modes (their conical heights lambda are those of whirling, the frequencies
 /// sqrt(g / lambda)). Times of either sign.
 ///
-/// A pin without inertia (between massless threads) cannot be anywhere: it is at once where the pull of its neighbours has
-/// it. `start` is what remains of the offsets given, those of least potential energy with the same momenta, and
+/// A pin without inertia (between massless threads) cannot be anywhere: it is at once where the pull of its neighbours
+/// has it. `start` is what remains of the offsets given, those of least potential energy with the same momenta, and
 /// `projected` says that it differs.
 ///
 /// Method: heights, shapes, frequencies and angles in two words, offsets summed with compensation. What is promised of
@@ -220,8 +220,8 @@ inline Vector<double> checked_start(const Chain<double>& chain, std::string_view
 /// are not quite in equilibrium, angles, rounding), both proved: docs/accuracy.md, "Small oscillations".
 /// Accuracy measured: 4e-16 of the sum of the modes' amplitudes, after 1e9 swings as after one.
 /// Cost: 2 microseconds for each link and mode, then 2 ns for each link, mode and time.
-/// Throws InvalidArgument for starts that are not finite or of another length, a support that would move, a count of modes
-/// there are not, gravity not positive, times not finite, and weights more than 1e123 apart.
+/// Throws InvalidArgument for starts that are not finite or of another length, a support that would move, a count of
+/// modes there are not, gravity not positive, times not finite, and weights more than 1e123 apart.
 inline SmallOscillation small_oscillation(const Chain<double>& chain, const Vector<double>& offsets,
                                           const Vector<double>& velocities, const std::vector<double>& time,
                                           const SmallOscillationOptions& options = {}) {

@@ -12,10 +12,10 @@
 
 namespace revchain {
 
-/// What is asked of `tune`: mode `mode` (from 1) is to have this conical height, or this whirl speed, by one datum of link
-/// number `link` (from 1 for the lowest), between `low` and `high`. Left out, they are a thousandth and a thousand times the
-/// present value of a weight or length (of the whole chain's weight for a massless link); of a centroid and a radius of
-/// gyration 0 and the link's length, or as far as the present value.
+/// What is asked of `tune`: mode `mode` (from 1) is to have this conical height, or this whirl speed, by one datum of
+/// link number `link` (from 1 for the lowest), between `low` and `high`. Left out, they are a thousandth and a thousand
+/// times the present value of a weight or length (of the whole chain's weight for a massless link); of a centroid and a
+/// radius of gyration 0 and the link's length, or as far as the present value.
 struct TuneOptions {
     Index mode = 1;
     Index link = 1;
@@ -43,8 +43,8 @@ struct Tuned {
     /// Absolute: proved counts on either side that far away differ, so that the exact value lies between.
     double error_bound = std::numeric_limits<double>::infinity();
     std::vector<double> values{};  ///< those found, ascending
-    /// `values` are all there are between `low` and `high`: every root of the quadratic is a mode's by proved counts. Not
-    /// said of weights, where the nearest on each side of the present value are found.
+    /// `values` are all there are between `low` and `high`: every root of the quadratic is a mode's by proved counts.
+    /// Not said of weights, where the nearest on each side of the present value are found.
     bool complete = false;
     double low{}, high{};                                            ///< searched between
     double lowest_height = std::numeric_limits<double>::infinity();  ///< of those reached between, the extremes seen
@@ -127,8 +127,8 @@ inline Enclosed enclosed(const Tuning& tuning, double low, double high, int low_
     return {value, std::max(value - low, high - value)};
 }
 
-/// What a candidate is: where some mode passes the height wanted, whichever it is, found by proved counts on either side
-/// that differ by one, within a millionth of the candidate.
+/// What a candidate is: where some mode passes the height wanted, whichever it is, found by proved counts on either
+/// side that differ by one, within a millionth of the candidate.
 struct Candidate {
     bool explained = false;
     std::optional<Enclosed> crossing{};  ///< of the mode asked for
@@ -147,9 +147,10 @@ inline Candidate looked_at(const Tuning& tuning, double x, double low, double hi
     return {};
 }
 
-/// The first value from `from` towards `to` at which a weight does it. With c the bound of `weight_influence`, no height wanted
-/// is passed within a logarithmic step of |ln(height/wanted)|/c; where Newton's step is 5 per cent at most, what lies just
-/// beyond is looked at, and between the two bisected. `proved`: whether the search went all the way.
+/// The first value from `from` towards `to` at which a weight does it. With c the bound of `weight_influence`, no
+/// height wanted is passed within a logarithmic step of |ln(height/wanted)|/c; where Newton's step is 5 per cent at
+/// most, what lies just beyond is looked at, and between the two bisected. `proved`: whether the search went all the
+/// way.
 struct Search {
     std::optional<Enclosed> found{};
     bool proved = false;
@@ -203,14 +204,14 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
 /// Which value of a datum gives a mode a conical height or whirl speed.
 ///
 /// Method: at a given height the chain below and above a link is a spring at each of its pins, so that for a length, a
-/// centroid or a radius of gyration the values asked for are roots of a quadratic at most, of any mode; which of them is this
-/// mode's, and how near the exact one, proved counts on either side say. A weight bears on all links above: there the
-/// nearest value on each side is approached in steps that provably pass none.
+/// centroid or a radius of gyration the values asked for are roots of a quadratic at most, of any mode; which of them
+/// is this mode's, and how near the exact one, proved counts on either side say. A weight bears on all links above:
+/// there the nearest value on each side is approached in steps that provably pass none.
 /// Accuracy: `error_bound`, proved; 1 to 4 ulp of the value where its logarithmic derivative is not small, measured
 /// (tests/cpp/tune.cpp). Where no value does, the extremes of the heights reached are said as seen at 33 places.
 /// Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
-/// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is given, for a range in which
-/// the link would stand, and where weights are more than 1e123 apart.
+/// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is given, for a range in
+/// which the link would stand, and where weights are more than 1e123 apart.
 inline Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
     constexpr std::string_view place = "tune";
     if (options.conical_height.has_value() == options.angular_speed.has_value())

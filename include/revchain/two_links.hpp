@@ -173,7 +173,8 @@ T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight,
     return detail::standing_root(T(rod - thread), detail::upper_share(standing_weight, rod, hung_weight, thread));
 }
 
-/// What a spring of stiffness E yields to the weight hung from it, W/E: it moves as a thread of that length does, §2 (7).
+/// What a spring of stiffness E yields to the weight hung from it, W/E: it moves as a thread of that length does, §2
+/// (7).
 template <Real T>
 T spring_deflection(const T& weight, const T& stiffness) {
     detail::require_positive("spring_deflection", "weight", weight);
@@ -278,9 +279,9 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
 
 }  // namespace detail
 
-/// Both conical heights of two jointed links: of a2 h1/(lambda - l1) = (m + 1)(lambda - l2) + l2 - a2, §8 (14), and where
-/// l2 = a2, of (lambda - l1)(lambda - l2) = l2 h1/(m + 1), (15). The lower is 0 where neither link has a radius of gyration
-/// and the upper one's centroid is at its support. Accuracy: 3 ulp for every root, measured
+/// Both conical heights of two jointed links: of a2 h1/(lambda - l1) = (m + 1)(lambda - l2) + l2 - a2, §8 (14), and
+/// where l2 = a2, of (lambda - l1)(lambda - l2) = l2 h1/(m + 1), (15). The lower is 0 where neither link has a radius
+/// of gyration and the upper one's centroid is at its support. Accuracy: 3 ulp for every root, measured
 /// (tests/cpp/two_links.cpp).
 /// Throws InvalidArgument for numbers out of range, lengths or weights more than 1e77 apart (in double), and where
 /// W2 h2 + W1 a2 is not positive.
@@ -292,9 +293,9 @@ HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     return {static_cast<T>(roots[0]) / n.unit, static_cast<T>(roots[1]) / n.unit};
 }
 
-/// How far below its support a bell must carry its clapper's pin so that both swing, or whirl at any inclination, in one
-/// line as if clamped, and the bell never rings:  h1 = (m + 1) l1 + m (a2 - l2), §8 (16), is
-/// a2 = w (l2 - l1)/(w + l1 - h1),  w = W2 h2/W1. The height of that motion is l1 + a2.
+/// How far below its support a bell must carry its clapper's pin so that both swing, or whirl at any inclination, in
+/// one line as if clamped, and the bell never rings:  h1 = (m + 1) l1 + m (a2 - l2), §8 (16), is a2 = w (l2 - l1)/(w +
+/// l1 - h1),  w = W2 h2/W1. The height of that motion is l1 + a2.
 /// Accuracy: 4 ulp, for the data as given, however near l1 and l2 are; the pin changes by up to
 /// 3 (l1 + l2)/(l2 - l1) + 6 times as much as the data, in ratio. Throws InvalidArgument for numbers out of range, and
 /// where the clapper's pendulum length is not the shorter: then every pin lets it ring.
@@ -315,8 +316,8 @@ T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const
     return w2 * bell.centroid / (w2 * bell.centroid + w1 * clapper.square_over_centroid()) * longer;
 }
 
-/// How far below its pin C a uniform rod, hung at C off its middle G, may be jointed at D and still swing, or whirl, as one
-/// straight rod: CG.CD = CA^2, A the end above C, §8 (17). `pin` is CG. At D the rod does not bend.
+/// How far below its pin C a uniform rod, hung at C off its middle G, may be jointed at D and still swing, or whirl, as
+/// one straight rod: CG.CD = CA^2, A the end above C, §8 (17). `pin` is CG. At D the rod does not bend.
 /// Accuracy: 2.5 ulp for pins up to 0.49 length. Throws InvalidArgument unless length/6 < pin < length/2: with C
 /// within the middle third, D would lie beyond the rod.
 template <Real T>

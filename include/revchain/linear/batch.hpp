@@ -26,7 +26,8 @@ void check(const ChainBatch<T>& batch, const BatchOptions& options) {
         throw_invalid(place, "a centroid needs either pendulum_length or radius_of_gyration (not both)");
     if (options.count && *options.count < 1) throw_invalid(place, "count must be at least 1", *options.count);
     if (options.count && *options.count > batch.size)
-        throw_invalid(place, "count must not exceed the " + std::to_string(batch.size) + " links of a chain", *options.count);
+        throw_invalid(place, "count must not exceed the " + std::to_string(batch.size) + " links of a chain",
+                      *options.count);
     if (options.threads < 1) throw_invalid(place, "threads must be at least 1", options.threads);
 }
 

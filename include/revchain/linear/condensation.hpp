@@ -17,8 +17,8 @@ inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials
 /// roundings move from pin to pin below 1/4 unit; 32 make the merges cheap.
 constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<Index>(length / 16, 4, 64)); }
 
-/// Leaves of up to 4 links have all of their 4 terms; those of longer runs are so short that 3 nearly always do (what they
-/// leave out is asked: `compress`).
+/// Leaves of up to 4 links have all of their 4 terms; those of longer runs are so short that 3 nearly always do (what
+/// they leave out is asked: `compress`).
 constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degree : leaf_degree - 1; }
 
 /// Bounds on the roundings (half units, relative) behind the moment a1 of a leaf of so many links and behind its other
@@ -107,7 +107,8 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
             a = per_length = V(T(1));
         }
         const Index step = leaf_links(length);
-        // Sums are exact where no link outweighs all below it: asked of each link, or where leaves are light, of each leaf.
+        // Sums are exact where no link outweighs all below it: asked of each link, or where leaves are light, of each
+        // leaf.
         constexpr bool light_leaves = Degree < leaf_degree;
         // hung.low is rounded `step` times at `step` half units of hung.high: that much of the mass of a leaf is lost.
         const T lost = T(16 * step * step) * epsilon<T>();

@@ -116,8 +116,8 @@ CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
     const LinkColumns<T> links(chain);
     const T unit_length = links.unit_length;
     pencil::BlockBuilder<T> builder(least_height);
-    // The phase up to which degree 4 is complete for a uniform run; less for the shortest, whose roundings move more mass
-    // (bounds then stay below 2 ulp).
+    // The phase up to which degree 4 is complete for a uniform run; less for the shortest, whose roundings move more
+    // mass (bounds then stay below 2 ulp).
     const auto reach = [](Index length) { return length < 16 ? T(4e-4) : T(1.6e-3); };
     Wide<T> below(Narrow<Wide<T>>(0));
     const auto add_singles = [&](Index first, Index last) {

@@ -117,11 +117,11 @@ void store(Modes<T>& modes, ShapePack<T>& pack, std::size_t first, std::size_t l
     }
 }
 
-/// Stage 2 of `modes` after `heights_by_compression`: shapes, residuals and nodes of all its modes. Offsets between blocks
-/// by twisted recursions in double words; from each block's upper pin down, link by link, with compensated sums. False
-/// where offsets leave the range of T; sure shapes are then still to be found.
-/// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the top
-/// pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
+/// Stage 2 of `modes` after `heights_by_compression`: shapes, residuals and nodes of all its modes. Offsets between
+/// blocks by twisted recursions in double words; from each block's upper pin down, link by link, with compensated sums.
+/// False where offsets leave the range of T; sure shapes are then still to be found.
+/// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the
+/// top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
 template <std::floating_point T>
 bool shapes_by_compression(Modes<T>& modes, const Chain<T>& chain, const CompressedChain<T>& compressed,
                            const std::vector<Height<T>>& heights, Progress* progress, double from) {

@@ -14,9 +14,9 @@ inline bool is_fine(const HeightsOptions<double>& options) {
     return options.rtol.value_or(0.0) < pencil::spectrum::loosest_fine;
 }
 
-/// Where interpolating the characteristic polynomial pays: several modes, and more of them than blocks do well with, who
-/// are also faster with shapes to the last digit (measured with plummets and rods, N = 4 ... 10,000; flat within a factor
-/// of 2 in the last number).
+/// Where interpolating the characteristic polynomial pays: several modes, and more of them than blocks do well with,
+/// who are also faster with shapes to the last digit (measured with plummets and rods, N = 4 ... 10,000; flat within a
+/// factor of 2 in the last number).
 inline bool spectrum_pays(const Chain<double>& chain, const ModeRange& range, const HeightsOptions<double>& options) {
     const Index last = range.first - 1 + range.count;
     const bool blocks_pay = compression_pays(chain, range) && options.shapes && is_fine(options);

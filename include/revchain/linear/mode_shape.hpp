@@ -19,8 +19,8 @@ struct WideMode {
     Narrow<S> off;      ///< bound of the error of `height`, relative
 };
 
-/// Half the relative distance from `height` within which proved counts find conical height number `number` and no other;
-/// 0 where they find none such. `guess`: where to begin, below 1.
+/// Half the relative distance from `height` within which proved counts find conical height number `number` and no
+/// other; 0 where they find none such. `guess`: where to begin, below 1.
 template <Real T>
 Narrow<Wide<T>> separation(const Pencils<T>& pencils, Index number, const Wide<T>& height,
                            Narrow<Wide<T>> guess = Narrow<Wide<T>>(0.5)) {
@@ -35,9 +35,9 @@ Narrow<Wide<T>> separation(const Pencils<T>& pencils, Index number, const Wide<T
     return M(0);
 }
 
-/// The size of the residual (lambda K - M) y in the norm of K^-1, over that of y in the norm of K and lambda, rounding and
-/// the data's own error and all. With f the forces left over, summed from the free end, it is sum f^2/k: no norm of a
-/// matrix is needed. Cost O(N).
+/// The size of the residual (lambda K - M) y in the norm of K^-1, over that of y in the norm of K and lambda, rounding
+/// and the data's own error and all. With f the forces left over, summed from the free end, it is sum f^2/k: no norm of
+/// a matrix is needed. Cost O(N).
 template <Real S>
 Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height, const std::vector<S>& offset,
                         S* stiffness) {
@@ -67,9 +67,9 @@ Narrow<S> residual_size(const pencil::ElementPencil<S>& pencil, const S& height,
     return sqrt(sum / static_cast<M>(energy)) / static_cast<M>(height) * M(1.001);
 }
 
-/// Mode number `number` from a height near its own: the shape's Rayleigh quotient in `Wide<T>`, whose error is the square
-/// of the shape's, and the shape again at that height, until it is within 2^-70 of the exact one, or three times over.
-/// The angle by which it is off is proved: the residual over the distance to the next height (Davis and Kahan).
+/// Mode number `number` from a height near its own: the shape's Rayleigh quotient in `Wide<T>`, whose error is the
+/// square of the shape's, and the shape again at that height, until it is within 2^-70 of the exact one, or three times
+/// over. The angle by which it is off is proved: the residual over the distance to the next height (Davis and Kahan).
 template <Real T>
 WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
                       Narrow<Wide<T>> guess = Narrow<Wide<T>>(0.5)) {

@@ -17,8 +17,8 @@ namespace revchain {
 
 namespace detail {
 
-/// Stage 2 of `modes`: shape, residual and nodes of mode `j`. In T where the tolerance is loose and else in `Wide<T>` at
-/// the height before it is rounded.
+/// Stage 2 of `modes`: shape, residual and nodes of mode `j`. In T where the tolerance is loose and else in `Wide<T>`
+/// at the height before it is rounded.
 template <Real T>
 void find_shape(Modes<T>& modes, Index j, const Chain<T>& chain, const Pencils<T>& pencils, const Height<T>& height,
                 bool loose) {

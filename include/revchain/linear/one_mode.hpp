@@ -3,8 +3,8 @@
 
 #include "revchain/linear/heights.hpp"
 
-/// One mode of a chain by counts alone. It compiles in a third of the time of `modes`, which holds every method, and costs
-/// the same for a chain of some hundred links.
+/// One mode of a chain by counts alone. It compiles in a third of the time of `modes`, which holds every method, and
+/// costs the same for a chain of some hundred links.
 namespace revchain::detail {
 
 /// The eigenvector in `Wide<T>` at a height in `Wide<T>`, rounded to T.

@@ -28,8 +28,8 @@ inline RigElement rig_element(const RigLink& link, bool stands) {
 
 namespace detail {
 
-/// Whether it bears, spins and moves nothing, for certain. Lowest links of which this is so, with none below, hang along
-/// with the rest: no equation holds them.
+/// Whether it bears, spins and moves nothing, for certain. Lowest links of which this is so, with none below, hang
+/// along with the rest: no equation holds them.
 inline bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
     const auto& [k, s, lower, upper, cross] = e.numbers;

@@ -23,8 +23,9 @@ inline constexpr Index dense_rig_limit = 200;
 /// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of `modes`. A rig without anything is
 /// given to `modes`.
 /// Cost: 1 microsecond per link and mode with shapes, O(N k) memory; discs take seconds at the limit.
-/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, and beyond the limit. Of numbers beyond
-/// those there are, `available` of a sense, there are no modes. A bound that could not be proved is infinite and the status `tolerance_not_met`.
+/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, and beyond the limit. Of numbers
+/// beyond those there are, `available` of a sense, there are no modes. A bound that could not be proved is infinite and
+/// the status `tolerance_not_met`.
 RigModes rig_modes(const Rig& rig, const RigModesOptions& options = {});
 
 namespace detail {

@@ -43,8 +43,8 @@ struct Sensitivity {
 
 namespace detail {
 
-/// What a link's terms need of a shape: s, lower less upper pin over the length; the offset of the centre of gravity; and
-/// the root of the sum of a s^2 over the links above. Of a bound: what none of them exceeds.
+/// What a link's terms need of a shape: s, lower less upper pin over the length; the offset of the centre of gravity;
+/// and the root of the sum of a s^2 over the links above. Of a bound: what none of them exceeds.
 template <class N>
 struct Movement {
     N slope, centre, above;
@@ -77,8 +77,8 @@ std::vector<ScaledLink<Wide<T>>> scaled_links(const Chain<T>& chain) {
     return links;
 }
 
-/// The five derivatives of y^T (M - lambda K) y, offsets of the pins held: by `Datum`, each as what comes of the inertia
-/// and what comes of the weights that pull. `above` is here the sum of a s^2 itself.
+/// The five derivatives of y^T (M - lambda K) y, offsets of the pins held: by `Datum`, each as what comes of the
+/// inertia and what comes of the weights that pull. `above` is here the sum of a s^2 itself.
 template <class S>
 std::array<S, 5> energy_derivatives(const ScaledLink<S>& link, const S& lambda, const Movement<S>& y) {
     const auto& [W, a, h, rho, below] = link;
@@ -101,10 +101,10 @@ std::array<M, 5> energy_bounds(const ScaledLink<M>& link, const M& lambda, const
             W * (mixed + lambda * square), M(2) * W * rho * square, (W * h / a + below) * lambda * square};
 }
 
-/// The derivatives of one mode's height. Error: with w any vector as long as y in the norm of K, and e the tangent of the
-/// angle to the exact shape,  |x^T E x - y^T E y| <= e^2 |y^T E y| + (1 + e^2)(2 e |w^T E y| + e^2 |w^T E w|),  and w's
-/// slopes, offsets and sums of slopes are bounded by its energy: s^2 <= 1/kappa, y^2 <= sum of 1/k from there to the
-/// support, sum a s^2 <= c/S, c the most by which W h and a S cancel.
+/// The derivatives of one mode's height. Error: with w any vector as long as y in the norm of K, and e the tangent of
+/// the angle to the exact shape,  |x^T E x - y^T E y| <= e^2 |y^T E y| + (1 + e^2)(2 e |w^T E y| + e^2 |w^T E w|),  and
+/// w's slopes, offsets and sums of slopes are bounded by its energy: s^2 <= 1/kappa, y^2 <= sum of 1/k from there to
+/// the support, sum a s^2 <= c/S, c the most by which W h and a S cancel.
 template <Real T>
 void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLink<Wide<T>>>& links,
                      const ChainUnits& units, const WideMode<T>& mode, const Narrow<Wide<T>>& entry_error) {

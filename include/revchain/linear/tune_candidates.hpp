@@ -8,8 +8,8 @@
 #include "revchain/linear/sensitivity.hpp"
 #include "revchain/pencil/twisted.hpp"
 
-/// What `tune` has to know of one link: another value of a datum, the range it may have, and the values at which the chain
-/// has a given conical height, of whichever mode.
+/// What `tune` has to know of one link: another value of a datum, the range it may have, and the values at which the
+/// chain has a given conical height, of whichever mode.
 namespace revchain::detail {
 
 inline double datum_of(const Link<double>& link, Datum datum) {
@@ -55,11 +55,11 @@ inline Link<double> with_datum(Link<double> link, Datum datum, double x) {
     return link;
 }
 
-/// Bound of |d ln(height)/d ln(weight)| of link number `link`, while its weight W is between `low` and `high` and the height
-/// at least `least`: the larger of the shares that the weight can have in y^T M y and in y^T K y (their sum where its
-/// centroid is above the pin). With w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r + a_r S_r, W
-/// included, and W/kappa monotone in W, both follow from the ends. Never more than 1 where all centroids are at or
-/// below their pins, since W dM <= M and W dK <= K. Cost O(N).
+/// Bound of |d ln(height)/d ln(weight)| of link number `link`, while its weight W is between `low` and `high` and the
+/// height at least `least`: the larger of the shares that the weight can have in y^T M y and in y^T K y (their sum
+/// where its centroid is above the pin). With w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r
+/// + a_r S_r, W included, and W/kappa monotone in W, both follow from the ends. Never more than 1 where all centroids
+/// are at or below their pins, since W dM <= M and W dK <= K. Cost O(N).
 inline double weight_influence(const Chain<double>& chain, Index link, double low, double high, double least) {
     double below_low = 0, below_high = 0, flexibility = 0, bears = 0, own = 0;
     bool all_hang = true;
@@ -123,8 +123,8 @@ inline TuneRange tune_range(std::string_view place, const Chain<double>& chain, 
 }
 
 /// All values of a datum other than the weight at which `height` is a conical height of the chain, of whichever mode,
-/// unsorted. Below and above the link are springs D and E at its pins, the dynamic stiffnesses at that height; with v the
-/// upper pin's offset and s the slope, twice the energy is
+/// unsorted. Below and above the link are springs D and E at its pins, the dynamic stiffnesses at that height; with v
+/// the upper pin's offset and s the slope, twice the energy is
 ///     D (v + a s)^2 + E v^2 + lambda (W h + a S) s^2 - W (v + h s)^2 - W rho^2 s^2,
 /// which has to be singular: linear in rho^2, and in a factor of a, h and rho together; quadratic in a and in h. At the
 /// support v = 0. Cost O(N).

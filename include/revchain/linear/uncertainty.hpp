@@ -8,8 +8,8 @@
 
 namespace revchain {
 
-/// How uncertain one datum is: one standard deviation for every link, one for each (N), or a covariance (N, N). Deviations of
-/// different links are independent unless a covariance says otherwise; those of different data always.
+/// How uncertain one datum is: one standard deviation for every link, one for each (N), or a covariance (N, N).
+/// Deviations of different links are independent unless a covariance says otherwise; those of different data always.
 template <Real T>
 struct Deviation {
     Vector<T> standard{};  ///< (1) or (N); empty where a covariance is given
@@ -30,12 +30,12 @@ struct Uncertainty {
     std::vector<Index> link;
 };
 
-/// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2 var x, with a covariance
-/// C of one datum d^T C d. What is left out is of second order: the variance's relative error is some
+/// Standard deviations of conical heights from those of the data: variance = sum of (d lambda/dx)^2 var x, with a
+/// covariance C of one datum d^T C d. What is left out is of second order: the variance's relative error is some
 /// (sigma_x d^2 lambda/dx^2 / (d lambda/dx))^2, large where a derivative is all but 0.
 /// Cost O(k N), with a covariance O(k N^2). Throws InvalidArgument for lists that are neither of one number nor of N,
-/// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative variance, and heights not as
-/// many as the sensitivity's.
+/// deviations negative or not finite, a covariance not N by N, not symmetric or with a negative variance, and heights
+/// not as many as the sensitivity's.
 template <Real T>
 Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity, const Vector<T>& conical_height,
                            const Deviations<T>& deviations) {

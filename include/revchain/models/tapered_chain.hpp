@@ -11,8 +11,8 @@ namespace revchain::models {
 
 /// Chains made by `Chain::tapered`: the cord that they are cut from, lambda = 4 (p+1) L/j^2, j = j_{p,k}, Greenhill
 /// (1908) §4, and what its links being straight takes away, to the order 1/N^2 (straight_links.hpp). Error bound: half
-/// of how much the next order can be, and roundings. Measured: tests/cpp/models/tapered.cpp. Cost: 1 to 5 microseconds a
-/// mode at first, less far out.
+/// of how much the next order can be, and roundings. Measured: tests/cpp/models/tapered.cpp. Cost: 1 to 5 microseconds
+/// a mode at first, less far out.
 struct TaperedChain {
     static constexpr std::string_view name = "tapered chain";
 

@@ -11,10 +11,10 @@ namespace revchain {
 /// Two doubles as a scalar of its own, 106 bits: `Chain<DoubleDouble>`, `modes`, ... at about 32 digits.
 ///
 /// Not DoubleWord<double> itself: that is the arithmetic in which answers in double are certified, where sizes, errors
-/// and weights are kept in double (`Narrow`). As a scalar, everything has both words: `Wide` and `Narrow` of DoubleDouble
-/// are DoubleDouble, and bounds grow with the number of links.
-/// Accuracy of one operation: that of DoubleWord, at most 15 u^2 = 1.9e-31; `epsilon` is 64 u^2 = 7.9e-31. Exponents are
-/// those of double; the second word is lost below 1e-292.
+/// and weights are kept in double (`Narrow`). As a scalar, everything has both words: `Wide` and `Narrow` of
+/// DoubleDouble are DoubleDouble, and bounds grow with the number of links.
+/// Accuracy of one operation: that of DoubleWord, at most 15 u^2 = 1.9e-31; `epsilon` is 64 u^2 = 7.9e-31. Exponents
+/// are those of double; the second word is lost below 1e-292.
 class DoubleDouble {
    public:
     constexpr DoubleDouble() = default;

@@ -23,8 +23,8 @@ class Progress {
 };
 
 namespace detail {
-/// A function that a program may set before it computes. Every loop that can take longer than 0.1 s calls it at least so
-/// often, on the thread that runs it. What it throws ends the computation and reaches the caller.
+/// A function that a program may set before it computes. Every loop that can take longer than 0.1 s calls it at least
+/// so often, on the thread that runs it. What it throws ends the computation and reaches the caller.
 inline std::atomic<void (*)()> interrupt = nullptr;
 inline void look() {
     if (void (*const call)() = interrupt.load(std::memory_order_relaxed)) call();

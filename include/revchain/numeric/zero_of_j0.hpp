@@ -11,7 +11,8 @@
 namespace revchain {
 
 /// j_{0,k}, the k-th positive zero of the Bessel function J_0, k >= 1: the speeds of a chain of infinitely many links.
-/// Greenhill (1908) §4 (10). The first 19 from a table, the others by McMahon's expansion, DLMF 10.21.19, four corrections.
+/// Greenhill (1908) §4 (10). The first 19 from a table, the others by McMahon's expansion, DLMF 10.21.19, four
+/// corrections.
 /// Accuracy: 1 ulp, measured against 40 digits for k up to 1e6 (tests/cpp/special/bessel_zero.cpp). Cost: 3 ns.
 /// Throws InvalidArgument for k < 1.
 inline double zero_of_j0(Index k) {

@@ -20,13 +20,13 @@
 /// B = s^(1/4) l1 (1 - s^(1/4) + s^(1/2)): between its two zeros F grows, elsewhere it falls, so that there are one or
 /// three figures if the height lies below the second of (5), else none. All are found, and no more exist.
 ///
-/// Where l2 in sec d2 is not the length a2 between the pins (jointed links), a2 stands for l2 in front of (1 - cos^2 d2), the
-/// bracket is 1 - l1/(l1-B)^3 - (a2/l2)^2 s l1/(B - s l1)^3 with its maximum at B - s l1 : l1 - B = (s (a2/l2)^2)^(1/4) : 1,
-/// and all else is the same.
+/// Where l2 in sec d2 is not the length a2 between the pins (jointed links), a2 stands for l2 in front of (1 - cos^2
+/// d2), the bracket is 1 - l1/(l1-B)^3 - (a2/l2)^2 s l1/(B - s l1)^3 with its maximum at B - s l1 : l1 - B = (s
+/// (a2/l2)^2)^(1/4) : 1, and all else is the same.
 namespace revchain {
 
-/// A steady figure, lowest link first; of two mirror images that with the free end (or lowest centre of oscillation) at a
-/// positive offset.
+/// A steady figure, lowest link first; of two mirror images that with the free end (or lowest centre of oscillation) at
+/// a positive offset.
 template <Real T>
 struct PairShape {
     std::array<T, 2> inclination;  ///< to the vertical, rad
@@ -44,7 +44,8 @@ template <Real T>
 struct Pair {
     T l1, l2, share, other, upper = l2;
 
-    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights; of its two forms that with the smaller terms.
+    /// (1 - l1)(1 - l2) - s l1 l2 of §2 (5), negative between the two heights; of its two forms that with the smaller
+    /// terms.
     T characteristic() const {
         using std::abs;
         const T p = (T(1) - l1) * (T(1) - l2), q = share * l1 * l2, r = other * l1 * l2, rest = l1 + l2 - T(1);
@@ -70,8 +71,8 @@ struct Place {
     T x, left;
 };
 
-/// Where, from `low` to `high`, a function of x and of what is left of the width goes through zero once, upwards (sign 1)
-/// or downwards (sign -1).
+/// Where, from `low` to `high`, a function of x and of what is left of the width goes through zero once, upwards (sign
+/// 1) or downwards (sign -1).
 template <Real T, class F>
 Place<T> zero_within(const T& width, const Place<T>& low, const Place<T>& high, const T& sign,
                      const F& value_and_slope) {
@@ -148,8 +149,8 @@ void add_opposite_sides(const Pair<S>& pair, const T& height, std::vector<PairSh
         const auto [x, versed] = zero_within(width, low, high, S(sign), at);
         shapes.push_back(pair_shape(pair, -1, S(first + x), versed, S(rises * x), height));
     };
-    // F turns where  1 - l1/P^3 - r^2 s l1/Q^3 = 0,  r = a2/l2, P = l1 - B = 1 + versed and Q = B - s l1 = x + s l1/(l2 - 1):
-    // the bracket has its maximum at Q : P = (r^2 s)^(1/4), and a zero on either side.
+    // F turns where  1 - l1/P^3 - r^2 s l1/Q^3 = 0,  r = a2/l2, P = l1 - B = 1 + versed and Q = B - s l1 = x + s l1/(l2
+    // - 1): the bracket has its maximum at Q : P = (r^2 s)^(1/4), and a zero on either side.
     const S both = pair.other * pair.l1, lower = pair.share * pair.l1, ratio = pair.upper / pair.l2;
     const S root = sqrt(sqrt(pair.share) * ratio), top_p = both / (S(1) + root), top_q = root * top_p;
     const auto first_part = [&](const S& p) { return pair.l1 / p / p / p; };  // cubes may leave the range
@@ -206,8 +207,8 @@ Wide<T> over_height(const Wide<T>& length, const T& height) {
     return ldexp(length, -power) / Wide<T>(digits);
 }
 
-/// Lengths over the height, in two words: next to a fold and to the vertical inclinations are ill-conditioned. Throws where
-/// cubes of them would leave the range.
+/// Lengths over the height, in two words: next to a fold and to the vertical inclinations are ill-conditioned. Throws
+/// where cubes of them would leave the range.
 template <Real T>
 Pair<Wide<T>> pair_of(std::string_view place, const Wide<T>& lower, const Wide<T>& upper, const Wide<T>& share,
                       const Wide<T>& other, const T& height) {
@@ -250,11 +251,12 @@ std::vector<PairShape<T>> pair_shapes(const Pair<S>& pair, const T& height) {
 
 }  // namespace detail
 
-/// All hanging figures of two plummets at the speed of conical height `height`, by sign changes, then inclination of the
-/// lower thread: §2 (4). Empty above the first of `two_plummets`; at most four.
-/// Accuracy: inclinations 4 ulp for the data as given, next to a fold and next to the vertical too; computed in two words.
-/// Rounded data change tangents by up to height_k / (height_k - height) times as much, where the figure leaves the vertical
-/// at height_k, and by the square root of their error where two figures meet. Cost: 10 microseconds a figure.
+/// All hanging figures of two plummets at the speed of conical height `height`, by sign changes, then inclination of
+/// the lower thread: §2 (4). Empty above the first of `two_plummets`; at most four.
+/// Accuracy: inclinations 4 ulp for the data as given, next to a fold and next to the vertical too; computed in two
+/// words. Rounded data change tangents by up to height_k / (height_k - height) times as much, where the figure leaves
+/// the vertical at height_k, and by the square root of their error where two figures meet. Cost: 10 microseconds a
+/// figure.
 /// Throws InvalidArgument unless all are positive and finite.
 template <Real T>
 std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lower_thread, const T& upper_weight,
@@ -276,9 +278,9 @@ std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundL
     return shapes;
 }
 
-/// The figure in which a plummet stands above the other on a stiff weightless rod, §2 (8): inclination[0] is the rod's to
-/// the upward vertical, tension[0] its thrust, negative. Exactly one where `standing_plummet` lies above the height, else
-/// none: F grows with sec d1.
+/// The figure in which a plummet stands above the other on a stiff weightless rod, §2 (8): inclination[0] is the rod's
+/// to the upward vertical, tension[0] its thrust, negative. Exactly one where `standing_plummet` lies above the height,
+/// else none: F grows with sec d1.
 template <Real T>
 std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, const T& rod, const T& hung_weight,
                                                    const T& thread, const T& height) {
@@ -287,8 +289,8 @@ std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, con
                                   height);
 }
 
-/// The same of a compound link that stands on its lowest point, §6 (12) with the secants of (10): both tensions are that
-/// of the thread, or of the hand that moves as its end does.
+/// The same of a compound link that stands on its lowest point, §6 (12) with the secants of (10): both tensions are
+/// that of the thread, or of the hand that moves as its end does.
 template <Real T>
 std::optional<PairShape<T>> standing_link_shape(const T& thread, const CompoundLink<T>& link, const T& height) {
     constexpr std::string_view place = "standing_link_shape";
@@ -300,14 +302,15 @@ std::optional<PairShape<T>> standing_link_shape(const T& thread, const CompoundL
     return shape;
 }
 
-/// All hanging figures of two jointed links at a speed, at any inclination: (14) with its secants,
-/// (lambda sec d1 - l1)(lambda sec d2 - p) = c, and (lambda sec d1 - l1) sin d1 = a2 sin d2. Method and count as of two
-/// plummets, finite/two_links.hpp: one figure to one side where the height lies below the first of `jointed_links`, one or
-/// three to both sides where it lies below the second; no more exist, whatever l2 and a2 are.
-/// By half waves, then inclination of the lower link. offset[0] is that of the lower link's centre of oscillation; tension
-/// the size of the reaction at each upper pin over the whole weight.
+/// All hanging figures of two jointed links at a speed, at any inclination: (14) with its secants, (lambda sec d1 -
+/// l1)(lambda sec d2 - p) = c, and (lambda sec d1 - l1) sin d1 = a2 sin d2. Method and count as of two plummets,
+/// two_links_shapes.hpp: one figure to one side where the height lies below the first of `jointed_links`, one or three
+/// to both sides where it lies below the second; no more exist, whatever l2 and a2 are. By half waves, then inclination
+/// of the lower link. offset[0] is that of the lower link's centre of oscillation; tension the size of the reaction at
+/// each upper pin over the whole weight.
 /// Accuracy: 8 ulp of every inclination where figures are not about to meet (measured; tests/cpp/two_links.cpp).
-/// Throws InvalidArgument as `jointed_links` does, and where lengths are more than a third of the range above the height.
+/// Throws InvalidArgument as `jointed_links` does, and where lengths are more than a third of the range above the
+/// height.
 template <Real T>
 std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, const T& height) {
     using std::cos;

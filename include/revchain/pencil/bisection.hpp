@@ -95,8 +95,9 @@ void split(const Segment<T>& segment, const T* shifts, const Index* above, std::
 
 }  // namespace detail
 
-/// Pencil: whatever has a `count_above` for `lanes` shifts. Brackets of the `count` eigenvalues from number `first` on (from 0, descending), each no wider than `tolerance`
-/// relative or a few ulp; eigenvalues that share a bracket at the tolerance are bisected on, down to a few ulp.
+/// Pencil: whatever has a `count_above` for `lanes` shifts. Brackets of the `count` eigenvalues from number `first` on
+/// (from 0, descending), each no wider than `tolerance` relative or a few ulp; eigenvalues that share a bracket at the
+/// tolerance are bisected on, down to a few ulp.
 /// Preconditions: first >= 0; count >= 1; first + count <= number of finite eigenvalues; tolerance >= 0; guess > 0.
 /// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues asked for, whatever `first`. Accuracy: that of
 /// `count_above`. `finished(done)` is called after every pass with the number of eigenvalues bracketed so far, and may

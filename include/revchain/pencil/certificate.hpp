@@ -29,9 +29,9 @@ T bound_of_margin(const T& margin) {
     return margin * (T(1) + T(2) * margin + T(4) * epsilon<T>()) + T(4) * static_cast<T>(operation_error<S>());
 }
 
-/// Bisection by proved counts alone, from a first guess; stops where rounding in S leaves a count in doubt. The bound is
-/// infinite where not even 1/2 can be proved (seen only where weights span 1e37 and lengths 1e23 together). Used where
-/// the fast path's certificate is refused. Cost: about 60 passes in S.
+/// Bisection by proved counts alone, from a first guess; stops where rounding in S leaves a count in doubt. The bound
+/// is infinite where not even 1/2 can be proved (seen only where weights span 1e37 and lengths 1e23 together). Used
+/// where the fast path's certificate is refused. Cost: about 60 passes in S.
 template <Real S, Real T>
 Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& guess) {
     using M = Narrow<S>;

@@ -11,8 +11,8 @@ namespace revchain::pencil {
 ///
 ///     K = k [ 1 -1 ; -1 1 ],     M = [ A  X ; X  B ],     A + 2 X + B = W,     A B - X^2 = c W.
 ///
-/// All are data of their own, never differences of one another: that is what keeps the counts accurate. All are linear in
-/// the weights: no square of a small one underflows.
+/// All are data of their own, never differences of one another: that is what keeps the counts accurate. All are linear
+/// in the weights: no square of a small one underflows.
 template <Real S>
 struct Element {
     S stiffness{};       ///< k > 0
@@ -67,8 +67,8 @@ struct ElementPencil {
     /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents that never fall on
     /// the way up and end at 0. Else empty.
     std::vector<int> units;
-    /// Bound on the error of every number in `elements`, relative to it and, of the cross mass, to |X| + 2 c; besides what
-    /// underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
+    /// Bound on the error of every number in `elements`, relative to it and, of the cross mass, to |X| + 2 c; besides
+    /// what underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
     Narrow<S> entry_error{};
     Narrow<S> stiffness_underflow = largest_underflow();
 

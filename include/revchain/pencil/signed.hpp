@@ -122,9 +122,9 @@ std::array<Index, N> count_above(const SignedCounter<T>& counter, const std::arr
 /// The number of negative eigenvalues of the exact Q(x) at the exact x, where `proved`.
 ///
 /// The dynamic stiffness D of everything below a pin is carried in S by the equation of `SignedCounter`, which loses
-/// nothing where links are stiff beside what they bear, with a running bound on its error: as a function of what D' is made
-/// of, D' = L - B - (L + X)^2/p has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X, with q = (L + X)/p and
-/// 1 - q = (D - A - X)/p; to that come the roundings of numerator, p and quotient.
+/// nothing where links are stiff beside what they bear, with a running bound on its error: as a function of what D' is
+/// made of, D' = L - B - (L + X)^2/p has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X, with q = (L +
+/// X)/p and 1 - q = (D - A - X)/p; to that come the roundings of numerator, p and quotient.
 /// Cost O(N): in double words 80 ns a link and x.
 template <Real S, std::size_t N>
 std::array<CertifiedCount, N> certified_count(const SignedPencil<S>& pencil, const std::array<S, N>& shifts) {

@@ -12,8 +12,8 @@ namespace revchain::pencil {
 namespace detail {
 
 /// cross / pivot, the ratio of two neighbouring offsets, from its difference to 1 where that is small: the slope of a
-/// smooth mode is then not the difference of two rounded offsets. The difference in digits of T, enough for offsets that
-/// are rounded to T in the end.
+/// smooth mode is then not the difference of two rounded offsets. The difference in digits of T, enough for offsets
+/// that are rounded to T in the end.
 template <class T, Real S>
 S ratio(const S& cross, const S& pivot) {
     using std::abs;
@@ -21,8 +21,8 @@ S ratio(const S& cross, const S& pivot) {
     return abs(static_cast<Narrow<S>>(change)) < Narrow<S>(0.5) ? S(T(1)) + S(change) : cross / pivot;
 }
 
-/// Dynamic stiffness carried across an element by the one of equations (1) and (2) that rounds less, and the ratio of the
-/// offset at `near`'s pin to that at the other; `near_mass` and `far_mass` are the element's own at the two pins.
+/// Dynamic stiffness carried across an element by the one of equations (1) and (2) that rounds less, and the ratio of
+/// the offset at `near`'s pin to that at the other; `near_mass` and `far_mass` are the element's own at the two pins.
 template <Real S>
 struct Across {
     S stiffness, ratio;
@@ -94,7 +94,8 @@ Eigenvector<T> normalised(Vector<T> offset) {
     return result;
 }
 
-/// The same before it is rounded to the narrower scalar: offsets over `largest`, whose sign makes the free end positive.
+/// The same before it is rounded to the narrower scalar: offsets over `largest`, whose sign makes the free end
+/// positive.
 template <Real S>
 struct UnroundedEigenvector {
     std::vector<S> offset;
@@ -148,8 +149,8 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S>& pencil, co
             pins[m].up = across.ratio;
             above = across.stiffness;
         }
-        // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the mode,
-        // and the ratios between them cancel.
+        // In units of the forces at the pin: unscaled, a light pin that moves far beats the heavy one that sets the
+        // mode, and the ratios between them cancel.
         T forces = static_cast<T>(stiffness) + static_cast<T>(e.lower);
         if (m > 0) {
             const Element<S>& hung = pencil.elements[m - 1];
@@ -196,8 +197,9 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
 
 namespace detail {
 
-/// Offsets of an element's pins, brought to one unit for all elements where their own differ: forces are as offsets times
-/// weights (`share` 1), energies as squares of offsets times weights (`share` 2). The largest is then of the order of 1.
+/// Offsets of an element's pins, brought to one unit for all elements where their own differ: forces are as offsets
+/// times weights (`share` 1), energies as squares of offsets times weights (`share` 2). The largest is then of the
+/// order of 1.
 template <Real S, Real T>
 class InOneUnit {
    public:

@@ -74,8 +74,8 @@ auto for_this(const F& f) {
 }  // namespace detail
 
 /// f(Registers<...>{}), compiled for the instruction set of the compiler's flags. With REVCHAIN_DISPATCH it is compiled
-/// for SSE2, AVX2 and AVX-512 and the best form is chosen at run time: a portable build then runs within some percent of
-/// one for the machine, and takes twice as long to compile. The Python module and revchain::compiled are built that
+/// for SSE2, AVX2 and AVX-512 and the best form is chosen at run time: a portable build then runs within some percent
+/// of one for the machine, and takes twice as long to compile. The Python module and revchain::compiled are built that
 /// way. Another kind of processor may change last digits (products and sums are fused where the compiler may do so).
 ///
 /// f and all it calls that handles packs have to be always_inline: what is not stays code for the oldest processor, and

@@ -16,12 +16,12 @@
 
 namespace revchain {
 
-/// How many numbers a pack holds unless told otherwise, on every machine: four doubles fill one register of AVX2, two of
-/// SSE2.
+/// How many numbers a pack holds unless told otherwise, on every machine: four doubles fill one register of AVX2, two
+/// of SSE2.
 inline constexpr std::size_t pack_size = 4;
 
-/// Numbers that + - * / act on one by one, in `Count` SIMD registers of `Width` numbers (vector types of GCC and Clang).
-/// What happens to one number is the same whatever the others are: choices are masks.
+/// Numbers that + - * / act on one by one, in `Count` SIMD registers of `Width` numbers (vector types of GCC and
+/// Clang). What happens to one number is the same whatever the others are: choices are masks.
 ///
 /// How a function takes or returns one depends on the processor compiled for: every function that does so by value is
 /// always_inline, so that none is called across that border. No memcpy: GCC 12 copies by 16 bytes whatever the
@@ -30,7 +30,8 @@ template <std::floating_point T, std::size_t Width = pack_size, std::size_t Coun
 struct Pack {
     using Integer = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
     // NOLINTBEGIN(modernize-use-using)
-    // GCC 12 aligns those of template parameters to 16 bytes unless told, and then takes them for aligned to their size.
+    // GCC 12 aligns those of template parameters to 16 bytes unless told, and then takes them for aligned to their
+    // size.
     typedef T Register __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     typedef T InMemory __attribute__((vector_size(Width * sizeof(T)), aligned(sizeof(T)), may_alias));
     typedef Integer Integers __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));

@@ -100,8 +100,8 @@ struct IncompleteIntegrals {
     double F, E, D;
 };
 
-/// Accuracy: 2e-15 relative, in the amplitude as given. Cost: 0.5 microseconds. F and D are infinite at a quarter turn and
-/// beyond where kappa = 1. Throws InvalidArgument unless the amplitude is finite.
+/// Accuracy: 2e-15 relative, in the amplitude as given. Cost: 0.5 microseconds. F and D are infinite at a quarter turn
+/// and beyond where kappa = 1. Throws InvalidArgument unless the amplitude is finite.
 inline IncompleteIntegrals incomplete_integrals(double amplitude, const EllipticModulus& modulus) {
     if (!std::isfinite(amplitude))
         revchain::detail::throw_invalid("analytic::incomplete_integrals", "amplitude must be finite", amplitude);

@@ -17,8 +17,8 @@ class Column {
     Column(V value) : values_(1, std::move(value)) {}                          // NOLINT(google-explicit-constructor)
     Column(std::vector<V> values) : values_(std::move(values)), stride_(1) {}  // NOLINT(google-explicit-constructor)
 
-    /// Numbers that stay where they are, and must stay what they are while this column, or a chain made of it or a copy,
-    /// is used: of a million links, copying them takes half as long as the ten slowest modes.
+    /// Numbers that stay where they are, and must stay what they are while this column, or a chain made of it or a
+    /// copy, is used: of a million links, copying them takes half as long as the ten slowest modes.
     static Column borrowed(const V* numbers, std::size_t count) {
         Column column(std::vector<V>{});
         column.borrowed_ = numbers;
@@ -89,10 +89,10 @@ class RunningSum {
 
 }  // namespace detail
 
-/// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12 operations of `Wide<T>`
-/// at worst where that is a double word (measured: 0.27), else 20. For double words the lanes, and the tree that joins
-/// them, carry the rounding errors of their 20 sums along; what is rounded there is 19 u of 20 u of the sum of sizes at
-/// most.
+/// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12 operations of
+/// `Wide<T>` at worst where that is a double word (measured: 0.27), else 20. For double words the lanes, and the tree
+/// that joins them, carry the rounding errors of their 20 sums along; what is rounded there is 19 u of 20 u of the sum
+/// of sizes at most.
 template <Real T>
 Summary<T> summary(const T* x, Index count) {
     using S = std::conditional_t<detail::Compensated<T>, T, Wide<T>>;

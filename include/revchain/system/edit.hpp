@@ -21,8 +21,8 @@ struct Body {
     Wide<T> gyration_ratio{};
 };
 
-/// Two bodies of one link of this length, rigidly joined: the centroid between both, and about it the moments of both and
-/// of their distance, all positive.
+/// Two bodies of one link of this length, rigidly joined: the centroid between both, and about it the moments of both
+/// and of their distance, all positive.
 template <Real T>
 Link<T> joined(const T& length, const Body<T>& one, const Body<T>& other) {
     using std::frexp;
@@ -55,8 +55,8 @@ std::vector<Link<T>> links_of(const Chain<T>& chain) {
 }  // namespace detail
 
 /// The chain with a body fixed to the link above `pin`, its centre of gravity in that pin: 0 the free end, else the pin
-/// that links number `pin` and `pin` + 1 share. A point weight leaves `radius_of_gyration` 0; it moves as one on the pin
-/// itself, a body turns as the link above does.
+/// that links number `pin` and `pin` + 1 share. A point weight leaves `radius_of_gyration` 0; it moves as one on the
+/// pin itself, a body turns as the link above does.
 /// Throws InvalidArgument for a pin that is none or the support, a weight not positive, a radius of gyration that is
 /// negative, and where no chain comes of it.
 template <Real T>
@@ -72,8 +72,8 @@ Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0, cons
     return Chain<T>(links);
 }
 
-/// The chain with a massless thread put in at `pin`: above the link of that number, from 1, below the next one or, where
-/// `pin` is the number of links, the support. Throws InvalidArgument for other pins and a length not positive.
+/// The chain with a massless thread put in at `pin`: above the link of that number, from 1, below the next one or,
+/// where `pin` is the number of links, the support. Throws InvalidArgument for other pins and a length not positive.
 template <Real T>
 Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     constexpr std::string_view place = "with_thread";
@@ -85,8 +85,8 @@ Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     return Chain<T>(links);
 }
 
-/// The chain with links number `link` and `link` + 1, from 1 for the lowest, locked in line: one rigid link in place of two.
-/// Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
+/// The chain with links number `link` and `link` + 1, from 1 for the lowest, locked in line: one rigid link in place of
+/// two. Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
 /// Throws InvalidArgument for numbers outside 1 ... N - 1.
 template <Real T>
 Chain<T> clamped(const Chain<T>& chain, Index link) {

@@ -15,8 +15,8 @@ struct Link {
     T weight{};    ///< W >= 0 (0: a massless thread or wire)
     T length{};    ///< a > 0, pin to pin
     T centroid{};  ///< h, from the UPPER pin to the centre of gravity, positive towards the lower pin; any sign
-    /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity. Kept instead of the pendulum length
-    /// l = h + rho^2/h because h = 0 is allowed; as a ratio, which no unit of length takes out of the range of T; and in
+    /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity. Kept instead of the pendulum length l =
+    /// h + rho^2/h because h = 0 is allowed; as a ratio, which no unit of length takes out of the range of T; and in
     /// twice the digits: the answers then belong to the numbers the user gave to some 1e-31, not to a rounding of them.
     Wide<T> gyration_ratio{};
 
@@ -124,7 +124,8 @@ Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centro
 
 }  // namespace detail
 
-/// Any rigid link: `compound_pendulum<double>({.weight = 3, .length = 1, .centroid = -0.05, .radius_of_gyration = 0.4})`.
+/// Any rigid link: `compound_pendulum<double>({.weight = 3, .length = 1, .centroid = -0.05, .radius_of_gyration =
+/// 0.4})`.
 /// Throws InvalidArgument for an imaginary radius of gyration, or if not exactly one of the last two is given.
 template <Real T>
 Link<T> compound_pendulum(const CompoundPendulum<T>& body) {

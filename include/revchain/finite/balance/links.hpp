@@ -8,9 +8,9 @@
 
 namespace revchain::finite {
 
-/// A link of steady motion at any inclination, lowest first in a chain. With R the moment of all that hangs at its upper
-/// pin, over the distance to its lower pin, taken as if the link hung vertically, y the offsets and t, s tangent and sine of
-/// its inclination, Greenhill (1908) §8 (6)-(12) is
+/// A link of steady motion at any inclination, lowest first in a chain. With R the moment of all that hangs at its
+/// upper pin, over the distance to its lower pin, taken as if the link hung vertically, y the offsets and t, s tangent
+/// and sine of its inclination, Greenhill (1908) §8 (6)-(12) is
 ///     R = H_below + moment y_below,   lambda pull t + length cross s = R,   y = y_below - length s,   H = R + rest y,
 /// H the sum of weights times offsets of their centroids: lambda times the sideways pull at the pin.
 template <class S>
@@ -22,8 +22,8 @@ struct Link {
     S rest;    ///< W (a - h)/a
 };
 
-/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0). Its sine is then +- that of
-/// its tangent, and its balance  lambda pull t +- length cross t/sqrt(1 + t^2) = R.
+/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0). Its sine is then +- that
+/// of its tangent, and its balance  lambda pull t +- length cross t/sqrt(1 + t^2) = R.
 enum class Posture { hangs = 1, stands = -1 };
 
 /// Links in units of 2^length_exponent and 2^weight_exponent.
@@ -72,8 +72,8 @@ std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
     return result;
 }
 
-/// A number known in S to some of its last digits, enclosed in T; one that T holds exactly is taken as exact if T is the
-/// narrower.
+/// A number known in S to some of its last digits, enclosed in T; one that T holds exactly is taken as exact if T is
+/// the narrower.
 template <class T, class S>
 Interval<T> enclosed(const S& x) {
     const T near = static_cast<T>(x);

@@ -65,9 +65,10 @@ class Tridiagonal {
 
 }  // namespace detail
 
-/// Newton's method on all pins at once, from offsets near a steady shape, each link in its posture: the balance of forces
-/// at each pin in S, its derivative, the tridiagonal tangent stiffness  lambda k sec^3 [1 -1; -1 1] - M  of the elements,
-/// in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N) a step.
+/// Newton's method on all pins at once, from offsets near a steady shape, each link in its posture: the balance of
+/// forces at each pin in S, its derivative, the tridiagonal tangent stiffness  lambda k sec^3 [1 -1; -1 1] - M  of the
+/// elements, in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N)
+/// a step.
 template <class S, class End = OnAxis>
 Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int most_steps = 60,
                     std::vector<Posture> posture = {}, const End& support = {}) {

@@ -25,8 +25,9 @@ S tangent_of(const S& stiffness, const S& turning, const S& R) {
 
 }  // namespace detail
 
-/// Offsets of all pins, free end first, of the chain whose lowest link hangs at an inclination of given tangent and whose
-/// every link is in balance: Greenhill (1908) §8 (4), (12). The last is that of the support: 0 for a steady shape.
+/// Offsets of all pins, free end first, of the chain whose lowest link hangs at an inclination of given tangent and
+/// whose every link is in balance: Greenhill (1908) §8 (4), (12). The last is that of the support: 0 for a steady
+/// shape.
 template <class S>
 std::vector<S> swept(const std::vector<Link<S>>& links, const S& height, const S& lowest_tangent) {
     std::vector<S> y;

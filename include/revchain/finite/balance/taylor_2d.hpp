@@ -5,8 +5,8 @@
 
 namespace revchain::finite {
 
-/// A function of x (lambda times the tangent of the lowest link) and lambda over a rectangle: what it and its derivatives
-/// to the second order stay within, and its value and slopes at the centre.
+/// A function of x (lambda times the tangent of the lowest link) and lambda over a rectangle: what it and its
+/// derivatives to the second order stay within, and its value and slopes at the centre.
 template <Real T>
 struct Surface {
     Interval<T> value, x, h, xx, xh, hh;  ///< h: along lambda
@@ -77,8 +77,8 @@ class Centre {
     Interval<T> off_x_, off_h_, half_xx_, half_hh_, off_xh_;
 };
 
-/// t with  lambda pull t + length cross s(t) = R  over ranges of lambda pull (wide) and of R: |t| falls with the one and
-/// grows with the other.
+/// t with  lambda pull t + length cross s(t) = R  over ranges of lambda pull (wide) and of R: |t| falls with the one
+/// and grows with the other.
 template <Real T>
 Interval<T> tangent_over(const Interval<T>& stiffness, const Interval<T>& turning, const Interval<T>& R) {
     const T& for_low = R.low < T(0) ? stiffness.low : stiffness.high;
@@ -89,8 +89,8 @@ Interval<T> tangent_over(const Interval<T>& stiffness, const Interval<T>& turnin
 
 }  // namespace detail
 
-/// Offset of the support over a rectangle of x = lambda t, t the tangent of the lowest link, and heights lambda: zero for
-/// every steady shape. NaN where a link may have several inclinations.
+/// Offset of the support over a rectangle of x = lambda t, t the tangent of the lowest link, and heights lambda: zero
+/// for every steady shape. NaN where a link may have several inclinations.
 template <Real T>
 Surface<T> support_surface(const std::vector<Link<Interval<T>>>& links, const Rectangle<T>& over) {
     const detail::Centre<T> centre(over);

@@ -9,9 +9,9 @@ namespace revchain::finite {
 /// a sin delta and the change h of log lambda:
 ///     T y + h (change of pull along log lambda) = forces left,      sum row d + row_height h = left.
 /// T is the tangent stiffness of the elements, lambda sigma sec^3 delta/a + X between pins less the masses on the
-/// diagonal. Eliminated from the free end up, element by element, forces in sums from the free end: nothing is assembled,
-/// so that the slowest modes of long chains keep their digits. The last pin and log lambda are solved together: T itself
-/// may be singular, as it is where a branch folds.
+/// diagonal. Eliminated from the free end up, element by element, forces in sums from the free end: nothing is
+/// assembled, so that the slowest modes of long chains keep their digits. The last pin and log lambda are solved
+/// together: T itself may be singular, as it is where a branch folds.
 class BorderedChain {
    public:
     explicit BorderedChain(std::size_t size)
@@ -37,8 +37,8 @@ class BorderedChain {
         }
     }
 
-    /// Changes of the reaches, into `reach`, and of log lambda, returned, for forces left at each pin, summed from the free
-    /// end, and what is left of the condition.
+    /// Changes of the reaches, into `reach`, and of log lambda, returned, for forces left at each pin, summed from the
+    /// free end, and what is left of the condition.
     template <class Forces>
     double solve(const Forces& summed, double left, std::vector<double>& reach) {
         const std::size_t top = size_ - 1;

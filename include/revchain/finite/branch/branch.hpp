@@ -51,9 +51,9 @@ struct Branch {
 
 namespace finite {
 
-/// The shape next to a point of a branch at which one condition holds: at a given height with what `verified` proves. Where
-/// the height is found from something else that is proved of the shape at that height, and the bound adds what Newton's
-/// method left of the balance, times the condition; where nothing is proved, as at a fold, it is that alone.
+/// The shape next to a point of a branch at which one condition holds: at a given height with what `verified` proves.
+/// Where the height is found from something else that is proved of the shape at that height, and the bound adds what
+/// Newton's method left of the balance, times the condition; where nothing is proved, as at a fold, it is that alone.
 inline std::optional<SteadyShape> shape_at(const Links<Wide<double>>& chain, const BranchState& near,
                                            const Condition<Wide<double>>& condition) {
     auto found = polished(chain.links, near, condition);
@@ -181,15 +181,15 @@ struct BranchOptions {
     double longest_step = 0.1;  ///< along the arc
 };
 
-/// The branch of steady shapes that leaves the vertical at mode `mode` (1 the slowest), followed by its arc through every
-/// fold until it first comes down to `conical_height`.
+/// The branch of steady shapes that leaves the vertical at mode `mode` (1 the slowest), followed by its arc through
+/// every fold until it first comes down to `conical_height`.
 ///
 /// Method: pseudo-arclength continuation from the mode, all pins at once by tridiagonal elements, in double. A step is
-/// checked: see finite::BranchWalk. Points are good to about 1e-12 (measured); `shape` gives them in two words; folds are
-/// located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. Where all of the branch asked for is inclined by
-/// less than 1e-3 it is the vertical and its end, from the onset's law and balanced in two words; where no double can tell that end from the
-/// vertical it is the vertical alone, `stuck`. Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a
-/// link each, and 3 N numbers of memory a point.
+/// checked: see finite::BranchWalk. Points are good to about 1e-12 (measured); `shape` gives them in two words; folds
+/// are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. Where all of the branch asked for is inclined
+/// by less than 1e-3 it is the vertical and its end, from the onset's law and balanced in two words; where no double
+/// can tell that end from the vertical it is the vertical alone, `stuck`. Cost: 4 to 7 O(N) Newton steps a point, some
+/// 0.1 microseconds a link each, and 3 N numbers of memory a point.
 /// Throws InvalidArgument for a mode that is none, and for a height that is not positive or not below that of the mode.
 inline Branch branch(const Chain<double>& chain, Index mode, double conical_height, const BranchOptions& options = {}) {
     detail::require_positive("branch", "conical height", conical_height);
@@ -222,7 +222,8 @@ inline Branch branch(const Chain<double>& chain, Index mode, double conical_heig
         if (only) finite::append(result, *only), result.conical_height.back() = conical_height;
         return result;
     }
-    // where modes all but coincide the first step may miss the branch, which ends it soon: then from nearer to the vertical
+    // where modes all but coincide the first step may miss the branch, which ends it soon: then from nearer to the
+    // vertical
     const Branch only_vertical = result;
     for (double from = std::min(0.1, 0.25 * steepness); from > 1e-6; from /= 16) {
         const auto start = onset.start(root.corrector, from);

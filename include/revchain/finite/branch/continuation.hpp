@@ -9,10 +9,10 @@ namespace revchain::finite {
 /// Follows one branch of steady shapes by its arc, through folds.
 ///
 /// A step goes along the tangent and is corrected across it. It is kept only if Newton's method contracts at once, the
-/// direction turns by less than 26 degrees, the state half way, predicted from both ends, is on the branch too (a jump to
-/// a neighbour fails here: the curve through both ends with their tangents is then none), the half waves are the same
-/// (where l <= a for all links) and the chain has not come to the vertical. Else half the step is tried. This is a check,
-/// not a proof. Cost: 4 to 7 Newton steps of O(N) a step kept.
+/// direction turns by less than 26 degrees, the state half way, predicted from both ends, is on the branch too (a jump
+/// to a neighbour fails here: the curve through both ends with their tangents is then none), the half waves are the
+/// same (where l <= a for all links) and the chain has not come to the vertical. Else half the step is tried. This is a
+/// check, not a proof. Cost: 4 to 7 Newton steps of O(N) a step kept.
 class BranchWalk {
    public:
     /// From a point on the branch, its tangent the way to go.

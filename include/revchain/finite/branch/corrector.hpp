@@ -71,8 +71,8 @@ class Corrector {
     struct Change {
         BranchState correction, tangent;
     };
-    /// One step of Newton's method at a state, and the direction of the branch, both by the same factors: the correction
-    /// at right angles to `across`, the tangent of length 1 and on the same side as it.
+    /// One step of Newton's method at a state, and the direction of the branch, both by the same factors: the
+    /// correction at right angles to `across`, the tangent of length 1 and on the same side as it.
     Change step(const BranchState& at, const BranchState& across) {
         const std::size_t n = links_.size();
         const double height = std::exp(at.log_height), share = 1 / static_cast<double>(n);
@@ -92,8 +92,8 @@ class Corrector {
         return change;
     }
 
-    /// The state on the branch in the plane through `start` across a direction; none if Newton's method does not contract
-    /// at once by `contraction` and to the last digits, or first moves by more than `farthest`.
+    /// The state on the branch in the plane through `start` across a direction; none if Newton's method does not
+    /// contract at once by `contraction` and to the last digits, or first moves by more than `farthest`.
     std::optional<BranchPoint> corrected(BranchState start, const BranchState& across, double farthest,
                                          double contraction = 0.3) {
         double last = 0;

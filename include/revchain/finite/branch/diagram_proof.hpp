@@ -33,14 +33,15 @@ struct DiagramProof {
     long rectangles = 0;                 ///< looked at
 };
 
-/// Shows that every connected piece of the diagram is known: of the zeros of y(x, lambda), the offset of the support, with
-/// x = lambda tan(inclination of the lowest link) > 0. Pieces that come down to the lowest height are left to a list there.
+/// Shows that every connected piece of the diagram is known: of the zeros of y(x, lambda), the offset of the support,
+/// with x = lambda tan(inclination of the lowest link) > 0. Pieces that come down to the lowest height are left to a
+/// list there.
 ///
 /// Any other piece either goes to the vertical or has a highest point, and there y = y_x = 0. Rectangles of (x, lambda)
 /// are split until in each
 ///   y or y_x keeps its sign, so that no such point is in it; or
 ///   y_lambda keeps its sign over it and over heights beyond it as far as the slope |y_x/y_lambda| can lead within its
-///   width: all zeros in it lie on one graph lambda(x) over its whole width, and if there are any, one is at its middle.
+///   width: all zeros in it lie on one graph lambda(x) over its whole width; if there are any, one is at its middle.
 ///   That one is on a branch that is known, or a branch that was not is found.
 /// Next to x = 0, y = x f(x, lambda), and by the mean value theorem f, f_x and f_lambda are within y_x, y_xx times
 /// 0 ... 1 and y_x lambda over 0 ... x: the graph then goes on to the vertical.

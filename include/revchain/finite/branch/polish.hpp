@@ -125,8 +125,8 @@ struct Polished {
     double condition = 0;
 };
 
-/// Newton's method on all pins and the height at once, the balance in S, its derivative in double: see `balance`, beside
-/// which the height is free and one condition given. Cost O(N) a step.
+/// Newton's method on all pins and the height at once, the balance in S, its derivative in double: see `balance`,
+/// beside which the height is free and one condition given. Cost O(N) a step.
 template <class S>
 Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start, const Condition<S>& condition) {
     using std::abs;
@@ -172,9 +172,9 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
         if (result.shape.converged) break;  // what is left has been told, the factors are those of the result
         const double log_change =
             border.solve([&](std::size_t m) { return left[m]; }, static_cast<double>(open), reach);
-        // Largest change of a link over its own inclination, and over the steepest one's. The start comes from numbers that
-        // were summed in double: of links all but vertical next to others it has rounding alone, 1e-18 for 1e-40, say.
-        // That goes by a factor of 1e-16 a step, and does no harm to the rest.
+        // Largest change of a link over its own inclination, and over the steepest one's. The start comes from numbers
+        // that were summed in double: of links all but vertical next to others it has rounding alone, 1e-18 for 1e-40,
+        // say. That goes by a factor of 1e-16 a step, and does no harm to the rest.
         double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
         for (std::size_t m = n; m-- > 0;) {
             // of a link that is vertical by accident only what two words of its pins' offsets can tell

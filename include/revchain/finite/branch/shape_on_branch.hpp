@@ -13,7 +13,8 @@ struct ShapeGiven {
     std::optional<double> tip_radius{};       ///< of the free end from the axis
     std::optional<double> top_tension{};      ///< size of the reaction at the support
     double gravity = conical_pendulum::standard_gravity;
-    /// How far down in conical height to look; absent: 1e-6 of that of the mode, and for all states at one height its half.
+    /// How far down in conical height to look; absent: 1e-6 of that of the mode, and for all states at one height its
+    /// half.
     std::optional<double> down_to{};
     bool all = false;  ///< else the first state from the vertical along the arc
 };
@@ -49,7 +50,8 @@ class BranchSearch {
                 result.searched_to = result.shapes.back().conical_height;
                 if (!all) return result;
             }
-            // past the state; farther out where double tells the branch from the vertical, what is wanted growing all along
+            // past the state; farther out where double tells the branch from the vertical, what is wanted growing all
+            // along
             from = result.shapes.empty() ? 0.1 * amplitude_ * onset.steepest
                                          : std::max(1e-5, 4 * amplitude_ * onset.steepest);
         } else {
@@ -132,15 +134,15 @@ ShapesOnBranch searched(BranchRoot& root, const Measure& measure, const Conditio
 
 }  // namespace finite
 
-/// States on the branch that leaves the vertical at mode `mode` (1 the slowest, as in `modes`) at which one number is as
-/// given: conical height, speed, tip inclination, tip radius or top tension; the first along the arc, or all.
+/// States on the branch that leaves the vertical at mode `mode` (1 the slowest, as in `modes`) at which one number is
+/// as given: conical height, speed, tip inclination, tip radius or top tension; the first along the arc, or all.
 ///
 /// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the height in two words with
 /// what is given as a condition. Next to the vertical the onset of the branch serves as a start.
-/// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is proved (measured: 0.7 of
-/// it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed to a conical height of 1e-4 of the length:
-/// tests/cpp/finite/branch/branch.cpp). That the state is on this branch is checked step by step, not proved. `shapes` is empty
-/// where the number is not met.
+/// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is proved (measured:
+/// 0.7 of it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed to a conical height of 1e-4 of the
+/// length: tests/cpp/finite/branch/branch.cpp). That the state is on this branch is checked step by step, not proved.
+/// `shapes` is empty where the number is not met.
 /// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
 /// Throws InvalidArgument for a mode that is none, for anything but one number given, for one out of its range, for a
 /// `down_to` not below the height of the mode, and for a speed at which this branch does not exist yet.

@@ -7,21 +7,22 @@
 #include "revchain/finite/cord/tip_offset.hpp"
 
 /// Steady shapes of a whirling chain without links, of any density and with a weight at its free end or none, at any
-/// inclination: Greenhill (1908) §4 without its small angles. A path is followed up from the free end, whose offset eta_0 is
-/// the one unknown; a shape of j half waves is a path whose crossing number j is at the support. What is known of
-/// s_j(eta_0), the place of that crossing (equations at `finite::PathState`):
-///   - s_j(eta_0) > s_j(0), that of small amplitude: against V the pull satisfies u'' = -u/(rho T), u'(tip) = u(tip)/tip,
-///     and T > V, the T of small amplitude: Sturm's comparison. So no shape has j half waves at or above the conical height
-///     lambda_j of small amplitude.
+/// inclination: Greenhill (1908) §4 without its small angles. A path is followed up from the free end, whose offset
+/// eta_0 is the one unknown; a shape of j half waves is a path whose crossing number j is at the support. What is known
+/// of s_j(eta_0), the place of that crossing (equations at `finite::PathState`):
+///   - s_j(eta_0) > s_j(0), that of small amplitude: against V the pull satisfies u'' = -u/(rho T),
+///     u'(tip) = u(tip)/tip, and T > V, the T of small amplitude: Sturm's comparison. So no shape has j half waves at
+///     or above the conical height lambda_j of small amplitude.
 ///   - s_j grows beyond any bound, as s_1 >= eta_0: so one at least has j half waves if lambda < lambda_j.
-///   - s_1 rises everywhere: v = du/deta_0 satisfies v'' = -(V/T)^2 v/(rho T), so that (u v' - v u')' > 0 as long as u and v
-///     have one sign, and at the crossing, where u' = 0, u v' > 0. So one at most has no node.
+///   - s_1 rises everywhere: v = du/deta_0 satisfies v'' = -(V/T)^2 v/(rho T), so that (u v' - v u')' > 0 as long as
+///     u and v have one sign, and at the crossing, where u' = 0, u v' > 0. So one at most has no node.
 ///   - Every s_j rises for the uniform chain without tip weight, I. I. Kolodner, Heavy rotating string - a nonlinear
-///     eigenvalue problem, Comm. Pure Appl. Math. 8 (1955): exactly k shapes for lambda_{k+1} <= lambda < lambda_k; and for
-///     densities s^p: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
+///     eigenvalue problem, Comm. Pure Appl. Math. 8 (1955): exactly k shapes for lambda_{k+1} <= lambda < lambda_k; and
+///     for densities s^p: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
 /// The last is false in general: three heavy beads on a light thread have five shapes where the three heights of small
-/// amplitude promise three (tests/cpp/finite/cord/continuous_chain.cpp). So `complete` is true for the uniform chain without tip
-/// weight, and where no more than one height is above; elsewhere s_j is looked at for many eta_0, and `complete` is false.
+/// amplitude promise three (tests/cpp/finite/cord/continuous_chain.cpp). So `complete` is true for the uniform chain
+/// without tip weight, and where no more than one height is above; elsewhere s_j is looked at for many eta_0, and
+/// `complete` is false.
 namespace revchain {
 
 /// The shapes found, and whether there are more.
@@ -133,17 +134,19 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
 /// All steady shapes of a chain that whirls at the speed of conical height `height`, the straight one left out, of two
 /// mirror images that with the free end at a positive offset. Where `complete` is false there may be more (see above).
 ///
-/// Method: power series of order 24 in the time that makes the equations polynomials (`finite::PathSeries`), Newton's method
-/// on the place of crossing j, its derivative by the series of the change; crossings told by quadrants within every step.
-/// Accuracy: inclinations, and offsets and heights over the length, within `error_bound`: measured against 22 digits for
-/// length/height from 1.4458 to 1e4, tip weights to 1e3 and five densities, never above 0.6 of it. The bound is an estimate,
-/// from how much the shape changes with its length and along it: 1.3e-13 at length/height 500 (measured 3.4e-14, and 3e-16
-/// for offsets), where the sharpest corner turns over a radian in a thousandth of the length; 3e-12 at 1e4 (7e-13). It grows
-/// near a critical height, where the amplitude is ill determined. `residual`: of the first integral of the uniform chain, of the tension carried by its
-/// own series against that of its parts with a density. Cost: a microsecond a step, four and more a half wave: 1.8 ms for the
-/// fourteen shapes at length/height 500 (bench/continuous.cpp); ten times that with a density, and `scanned` paths more.
-/// Throws InvalidArgument for a length or height not positive and finite, a negative tip weight, and a density over another
-/// length.
+/// Method: power series of order 24 in the time that makes the equations polynomials (`finite::PathSeries`), Newton's
+/// method on the place of crossing j, its derivative by the series of the change; crossings told by quadrants within
+/// every step.
+/// Accuracy: inclinations, and offsets and heights over the length, within `error_bound`: measured against 22 digits
+/// for length/height from 1.4458 to 1e4, tip weights to 1e3 and five densities, never above 0.6 of it. The bound is an
+/// estimate, from how much the shape changes with its length and along it: 1.3e-13 at length/height 500 (measured
+/// 3.4e-14, and 3e-16 for offsets), where the sharpest corner turns over a radian in a thousandth of the length; 3e-12
+/// at 1e4 (7e-13). It grows near a critical height, where the amplitude is ill determined. `residual`: of the first
+/// integral of the uniform chain, of the tension carried by its own series against that of its parts with a density.
+/// Cost: a microsecond a step, four and more a half wave: 1.8 ms for the fourteen shapes at length/height 500
+/// (bench/continuous.cpp); ten times that with a density, and `scanned` paths more.
+/// Throws InvalidArgument for a length or height not positive and finite, a negative tip weight, and a density over
+/// another length.
 inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height,
                                           const ContinuousShapesOptions& options = {}) {
     constexpr std::string_view place = "continuous_shapes";
@@ -162,9 +165,9 @@ inline ContinuousShapes continuous_shapes_at_speed(const ContinuousChain& chain,
     return continuous_shapes(chain, conical_pendulum::height(angular_speed, gravity), options);
 }
 
-/// The `count` greatest conical heights at which shapes leave the vertical, descending: those of small amplitude, by the
-/// same series with T = V. Method: the place of crossing j of a chain that goes on beyond its support falls as the height
-/// does: bisection, then the secant within what is left. Accuracy: 4e-15 relative.
+/// The `count` greatest conical heights at which shapes leave the vertical, descending: those of small amplitude, by
+/// the same series with T = V. Method: the place of crossing j of a chain that goes on beyond its support falls as the
+/// height does: bisection, then the secant within what is left. Accuracy: 4e-15 relative.
 /// Cost: ten paths each, but one for all where the chain is uniform without tip weight.
 /// Throws InvalidArgument as continuous_shapes does, and for a count below 1 or above 1e5.
 inline Vector<double> continuous_critical_heights(const ContinuousChain& chain, Index count) {

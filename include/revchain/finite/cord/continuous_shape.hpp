@@ -59,8 +59,8 @@ inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x
             std::hypot(x.pull, below) * lambda * shape.kind.per_length};
 }
 
-/// The time of a series at which it reaches an arc length: arc' = pace T > 0. A step whose start was moved may end a little
-/// earlier.
+/// The time of a series at which it reaches an arc length: arc' = pace T > 0. A step whose start was moved may end a
+/// little earlier.
 inline double time_at(const PathSeries& series, double arc, double duration) {
     return time_of_zero(duration, 1.05 * duration, [&](double t) {
         return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
@@ -172,7 +172,8 @@ class ShapeSamples {
         const double sum = kind_.tip * std::hypot(1.0, tip_offset_) + end.height + 0.5 * tip_offset_ * tip_offset_;
         return std::abs(tension - sum) / std::max(tension, sum);
     }
-    /// Error and condition from what a change of the free end's offset, and of the place, do to inclinations and offsets.
+    /// Error and condition from what a change of the free end's offset, and of the place, do to inclinations and
+    /// offsets.
     void judge(ContinuousShape& shape, double length, double rate) const {
         double turned = 0, moved = 0, steepest = 0;
         for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -190,8 +191,8 @@ class ShapeSamples {
             steepest = std::max(steepest, density * std::abs(x.offset * below + x.pull) / squared);
         }
         shape.condition = turned * length / rate;
-        // Places, and the length, to a rounding or two of the length, and what a density loses as polynomials: calibrated in
-        // tests/cpp/finite/cord/continuous_chain.cpp, where errors reach 0.6 of this.
+        // Places, and the length, to a rounding or two of the length, and what a density loses as polynomials:
+        // calibrated in tests/cpp/finite/cord/continuous_chain.cpp, where errors reach 0.6 of this.
         const double data = kind_.density == nullptr ? 1 : 4;
         shape.error_bound =
             data * epsilon<double>() * (1.5 + 2 * std::max(shape.condition, moved / rate) + steepest * length);

@@ -13,9 +13,10 @@ namespace revchain {
 
 /// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
 ///
-/// Method: the length is halved, and the halves, until a polynomial of degree 12 through Chebyshev points gives the function
-/// to its rounding, looked at between them too, or a piece is 2^-46 of the length: so a jump or a corner costs about
-/// fifty pieces. At the free end a piece of 2^-40 stands for c s^p, as a power law has it, whose weight grows like s^(p+1).
+/// Method: the length is halved, and the halves, until a polynomial of degree 12 through Chebyshev points gives the
+/// function to its rounding, looked at between them too, or a piece is 2^-46 of the length: so a jump or a corner costs
+/// about fifty pieces. At the free end a piece of 2^-40 stands for c s^p, as a power law has it, whose weight grows
+/// like s^(p+1).
 /// Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp).
 class LineDensity {
    public:
@@ -24,8 +25,8 @@ class LineDensity {
     static constexpr int least_halvings = 2, most_halvings = 46, most_at_tip = 40;
     static constexpr std::size_t most_pieces = 20'000;
 
-    /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a function
-    /// that is rough at too many places.
+    /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a
+    /// function that is rough at too many places.
     LineDensity(const std::function<double(double)>& weight_per_length, double length) : length_(length) {
         detail::require_positive("LineDensity", "length", length);
         divide(weight_per_length, 0, length, 0);
@@ -87,8 +88,8 @@ class LineDensity {
     }
     /// Up to where the density is no polynomial but a power of s; mostly 0.
     double end_of_power() const { return pieces_.front().power != 0 ? end(pieces_.front()) : 0.0; }
-    /// First moment of the chain below s about the free end, over weight below times s, as of a power of s: to first order
-    /// near the free end.
+    /// First moment of the chain below s about the free end, over weight below times s, as of a power of s: to first
+    /// order near the free end.
     double first_moment(double s) const {
         const double power = about(s)[0] * s / weight_below(s) - 1;
         return (power + 1) / (power + 2);

@@ -9,10 +9,11 @@
 
 namespace revchain::finite {
 
-/// A path from the free end upwards, whose offset there is given: where it crosses the axis, and how that changes with the
-/// offset. Two crossings have one turn (u = 0) between them, and (eta, u) passes through the four quadrants in one order
-/// only, so the crossings within a step are told by the quadrants at its ends as long as it cannot pass four: by a Prüfer
-/// angle, if step times sqrt(largest T) < 3 pi/2. A step is cut until that holds and there is at most one crossing.
+/// A path from the free end upwards, whose offset there is given: where it crosses the axis, and how that changes with
+/// the offset. Two crossings have one turn (u = 0) between them, and (eta, u) passes through the four quadrants in one
+/// order only, so the crossings within a step are told by the quadrants at its ends as long as it cannot pass four: by
+/// a Prüfer angle, if step times sqrt(largest T) < 3 pi/2. A step is cut until that holds and there is at most one
+/// crossing.
 class Path {
    public:
     struct Step {
@@ -99,7 +100,8 @@ class Path {
     }
 
    private:
-    /// The change at a fixed place instead of a fixed time: with it a path goes through a jump of the density unchanged.
+    /// The change at a fixed place instead of a fixed time: with it a path goes through a jump of the density
+    /// unchanged.
     static PathChange at_place(const PathKind& kind, const PathState& x, const PathChange& change,
                                const PathSeries& series, double duration) {
         const double below = kind.weight_below(x.arc), tension = kind.tension(x.pull, below);

@@ -10,8 +10,9 @@
 
 namespace revchain::finite {
 
-/// A place of a whirling chain, lengths over the conical height lambda: sigma the distance from the free end, eta the offset
-/// from the axis, xi the height above the free end; and u, the pull across the axis over that of a length lambda of chain,
+/// A place of a whirling chain, lengths over the conical height lambda: sigma the distance from the free end, eta the
+/// offset from the axis, xi the height above the free end; and u, the pull across the axis over that of a length lambda
+/// of chain,
 ///     u' = -rho eta,   V' = rho,   eta' = u/T,   xi' = V/T,   T = sqrt(u^2 + V^2)   (' by sigma),
 /// V what hangs below, rho the line density. As paths run upwards, -u/V is the tangent of the inclination.
 struct PathState {
@@ -42,9 +43,9 @@ struct PathKind {
 
 /// The power series of a path about one of its places, in a time t that makes the equations polynomials:
 ///     dsigma = T dt:   eta' = u,   u' = -rho T eta,   V' = rho T,   xi' = V,   T' = rho (V - u eta)    (' by t).
-/// For the uniform chain the last has the integral T = C + xi - eta^2/2, coefficient by coefficient. Where the chain turns
-/// sharply (high speed), T goes like a hyperbolic cosine of t: a step of this time spans most of such a corner, however
-/// sharp, where a step of sigma would have to stay within its radius.
+/// For the uniform chain the last has the integral T = C + xi - eta^2/2, coefficient by coefficient. Where the chain
+/// turns sharply (high speed), T goes like a hyperbolic cosine of t: a step of this time spans most of such a corner,
+/// however sharp, where a step of sigma would have to stay within its radius.
 class PathSeries {
    public:
     static constexpr int order = 24;
@@ -147,8 +148,8 @@ class PathSeries {
         return 2 * sum + (n % 2 == 0 ? a[last / 2] * a[last / 2] : 0.0);
     }
 
-    /// Every new coefficient is at once multiplied into the sums it belongs to, for later: loops without sums across, which
-    /// compilers turn into SIMD code. What is not yet known is 0, so that no pair counts twice.
+    /// Every new coefficient is at once multiplied into the sums it belongs to, for later: loops without sums across,
+    /// which compilers turn into SIMD code. What is not yet known is 0, so that no pair counts twice.
     template <bool change>
     void uniform(double bend) {
         constexpr std::size_t size = order + 1, block = 4, room = 2 * order + 2 * block;
@@ -204,8 +205,8 @@ class PathSeries {
         }
     }
 
-    /// The same with a density: rho(sigma(t)) by Horner's rule on series, all its lines one coefficient at a time. The time
-    /// runs by `pace`, dsigma = pace T dt, so that coefficients stay within range however light the chain is here.
+    /// The same with a density: rho(sigma(t)) by Horner's rule on series, all its lines one coefficient at a time. The
+    /// time runs by `pace`, dsigma = pace T dt, so that coefficients stay within range however light the chain is here.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
         std::array<double, degree + 1> c = kind.density->about(state_arc(kind));
@@ -265,9 +266,9 @@ class PathSeries {
     bool has_change_ = false, is_dense_ = false;
 };
 
-/// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so, to
-/// 2^-52 of the step and 2^-51 of itself: Newton's method held within the bracket. Unlike `zero_between` it does not go
-/// on to the last digit of the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)`
+/// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so,
+/// to 2^-52 of the step and 2^-51 of itself: Newton's method held within the bracket. Unlike `zero_between` it does not
+/// go on to the last digit of the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)`
 /// returns a pair.
 template <class F>
 double time_of_zero(double duration, double latest, const F& value_and_slope) {

@@ -41,9 +41,9 @@ struct TipRange {
     bool rises;
 };
 
-/// The free end's offset for which crossing number j lies at `length`: Newton's method within the range, or the law above
-/// fitted to each path tried. What is found is within `near` of the offset, relatively; paths whose step is greater than
-/// that are followed no better than they need.
+/// The free end's offset for which crossing number j lies at `length`: Newton's method within the range, or the law
+/// above fitted to each path tried. What is found is within `near` of the offset, relatively; paths whose step is
+/// greater than that are followed no better than they need.
 class TipOffset {
    public:
     static constexpr double near = 1e-8;
@@ -54,8 +54,8 @@ class TipOffset {
         const double rise = length - place_at_rest;
         double tip = inside(std::min(law_.tip_offset(rise), 0.999 * range.high)), last = 0.05;
         for (int round = 0; round < 200; ++round) {
-            // Fitted, the law leaves a hundredth of the step's square, and more than that need not be known: of the rise,
-            // which near a critical height is a small part of the place.
+            // Fitted, the law leaves a hundredth of the step's square, and more than that need not be known: of the
+            // rise, which near a critical height is a small part of the place.
             const double square = last * last;
             const double tolerance = std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
             const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
@@ -69,8 +69,8 @@ class TipOffset {
             // Steps that do not shrink by half are no better than halving, and may creep.
             if (round > 1 && std::abs(next / tip - 1) > 0.5 * last) next = middle();
             last = std::abs(next / tip - 1);
-            // Either step leaves less than its square, mostly a tenth of it, where the law holds that near; and what the
-            // tolerance left.
+            // Either step leaves less than its square, mostly a tenth of it, where the law holds that near; and what
+            // the tolerance left.
             const bool enough = last * last < near && std::abs(off) < 4e-4 * rise && tolerance * length < near * rise;
             tip = next;
             if (enough) break;
@@ -93,8 +93,9 @@ class TipOffset {
     double value_ = 0;
 };
 
-/// The height at which a falling or rising function of it is 0: from a height at which it is positive (or above all such)
-/// downwards, then the secant method on the logarithm of the ratio of the two, whatever the unit, within the bracket.
+/// The height at which a falling or rising function of it is 0: from a height at which it is positive (or above all
+/// such) downwards, then the secant method on the logarithm of the ratio of the two, whatever the unit, within the
+/// bracket.
 template <class F>
 double height_where(const F& excess, double from) {
     const auto value_at = [&](double x) { return excess(from * std::exp(x)); };

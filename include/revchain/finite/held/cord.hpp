@@ -177,9 +177,9 @@ inline HeldCordShapes held_cord_shapes(double length, double span, double height
 /// Steady shapes of a uniform, perfectly flexible cord whose two ends are held on the axis, `span` apart, at a conical
 /// height: `held_shapes` of more and more links. Height 0 stands for no gravity: Greenhill (1908) §5, y = b sn(K x/a).
 ///
-/// Method: power series of degree 24, exact derivatives with the two forces at the lower end, Newton's method along a curve
-/// from the nearly straight cord. Accuracy: 1e-13 of the length (tests/cpp/paper/section_5_held_cord.cpp). Cost: 20 microseconds a
-/// path, some 100 paths a shape.
+/// Method: power series of degree 24, exact derivatives with the two forces at the lower end, Newton's method along a
+/// curve from the nearly straight cord. Accuracy: 1e-13 of the length (tests/cpp/paper/section_5_held_cord.cpp). Cost:
+/// 20 microseconds a path, some 100 paths a shape.
 /// Throws InvalidArgument for numbers not positive and finite, but the height, which may be 0, and a span not below the
 /// length.
 inline HeldCordShapes held_cord_shapes(double length, double span, double conical_height, double weight = 1,

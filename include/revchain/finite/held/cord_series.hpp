@@ -10,8 +10,9 @@
 
 namespace revchain::finite {
 
-/// A place of a uniform cord held at both ends, lengths over the cord's: arc from the lower end, offset y, height z, and
-/// lambda times the force that pulls upwards, over the weight: u across the axis (the way offsets are counted), V along it.
+/// A place of a uniform cord held at both ends, lengths over the cord's: arc from the lower end, offset y, height z,
+/// and lambda times the force that pulls upwards, over the weight: u across the axis (the way offsets are counted), V
+/// along it.
 struct CordPlace {
     double arc = 0, offset = 0, rise = 0, across = 0, along = 0;
 };

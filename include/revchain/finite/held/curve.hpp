@@ -16,8 +16,8 @@ struct HeldState {
 
 /// A curve of states whose upper end is on the axis, by its arc: with one of span and conical height kept, the three
 /// others of (forces, span) move along a curve in space, whose tangent is the product of two gradients. `Shooter` sends
-/// forces to the upper end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`, where `keep` tells it that
-/// the state is one to start from. A fold of the curve is passed like any other point.
+/// forces to the upper end: `HeldEnd<double> operator()(const HeldForces<double>&, bool keep)`, where `keep` tells it
+/// that the state is one to start from. A fold of the curve is passed like any other point.
 template <class Shooter>
 class HeldCurve {
    public:
@@ -68,8 +68,8 @@ class HeldCurve {
     double top_tension(const HeldState& x) {
         return std::hypot((*shooter_)(x.forces, false).across, x.forces.along + x.forces.height * weight_);
     }
-    /// Sees the states of constant height, from `from` both ways along the curve, whose top tension is lambda times the one
-    /// wanted; the tension is largest somewhere between, as a rule, so that there are two.
+    /// Sees the states of constant height, from `from` both ways along the curve, whose top tension is lambda times the
+    /// one wanted; the tension is largest somewhere between, as a rule, so that there are two.
     template <class Visit>
     void under(const HeldState& from, double wanted, Visit&& visit) {
         const auto kept = shooter_->kept();

@@ -84,9 +84,10 @@ class HeldBox {
     }
 };
 
-/// The largest turn of a link, rad, that separates directions found from those of a steady shape with its upper end on the
-/// axis, `span` up, there being one and one alone so near: Krawczyk's test on the two forces at the lower end (doi:10.1007/
-/// BF02234767). Infinite where it decides nothing: intervals grow along the chain by e^pi, about, for each half wave.
+/// The largest turn of a link, rad, that separates directions found from those of a steady shape with its upper end on
+/// the axis, `span` up, there being one and one alone so near: Krawczyk's test on the two forces at the lower end
+/// (doi:10.1007/ BF02234767). Infinite where it decides nothing: intervals grow along the chain by e^pi, about, for
+/// each half wave.
 inline double held_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
                          const Interval<DoubleDouble>& span, const std::array<DoubleDouble, 2>& forces,
                          const std::vector<Direction<DoubleDouble>>& found) {

@@ -6,11 +6,12 @@
 
 namespace revchain {
 
-/// One steady shape of a chain whose two ends are held on the axis: links lowest first, pins from the lower end up, in the
-/// units of the chain.
+/// One steady shape of a chain whose two ends are held on the axis: links lowest first, pins from the lower end up, in
+/// the units of the chain.
 ///
-/// Forces are given times the conical height lambda, weight times length: a number with gravity and without it. Over lambda
-/// they are in the unit of the weights; without gravity weights stand for masses, and forces are these numbers times n^2.
+/// Forces are given times the conical height lambda, weight times length: a number with gravity and without it. Over
+/// lambda they are in the unit of the weights; without gravity weights stand for masses, and forces are these numbers
+/// times n^2.
 struct HeldShape {
     Vector<double> inclination;  ///< (N) of each link to the upward vertical, rad, within (-pi, pi]; §8's sign
     Vector<double> offset;       ///< (N + 1) of each pin from the axis; both ends 0, the second positive

@@ -7,8 +7,8 @@
 
 namespace revchain::finite {
 
-/// What a chain held at both ends is not told by its links: lambda times the force at its lower end, across the axis and
-/// along it, and the conical height lambda = g/n^2 itself, 0 without gravity.
+/// What a chain held at both ends is not told by its links: lambda times the force at its lower end, across the axis
+/// and along it, and the conical height lambda = g/n^2 itself, 0 without gravity.
 template <class S>
 struct HeldForces {
     S across, along, height;
@@ -73,11 +73,12 @@ S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& dir
 }  // namespace detail
 
 /// From the lower end, on the axis, to the upper: Greenhill (1908) §8 with a force at the lower end,
-///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,   y = y_below - length s,   H = R + rest y,
-/// H = `across` and tau = `along` at the lower end. A link points where it is pulled, above the horizontal or below: every
-/// link is in tension. Changes are exact derivatives. `direction` holds where to look, and what was found; `each(m, y, R, H,
-/// growth, change of the inclination)` sees every link, y of the lower pin and H of the upper. Cost O(N): 0.1 microseconds
-/// a link in double.
+///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
+///     y = y_below - length s,         H = R + rest y,
+/// H = `across` and tau = `along` at the lower end. A link points where it is pulled, above the horizontal or below:
+/// every link is in tension. Changes are exact derivatives. `direction` holds where to look, and what was found;
+/// `each(m, y, R, H, growth, change of the inclination)` sees every link, y of the lower pin and H of the upper. Cost
+/// O(N): 0.1 microseconds a link in double.
 template <class S, class Each>
 HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces,
                       std::vector<Direction<S>>& direction, Each&& each) {

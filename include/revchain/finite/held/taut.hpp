@@ -23,8 +23,8 @@ class TautLinks {
    public:
     explicit TautLinks(const std::vector<Link<S>>& links) : links_(&links) {}
 
-    /// How many tau, or how many lambda at tau in proportion, are larger: negative pivots of stiffness less mass, from the
-    /// lower end up, told by the signs of offsets and links.
+    /// How many tau, or how many lambda at tau in proportion, are larger: negative pivots of stiffness less mass, from
+    /// the lower end up, told by the signs of offsets and links.
     Index count(const S& height, const S& along) const {
         Index negative = 0;
         int sign_below = 0;
@@ -82,13 +82,13 @@ double taut_number(const Count& count, Index k, double start) {
 
 }  // namespace finite
 
-/// Whirl speeds of the straight chain whose two ends are held on the axis, its lower end pulled down with `tension`, in the
-/// unit of the weights: the first `count` conical heights, and the offsets. Shapes held at finite amplitude leave from
-/// these: `held_shapes` of a span as short of the length as one likes.
+/// Whirl speeds of the straight chain whose two ends are held on the axis, its lower end pulled down with `tension`, in
+/// the unit of the weights: the first `count` conical heights, and the offsets. Shapes held at finite amplitude leave
+/// from these: `held_shapes` of a span as short of the length as one likes.
 ///
 /// Method: counts of negative pivots in two words of double, from the held lower pin up, halved until two neighbouring
-/// doubles enclose the height. Accuracy: 1 ulp, the bound returned; shapes 1e-13 / gap of the heights. Cost 60 N for each.
-/// Fewer are returned where there are fewer: N - 1 of N links, one less for each pin without mass.
+/// doubles enclose the height. Accuracy: 1 ulp, the bound returned; shapes 1e-13 / gap of the heights. Cost 60 N for
+/// each. Fewer are returned where there are fewer: N - 1 of N links, one less for each pin without mass.
 /// Throws InvalidArgument for a tension that is not positive and finite, and a count below 1.
 inline TautModes taut_modes(const Chain<double>& chain, double tension, Index count) {
     using S = Wide<double>;

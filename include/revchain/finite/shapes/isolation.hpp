@@ -25,8 +25,8 @@ struct Isolation {
 
 namespace detail {
 
-/// Offset of the support (how far it is off where the `support` holds it) for tangents of the lowest link within an interval, and, if asked,
-/// those of all links.
+/// Offset of the support (how far it is off where the `support` holds it) for tangents of the lowest link within an
+/// interval, and, if asked, those of all links.
 template <Real T, class End = OnAxis>
 Interval<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
                            const Interval<T>& lowest, std::vector<Interval<T>>* tangents = nullptr,
@@ -67,8 +67,8 @@ struct Part {
     int low_sign, high_sign;
 };
 
-/// Whether what a function is seen to do over a cell is not much wider than at its centre alone, where nothing but rounding
-/// makes it wide (or is not known at all): splitting the cell would show no more.
+/// Whether what a function is seen to do over a cell is not much wider than at its centre alone, where nothing but
+/// rounding makes it wide (or is not known at all): splitting the cell would show no more.
 template <Real T>
 bool rounding_rules(const Interval<T>& over, const Interval<T>& centre) {
     return !(T(4) * centre.width() < over.width());
@@ -100,8 +100,8 @@ class Cutting {
     std::minstd_rand random_{1};
 };
 
-/// Splits 0 ... `last` until each cell is seen to hold no shape or one, or is narrower than `narrowest` of its upper end,
-/// or next to 0 of `last` and of 1. The straight chain, at 0, is left out.
+/// Splits 0 ... `last` until each cell is seen to hold no shape or one, or is narrower than `narrowest` of its upper
+/// end, or next to 0 of `last` and of 1. The straight chain, at 0, is left out.
 template <Real T, class End = OnAxis>
 Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Part<T>& whole,
                      const T& narrowest, long budget, const End& support = {}) {

@@ -18,8 +18,8 @@
 /// The list of all steady shapes at a height. `Result` and `Options` are those of revchain/steady_shapes.hpp.
 namespace revchain::finite {
 
-/// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the chain
-/// reaches.  y0 = lambda t + (a X/moment) s.
+/// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the
+/// chain reaches.  y0 = lambda t + (a X/moment) s.
 template <class T>
 T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool either_posture = false,
                    OnAxis = {}) {
@@ -121,8 +121,9 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
     return std::nullopt;
 }
 
-/// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of the
-/// support's offset on both sides of its lowest tangent, as near as two words can tell, and what all links then may do.
+/// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of
+/// the support's offset on both sides of its lowest tangent, as near as two words can tell, and what all links then may
+/// do.
 template <class End>
 double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
                          const Bracket<DoubleDouble>& bracket, const Finished& found,

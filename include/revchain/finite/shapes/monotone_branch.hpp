@@ -10,8 +10,8 @@ namespace revchain::finite {
 /// t = +-sqrt((|turning|/stiffness)^(2/3) - 1).
 enum class Piece { whole, right, middle, left };
 
-/// Whether R grows with t, and nowhere at less than a hundredth of `stiffness`. Where it is flatter about t = 0 than that, it
-/// is taken by pieces, the middle one of them without width.
+/// Whether R grows with t, and nowhere at less than a hundredth of `stiffness`. Where it is flatter about t = 0 than
+/// that, it is taken by pieces, the middle one of them without width.
 template <Real T>
 bool grows_fast(const Interval<T>& stiffness, const Interval<T>& turning) {
     return turning.low >= T(0) || (Interval<T>(T(0.99)) * stiffness + turning).positive();

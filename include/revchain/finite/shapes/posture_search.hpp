@@ -14,10 +14,10 @@ struct OpenPart {
     T low, high;
 };
 
-/// Steady shapes with every link in a given posture. A path is one piece for each link: along it the tangents of all links
-/// are functions of that of the lowest, by the upward sweep of Greenhill (1908) §8 (4), (12), with derivatives wherever no
-/// link comes near a joint of its pieces. Parts of a path that the offset of the support rules out are dropped, the others
-/// split, until what they leave of the tangents of all links is a box that `Zeros` settles.
+/// Steady shapes with every link in a given posture. A path is one piece for each link: along it the tangents of all
+/// links are functions of that of the lowest, by the upward sweep of Greenhill (1908) §8 (4), (12), with derivatives
+/// wherever no link comes near a joint of its pieces. Parts of a path that the offset of the support rules out are
+/// dropped, the others split, until what they leave of the tangents of all links is a box that `Zeros` settles.
 template <Real T, class End = OnAxis>
 class PostureSearch {
    public:

@@ -7,8 +7,8 @@
 
 namespace revchain::finite {
 
-/// The links of a rig at a speed, and what holds them. Of steady motion `pull` is the effective tension sigma + n H/a, H
-/// what flywheels keep, and `moment`, `rest`, `cross` are of the weights that move.
+/// The links of a rig at a speed, and what holds them. Of steady motion `pull` is the effective tension sigma + n H/a,
+/// H what flywheels keep, and `moment`, `rest`, `cross` are of the weights that move.
 ///
 /// Where it is negative the tangent falls as the load grows. A link of length -a and pull -sigma at the opposite
 /// inclination obeys the same equations: `swept_links` returns that, and sweeps know no other.
@@ -67,10 +67,10 @@ Interval<T> left_to_the_spring(const std::vector<Link<Interval<T>>>& links, cons
     return Interval<T>(T(1)) - support.compliance * moving;
 }
 
-/// An upper end for the tangent of the lowest link of a rig, whether it hangs or stands. The topmost pin is no farther from the axis than
-/// (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda E)|, the others no farther from it than the links reach; and the lowest
-/// link's balance is  lambda pull t + a X s = moment y. Where lambda E is W, to rounding, there is no such end: then as if the
-/// two were a millionth apart.
+/// An upper end for the tangent of the lowest link of a rig, whether it hangs or stands. The topmost pin is no farther
+/// from the axis than (|b| + sum of sigma a/(lambda E))/|1 - W/(lambda E)|, the others no farther from it than the
+/// links reach; and the lowest link's balance is  lambda pull t + a X s = moment y. Where lambda E is W, to rounding,
+/// there is no such end: then as if the two were a millionth apart.
 template <class T>
 T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool,
                    const Held<Interval<T>>& support) {
@@ -101,8 +101,8 @@ struct BearingWeights {
 
 }  // namespace detail
 
-/// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy holds
-/// the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
+/// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy
+/// holds the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
 template <class Shape = SteadyShape>
 Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
     using S = Wide<double>;
@@ -123,8 +123,8 @@ Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanc
     return shape;
 }
 
-/// A rig at a height and a speed in its own units. Throws InvalidArgument where an effective tension, or the moment of what
-/// moves of the lowest link, cannot be told from 0.
+/// A rig at a height and a speed in its own units. Throws InvalidArgument where an effective tension, or the moment of
+/// what moves of the lowest link, cannot be told from 0.
 inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, const Wide<double>& speed) {
     using S = Wide<double>;
     RiggedLinks result;

@@ -8,10 +8,10 @@
 
 namespace revchain::finite {
 
-/// Where a proof of completeness did not reach, shapes that are there all the same: one at least between tangents of the
-/// lowest link at which the offset of the support, `sign(tangent)`, has opposite signs for certain. Looks at the ends of
-/// the `ranges`, ascending, and at those of `points` tangents up to `last` that lie within them: a third each even in the
-/// inclination, in the tangent, and in its logarithm down to 1e-12 of the last.
+/// Where a proof of completeness did not reach, shapes that are there all the same: one at least between tangents of
+/// the lowest link at which the offset of the support, `sign(tangent)`, has opposite signs for certain. Looks at the
+/// ends of the `ranges`, ascending, and at those of `points` tangents up to `last` that lie within them: a third each
+/// even in the inclination, in the tangent, and in its logarithm down to 1e-12 of the last.
 template <Real T, class Sign>
 std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points, const Sign& sign) {
     std::vector<double> tangents;

@@ -68,8 +68,8 @@ inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<
     return true;
 }
 
-/// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link that
-/// is inclined) is at a positive offset.
+/// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link
+/// that is inclined) is at a positive offset.
 template <class AnyLinks, class End>
 std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height,
                                const WholeBalance<DoubleDouble, End>& balance, const Box<DoubleDouble>& near) {

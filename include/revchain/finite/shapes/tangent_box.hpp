@@ -77,8 +77,8 @@ inline bool invert(std::vector<double>& a, std::size_t n) {
 ///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal:
 /// linear but for the sines, so that its derivative over a box is known as sharply as those of the sines. Here nothing
 /// is singular at a joint of two pieces.
-/// Of a rig sigma is, in B, of the weights that move, its highest pin at  y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1 - W/
-/// (lambda E)), W all that moves, and F_m less by sigma_m y.
+/// Of a rig sigma is, in B, of the weights that move, its highest pin at  y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1
+/// - W/ (lambda E)), W all that moves, and F_m less by sigma_m y.
 template <Real T, class End = OnAxis>
 class WholeBalance {
    public:
@@ -116,8 +116,8 @@ class WholeBalance {
 
     Interval<T> sine(std::size_t m, const Interval<T>& t) const { return signed_(m, detail::Sine<T>(t).value); }
 
-    /// All zeros of F that the box holds lie in what is returned (Krawczyk); if that lies strictly within the box, the box
-    /// holds exactly one. Nothing is returned where the derivative has no inverse. Cost N^3.
+    /// All zeros of F that the box holds lie in what is returned (Krawczyk); if that lies strictly within the box, the
+    /// box holds exactly one. Nothing is returned where the derivative has no inverse. Cost N^3.
     std::optional<Box<T>> narrowed(const Box<T>& box) const {
         const std::vector<T> centre = middle_of(box);
         const auto inverse = inverse_at(centre);

@@ -107,9 +107,9 @@ struct Inverse {
 
 }  // namespace detail
 
-/// Newton's method to the end of two words, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969) 187,
-/// doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4 microseconds a link;
-/// and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
+/// Newton's method to the end of two words, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969)
+/// 187, doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4
+/// microseconds a link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
 template <class End = OnAxis>
 Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
                   std::vector<DoubleDouble> offset, const End& support = {}) {
@@ -212,10 +212,10 @@ void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
         for (Wide<double>& offset : shape.offset) offset = -offset;
 }
 
-/// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of mirror
-/// images that with the free end at a positive offset. All links hang. The bound is infinite where nothing is proved. Else,
-/// where the height is given, the digits are those of `verified`; where it was found too they stay, as next to the vertical
-/// the height's own rounding moves the shape, and the bound holds what they are off.
+/// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of
+/// mirror images that with the free end at a positive offset. All links hang. The bound is infinite where nothing is
+/// proved. Else, where the height is given, the digits are those of `verified`; where it was found too they stay, as
+/// next to the vertical the height's own rounding moves the shape, and the bound holds what they are off.
 template <class Shape = SteadyShape, class AnyLinks>
 Shape verified_shape(const AnyLinks& chain, const std::vector<Link<Interval<DoubleDouble>>>& enclosed_links,
                      const Wide<double>& height, const Interval<DoubleDouble>& within, Balanced<Wide<double>> found,

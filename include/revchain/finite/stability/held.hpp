@@ -7,8 +7,8 @@
 namespace revchain {
 namespace finite {
 
-/// The chain disturbed from a shape held at both ends: as `Disturbed`, but for the force at the lower end, angles that keep
-/// both ends where they are (`kept`), and offsets out of the plane of the free pins alone.
+/// The chain disturbed from a shape held at both ends: as `Disturbed`, but for the force at the lower end, angles that
+/// keep both ends where they are (`kept`), and offsets out of the plane of the free pins alone.
 struct HeldDisturbed {
     Matrix<double> inertia, coupling, mass, in_plane, out_of_plane;
     Vector<double> offset;
@@ -54,12 +54,12 @@ struct HeldDisturbed {
 
 }  // namespace finite
 
-/// What becomes of a small disturbance of a shape of `chain` with both ends held, on ball joints without a torque about the
-/// axis (free) or in a plane that is made to turn (driven); see `stability` of `SteadyShape`. Of N links 4 N - 8 exponents
-/// if free, 2 N - 4 if driven, times n: with and without gravity.
+/// What becomes of a small disturbance of a shape of `chain` with both ends held, on ball joints without a torque about
+/// the axis (free) or in a plane that is made to turn (driven); see `stability` of `SteadyShape`. Of N links 4 N - 8
+/// exponents if free, 2 N - 4 if driven, times n: with and without gravity.
 ///
-/// Method: directions that leave both ends on the axis and their distance alone, dense. Accuracy: exponents to 1e-13 of the
-/// largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3.
+/// Method: directions that leave both ends on the axis and their distance alone, dense. Accuracy: exponents to 1e-13 of
+/// the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3.
 /// Throws InvalidArgument for a shape of another chain, and for a pin between links without mass.
 inline Stability stability(const Chain<double>& chain, const HeldShape& shape,
                            StabilityFrame frame = StabilityFrame::free) {

@@ -61,8 +61,10 @@ struct MassivePins {
     }
 };
 
-/// The chain disturbed from a shape by angles q of the links in its plane and offsets y of the pins out of it, time in 1/n:
-///     A q'' - 2 B y' + lambda (diag(kappa sec) - X'MX/lambda) q = 0,    M y'' + 2 B' q' + lambda (K(delta) - M/lambda) y = 0,
+/// The chain disturbed from a shape by angles q of the links in its plane and offsets y of the pins out of it, time in
+/// 1/n:
+///     A q'' - 2 B y' + lambda (diag(kappa sec) - X'MX/lambda) q = 0,
+///     M y'' + 2 B' q' + lambda (K(delta) - M/lambda) y = 0,
 /// X q and Z q the pins' motions across and along the axis, A = X'MX + Z'MZ, B = X'M.
 struct Disturbed {
     Matrix<double> inertia, coupling, mass;  // A, B, M
@@ -140,12 +142,12 @@ inline Stability judged(StabilityFrame frame, Index links, const Matrix<double>&
 
 /// What becomes of a small disturbance of a steady shape of `chain`.
 ///
-/// Rotation about the axis costs nothing; in the free frame it is taken out by the angular momentum's constancy, which adds
-/// 4 b b' / (y0'M y0), b = B y0, y0 the shape, to the stiffness in the plane, so that no double zero blurs the exponents.
-/// Links are rods without inertia about their own axes: 4 N - 2 exponents of N links if free, 2 N if driven; fewer where
-/// links have no weight, as two that meet in a pin without mass stay in line.
-/// Accuracy: exponents to about 1e-13 of the largest where they are simple. Cost (4 N)^3: 1 ms for 10 links, a second for 100.
-/// N = 1: omega = n sqrt(1 + 3 cos^2 d) free, n sin d driven (section 7 (6)).
+/// Rotation about the axis costs nothing; in the free frame it is taken out by the angular momentum's constancy, which
+/// adds 4 b b' / (y0'M y0), b = B y0, y0 the shape, to the stiffness in the plane, so that no double zero blurs the
+/// exponents. Links are rods without inertia about their own axes: 4 N - 2 exponents of N links if free, 2 N if driven;
+/// fewer where links have no weight, as two that meet in a pin without mass stay in line.
+/// Accuracy: exponents to about 1e-13 of the largest where they are simple. Cost (4 N)^3: 1 ms for 10 links, a second
+/// for 100. N = 1: omega = n sqrt(1 + 3 cos^2 d) free, n sin d driven (section 7 (6)).
 inline Stability stability(const Chain<double>& chain, const SteadyShape& shape,
                            StabilityFrame frame = StabilityFrame::free) {
     if (shape.inclination.size() != chain.size())

@@ -59,8 +59,9 @@ class BranchJudge {
 /// Where along a branch its shapes are stable and where not: windows in the order of the arc that cover it but for the
 /// vertical itself and what lies between there and the branch's first point.
 ///
-/// Method: `stability` at every point of the branch and `samples - 1` places between; where the verdict changes the step
-/// is halved until it is as short as asked. A window shorter than the places are apart can be missed: nothing is proved.
+/// Method: `stability` at every point of the branch and `samples - 1` places between; where the verdict changes the
+/// step is halved until it is as short as asked. A window shorter than the places are apart can be missed: nothing is
+/// proved.
 /// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the critical height). Cost:
 /// some (4 N)^3 for every place.
 /// Throws InvalidArgument for a branch of another chain, a tolerance not positive and samples below 1.

@@ -22,8 +22,8 @@ struct LaneBlock {
     bool turning_is_radius = false;
 };
 
-/// A shape of given mu as far as it has been carried, from one end of the chain: offset of the pin reached, force in the
-/// link that leads on, and the sums y^T M y and y^T K y over the links passed.
+/// A shape of given mu as far as it has been carried, from one end of the chain: offset of the pin reached, force in
+/// the link that leads on, and the sums y^T M y and y^T K y over the links passed.
 template <class V>
 struct LaneShape {
     V offset, force, inertia, stiffness;

@@ -9,7 +9,8 @@ namespace revchain::pencil {
 ///
 ///     F <- F - mu W y,      y <- y + F / k,      k = (weight hung above the pin's thread) / a.
 ///
-/// y at the support is a polynomial in mu whose zeros are the modes. All functions inlined, all sums of one sign but in y.
+/// y at the support is a polynomial in mu whose zeros are the modes. All functions inlined, all sums of one sign but in
+/// y.
 template <class V>
 class PlummetLanes : public detail::LaneNumbers<V, 3> {
     using Numbers = detail::LaneNumbers<V, 3>;

@@ -5,8 +5,8 @@
 
 namespace revchain::pencil {
 
-/// Rigid links: with p = h/a, q = (a - h)/a, t = rho^2/a^2 the mass of a link is W (y_G^2 + t d^2), y_G = p y + q y' the
-/// offset of its centre of gravity and d = y' - y,
+/// Rigid links: with p = h/a, q = (a - h)/a, t = rho^2/a^2 the mass of a link is W (y_G^2 + t d^2), y_G = p y + q y'
+/// the offset of its centre of gravity and d = y' - y,
 ///
 ///     d = (F - mu W p y) / (k + mu X),     F <- F - mu W y_G,     X = W (p q - t).
 ///

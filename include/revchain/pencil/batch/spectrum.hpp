@@ -102,8 +102,8 @@ inline std::size_t lane_work(std::ptrdiff_t size) {
 ///
 /// First approximations by Laguerre's iteration from the left, in y at the support as a polynomial in mu = 1/lambda,
 /// known zeros divided out; then the Rayleigh quotient of the shape there, whose error is the square of the shape's.
-/// What a lane computes depends on its own numbers alone (finished lanes stand still while others go on), so results are
-/// bitwise the same wherever a chain stands; another kind of processor may change last digits.
+/// What a lane computes depends on its own numbers alone (finished lanes stand still while others go on), so results
+/// are bitwise the same wherever a chain stands; another kind of processor may change last digits.
 inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method, double* work, double* height,
                           std::int64_t* verified) {
     simd([&](auto registers) __attribute__((always_inline)) {

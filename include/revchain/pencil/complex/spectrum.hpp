@@ -27,7 +27,8 @@ struct ComplexSpectrum {
 
 namespace detail {
 
-/// P'/P - zeros/x of P(x) = det Q(x): the sum of p'/p over the pivots. V: ComplexWord, or Disc with the entries' errors.
+/// P'/P - zeros/x of P(x) = det Q(x): the sum of p'/p over the pivots. V: ComplexWord, or Disc with the entries'
+/// errors.
 template <class V, class Number>
 V log_derivative(const SignedPencil<Wide<double>>& pencil, const V& x, Index zeros, const Number& number) {
     using S = Wide<double>;
@@ -47,7 +48,8 @@ V log_derivative(const SignedPencil<Wide<double>>& pencil, const V& x, Index zer
     return zeros == 0 ? sum : sum - V(S(static_cast<double>(zeros))) / x;
 }
 
-/// Elements without stiffness: det K is the product of all stiffnesses, and each that is 0 takes 1 from the degree of det Q.
+/// Elements without stiffness: det K is the product of all stiffnesses, and each that is 0 takes 1 from the degree of
+/// det Q.
 inline Index without_stiffness(const SignedPencil<Wide<double>>& pencil) {
     Index count = 0;
     for (std::size_t m = 0; m < pencil.elements.size(); ++m)
@@ -56,8 +58,8 @@ inline Index without_stiffness(const SignedPencil<Wide<double>>& pencil) {
 }
 
 /// First values in double: the eigenvalues of K^-1 M, or of the companion of x^2 + x K^-1 G - K^-1 M, less the `zeros`
-/// smallest and, of elements without stiffness, the largest. K^-1 from the flexibilities, which add without cancellation
-/// where all are positive.
+/// smallest and, of elements without stiffness, the largest. K^-1 from the flexibilities, which add without
+/// cancellation where all are positive.
 inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<double>>& pencil, Index zeros) {
     const Index n = pencil.size();
     Matrix<double> M = Matrix<double>::Zero(n + 1, n + 1), G = M, F = Matrix<double>::Zero(n, n);
@@ -132,9 +134,9 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::v
 }
 
 /// Discs that hold exactly one root each, by two facts about a polynomial of degree d with P'(c)/P(c) = w: some root
-/// lies within d/|w| of c, so that d discs that are apart hold one each, whatever less than d the degree were; and with all
-/// the others in discs of their own (c_j, r_j), the last is within 1/(|w| - sum 1/(|c - c_j| - r_j)). Returns whether
-/// the discs are apart.
+/// lies within d/|w| of c, so that d discs that are apart hold one each, whatever less than d the degree were; and with
+/// all the others in discs of their own (c_j, r_j), the last is within 1/(|w| - sum 1/(|c - c_j| - r_j)). Returns
+/// whether the discs are apart.
 inline bool enclose(const SignedPencil<Wide<double>>& pencil, Index zeros, Index degree,
                     std::vector<EnclosedRoot>& roots) {
     using S = Wide<double>;
@@ -184,8 +186,8 @@ inline bool enclose(const SignedPencil<Wide<double>>& pencil, Index zeros, Index
 ///
 /// Method: dense eigenvalues in double, refined all at once in two words (Aberth), and enclosed in discs of complex
 /// double words that take in the entries' errors. A root whose disc meets the real axis alone is real, since the
-/// conjugate of one in it would be another. Cost O(N^3) for the first values; then 1 microsecond for each root, link and
-/// sweep. `advance(share)` is called after every sweep and may throw.
+/// conjugate of one in it would be another. Cost O(N^3) for the first values; then 1 microsecond for each root, link
+/// and sweep. `advance(share)` is called after every sweep and may throw.
 inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                         const std::function<void(double)>& advance) {
     std::vector<ComplexWord> words;

@@ -9,8 +9,8 @@
 
 namespace revchain::pencil {
 
-/// A run of links condensed so far: its transfer in T, the three numbers that matter most in `Wide<T>` too, and what all
-/// roundings and truncations on the way have changed (docs/accuracy.md, "Blocks").
+/// A run of links condensed so far: its transfer in T, the three numbers that matter most in `Wide<T>` too, and what
+/// all roundings and truncations on the way have changed (docs/accuracy.md, "Blocks").
 template <Real T>
 struct CondensedRun {
     using S = Wide<T>;
@@ -47,7 +47,8 @@ class BlockBuilder {
         return cut.stiffness + cut.mass <= epsilon<T>() / T(64);
     }
 
-    /// Whether so many ulp cover what has been noted. Blocks keep to `most_ulp`: their heights are then proved to 2 ulp.
+    /// Whether so many ulp cover what has been noted. Blocks keep to `most_ulp`: their heights are then proved to 2
+    /// ulp.
     bool is_accurate(const Run& run, const T& ulp) const {
         return run.stiffness_error + run.mass_error <= ulp * epsilon<T>();
     }
@@ -139,8 +140,8 @@ class BlockBuilder {
         T stiffness{}, mass{};
     };
 
-    /// What a series with log-concave coefficients (`last`, `before`: the last two kept, times their powers of mu) adds up
-    /// to beyond them, relative to `last`.
+    /// What a series with log-concave coefficients (`last`, `before`: the last two kept, times their powers of mu) adds
+    /// up to beyond them, relative to `last`.
     static T tail(const T& last, const T& before) {
         if (!(last > T(0))) return T(0);
         const T ratio = last / before;

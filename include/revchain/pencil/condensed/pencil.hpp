@@ -150,8 +150,8 @@ CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const Dou
     });
 }
 
-/// Offsets of the pins between blocks, free end first, the held pin last (0), at an eigenvalue in each lane; 1 at the pin
-/// where upper and lower part balance best. See `eigenvector` in twisted.hpp. S: a pack, or a double word of one.
+/// Offsets of the pins between blocks, free end first, the held pin last (0), at an eigenvalue in each lane; 1 at the
+/// pin where upper and lower part balance best. See `eigenvector` in twisted.hpp. S: a pack, or a double word of one.
 /// Cost: 30 ns per block in packs of doubles, 150 in double words of such.
 template <class S, Real T>
 std::vector<S> offsets_between(const BlockPencil<T>& pencil, const S& eigenvalue) {
@@ -213,9 +213,9 @@ struct Improved {
     Narrow<S> change{};
 };
 
-/// One step of Newton's method on  y^T (lambda K - M) y = 0  for each lane, y being the twisted vector at `shift`: where
-/// one eigenvalue is near, the step cubes the error. S, a pack or a double word of one, says how accurately the form is
-/// summed. Cost: 100 to 200 ns per block.
+/// One step of Newton's method on  y^T (lambda K - M) y = 0  for each lane, y being the twisted vector at `shift`:
+/// where one eigenvalue is near, the step cubes the error. S, a pack or a double word of one, says how accurately the
+/// form is summed. Cost: 100 to 200 ns per block.
 template <class S, Real T>
 Improved<S> improved(const BlockPencil<T>& pencil, const S& shift) {
     using V = Pack<T>;

@@ -16,7 +16,8 @@ namespace revchain::pencil {
 /// Transfer of (offset y, force q/mu) across a run of links, from its lower to its upper pin, as polynomials in
 /// z = -mu = -1/lambda:
 ///
-///     y' = A y + B q,   q' = C y + D q;     A = 1 + a1 z + ...,  B = b1 z + ...,  C = c0 + c1 z + ...,  D = 1 + d1 z + ...
+///     y' = A y + B q,   q' = C y + D q,
+///     A = 1 + a1 z + ...,  B = b1 z + ...,  C = c0 + c1 z + ...,  D = 1 + d1 z + ...,
 ///
 /// with A D - B C = 1. A mass w at a pin adds w y to q; a spring of flexibility f between two pins adds z f q to y. All
 /// coefficients are non-negative, so that building and merging them never cancels. V is a number or a pack of numbers,

@@ -47,8 +47,8 @@ struct Roots {
     }
 };
 
-/// First approximations: the polynomial at 2 or 3 N points between the bounds, evenly in a root of mu, and its changes of
-/// sign from pin to pin, which number the zeros below (Sturm). A zero alone between two points is interpolated.
+/// First approximations: the polynomial at 2 or 3 N points between the bounds, evenly in a root of mu, and its changes
+/// of sign from pin to pin, which number the zeros below (Sturm). A zero alone between two points is interpolated.
 template <bool rigid>
 [[gnu::always_inline]] inline bool first_roots(const LumpedLinks& links, Roots& roots) {
     const std::size_t points = 4 * (((rigid || links.size > 12 ? 3 : 2) * links.size + 7) / 4);
@@ -115,8 +115,8 @@ template <bool rigid>
     return true;
 }
 
-/// All zeros at once by Newton steps with the others divided out (Ehrlich and Aberth), each round cubing the error, until
-/// steps are small. Jacobi, so that rounds are the same whatever stands in a pack.
+/// All zeros at once by Newton steps with the others divided out (Ehrlich and Aberth), each round cubing the error,
+/// until steps are small. Jacobi, so that rounds are the same whatever stands in a pack.
 template <bool rigid>
 [[gnu::always_inline]] inline void improve(const LumpedLinks& links, Roots& roots) {
     constexpr std::size_t chunk = 12;  // differences multiplied before they are divided
@@ -189,8 +189,8 @@ template <bool rigid>
     return odd[0] + odd[1] + odd[2] + odd[3] == 0;
 }
 
-/// The bounds from the quotients and the sizes of their residuals; false where one exceeds the goal. Disjoint intervals, as
-/// many as eigenvalues: one in each. Then Kato and Temple. `rounding`: of the quotients.
+/// The bounds from the quotients and the sizes of their residuals; false where one exceeds the goal. Disjoint
+/// intervals, as many as eigenvalues: one in each. Then Kato and Temple. `rounding`: of the quotients.
 inline bool set_bounds(SmallSpectrum& result, std::size_t n, const double* residual, double rounding, double goal) {
     constexpr double slack = 1 + 0x1p-30;
     const double blurred = 1.01 * rounding + 0x1p-50;  // what is stored is the vector's quotient but for rounding
@@ -256,16 +256,16 @@ inline bool solve(const LumpedLinks& links, const SmallRoundings& roundings, dou
 }  // namespace small
 
 /// All eigenvalues lambda of lambda K y = M y for a small chain, each with a bound that is proved, no larger than
-/// `tolerance` and 2^-32; false where that fails (then what is in `result` means nothing): neighbours too close, numbers
-/// that leave the range of double on the way.
+/// `tolerance` and 2^-32; false where that fails (then what is in `result` means nothing): neighbours too close,
+/// numbers that leave the range of double on the way.
 ///
 /// Method: the characteristic polynomial, without division, at 2 or 3 points an eigenvalue; all its zeros at once by
 /// Ehrlich's and Aberth's iteration, mostly three rounds; the Rayleigh quotients of twisted vectors, whose error is the
 /// square of the vectors'; residuals that give as many disjoint intervals as there are eigenvalues, and so number them.
 /// Accuracy as measured: 4 ulp. Proved: some 20 ulp for 10 links, 33 for 100.
 /// Cost (AVX-512): 0.7 microseconds for 10 plummets, 0.9 for 10 rods, 54 and 80 for 100 (bench_small).
-/// Preconditions: 1 <= size <= most_links; X >= 0, M positive definite. Refused besides: masses, stiffnesses, flexibilities
-/// and shifts beyond 2^-64 ... 2^64.
+/// Preconditions: 1 <= size <= most_links; X >= 0, M positive definite. Refused besides: masses, stiffnesses,
+/// flexibilities and shifts beyond 2^-64 ... 2^64.
 inline bool small_spectrum(const small::LumpedLinks& links, const SmallRoundings& roundings, double tolerance,
                            SmallSpectrum& result) {
     return links.rigid ? small::solve<true>(links, roundings, tolerance, result)

@@ -36,8 +36,8 @@ using Four = Pack<double>;
 
 /// Packs that are walked side by side: they share what is loaded and fill each other's waits.
 inline constexpr std::size_t packs_at_once = 3;
-/// Whether there is code for one and for two packs, and for chains of one leg, besides: 20 to 40 % faster up to 16 links,
-/// and six times as much to compile (10 plummets: 0.86 us with it, 1.05 without).
+/// Whether there is code for one and for two packs, and for chains of one leg, besides: 20 to 40 % faster up to 16
+/// links, and six times as much to compile (10 plummets: 0.86 us with it, 1.05 without).
 #if defined(REVCHAIN_DISPATCH)
 inline constexpr bool any_packs = true;
 #else
@@ -65,7 +65,8 @@ template <class F>
     }
 }
 
-/// y at the support for a free end at 1, carried up without division: a polynomial in mu whose zeros are the eigenvalues.
+/// y at the support for a free end at 1, carried up without division: a polynomial in mu whose zeros are the
+/// eigenvalues.
 template <bool rigid>
 struct Offset {
     Four value{1.0}, force{0.0};

@@ -93,7 +93,8 @@ template <class V>
 }
 
 /// Zeros of p besides `known` between `low` and `high`, where p over the product of (x - known) has different signs:
-/// Newton's steps, halves where they leave the bracket, until the next would be below `precision` if it were its square.
+/// Newton's steps, halves where they leave the bracket, until the next would be below `precision` if it were its
+/// square.
 template <class V>
 [[gnu::always_inline]] inline std::vector<double> refined(const Chebyshev& p, const std::vector<double>& known,
                                                           const std::vector<double>& low,

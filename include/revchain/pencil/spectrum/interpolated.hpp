@@ -85,8 +85,9 @@ inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const 
     }
 }
 
-/// Distance of a quotient, `of` one of two neighbours, to the interval of the other, relative to it. Negative where that
-/// is not wholly on its own side: each interval below the one before leaves no place for two in one, or one in two.
+/// Distance of a quotient, `of` one of two neighbours, to the interval of the other, relative to it. Negative where
+/// that is not wholly on its own side: each interval below the one before leaves no place for two in one, or one in
+/// two.
 inline double gap(const Candidate& larger, const Candidate& smaller, const Candidate& of) {
     const Candidate& other = &of == &larger ? smaller : larger;
     return ((larger.eigenvalue - smaller.eigenvalue) - other.reach * other.eigenvalue) / of.eigenvalue;
@@ -131,19 +132,19 @@ struct FineCertified : Certified<double> {
     DoubleWord<double> unrounded;
 };
 
-/// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with a
-/// bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` (2 ulp or
-/// more) or what two words can prove. For several eigenvalues of a dozen links or more.
+/// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with
+/// a bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` (2
+/// ulp or more) or what two words can prove. For several eigenvalues of a dozen links or more.
 ///
 /// Method: windows of some 60 eigenvalues by counts; the characteristic polynomial, without division, at 2.4 shifts per
-/// eigenvalue and its Chebyshev interpolant's zeros; at each the Rayleigh quotient of a twisted vector, its residual and
-/// those of its neighbours. All in SIMD lanes, one shift to a lane. What cannot be proved this way (clusters, negative
-/// cross masses) is left to bisection and counts in two words.
-/// Accuracy as measured: with a tolerance below 40 ulp the nearest double, bound 0.51 ulp, unrounded mostly 1e-20 (2e-18
-/// proved); else within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the modes); random compound
-/// pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods, more where
-/// neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.85 ns per mode and link for equal plummets, 1.3 for random
-/// ones, 1.5 and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
+/// eigenvalue and its Chebyshev interpolant's zeros; at each the Rayleigh quotient of a twisted vector, its residual
+/// and those of its neighbours. All in SIMD lanes, one shift to a lane. What cannot be proved this way (clusters,
+/// negative cross masses) is left to bisection and counts in two words.
+/// Accuracy as measured: with a tolerance below 40 ulp the nearest double, bound 0.51 ulp, unrounded mostly 1e-20
+/// (2e-18 proved); else within 4 ulp for the chains of the tests (N up to 10,000, there a sample of the modes); random
+/// compound pendulums up to 45 ulp with a tolerance of 1e-11, 6 with one of 128 ulp. Proved: 28 ulp plummets, 36 rods,
+/// more where neighbours nearly coincide. Cost (AVX-512, N = 10,000): 0.85 ns per mode and link for equal plummets, 1.3
+/// for random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
 /// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
 std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,
@@ -220,8 +221,8 @@ std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const s
             c.bound = b < 0.5 ? b / (1 - b) * (1 + 0x1p-30) : std::numeric_limits<double>::infinity();
             return c.bound <= tolerance && c.error <= 64 * epsilon<double>();
         };
-        // Once, and where that leaves the vector's error in sight again: at the better shift, or where that went astray at
-        // the first one, joined at any pin near where the mode seems to live, at last anywhere.
+        // Once, and where that leaves the vector's error in sight again: at the better shift, or where that went astray
+        // at the first one, joined at any pin near where the mode seems to live, at last anywhere.
         const bool fine = tolerance < loosest_fine;
         for (int round = 0; round < 3; ++round) {
             std::vector<std::size_t> some;

@@ -18,9 +18,9 @@ struct Quotient {
 
 inline constexpr std::size_t quotient_packs = 4;
 
-/// A vector built link by link from one end, one for each shift of a pack: offset y and mu times the spring force G of the link
-/// ahead, with y^T M y (where swings, else mu times it) and y^T K y so far. The sums belong to the offsets as stored and
-/// to their differences: whatever rounding did to the recurrence, they are the energies of this very vector.
+/// A vector built link by link from one end, one for each shift of a pack: offset y and mu times the spring force G of
+/// the link ahead, with y^T M y (where swings, else mu times it) and y^T K y so far. The sums belong to the offsets as
+/// stored and to their differences: whatever rounding did to the recurrence, they are the energies of this very vector.
 template <class V>
 struct Walk {
     V mu, offset, force;
@@ -102,8 +102,8 @@ struct AtPin {
           offsets(w.offsets) {}
 };
 
-/// What rounding of a twisted vector, and the pencil's own error, put into its residual; of its sums `forces` and `offsets`
-/// over |y|^2.
+/// What rounding of a twisted vector, and the pencil's own error, put into its residual; of its sums `forces` and
+/// `offsets` over |y|^2.
 template <bool swings>
 double vector_rounding(const LumpedChain& chain, double mu, double forces, double offsets) {
     // where a pin has no mass, y_m^2 <= Phi_m |y|_K^2 serves
@@ -114,8 +114,8 @@ double vector_rounding(const LumpedChain& chain, double mu, double forces, doubl
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
 
-/// How walks along the chain are cut: `leg` links between two looks at sizes and sums; twists at pins 0, leg, 2 leg, ...
-/// `last` leg < n, tried from number `low` to `high`.
+/// How walks along the chain are cut: `leg` links between two looks at sizes and sums; twists at pins 0, leg, 2 leg,
+/// ... `last` leg < n, tried from number `low` to `high`.
 struct Legs {
     std::size_t leg, last, low, high;
 };
@@ -129,8 +129,8 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
 }
 
 /// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin where the
-/// residual is least, of those between `lowest` and `highest` whose number `longest`, a power of 2, divides. Its error is
-/// the square of the vector's.
+/// residual is least, of those between `lowest` and `highest` whose number `longest`, a power of 2, divides. Its error
+/// is the square of the vector's.
 /// Cost per shift and link (AVX-512): 0.45 ns without swings, 0.86 with.
 template <bool swings, class V>
 [[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
@@ -199,9 +199,9 @@ template <bool swings, class V>
     }
 }
 
-/// For any number of shifts what `solve(registers, swings, shifts, lowest, highest, results)` gives for `packs` packs of them,
-/// each joined near its `place`, or with no places given anywhere. Those that live together go together: what lies
-/// between the places is walked twice.
+/// For any number of shifts what `solve(registers, swings, shifts, lowest, highest, results)` gives for `packs` packs
+/// of them, each joined near its `place`, or with no places given anywhere. Those that live together go together: what
+/// lies between the places is walked twice.
 template <class Result, std::size_t packs, class Solve>
 std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>& shifts,
                              const std::vector<std::size_t>& places, const Solve& solve) {

@@ -15,9 +15,9 @@ struct FineQuotient {
 
 inline constexpr std::size_t fine_packs = 2;
 
-/// A vector built as that of `Walk`: offset y, and the sum of m y over the pins passed in two words. What rounding leaves
-/// in doubt is evaluated: f = mu (sum of m y) - (k + mu X) d of each link, d the difference of the offsets as stored, is
-/// the residual summed over the pins below, and y^T (mu M - K) y = sum of f d.
+/// A vector built as that of `Walk`: offset y, and the sum of m y over the pins passed in two words. What rounding
+/// leaves in doubt is evaluated: f = mu (sum of m y) - (k + mu X) d of each link, d the difference of the offsets as
+/// stored, is the residual summed over the pins below, and y^T (mu M - K) y = sum of f d.
 template <class V>
 struct FineWalk {
     V mu, offset, sum, rest;
@@ -96,9 +96,10 @@ template <bool swings, bool up, bool fused, class V>
 }
 
 /// For each shift what `quotients` gives, to twice the digits: the vector is the same but for rounding, and its
-/// residual is evaluated by sums and products whose roundings are kept. Walks are joined at a pin whose number `longest`
-/// divides, a power of 2.
-/// Accuracy: docs/accuracy.md, "All modes to the last digit". Cost per shift and link: about three times that of `quotients`.
+/// residual is evaluated by sums and products whose roundings are kept. Walks are joined at a pin whose number
+/// `longest` divides, a power of 2.
+/// Accuracy: docs/accuracy.md, "All modes to the last digit". Cost per shift and link: about three times that of
+/// `quotients`.
 template <bool swings, bool fused, class V>
 [[gnu::always_inline]] inline void fine_quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
                                                   std::size_t highest, std::size_t longest, FineQuotient* result,

@@ -21,8 +21,8 @@ inline std::size_t history_words(std::size_t links) { return links / history_ste
 
 inline constexpr std::size_t sample_packs = 6;
 
-/// Offset of the held pin over that of the free end, as a function of mu = 1/lambda, times the product of 1 + mu X/k over
-/// the links: a polynomial whose zeros are the eigenvalues. Division-free: with s = 1 + mu X/k,
+/// Offset of the held pin over that of the free end, as a function of mu = 1/lambda, times the product of 1 + mu X/k
+/// over the links: a polynomial whose zeros are the eigenvalues. Division-free: with s = 1 + mu X/k,
 ///
 ///     V' = s V - G/k,     G' = s G + m mu V',     V = 1, G = mu m_0 at the free end.
 ///

@@ -19,8 +19,8 @@ struct Window {
 /// first and the last may hold more than was asked. Ascending. Cost: about 2 (last - first)/most counts.
 inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index last, Index most) {
     const Index piece = std::max<Index>(most / 5, 1);  // merged at the end: windows are then nearly full
-    // all of them: mu from 0 up, by powers of 4 until the count suffices. Not by round numbers: at those a part of a chain of
-    // equal links may have an eigenvalue, and no count is proved.
+    // all of them: mu from 0 up, by powers of 4 until the count suffices. Not by round numbers: at those a part of a
+    // chain of equal links may have an eigenvalue, and no count is proved.
     double upper = 1 + 0x1.b7p-7;
     Window whole{0, 0, 0, 0};
     for (bool found = false; !found && upper < 0x1p900;) {
@@ -87,7 +87,8 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
     return merged;
 }
 
-/// Nodes for a window, a multiple of 8: a sine with as many zeros needs pi/2 each and a margin that grows with the cube root.
+/// Nodes for a window, a multiple of 8: a sine with as many zeros needs pi/2 each and a margin that grows with the cube
+/// root.
 inline std::size_t node_count(Index modes) {
     const double c = 1.65 * static_cast<double>(modes);
     return (static_cast<std::size_t>(c + 8 * std::cbrt(c)) + 8 + 7) / 8 * 8;
@@ -145,8 +146,8 @@ inline std::vector<Window> quartered(const LumpedChain& chain, const std::vector
 }
 
 /// Approximate shifts of the eigenvalues `first` ... `last - 1` and those that share their windows, into
-/// `candidates[.].shift`, ascending, and the links below where they live into `.place`. Windows whose interpolant has not as many zeros as counts say are cut up; false if
-/// that does not end.
+/// `candidates[.].shift`, ascending, and the links below where they live into `.place`. Windows whose interpolant has
+/// not as many zeros as counts say are cut up; false if that does not end.
 template <class Candidate>
 bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Window>& found,
              std::vector<Candidate>& candidates) {
