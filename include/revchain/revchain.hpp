@@ -29,7 +29,6 @@
 #include "revchain/rig.hpp"                            // IWYU pragma: export
 #include "revchain/statics.hpp"                        // IWYU pragma: export
 #include "revchain/steady_shapes.hpp"                  // IWYU pragma: export
-#include "revchain/steady_shapes.hpp"                  // IWYU pragma: export
 #include "revchain/swing.hpp"                          // IWYU pragma: export
 #include "revchain/system/edit.hpp"                    // IWYU pragma: export
 #include "revchain/tune.hpp"                           // IWYU pragma: export

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "revchain/finite/balance/sweep.hpp"
+#include "revchain/finite/shapes/described.hpp"
 #include "revchain/finite/shapes/scan.hpp"
 #include "revchain/finite/shapes/several_inclinations.hpp"
-#include "revchain/finite/shapes/described.hpp"
 #include "revchain/finite/shapes/verification.hpp"
 #include "revchain/numeric/double_double.hpp"
 
