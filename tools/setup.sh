@@ -108,7 +108,10 @@ build_package() {
   mkdir -p "$root/build"
   { "$venv/bin/python" -m pip --disable-pip-version-check --verbose install --no-build-isolation \
     --config-settings=build-dir="$root/build/python" "${root}[$1]" 2>&1 && echo built || echo failed; } |
-    tee "$log" | awk '/^ *\[[0-9]+\/[0-9]+\]/ { sub(/^ */, ""); print; fflush() }'
+    tee "$log" | "$venv/bin/python" -c 'import re, sys
+for line in sys.stdin:
+    if step := re.match(r" *(\[\d+/\d+\].*)", line):
+        print(step[1], flush=True)'
   [ "$(tail -n 1 "$log")" = built ] || { cat "$log" >&2; return 1; }
 }
 

@@ -11,35 +11,47 @@
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/status.hpp"
 
+/// Whirl modes of small amplitude: speeds, shapes and nodes, each speed with a proved bound.
+///
+///     // links are listed from the free end up
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
+///     const auto m = revchain::modes(chain, {.count = 2});
+///     m.angular_speed(9.80665)[0];   // 3.80868 rad/s, the slowest mode
+///     m.conical_height[0];           // 0.67604 = g/n^2, in the unit of the lengths
+///     m.error_bound[0];              // its relative error is at most 4.4e-16: proved
+///     m.shape.row(0);                // offsets of the pins, free end first
+///
+/// Greenhill (1908) section 8 (21) with sec delta = 1. The whirl speed of small amplitude of a chain hung from a fixed
+/// point is the natural angular frequency of its plane swing.
 namespace revchain {
 
-/// How heights are found. Bounds are proved whichever way.
+/// How conical heights are found. Every method proves its bounds.
 enum class ModesMethod {
-    automatic,  ///< the cheapest of those below that keeps the tolerance
-    bisection,  ///< counts, one by one: any chain, any modes, any tolerance
-    blocks,     ///< the chain condensed first: some of the slowest modes of a long chain, to 2 ulp
-    together,   ///< of a small chain all modes at once: to some 20 ulp
-    spectrum,   ///< the characteristic polynomial interpolated: many modes
+    automatic,  ///< the cheapest method below that keeps the tolerance
+    bisection,  ///< bisection on counts of modes: any chain, any modes, any tolerance
+    blocks,     ///< the chain is condensed first: a few of the slowest modes of a long chain, to 2 ulp
+    together,   ///< all modes of a small chain at once (Ehrlich and Aberth), to some 20 ulp
+    spectrum,   ///< the characteristic polynomial is interpolated: many modes
 };
 
-/// Which modes, and how. Which: numbers `first`, `first + 1`, ..., or those in one window, never both.
+/// Which modes, and how accurately. Modes are chosen by number (`first`, `count`) or by one window, not both.
 template <Real T>
 struct ModesOptions {
-    Index first = 1;                                  ///< number of the slowest mode wanted, from 1
-    std::optional<Index> count{};                     ///< so many from `first` on; absent: all
-    std::optional<HeightWindow<T>> conical_height{};  ///< instead: low < conical height <= high
-    std::optional<SpeedWindow<T>> angular_speed{};    ///< instead: low <= whirl speed < high
-    std::optional<T> rtol{};  ///< relative tolerance of the conical heights; absent: as accurate as T allows
-    bool shapes = true;       ///< also shapes, residuals and nodes
-    bool certify = false;     ///< also the intervals that are proved to hold the heights, and the counts that prove it
-    Progress* progress = nullptr;  ///< watched and stopped from another thread
-    /// `blocks`, `together` and `spectrum` where they can: else bisection, and `Modes::method` says so.
+    Index first = 1;                                  ///< number of the first mode, from 1 for the slowest
+    std::optional<Index> count{};                     ///< number of modes from `first` on; absent: all
+    std::optional<HeightWindow<T>> conical_height{};  ///< window low < conical height <= high
+    std::optional<SpeedWindow<T>> angular_speed{};    ///< window low <= whirl speed < high
+    std::optional<T> rtol{};       ///< relative tolerance of the conical heights; absent: as accurate as T allows
+    bool shapes = true;            ///< also find shapes, residuals and nodes
+    bool certify = false;          ///< also return `Certificate`: intervals that hold the heights, with the counts
+    Progress* progress = nullptr;  ///< read and cancelled from another thread
+    /// A method that cannot serve the chain is replaced by bisection; `Modes::method` says which one was used.
     ModesMethod method = ModesMethod::automatic;
 };
 
-/// Intervals lower < exact conical height <= upper, and why: of the exact heights of the stored numbers, mode k being
-/// one of them, `above_lower` >= k exceed `lower` and `above_upper` < k exceed `upper`. Both counts are proved;
-/// `count_modes` gives them too. An end that no count could be proved at is 0 or infinite.
+/// Intervals lower < exact conical height <= upper of every mode, and the counts that prove them. For mode k,
+/// `above_lower` >= k of the exact heights exceed `lower` and `above_upper` < k exceed `upper`; `count_modes` returns
+/// the same numbers. An end is 0 or infinite where no count could be proved.
 template <Real T>
 struct Certificate {
     Vector<T> lower;  ///< (k,) in the chain's unit of length
@@ -48,8 +60,8 @@ struct Certificate {
     Vector<Index> above_upper;
 };
 
-/// Whirl modes of a chain, slowest first. Mode k, the k-th slowest of all, stands at index k - first. None may be there
-/// where a window was asked for; `first` is then the number that the next faster mode has.
+/// Whirl modes of a chain, slowest first. The k-th slowest mode is at index k - first. A window may hold no mode;
+/// `first` is then the number of the next faster mode.
 template <Real T>
 struct Modes {
     Index first = 1;           ///< number of the slowest mode here
@@ -85,23 +97,20 @@ struct Modes {
     }
 };
 
-/// Whirl speeds of small amplitude, Greenhill (1908) §8 (21) with sec delta = 1: the slowest, any range of mode numbers
-/// without the ones before, or those in a window of heights or speeds (which modes lie in it is decided by
-/// `ModeCounter::within`, by proved counts, not by the heights returned: a height just above `low` may round to it).
+/// The modes chosen by `options`, with shapes and bounds.
 ///
-/// Method: bisection on counts in T, eight shifts to a pass; a twisted shape and its Rayleigh quotient in `Wide<T>`;
-/// two proved counts for every mode; and the shape in `Wide<T>`. With a loose `rtol` the quotient is left out and the
-/// rest done in T. In double faster ways to the same heights where they pay: `ModesMethod`; a chain of floats is solved
-/// in double and the result rounded, its bound half an ulp of float.
+/// Windows are decided by proved counts (`ModeCounter::within`), not by the rounded heights that are returned.
 /// Accuracy: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up to 1e5, ten kinds
-/// of chain: tests/cpp/modes.cpp), error bound 2 ulp and proved; a loose `rtol` is kept by the bound. Shapes
-/// 3.5e-16 of the largest offset; with a loose `rtol` as good as their height, rtol / (gap to the next height). Where
-/// `Wide<T>` is T itself (DoubleDouble, a user's own scalar) errors and bounds grow with N: tests/cpp/modes.cpp.
-/// Cost: about 0.55 microseconds per link and mode with shapes, 0.3 without (double), for many modes 0.25 and 0.005;
-/// O(N k) memory.
-/// Throws InvalidArgument for numbers outside 1 ... `chain.mode_count()`, for a window that is none, for numbers and a
-/// window together, and for a tolerance that is negative or NaN. An empty window gives no modes. A tolerance out of
-/// reach is `Status::tolerance_not_met` with the bounds reached.
+/// of chain: tests/cpp/modes.cpp); the bound is 2 ulp and proved. A looser `rtol` is kept by the bound. Shapes are
+/// within 3.5e-16 of the largest offset, and with a looser `rtol` within rtol / (gap to the next height). Where
+/// `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
+/// Method: `ModesMethod`. Bisection counts modes in T at eight shifts in one pass; then come a twisted vector, its
+/// Rayleigh quotient in `Wide<T>`, two proved counts and the shape in `Wide<T>`. A chain of floats is solved in double.
+/// Cost in double: 0.55 microseconds a link and mode with shapes, 0.3 without; 0.25 and 0.005 for many modes. Memory
+/// O(N k).
+/// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window that is empty by its ends,
+/// numbers together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
+/// status is `Status::tolerance_not_met` and the bounds are those reached.
 template <Real T>
 Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options = {});
 
