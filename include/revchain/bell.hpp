@@ -10,8 +10,8 @@
 /// Greenhill (1908) §8 (13)-(16).
 namespace revchain {
 
-/// What a bell and its clapper are: suffix 1 of the paper is the clapper, 2 the bell. `joint` is a2, from the bell's
-/// axle to the clapper's pin.
+/// The data of a bell and its clapper. The paper's suffix 1 is the clapper, 2 the bell. `joint` is a2, the distance
+/// from the bell's axle to the clapper's pin.
 enum class BellDatum {
     clapper_weight,
     clapper_centroid,

@@ -31,8 +31,8 @@ struct CompoundLink {
         const Wide<T> k(radius_of_gyration);
         return detail::Product<Wide<T>>{}.times(k).times(k).over(centroid);
     }
-    /// Of Maxwell's two particles that move as the link does, the share of its weight at the centre of oscillation,
-    /// h/l; the rest is at the pin. §6.
+    /// Share h/l of the weight at the centre of oscillation, where two particles that move as the link does replace it
+    /// (Maxwell); the rest is at the pin. §6.
     T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
 };
 

@@ -75,7 +75,7 @@ std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
 
 }  // namespace detail
 
-/// Of a circular wave at speed n, of either sign. Accuracy: 4 ulp, over cos(phase/2) where that is small, and where
+/// The circular wave at speed n, of either sign. Accuracy: 4 ulp, over cos(phase/2) where that is small, and where
 /// T/a, n H/a^2 and (n^2/g) X cancel as many times more (measured: tests/cpp/gyrostatic_string.cpp).
 /// Throws InvalidArgument unless weight, length, tension and gravity are positive and all numbers finite, for a
 /// negative radius of gyration, and for a speed that is not finite.

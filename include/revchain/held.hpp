@@ -179,10 +179,11 @@ inline HeldShapes held_shapes_at_speed(const Chain<double>& chain, double span, 
     return finite::held_shapes(chain, span, finite::height_at_speed(angular_speed, gravity), options);
 }
 
-/// The same for a tension at the upper end instead of the span: `height_times_tension` is conical height times tension,
-/// of weights; without gravity, of masses, tension over the square of the speed. A branch has a narrow range of these:
-/// of the skipping rope, from 1/(pi k)^2 to 1/(8 k^2) of weight times length; with gravity it is largest in between, so
-/// that two spans go with one tension. The tension is met to 1e-15 of it, the span as well as that tells it.
+/// Shapes for a given tension at the upper end instead of the span: `height_times_tension` is conical height times
+/// tension, of weights; without gravity, of masses, tension over the square of the speed. A branch has a narrow range
+/// of these: of the skipping rope, from 1/(pi k)^2 to 1/(8 k^2) of weight times length; with gravity it is largest in
+/// between, so that two spans go with one tension. The tension is met to 1e-15 of it, the span as well as that tells
+/// it.
 /// Cost: the whole branch, some thousand sweeps.
 inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double height_times_tension,
                                             double conical_height, const HeldOptions& options = {}) {

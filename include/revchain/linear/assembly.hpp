@@ -15,8 +15,8 @@ struct AssembledChain {
 };
 
 /// Chain -> link elements, Greenhill (1908) §8 with sec delta = 1: with p = h/a, q = (a - h)/a and r = rho^2/a^2, the
-/// stiffness k = (W p + S)/a and the mass of a rigid body about its two pins, A = W (p^2 + r), B = W (q^2 + r), X = W
-/// (p q - r), c = W r. Every entry is within `entry_error` (relative) of the exact function of the chain's stored
+/// stiffness k = (W p + S)/a and the mass of a rigid body about its two pins, A = W (p^2 + r), B = W (q^2 + r),
+/// X = W (p q - r), c = W r. Every entry is within `entry_error` (relative) of the exact function of the chain's stored
 /// numbers: 3e-29 in double, less for fewer than 256 links, more only where a centroid above the pin makes W h + a S
 /// cancel. Where weights span more than one unit can serve, an element's is that of the weight at its upper pin, to a
 /// factor of 2^(max_exponent/8).

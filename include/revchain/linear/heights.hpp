@@ -29,7 +29,7 @@ struct Heights {
     const char* method = "";
 };
 
-/// What the first stage is asked, beside the range.
+/// Accuracy and progress of the first stage; the range of modes is passed beside them.
 template <Real T>
 struct HeightsOptions {
     std::optional<T> rtol{};  ///< absent: as accurate as T allows

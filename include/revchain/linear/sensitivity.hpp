@@ -43,8 +43,8 @@ struct Sensitivity {
 
 namespace detail {
 
-/// What a link's terms need of a shape: s, lower less upper pin over the length; the offset of the centre of gravity;
-/// and the root of the sum of a s^2 over the links above. Of a bound: what none of them exceeds.
+/// How a mode moves one link: the slope s (lower less upper pin, over the length), the offset of the centre of gravity,
+/// and the root of the sum of a s^2 over the links above. In a bound, upper limits of the three.
 template <class N>
 struct Movement {
     N slope, centre, above;

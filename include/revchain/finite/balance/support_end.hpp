@@ -64,8 +64,8 @@ struct Held {
 template <class End>
 inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
 
-/// What holds a chain, its links as the sweep wants them, its posture unless any is asked for, and whether all links
-/// may stand: there no load would be borne. Of a rig: see RiggedLinks.
+/// Of a chain: its support, its posture unless any is asked for, its links as the sweep needs them, and whether all
+/// links may stand (no: then nothing bears the load). `RiggedLinks` has the same functions for a rig.
 inline OnAxis support_of(const Links<Wide<double>>&) { return {}; }
 inline std::vector<Posture> posture_of(const Links<Wide<double>>& chain) {
     return std::vector<Posture>(chain.links.size(), Posture::hangs);

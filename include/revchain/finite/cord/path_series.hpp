@@ -205,8 +205,9 @@ class PathSeries {
         }
     }
 
-    /// The same with a density: rho(sigma(t)) by Horner's rule on series, all its lines one coefficient at a time. The
-    /// time runs by `pace`, dsigma = pace T dt, so that coefficients stay within range however light the chain is here.
+    /// The step for a varying density: rho(sigma(t)) by Horner's rule on series, one coefficient of all lines at a
+    /// time. The time runs by `pace`, dsigma = pace T dt, so that coefficients stay within range however light the
+    /// chain is here.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
         std::array<double, degree + 1> c = kind.density->about(state_arc(kind));

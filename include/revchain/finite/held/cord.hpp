@@ -187,7 +187,7 @@ inline HeldCordShapes held_cord_shapes(double length, double span, double conica
     return finite::held_cord_shapes(length, span, conical_height, weight, options);
 }
 
-/// The same for a tension at the upper end instead of the span; see `held_shapes_under_tension`.
+/// Shapes of a cord for a given tension at the upper end instead of the span; see `held_shapes_under_tension`.
 inline HeldCordShapes held_cord_shapes_under_tension(double length, double height_times_tension, double conical_height,
                                                      double weight = 1, const HeldCordOptions& options = {}) {
     constexpr std::string_view place = "held_cord_shapes_under_tension";

@@ -7,8 +7,8 @@
 
 namespace revchain::finite {
 
-/// What a chain held at both ends is not told by its links: lambda times the force at its lower end, across the axis
-/// and along it, and the conical height lambda = g/n^2 itself, 0 without gravity.
+/// Lambda times the force at the lower end of a chain held at both ends, across the axis and along it, and the conical
+/// height lambda = g/n^2 itself, 0 without gravity.
 template <class S>
 struct HeldForces {
     S across, along, height;

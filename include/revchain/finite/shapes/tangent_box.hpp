@@ -77,8 +77,9 @@ inline bool invert(std::vector<double>& a, std::size_t n) {
 ///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal:
 /// linear but for the sines, so that its derivative over a box is known as sharply as those of the sines. Here nothing
 /// is singular at a joint of two pieces.
-/// Of a rig sigma is, in B, of the weights that move, its highest pin at  y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1
-/// - W/ (lambda E)), W all that moves, and F_m less by sigma_m y.
+/// In a rig, sigma in B belongs to the weights that move, the highest pin is at
+///     y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1 - W/(lambda E)),
+/// where W is all the weight that moves, and F_m is less by sigma_m y.
 template <Real T, class End = OnAxis>
 class WholeBalance {
    public:

@@ -54,9 +54,9 @@ struct HeldDisturbed {
 
 }  // namespace finite
 
-/// What becomes of a small disturbance of a shape of `chain` with both ends held, on ball joints without a torque about
-/// the axis (free) or in a plane that is made to turn (driven); see `stability` of `SteadyShape`. Of N links 4 N - 8
-/// exponents if free, 2 N - 4 if driven, times n: with and without gravity.
+/// Stability of a shape of `chain` with both ends held, on ball joints without a torque about the axis (free) or in a
+/// plane that is made to turn (driven); see `stability` of `SteadyShape`. N links have 4 N - 8 exponents if free, 2 N -
+/// 4 if driven, times n, with and without gravity.
 ///
 /// Method: directions that leave both ends on the axis and their distance alone, dense. Accuracy: exponents to 1e-13 of
 /// the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3.

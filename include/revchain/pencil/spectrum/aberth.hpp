@@ -171,6 +171,7 @@ template <bool rigid>
                             std::array<Four, P> mu;
 #pragma GCC unroll 3
                             for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
+                            // Where there is code for it, a chain of one leg does without sums of legs.
                             const auto all = any_packs && links.size <= leg
                                                  ? quotients<rigid, !any_packs, P>(links, flexibility_above, mu)
                                                  : quotients<rigid, true, P>(links, flexibility_above, mu);
