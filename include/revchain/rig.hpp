@@ -102,9 +102,6 @@ inline Displaced displaced_by(const Link<double>& link, double weight, double ad
     return {weight, link.centroid, link.gyration_ratio, added_weight};
 }
 
-/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0).
-enum class Posture { hangs = 1, stands = -1 };
-
 /// What a chain may be rigged with; each list has one entry for each link, lowest first, or is empty.
 struct Rigging {
     Support support{};

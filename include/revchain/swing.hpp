@@ -9,6 +9,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/linear/mode_shape.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/pencil/twisted.hpp"
 #include "revchain/system/converted.hpp"
@@ -160,9 +161,9 @@ struct Superposition {
 inline void superpose(SmallOscillation& result, const Superposition& modes, const std::vector<double>& time,
                       double reach, Progress* progress) {
     const Index pins = result.shape.cols(), count = result.shape.rows();
-    std::vector<double> y(static_cast<std::size_t>(pins)), y_rest(y), v(y), v_rest(y);
+    std::vector<CompensatedSum<double>> y(static_cast<std::size_t>(pins)), v(y);
     for (std::size_t i = 0; i < time.size(); ++i) {
-        for (auto* x : {&y, &y_rest, &v, &v_rest}) std::fill(x->begin(), x->end(), 0.0);
+        for (auto* sums : {&y, &v}) std::fill(sums->begin(), sums->end(), CompensatedSum<double>{});
         double bound = 10 * 0x1p-53 * modes.largest;
         for (Index k = 0; k < count; ++k) {
             const auto at = static_cast<std::size_t>(k);
@@ -173,15 +174,11 @@ inline void superpose(SmallOscillation& result, const Superposition& modes, cons
             const double now = c * turn.cosine + s * turn.sine, rate = n * (s * turn.cosine - c * turn.sine);
             bound += modes.amplitude[at] * size * 0x1p-96 + reach * modes.unbalanced[at] * (8.0 / 3 + 2 * size);
             const double* shape = result.shape.row(k).data();
-            for (std::size_t m = 0; m < y.size(); ++m) {  // compensated sums
-                const DoubleWord<double> offset = two_sum(y[m], now * shape[m]), speed = two_sum(v[m], rate * shape[m]);
-                y[m] = offset.high, y_rest[m] += offset.low;
-                v[m] = speed.high, v_rest[m] += speed.low;
-            }
+            for (std::size_t m = 0; m < y.size(); ++m) y[m].add(now * shape[m]), v[m].add(rate * shape[m]);
         }
         for (std::size_t m = 0; m < y.size(); ++m) {
-            result.offset(static_cast<Index>(i), static_cast<Index>(m)) = y[m] + y_rest[m];
-            result.velocity(static_cast<Index>(i), static_cast<Index>(m)) = v[m] + v_rest[m];
+            result.offset(static_cast<Index>(i), static_cast<Index>(m)) = y[m].value();
+            result.velocity(static_cast<Index>(i), static_cast<Index>(m)) = v[m].value();
         }
         result.error_bound[static_cast<Index>(i)] = bound * (1 + 1e-10);
         advance(progress, 0.5 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(time.size()));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "revchain/linear/heights.hpp"
+#include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/pencil/spectrum/aberth.hpp"
 
 namespace revchain::detail {
@@ -29,8 +30,8 @@ inline bool pin(LumpedChain& small, const Chain<double>& chain) {
     for (Index m = 0; m < chain.size(); ++m)
         links.rigid = links.rigid || chain.centroid()[m] != chain.length()[m] || chain.gyration_ratio()[m].high != 0;
 
-    double hung = 0, hung_rest = 0;  // compensated
-    double mass_above = 0;           // of the upper pin of the link below
+    CompensatedSum<double> hung;
+    double mass_above = 0;  // of the upper pin of the link below
     double trace = 0, greatest = 0;
     double worst_cross = 1, worst_skew = 0;
     double stiffness_below = 0;
@@ -38,11 +39,9 @@ inline bool pin(LumpedChain& small, const Chain<double>& chain) {
     for (std::size_t m = 0; m < n; ++m) {
         const Index i = static_cast<Index>(m);
         const double weight = chain.weight()[i] * per_weight, a = chain.length()[i] * per_length;
-        const double before = hung + hung_rest;
-        const DoubleWord<double> sum = two_sum(hung, weight);
-        hung = sum.high;
-        hung_rest += sum.low;
-        const double carried = hung + hung_rest;
+        const double before = hung.value();
+        hung.add(weight);
+        const double carried = hung.value();
         double share = carried, mass = weight;
         if (links.rigid) {
             const double r = chain.gyration_ratio()[i].high;

@@ -23,6 +23,9 @@ struct Link {
     friend bool operator==(const Link&, const Link&) = default;
 };
 
+/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0).
+enum class Posture { hangs = 1, stands = -1 };
+
 namespace detail {
 
 /// x / length in twice the digits, whatever their unit.

@@ -22,9 +22,9 @@ struct Link {
     S rest;    ///< W (a - h)/a
 };
 
-/// A link hangs (cos d > 0) or stands, above the horizontal through its upper pin (cos d < 0). Its sine is then +- that
-/// of its tangent, and its balance  lambda pull t +- length cross t/sqrt(1 + t^2) = R.
-enum class Posture { hangs = 1, stands = -1 };
+/// The sine of a link that hangs (stands) is + (-) that of its tangent t, and its balance
+///     lambda pull t +- length cross t/sqrt(1 + t^2) = R.
+using revchain::Posture;
 
 /// Links in units of 2^length_exponent and 2^weight_exponent.
 template <class S>
