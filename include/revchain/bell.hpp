@@ -80,8 +80,7 @@ BellNumbers<Wide<T>> bell_numbers(std::string_view place, const Chain<T>& chain,
 /// The root of a x^2 + b x + c = 0 nearest to x0 that `may` be taken; NaN where there is none.
 template <class S, class May>
 S nearest_root(const S& a, const S& b, const S& c, const S& x0, const May& may) {
-    using std::abs;
-    using std::sqrt;
+    using std::abs, std::sqrt;
     using M = Narrow<S>;
     S best(std::numeric_limits<M>::quiet_NaN());
     const auto offer = [&](const S& x) {
@@ -108,8 +107,7 @@ S nearest_root(const S& a, const S& b, const S& c, const S& x0, const May& may) 
 /// (tests/cpp/bell.cpp). Cost O(1). Throws InvalidArgument unless there are two links, both with weight.
 template <Real T>
 BellAndClapper<T> bell_and_clapper(const Chain<T>& chain) {
-    using std::ldexp;
-    using std::sqrt;
+    using std::ldexp, std::sqrt;
     using S = Wide<T>;
     const int exponent = chain.units().length_exponent;
     const auto n = detail::bell_numbers("bell_and_clapper", chain, ldexp(T(1), -exponent));
@@ -151,8 +149,7 @@ BellAndClapper<T> bell_and_clapper(const Chain<T>& chain) {
 /// a ratio not positive.
 template <Real T>
 ByBellDatum<T> bell_and_clapper_with_ratio(const Chain<T>& chain, const T& ratio) {
-    using std::ldexp;
-    using std::sqrt;
+    using std::ldexp, std::sqrt;
     using S = Wide<T>;
     constexpr std::string_view place = "bell_and_clapper_with_ratio";
     detail::require_positive(place, "ratio", ratio);

@@ -81,9 +81,7 @@ std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
 /// negative radius of gyration, and for a speed that is not finite.
 template <Real T>
 LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_speed) {
-    using std::asinh;
-    using std::atan2;
-    using std::isfinite;
+    using std::asinh, std::atan2, std::isfinite;
     detail::check("link_phase", string);
     if (!isfinite(angular_speed)) detail::throw_invalid("link_phase", "angular speed must be finite", angular_speed);
     const auto [sine, cosine] = detail::half_phase(string, angular_speed);
@@ -96,8 +94,7 @@ LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_spee
 /// each bit that 1 - 4 X sin^2/W cancels. Throws InvalidArgument as link_phase does, and unless 0 < phase <= pi.
 template <Real T>
 std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) {
-    using std::abs;
-    using std::sin;
+    using std::abs, std::sin;
     detail::check("wave_speeds", string);
     if (!(phase > T(0)) || !(phase <= std::numbers::pi_v<T>))
         detail::throw_invalid("wave_speeds", "phase must lie above 0 and not above pi", phase);

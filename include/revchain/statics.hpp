@@ -138,8 +138,7 @@ struct FunicularPolygon {
 template <Real T>
 FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& place, const T& horizontal_tension,
                                       const T& first_height = T(0), const T& last_height = T(0)) {
-    using std::hypot;
-    using std::isfinite;
+    using std::hypot, std::isfinite;
     constexpr std::string_view where = "funicular_polygon";
     const Index n = weight.size();
     detail::check_string(where, weight, place);

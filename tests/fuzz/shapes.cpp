@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz.hpp"
 #include "revchain/finite/stability/stability.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "revchain/statics.hpp"
 #include "revchain/steady_shapes.hpp"
 

@@ -4,7 +4,6 @@
 #include "paper.hpp"
 #include "revchain/buffer.hpp"
 #include "revchain/linear/assembly.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/two_links.hpp"
 
 using paper::Quad;

@@ -2,7 +2,6 @@
 // Greenhill (1908) §6: one compound link, and one on a thread (a boat on its davits, a bag in a hand).
 #include "paper.hpp"
 #include "revchain/count.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/two_links.hpp"
 
 using paper::Index;

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "revchain/modes.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
