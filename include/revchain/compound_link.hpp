@@ -40,8 +40,8 @@ struct CompoundLink {
         const Wide<T> k(radius_of_gyration);
         return detail::Product<Wide<T>>{}.times(k).times(k).over(centroid);
     }
-    /// h/l, the share of the weight at the centre of oscillation when two particles replace the link (Maxwell); the rest
-    /// is at the pin. §6. Accuracy: 2 ulp.
+    /// h/l, the share of the weight at the centre of oscillation when two particles replace the link (Maxwell); the
+    /// rest is at the pin. §6. Accuracy: 2 ulp.
     T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
 };
 

@@ -18,9 +18,9 @@
 ///     p.inclination;                                         // 1.0472 rad: 60 degrees
 ///     p.tension;                                             // 2 times the weight
 ///
-/// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g / lambda); lambda is
-/// the conical height of that speed. Gravity g enters the library in `revchain::conical_pendulum` only; everything else
-/// is a length or a ratio of weights. Units: any consistent set, angles in rad. All functions are O(1) and throw
+/// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g / lambda); lambda
+/// is the conical height of that speed. Gravity g enters the library in `revchain::conical_pendulum` only; everything
+/// else is a length or a ratio of weights. Units: any consistent set, angles in rad. All functions are O(1) and throw
 /// InvalidArgument unless every argument is positive and finite.
 namespace revchain {
 

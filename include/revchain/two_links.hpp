@@ -154,12 +154,12 @@ struct PairShape {
     int half_waves() const { return offset[1] < T(0) ? 2 : 1; }
 };
 
-/// All shapes in which two plummets hang at the speed with conical height `height`, §2 (4); at most four. Sorted by half
-/// waves, then by the inclination of the lower thread. Empty where `height` is at least the first of `two_plummets`.
-/// The list is complete: the proof is in paper/two_links_shapes.hpp. Cost: 10 microseconds a shape.
+/// All shapes in which two plummets hang at the speed with conical height `height`, §2 (4); at most four. Sorted by
+/// half waves, then by the inclination of the lower thread. Empty where `height` is at least the first of
+/// `two_plummets`. The list is complete: the proof is in paper/two_links_shapes.hpp. Cost: 10 microseconds a shape.
 /// Accuracy: inclinations 4 ulp for the data as given, also near a fold and near the vertical. Rounding of the data
-/// changes tangents by up to height_k / (height_k - height) times as much where a shape leaves the vertical at height_k,
-/// and by the square root of the rounding where two shapes meet.
+/// changes tangents by up to height_k / (height_k - height) times as much where a shape leaves the vertical at
+/// height_k, and by the square root of the rounding where two shapes meet.
 /// Also throws InvalidArgument where a length is more than a third of the range above the height.
 template <Real T>
 std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lower_thread, const T& upper_weight,
@@ -179,9 +179,9 @@ std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundL
     return shapes;
 }
 
-/// The shape in which a plummet stands above another one on a stiff massless rod, §2 (8). inclination[0] is the rod's to
-/// the upward vertical, tension[0] its thrust, negative. There is one where `height` is below `standing_plummet`, else
-/// none. Accuracy, cost and errors as `two_plummets_shapes`.
+/// The shape in which a plummet stands above another one on a stiff massless rod, §2 (8). inclination[0] is the rod's
+/// to the upward vertical, tension[0] its thrust, negative. There is one where `height` is below `standing_plummet`,
+/// else none. Accuracy, cost and errors as `two_plummets_shapes`.
 template <Real T>
 std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, const T& rod, const T& hung_weight,
                                                    const T& thread, const T& height) {
@@ -259,7 +259,8 @@ std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, con
 /// one piece, so that the bell is silent: a2 = w (l2 - l1)/(w + l1 - h1) with w = W2 h2/W1, §8 (16). The height of that
 /// motion is l1 + a2. Accuracy: 4 ulp for the data as given, also where l1 and l2 nearly agree; rounding of the data
 /// changes the distance by up to 3 (l1 + l2)/(l2 - l1) + 6 times as much.
-/// Also throws InvalidArgument unless the clapper has the shorter pendulum length: otherwise the bell rings with any pin.
+/// Also throws InvalidArgument unless the clapper has the shorter pendulum length: otherwise the bell rings with any
+/// pin.
 template <Real T>
 T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const T& clapper_weight,
                         const CompoundLink<T>& clapper) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/shapes/list.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/finite/shapes/list.hpp"
 
 #include "revchain/modes.hpp"
 #include "revchain/two_links.hpp"

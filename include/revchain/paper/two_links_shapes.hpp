@@ -13,8 +13,8 @@
 /// Two links at any inclination: all shapes at a given speed, and the proof that there are no others.
 /// Greenhill (1908) §2 (4), (8), §6 (10).
 ///
-/// Lengths are in units of the conical height. l1 and l2 are the lengths, s l1 l2 is the coupling with s = W1/(W1+W2) or
-/// h/l, and A = sec d1 - l1. The paper's (4) and A sin d1 = l2 sin d2 leave one equation in A,
+/// Lengths are in units of the conical height. l1 and l2 are the lengths, s l1 l2 is the coupling with s = W1/(W1+W2)
+/// or h/l, and A = sec d1 - l1. The paper's (4) and A sin d1 = l2 sin d2 leave one equation in A,
 ///     F = A^2 (1 - cos^2 d1) - l2^2 (1 - cos^2 d2) = 0,      sec d2 = l2 + s l1 l2 / A.
 /// A > 0: both links lean to one side. F grows with A, so there is one shape if the height lies below the first of (5),
 /// else none.

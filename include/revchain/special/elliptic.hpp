@@ -12,6 +12,11 @@
 /// GSL takes kappa^2 alone and is wrong by a factor there, without a word (bench/elliptic.cpp); hence these.
 namespace revchain::analytic {
 
+namespace detail {
+using revchain::detail::require_positive;
+using revchain::detail::throw_invalid;
+}  // namespace detail
+
 /// kappa and kappa', both in [0, 1].
 class EllipticModulus {
    public:

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "revchain/modes.hpp"
-#include "revchain/two_links.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"
