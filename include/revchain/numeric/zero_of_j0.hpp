@@ -28,10 +28,10 @@ inline double mcmahon(int order, Index k) {
 
 }  // namespace detail
 
-/// j_{0,k}, the k-th positive zero of the Bessel function J_0, k >= 1. Greenhill (1908) §4 (10). The first 19 are from a
-/// table, the others by McMahon's expansion.
-/// Accuracy: 1 ulp, measured against 40 digits for k up to 1e6 (tests/cpp/special/bessel_zero.cpp). Cost: 3 ns.
-/// Throws InvalidArgument for k < 1.
+/// j_{0,k}, the k-th positive zero of the Bessel function J_0, k >= 1. Greenhill (1908) §4 (10). The first 19 are from
+/// a table, the others by McMahon's expansion.
+/// Accuracy: 1 ulp, measured against 40 digits for k up to 1e6 (tests/cpp/special/bessel_zero.cpp). Cost: 3 ns. Throws
+/// InvalidArgument for k < 1.
 inline double zero_of_j0(Index k) {
     constexpr std::array<double, 19> first{
         2.404825557695773,  5.520078110286311,  8.653727912911013,  11.791534439014281, 14.930917708487787,
