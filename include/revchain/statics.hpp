@@ -94,4 +94,4 @@ TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& pl
 
 }  // namespace revchain
 
-#include "revchain/paper/statics.hpp"
+#include "revchain/questions/statics.hpp"
