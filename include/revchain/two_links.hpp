@@ -218,12 +218,10 @@ struct JointedLinks {
 /// (in double), and unless W2 h2 + W1 a2 is positive, that is, unless the upper link hangs.
 template <Real T>
 HeightPair<T> jointed_links(const JointedLinks<T>& links) {
-    using std::sqrt;
-    using S = Wide<T>;
     const auto n = detail::jointed_numbers("jointed_links", links);
-    const S product = n.l1 * n.p, half_difference = (n.l1 - n.p) / S(T(2));
-    const S larger = (n.l1 + n.p) / S(T(2)) + sqrt(half_difference * half_difference + n.share * product);
-    return {static_cast<T>(larger) / n.unit, static_cast<T>(S(n.other * product / larger)) / n.unit};
+    const Wide<T> product = n.l1 * n.p;
+    const auto roots = detail::coupled_roots<Wide<T>>(n.l1, n.p, n.share * product, n.other * product);
+    return {static_cast<T>(roots[0]) / n.unit, static_cast<T>(roots[1]) / n.unit};
 }
 
 /// All shapes in which two jointed links hang: (lambda sec d1 - l1)(lambda sec d2 - p) = a2 h1/(m + 1) with

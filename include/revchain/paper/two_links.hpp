@@ -21,8 +21,16 @@ T inverse_power_near(const T& x) {
     return ldexp(T(1), std::min(-exponent, std::numeric_limits<T>::max_exponent - 1));
 }
 
-/// Roots of (lambda - p)(lambda - q) = coupling for positive numbers whose products may overflow or underflow;
-/// rest = p q - coupling > 0.
+/// Roots of (lambda - p)(lambda - q) = coupling, the larger first, for positive numbers with rest = p q - coupling > 0.
+template <Real T>
+std::array<T, 2> coupled_roots(const T& p, const T& q, const T& coupling, const T& rest) {
+    using std::sqrt;
+    const T half_difference = (p - q) / T(2), half_sum = (p + q) / T(2);
+    const T larger = half_sum + sqrt(half_difference * half_difference + coupling);
+    return {larger, rest / larger};
+}
+
+/// The same for numbers whose products may overflow or underflow.
 template <Real T>
 std::array<T, 2> coupled_roots(std::string_view place, const T& p, const T& q, const Product<Wide<T>>& coupling,
                                const Product<Wide<T>>& rest) {
