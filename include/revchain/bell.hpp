@@ -14,8 +14,8 @@
 ///         {.weight = 200, .length = 0.2, .centroid = 0.4, .radius_of_gyration = 0.4});
 ///     const revchain::Chain<double> chain({clapper, bell});
 ///     const auto b = revchain::bell_and_clapper(chain);
-///     b.inclination_ratio[0];                                  // 1.5 times the bell's inclination: it rings
-///     revchain::bell_and_clapper_with_ratio(chain, 1.0)[4];    // 0.1 m: with this joint the bell is silent
+///     b.inclination_ratio[0];                                // 1.9243 times the bell's inclination: it rings
+///     revchain::bell_and_clapper_with_ratio(chain, 1.0)[4];  // 0.0855615 m: with this joint the bell is silent
 ///
 /// Greenhill (1908) §8 (13)-(16).
 namespace revchain {

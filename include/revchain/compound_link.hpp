@@ -13,7 +13,7 @@
 ///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1 hung by its end
 ///     bar.pendulum_length();                                  // 0.666695
 ///     const auto s = revchain::swung_link(bar, 0.4);          // at the speed with a conical height of 0.4
-///     s.inclination;                                          // 0.927337 rad
+///     s.inclination;                                          // 0.927328 rad
 ///
 /// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a centroid that is not
 /// positive, a radius of gyration that is negative, and numbers that are not finite.

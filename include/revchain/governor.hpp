@@ -9,9 +9,9 @@
 ///
 ///     const revchain::analytic::GovernorMotion motion(
 ///         {.angular_speed = 6.0, .pendulum_length = 0.5, .gravity = 9.80665, .angle = 1.2});
-///     motion.period();          // 1.20 s
-///     motion.greatest_angle();  // 1.2 rad
-///     motion(0.3).angle;        // 0.8 rad at 0.3 s
+///     motion.period();          // 1.28554 s
+///     motion.least_angle();     // 0.75646 rad; the greatest angle is 1.2 rad
+///     motion(0.3).angle;        // 0.984514 rad at 0.3 s
 ///
 /// Greenhill (1908) §7. Needs GSL. Angles in rad from the downward vertical, other units any consistent set.
 namespace revchain::analytic {

@@ -9,10 +9,10 @@
 /// Circular and plane waves along a stretched row of links with flywheels: Thomson's gyrostatic string.
 ///
 ///     const revchain::GyrostaticString<double> string{
-///         .weight = 1.0, .length = 0.1, .tension = 50.0, .momentum = 0.2, .centroid = 0.05};
-///     revchain::link_phase(string, 20.0).phase;  // 0.28 rad from link to link at 20 rad/s
-///     revchain::wave_speeds(string, 0.3)[0];     // 21 rad/s forward
-///     revchain::plane_rotation(string, 20.0);    // -0.005 rad from link to link
+///         .weight = 1.0, .length = 0.1, .tension = 50.0, .momentum = 0.01, .centroid = 0.05};
+///     revchain::link_phase(string, 20.0).phase;  // 0.278261 rad from link to link at 20 rad/s
+///     revchain::wave_speeds(string, 0.3)[0];     // 21.6189 rad/s forward
+///     revchain::plane_rotation(string, 20.0);    // 0.00560363 rad from link to link
 ///
 /// The links hang in a row under one tension, and their weight counts in their inertia only; offsets are small. It is a
 /// model of light in a magnetised body. Units: any consistent set, angles in rad.

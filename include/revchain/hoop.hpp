@@ -5,7 +5,7 @@
 
 /// A closed chain that runs round in a circle, such as the rim of a wheel, and a nearly straight vibrating string.
 ///
-///     revchain::hoop::tension(20.0);          // 40.7887 m of rim weigh as much as the tension at 20 m/s
+///     revchain::hoop::tension(20.0);          // 40.7886 m of rim weigh as much as the tension at 20 m/s
 ///     revchain::hoop::speed(10000.0);         // 313.156 m/s: a rim with a breaking length of 10 km bursts
 ///
 /// Greenhill (1908) §5 (3)-(6). A tension is given as the length h of chain that weighs as much. Units: any consistent

@@ -10,9 +10,9 @@
 /// it.
 ///
 ///     const revchain::analytic::SkippingRope rope({.span = 2.0, .length = 3.0, .angular_speed = 10.0});
-///     rope.sag();                    // 0.987137 m
-///     rope.tension_in_the_middle();  // 3.11 m of rope weigh as much
-///     rope.at(0.5).offset;           // 0.806 m, at 0.5 m from an end
+///     rope.sag();                    // 1.03141 m
+///     rope.tension_in_the_middle();  // 5.13717 m of rope weigh as much
+///     rope.at(0.5).offset;           // 0.766851 m, at 0.5 m from an end
 ///
 /// Greenhill (1908) §5. Needs GSL. Units: any consistent set, angles in rad. lambda = g/n^2 is the conical height, and
 /// a tension is given as the length h of rope that weighs as much. The shape depends on lambda h alone.

@@ -12,7 +12,7 @@
 ///     const auto polygon = revchain::funicular_polygon<double>(weight, place, 4.0);  // horizontal tension 4
 ///     polygon.height[1];                                                             // -0.333333
 ///     const auto m = revchain::transverse_modes<double>(weight, place, 4.0);
-///     m.conical_height[0];                                                           // 0.433013
+///     m.conical_height[0];                                                           // 0.394338
 ///
 /// Greenhill (1908) §3. Lengths and weights in any units.
 namespace revchain {
@@ -86,7 +86,7 @@ struct TransverseModes {
 /// funicular polygon with this horizontal tension, perpendicular to its plane: a side of length a and tension T resists
 /// with T/a, which is the horizontal component over the horizontal length. `weight` (n), `place` (n + 2) with both
 /// supports. The modes are those of an equivalent hanging chain (`modes`).
-/// Accuracy: heights 2 ulp (tests/cpp/finite/funicular_polygon.cpp), within `error_bound`, which is the proved bound of
+/// Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`, which is the proved bound of
 /// `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless there are weights, all positive,
 /// places increase, and all numbers, also the heights, are finite.
 template <Real T>

@@ -17,9 +17,9 @@
 ///     lambda[1];                 // 0.146447 m
 ///     const auto shapes = revchain::two_plummets_shapes(1.0, 0.5, 1.0, 0.5, 0.4);
 ///     shapes.size();             // 1 steady shape at the speed with a conical height of 0.4 m
-///     shapes[0].inclination[0];  // 1.114 rad: the lower thread
+///     shapes[0].inclination[0];  // 1.145 rad: the lower thread
 ///     // a boat hung from its davits by 3 m of tackle
-///     revchain::link_on_thread(3.0, revchain::CompoundLink<double>{1.0, 0.8})[0];  // 4.19578 m
+///     revchain::link_on_thread(3.0, revchain::CompoundLink<double>{1.0, 0.8})[0];  // 4.18075 m
 ///
 /// Greenhill (1908) §2, §6 and §8 (13)-(17). Lengths and weights in any units, angles in rad. Every pair of conical
 /// heights consists of the roots of lambda^2 - sum lambda + product = 0, computed without a difference of nearly equal
