@@ -14,7 +14,7 @@
 ///     revchain::wave_speeds(string, 0.3)[0];     // 21.6189 rad/s forward
 ///     revchain::plane_rotation(string, 20.0);    // 0.00560363 rad from link to link
 ///
-/// The links hang in a row under one tension, and their weight counts in their inertia only; offsets are small. It is a
+/// Links are jointed in a row under one tension; their weight counts in their inertia only; offsets are small. It is a
 /// model of light in a magnetised body. Units: any consistent set, angles in rad.
 ///
 /// In a circular wave every pin runs round the line with speed n, positive in the sense of a positive momentum, each by
