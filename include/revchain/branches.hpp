@@ -97,7 +97,7 @@ class Diagram {
     }
 
     Branches run() {
-        Index count = count_modes(chain_, result_.conical_height);
+        Index count = count_modes(chain_, {.conical_height = result_.conical_height});
         result_.complete = count == 0;  // see steady_shapes
         // at the very height of a mode, as rounded, its branch is not there yet
         while (count > 0 && !(result_.conical_height < height_of(count))) --count;

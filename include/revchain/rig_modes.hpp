@@ -89,6 +89,9 @@ inline constexpr Index dense_rig_limit = 200;
 /// bound that could not be proved is infinite and the status `tolerance_not_met`.
 RigModes modes(const Rig& rig, const ModesOptions<double>& options = {});
 
+/// Throws InvalidArgument: modes of a rig cannot be counted yet.
+Index count_modes(const Rig& rig, const CountOptions<double>& options);
+
 }  // namespace revchain
 
 #if !defined(REVCHAIN_COMPILED)

@@ -75,7 +75,7 @@ TEST_CASE("branches and proved lists agree, at heights that were not looked at b
         CAPTURE(i, n, lowest);
         CHECK(found.consistent);
         CHECK(found.complete);
-        const Index count = revchain::count_modes(chain, lowest);
+        const Index count = revchain::count_modes(chain, {.conical_height = lowest});
         REQUIRE(static_cast<Index>(found.branches.size()) >= count);
         isolated += static_cast<Index>(found.branches.size()) > count;
         for (const Branch& branch : found.branches)

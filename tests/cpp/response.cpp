@@ -4,7 +4,9 @@
 #include <quadmath.h>
 
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/linear/driven_chain.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/pencil/forced/lanes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/quad_response.hpp"
@@ -20,7 +22,7 @@ using support::truth;
 TEST_CASE("response: one plummet is Greenhill (1908) section 1 (9)", "[linear]") {
     const Chain<double> chain({revchain::plummet(3.0, 2.0)});
     const std::vector<double> heights{0.25, 1.0, 1.75, 2.5, 4.0, 1e6};
-    const auto found = revchain::response(chain, heights, {.support_radius = 0.5});
+    const auto found = revchain::response(chain, {.conical_height = heights, .support_radius = 0.5});
     for (Index i = 0; i < 6; ++i) {
         const double height = heights[static_cast<std::size_t>(i)];
         const double expected = 0.5 * revchain::carried_response(2.0, height);
@@ -43,7 +45,7 @@ TEST_CASE("response: within its bound of quadruple precision, any chain", "[line
             support::Random random(static_cast<std::uint64_t>(n));
             std::vector<double> heights;
             for (int i = 0; i < 37; ++i) heights.push_back(random.log_between(1e-5, 10.0) * chain.total_length());
-            const auto found = revchain::response(chain, heights);
+            const auto found = revchain::response(chain, {.conical_height = heights});
             const revchain::ModeCounter<double> counter(chain);
             for (Index i = 0; i < 37; ++i) {
                 const double height = heights[static_cast<std::size_t>(i)];
@@ -81,7 +83,7 @@ TEST_CASE("response: next to resonances the bound holds", "[linear]") {
             for (Index k = 0; k < modes.size(); ++k)
                 for (const double away : {0.0, 0x1p-52, -0x1p-51, 1e-13, -1e-10, 1e-6})
                     heights.push_back(modes.conical_height[k] * (1 + away));
-            const auto found = revchain::response(chain, heights);
+            const auto found = revchain::response(chain, {.conical_height = heights});
             for (std::size_t i = 0; i < heights.size(); ++i) {
                 const auto row = static_cast<Index>(i);
                 CAPTURE(family.name, n, heights[i], found.error_bound[row]);
@@ -106,7 +108,7 @@ TEST_CASE("response: next to resonances the bound holds", "[linear]") {
 TEST_CASE("response: at a resonance nothing is made up", "[linear]") {
     // two plummets of weights 1 and 3: heights 3/2 and 1/2
     const Chain<double> chain({revchain::plummet(1.0, 1.0), revchain::plummet(3.0, 1.0)});
-    const auto found = revchain::response(chain, {2.0, 1.5, 1.0, 0.5, 0.25});
+    const auto found = revchain::response(chain, {.conical_height = {2.0, 1.5, 1.0, 0.5, 0.25}});
     CHECK(found.resonant == std::vector<char>{0, 1, 0, 1, 0});
     for (const Index i : {1, 3}) {
         CHECK(std::isinf(found.error_bound[i]));
@@ -118,13 +120,13 @@ TEST_CASE("response: at a resonance nothing is made up", "[linear]") {
     for (Index i = 0; i < 5; ++i)
         CHECK(found.modes_below[i] == std::vector<Index>{0, 0, 1, 1, 2}[static_cast<std::size_t>(i)]);
     CHECK(found.reversed == std::vector<char>{0, 0, 1, 0, 0});
-    CHECK(revchain::response(Chain<double>({revchain::plummet(1.0, 0.3)}), {0.3}).resonant[0] == 1);
+    CHECK(revchain::response(Chain<double>({revchain::plummet(1.0, 0.3)}), {.conical_height = {0.3}}).resonant[0] == 1);
 }
 
 // A plummet as long as the conical height holds its own pin still: what vibration absorbers do.
 TEST_CASE("response: pins that do not move at all", "[linear]") {
     const Chain<double> two({revchain::plummet(1.0, 1.0), revchain::plummet(3.0, 1.0)});
-    const auto still = revchain::response(two, {1.0});
+    const auto still = revchain::response(two, {.conical_height = {1.0}});
     CHECK(still.offset(0, 1) == 0);
     CHECK(still.offset(0, 0) == -4);  // 4 b / 1, the pull of the upper thread, on the lower one
     CHECK(still.error_bound[0] <= 1.2e-16);
@@ -139,7 +141,7 @@ TEST_CASE("response: pins that do not move at all", "[linear]") {
             return random() < 0.5 ? revchain::plummet(weight, a) : revchain::uniform_rod(weight, 1.5 * a);
         });
         const double height = std::floor(random.between(1, 13)) / 4;
-        const auto found = revchain::response(chain, {height});
+        const auto found = revchain::response(chain, {.conical_height = {height}});
         const auto exact = truth(chain, height);
         CAPTURE(i, n, height, found.error_bound[0]);
         if (found.resonant[0] != 0) {
@@ -151,7 +153,7 @@ TEST_CASE("response: pins that do not move at all", "[linear]") {
         worst = std::max(worst, error_over_bound(found, 0, exact));
         CHECK(worst <= 1);
         CHECK(found.error_bound[0] <= 1.2e-16);
-        CHECK(found.modes_below[0] == revchain::count_modes(chain, height));
+        CHECK(found.modes_below[0] == revchain::count_modes(chain, {.conical_height = height}));
     }
     CHECK(nodes > 30);
     CHECK(resonances > 5);
@@ -163,10 +165,10 @@ TEST_CASE("response: some pins only, any radius, speeds for heights", "[linear]"
     support::Random random(9);
     for (int i = 0; i < 20; ++i) speeds.push_back(random.log_between(0.1, 20));
     for (const double n : speeds) heights.push_back(9.80665 / n / n);
-    const auto all = revchain::response(chain, heights, {.support_radius = 3});
-    const auto some =
-        revchain::response(chain, heights, {.support_radius = 3, .pins = std::vector<Index>{60, 7, 0, 7}});
-    const auto turned = revchain::response_at_speed(chain, speeds, {.support_radius = 3});
+    const auto all = revchain::response(chain, {.conical_height = heights, .support_radius = 3});
+    const auto some = revchain::response(
+        chain, {.conical_height = heights, .support_radius = 3, .pins = std::vector<Index>{60, 7, 0, 7}});
+    const auto turned = revchain::response(chain, {.angular_speed = speeds, .support_radius = 3});
     for (Index i = 0; i < 20; ++i) {
         const double size = all.offset.row(i).cwiseAbs().maxCoeff();
         CHECK(some.offset(i, 0) == 3);
@@ -175,8 +177,10 @@ TEST_CASE("response: some pins only, any radius, speeds for heights", "[linear]"
         CHECK(some.offset(i, 3) == some.offset(i, 1));
         CHECK(std::abs(turned.offset(i, 0) - all.offset(i, 0)) <= 1e-12 * size);  // heights were rounded
     }
-    CHECK(revchain::response(chain, heights, {.pins = std::vector<Index>{}}).offset.cols() == 0);
+    CHECK(revchain::response(chain, {.conical_height = heights, .pins = std::vector<Index>{}}).offset.cols() == 0);
     CHECK(revchain::response(chain, {}).offset.rows() == 0);
+    CHECK_THROWS_AS(revchain::response(chain, {.conical_height = {1.0}, .angular_speed = {1.0}}),
+                    revchain::InvalidArgument);
 }
 
 TEST_CASE("response: 100,000 random drives keep their bound, any radius", "[linear]") {
@@ -201,9 +205,9 @@ TEST_CASE("response: 100,000 random drives keep their bound, any radius", "[line
             const double height = random.log_between(1e-3, 1e2) * chain.total_length();
             x = speeds ? std::sqrt(gravity / height) : height;
         }
-        const revchain::ResponseOptions options{.support_radius = radius, .gravity = gravity};
-        const Response found =
-            speeds ? revchain::response_at_speed(chain, given, options) : revchain::response(chain, given, options);
+        revchain::ResponseOptions options{.support_radius = radius, .gravity = gravity};
+        (speeds ? options.angular_speed : options.conical_height) = given;
+        const Response found = revchain::response(chain, options);
         for (std::size_t i = 0; i < given.size(); ++i, ++drives) {
             const auto row = static_cast<Index>(i);
             if (found.resonant[i] != 0) continue;
@@ -226,7 +230,7 @@ TEST_CASE("response: weights beyond one unit, and extremes of scale", "[linear]"
     for (const double ratio : {1e100, 1e160}) {
         const auto chain =
             support::chain_of(12, [&](Index m) { return revchain::plummet(support::graded(m, 12, ratio), 1.0); });
-        const auto found = revchain::response(chain, {30.0, 5.0, 0.7, 0.05});
+        const auto found = revchain::response(chain, {.conical_height = {30.0, 5.0, 0.7, 0.05}});
         for (Index i = 0; i < 4; ++i) {
             CAPTURE(ratio, i);
             CHECK(error_over_bound(
@@ -237,13 +241,13 @@ TEST_CASE("response: weights beyond one unit, and extremes of scale", "[linear]"
     }
     for (const double length : {1e-200, 1e200}) {
         const auto chain = Chain<double>::uniform_rods(5, length, 1e-150);
-        const auto found = revchain::response(chain, {0.1 * length}, {.support_radius = 1e-300});
+        const auto found = revchain::response(chain, {.conical_height = {0.1 * length}, .support_radius = 1e-300});
         CHECK(error_over_bound(found, 0, truth(chain, 0.1 * length), 1e-300) <= 1);
         CHECK(found.error_bound[0] <= 1.2e-16);
     }
     // far below and far above every resonance
     const auto chain = Chain<double>::uniform_plummets(3, 3.0);
-    const auto found = revchain::response(chain, {1e60, 1e-60});
+    const auto found = revchain::response(chain, {.conical_height = {1e60, 1e-60}});
     CHECK(found.offset(0, 0) == 1);
     CHECK(found.offset(1, 2) == Approx(-3e-60).epsilon(1e-15).margin(0));
     CHECK(found.modes_below[1] == 3);
@@ -252,13 +256,16 @@ TEST_CASE("response: weights beyond one unit, and extremes of scale", "[linear]"
 TEST_CASE("response: wrong calls", "[linear]") {
     const auto chain = Chain<double>::uniform_plummets(3);
     for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e300}) {
-        CHECK_THROWS_AS(revchain::response(chain, {1.0, bad}), revchain::InvalidArgument);
-        CHECK_THROWS_AS(revchain::response_at_speed(chain, {bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::response(chain, {.conical_height = {1.0, bad}}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::response(chain, {.angular_speed = {bad}}), revchain::InvalidArgument);
     }
-    CHECK_THROWS_AS(revchain::response(chain, {1.0}, {.support_radius = 0}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::response(chain, {1.0}, {.pins = std::vector<Index>{4}}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::response(chain, {1.0}, {.pins = std::vector<Index>{-1}}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::response_at_speed(chain, {1.0}, {.gravity = -1}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::response(chain, {.conical_height = {1.0}, .support_radius = 0}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::response(chain, {.conical_height = {1.0}, .pins = std::vector<Index>{4}}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::response(chain, {.conical_height = {1.0}, .pins = std::vector<Index>{-1}}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::response(chain, {.angular_speed = {1.0}, .gravity = -1}), revchain::InvalidArgument);
 }
 
 // Portable builds choose at run time: the narrow registers without fused operations have to be right, too.
@@ -294,7 +301,7 @@ TEST_CASE("response: registers of two doubles, products not fused", "[linear]") 
                 Quad largest = 0;
                 for (const Quad& y : exact.offset) largest = fmaxq(largest, fabsq(y));
                 const double bound = found[j].error_bound + 1.2e-16;
-                CHECK(found[j].negative == revchain::count_modes(chain, heights[j]));
+                CHECK(found[j].negative == revchain::count_modes(chain, {.conical_height = heights[j]}));
                 for (const std::size_t which : {0, 1}) {
                     const Quad off = fabsq(Quad(offset[j][which]) - exact.offset[pins.pins[which]]) / largest;
                     CHECK(static_cast<double>(off) <= bound);

@@ -84,7 +84,8 @@ TEST_CASE("response of rigs: springs, standing links, flywheels, fluids", "[line
         std::vector<double> speeds;
         for (int i = 0; i < 10; ++i)
             speeds.push_back(random.log_between(0.1, 30) * (wheels && random() < 0.5 ? -1 : 1));
-        const auto found = revchain::response_at_speed(rig, speeds, {.support_radius = 0.25, .gravity = gravity});
+        const auto found =
+            revchain::response(rig, {.angular_speed = speeds, .support_radius = 0.25, .gravity = gravity});
         for (Index i = 0; i < 10; ++i) {
             const Quad speed = speeds[static_cast<std::size_t>(i)];
             const auto exact = truth(rig, speed, gravity);
@@ -136,10 +137,14 @@ TEST_CASE("response of rigs: lowest links that weigh nothing in a fluid that tur
         const Rig rig(Chain<double>(links), with), without(Chain<double>(kept), rest);
         std::vector<double> speeds;
         for (int i = 0; i < 10; ++i) speeds.push_back(random.log_between(0.1, 30));
-        const auto found = revchain::response_at_speed(rig, speeds, {.support_radius = 0.25, .gravity = gravity});
-        const auto own = revchain::response_at_speed(without, speeds, {.support_radius = 0.25, .gravity = gravity});
-        const auto some = revchain::response_at_speed(
-            rig, speeds, {.support_radius = 0.25, .pins = std::vector<Index>{n, idle, 0}, .gravity = gravity});
+        const auto found =
+            revchain::response(rig, {.angular_speed = speeds, .support_radius = 0.25, .gravity = gravity});
+        const auto own =
+            revchain::response(without, {.angular_speed = speeds, .support_radius = 0.25, .gravity = gravity});
+        const auto some = revchain::response(rig, {.angular_speed = speeds,
+                                                   .support_radius = 0.25,
+                                                   .pins = std::vector<Index>{n, idle, 0},
+                                                   .gravity = gravity});
         CHECK(found.modes_below == own.modes_below);
         CHECK(found.resonant == own.resonant);
         CHECK(found.reversed == own.reversed);
@@ -167,7 +172,8 @@ TEST_CASE("response of rigs: a chain of which nothing has weight stays below wha
     for (const bool firm : {true, false}) {
         revchain::Rigging with{.fluid = revchain::Fluid::turning, .displaced = {like, like}};
         if (!firm) with.support = revchain::horizontal_spring(3.0);
-        const auto found = revchain::response(Rig(chain, with), {0.1, 1.0, 10.0}, {.support_radius = 0.5});
+        const auto found =
+            revchain::response(Rig(chain, with), {.conical_height = {0.1, 1.0, 10.0}, .support_radius = 0.5});
         CAPTURE(firm);
         CHECK((found.offset.array() == 0.5).all());
         CHECK(found.error_bound.maxCoeff() <= 1.2e-16);
@@ -181,25 +187,26 @@ TEST_CASE("response of rigs: a chain of which nothing has weight stays below wha
 TEST_CASE("response of rigs: a plain rig is its chain, a spring is a thread more", "[linear]") {
     const auto chain = support::families()[2].make(5);
     const std::vector<double> heights{4.0, 0.7, 0.2};
-    const auto bare = revchain::response(Rig(chain, {}), heights);
-    const auto own = revchain::response(chain, heights);
+    const auto bare = revchain::response(Rig(chain, {}), {.conical_height = heights});
+    const auto own = revchain::response(chain, {.conical_height = heights});
     CHECK(bare.offset == own.offset);
     CHECK(bare.modes_below == own.modes_below);
     // Greenhill (1908) section 2 (7): stiffness E as a massless thread of length W/E
     const double extra = 0.375;
     const auto sprung =
-        revchain::response(Rig(chain, {.support = revchain::horizontal_spring(chain.total_weight() / extra)}), heights);
+        revchain::response(Rig(chain, {.support = revchain::horizontal_spring(chain.total_weight() / extra)}),
+                           {.conical_height = heights});
     std::vector<revchain::Link<double>> links;
     for (Index m = 0; m < 5; ++m) links.push_back(chain.link(m));
     links.push_back(revchain::plummet(0.0, extra));
-    const auto longer = revchain::response(Chain<double>(links), heights);
+    const auto longer = revchain::response(Chain<double>(links), {.conical_height = heights});
     for (Index i = 0; i < 3; ++i)
         for (Index pin = 0; pin <= 5; ++pin)
             CHECK(sprung.offset(i, pin) == Approx(longer.offset(i, pin)).epsilon(1e-13));
     // at given heights the sense is the positive one
     revchain::Rigging wheels;
     wheels.flywheels.assign(5, {0.5, 0.0});
-    const auto by_height = revchain::response(Rig(chain, wheels), heights, {.gravity = 2});
-    const auto by_speed = revchain::response_at_speed(Rig(chain, wheels), {std::sqrt(2 / 0.7)}, {.gravity = 2});
+    const auto by_height = revchain::response(Rig(chain, wheels), {.conical_height = heights, .gravity = 2});
+    const auto by_speed = revchain::response(Rig(chain, wheels), {.angular_speed = {std::sqrt(2 / 0.7)}, .gravity = 2});
     CHECK(by_height.offset(1, 0) == Approx(by_speed.offset(0, 0)).epsilon(1e-12));
 }

@@ -108,7 +108,9 @@ double worst_moment(const Chain<double>& chain, const SteadyShape& shape) {
 Chain<double> plummets(Index n) { return Chain<double>::uniform_plummets(n, static_cast<double>(n), 1.0); }
 
 /// Number of conical heights above one.
-Index above(const Chain<double>& chain, double height) { return revchain::count_modes(chain, height); }
+Index above(const Chain<double>& chain, double height) {
+    return revchain::count_modes(chain, {.conical_height = height});
+}
 
 /// Negative directions of the energy at a shape, its rotation about the axis left aside: negative pivots of the tangent
 /// stiffness k sec^3 [1 -1; -1 1] less M/lambda of the links, in quadruple precision.

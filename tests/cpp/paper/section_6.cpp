@@ -21,8 +21,8 @@ TEMPLATE_TEST_CASE("§6 (1): a compound link turns like a plummet at L, and stay
         const auto [W, a, h, l, rho2] = paper::letters(link);
         const Chain<T> chain({link});
         paper::check_heights(revchain::modes(chain, {.count = revchain::all_modes}), {l});
-        CHECK(revchain::count_modes(chain, static_cast<T>(l * Quad(1.001))) == 0);
-        CHECK(revchain::count_modes(chain, static_cast<T>(l * Quad(0.999))) == 1);
+        CHECK(revchain::count_modes(chain, {.conical_height = static_cast<T>(l * Quad(1.001))}) == 0);
+        CHECK(revchain::count_modes(chain, {.conical_height = static_cast<T>(l * Quad(0.999))}) == 1);
         CHECK(paper::error_in_ulp(revchain::pendulum_length(link), l) <= 1.0);
     }
 }
