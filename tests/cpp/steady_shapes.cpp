@@ -3,7 +3,7 @@
 #include "revchain/finite/shapes/list.hpp"
 
 #include "revchain/modes.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"

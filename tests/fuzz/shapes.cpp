@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz.hpp"
 #include "revchain/finite/stability/stability.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/statics.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/two_links.hpp"
 
 void fuzz::shapes(Random& random) {
     if (random.one_in(6)) {

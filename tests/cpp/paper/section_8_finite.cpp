@@ -4,8 +4,8 @@
 // inclinations and offsets that the library gives out.
 #include <functional>
 
-#include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "section_8.hpp"
 
 using paper::Index;

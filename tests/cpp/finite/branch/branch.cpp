@@ -3,8 +3,8 @@
 
 #include "revchain/finite/branch/shape_on_branch.hpp"
 #include "revchain/modes.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
