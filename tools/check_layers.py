@@ -51,6 +51,7 @@ PUBLIC = {
     "swing.hpp": "linear",
     "tune.hpp": "linear",
     "steady_shapes.hpp": "finite/shapes",
+    "stability.hpp": "finite/stability",
     "branches.hpp": "finite/branch",
     "held.hpp": "finite/held",
     "cord.hpp": "special",
