@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/finite/stability/stability.hpp"
+#include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
 #include <pybind11/complex.h>

@@ -54,6 +54,7 @@ PUBLIC = {
     "tune.hpp": "questions",
     "rig_modes.hpp": "questions",
     "steady_shapes.hpp": "finite/shapes",
+    "stability.hpp": "finite/stability",
     "branches.hpp": "questions",
     "held.hpp": "finite/held",
     "cord.hpp": "special",

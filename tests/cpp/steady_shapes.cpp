@@ -336,8 +336,9 @@ TEST_CASE("what a cell is said to hold, it holds", "[finite]") {
         const double unit = std::ldexp(1.0, -links.units.length_exponent);
         const double low = static_cast<double>(sweep.farthest()) * random.log_between(1e-12, 1.0);
         const double high = low * (1 + random.log_between(1e-9, 0.3));
-        const auto jet = revchain::finite::support_offset(enclosed, revchain::Interval<double>(height * unit),
-                                                          revchain::finite::Cell<double>(low, high));
+        const auto jet =
+            revchain::finite::support_offset(enclosed, revchain::Interval<double>(height * unit),
+                                             revchain::finite::Cell<double, 1>(revchain::Interval<double>(low, high)));
         for (int j = 0; j < 8; ++j) {
             const Quad t = low + (Quad(high) - low) * random(), e = t * Quad(1e-9);
             const Quad y = sweep(t) * unit, before = sweep(t - e) * unit, after = sweep(t + e) * unit;
@@ -347,8 +348,8 @@ TEST_CASE("what a cell is said to hold, it holds", "[finite]") {
             };
             CAPTURE(n, low, high);
             CHECK(within(jet.value, y, 0));
-            CHECK(within(jet.slope, slope, 1e-12 * fabsq(slope) + 1e-12 * fabsq(y / t)));
-            CHECK(within(jet.bend, bend, 1e-9 * fabsq(bend) + 1e-9 * fabsq(slope / t) + 1e-9 * fabsq(y / (t * t))));
+            CHECK(within(jet.slope[0], slope, 1e-12 * fabsq(slope) + 1e-12 * fabsq(y / t)));
+            CHECK(within(jet.bend[0], bend, 1e-9 * fabsq(bend) + 1e-9 * fabsq(slope / t) + 1e-9 * fabsq(y / (t * t))));
         }
     }
 }

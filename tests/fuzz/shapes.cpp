@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz.hpp"
-#include "revchain/finite/stability/stability.hpp"
+#include "revchain/stability.hpp"
 #include "revchain/statics.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "revchain/two_links.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/stability/stability.hpp"
+#include "revchain/stability.hpp"
 
 #include "revchain/finite/stability/windows.hpp"
 #include "revchain/modes.hpp"
