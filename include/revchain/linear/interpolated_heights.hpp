@@ -39,7 +39,7 @@ inline std::optional<Heights<double>> heights_by_spectrum(LazyCounter<double>& a
     for (Index done = 0; done < range.count;) {
         const Index first = range.first - 1 + done, count = std::min(range.count - done, together);
         for (const auto& sure : pencil::all_eigenvalues(wide, pinned, first, first + count, mode_count, goal))
-            result.height.push_back({sure.eigenvalue, sure.error_bound, sure.unrounded});
+            result.height.push_back(sure);
         done += count;
         advance(options.progress, share * static_cast<double>(done) / static_cast<double>(range.count));
     }

@@ -23,10 +23,10 @@ template <Real T>
 void find_shape(Modes<T>& modes, Index j, const Chain<T>& chain, const Pencils<T>& pencils, const Height<T>& height,
                 bool loose) {
     if (loose)
-        set_shape(modes, j, chain, pencils.rounded(), height.value,
-                  pencil::eigenvector(pencils.rounded(), height.value));
+        set_shape(modes, j, chain, pencils.rounded(), height.eigenvalue,
+                  pencil::eigenvector(pencils.rounded(), height.eigenvalue));
     else
-        set_shape(modes, j, chain, pencils.wide(), height.value, fine_shape<T>(pencils.wide(), height.unrounded));
+        set_shape(modes, j, chain, pencils.wide(), height.eigenvalue, fine_shape<T>(pencils.wide(), height.unrounded));
 }
 
 /// Stage 3 of `modes`: proved counts at other numbers of T on either side of height `j`, as far away as its error bound
@@ -116,7 +116,7 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
         result.method = found.method;
         for (Index j = 0; j < range.count; ++j) {
             const auto& height = found.height[static_cast<std::size_t>(j)];
-            set_height(result, j, height.value, height.error_bound, chain.units().length_exponent, options);
+            set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options);
         }
     };
     const auto set_shapes = [&](const Heights<T>& found) {

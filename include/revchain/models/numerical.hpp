@@ -24,7 +24,7 @@ inline Answer answered(const Chain<double>& chain, const revchain::detail::Heigh
     Answer answer{Vector<double>(count), Vector<double>(count)};
     for (Index j = 0; j < count; ++j) {
         const auto& height = found.height[static_cast<std::size_t>(j)];
-        answer.conical_height[j] = std::ldexp(height.value, chain.units().length_exponent);
+        answer.conical_height[j] = std::ldexp(height.eigenvalue, chain.units().length_exponent);
         answer.error_bound[j] = height.error_bound;
     }
     return answer;
