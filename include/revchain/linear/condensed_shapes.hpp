@@ -91,9 +91,10 @@ template <class T>
 struct ShapePack {
     using V = Pack<T>;
     DoubleWord<V> height;
-    std::vector<DoubleWord<V>> between;  ///< offsets between blocks
-    V scale{T(1)};                       ///< makes the largest offset 1 and the free end's positive
-    V largest{};                         ///< offset seen, unscaled
+    std::vector<pencil::LumpedElement<DoubleWord<V>>> elements;  ///< of the blocks
+    std::vector<DoubleWord<V>> between;                          ///< offsets between them
+    V scale{T(1)};  ///< makes the largest offset 1 and the free end's positive
+    V largest{};    ///< offset seen, unscaled
     PinState<V> state;
     V top;  ///< offset of the pin reached, scaled
     Balance<V> balance;
@@ -143,7 +144,8 @@ bool shapes_by_compression(Modes<T>& modes, const Chain<T>& chain, const Compres
             pack.height.high.set(lane, height.high);
             pack.height.low.set(lane, height.low);
         }
-        pack.between = pencil::offsets_between<P>(compressed.pencil, pack.height);
+        pack.elements = pencil::elements_at<P>(compressed.pencil, pack.height);
+        pack.between = pencil::offsets_between(pack.elements);
         V least(std::numeric_limits<T>::max()), largest{};
         for (std::size_t b = 0; b < blocks.size(); ++b) {
             largest = max(largest, abs(pack.between[b].high));
@@ -163,7 +165,7 @@ bool shapes_by_compression(Modes<T>& modes, const Chain<T>& chain, const Compres
         Index above = size;
         for (std::size_t b = blocks.size(); b-- > 0;) {
             for (ShapePack<T>& pack : packs) {
-                const auto e = pencil::element_at<P>(blocks[b], pack.height);
+                const auto& e = pack.elements[b];
                 const P& upper = pack.between[b + 1];
                 const P force = (pack.between[b] - upper) * e.spring + e.upper * upper;
                 pack.state = {{upper.high, upper.low}, {force.high, force.low}};

@@ -200,7 +200,7 @@ TEST_CASE("improved shifts and offsets at the pins between blocks", "[blocks]") 
             CAPTURE(kind, j, static_cast<double>(height));
             CHECK(error <= pencil.error + 1e-20);
             worst = std::max(worst, error / pencil.error);
-            const auto offset = offsets_between<W>(pencil, fine);
+            const auto offset = offsets_between(elements_at(pencil, fine));
             const auto shape = truth.shape(height * unit);
             CHECK(offset.size() == pencil.blocks.size() + 1);
             CHECK(offset.back().high[0] == 0);
