@@ -41,7 +41,7 @@ bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptio
     const Index threads = std::max<Index>(1, std::min(options.threads, slices));
     std::atomic<bool> unusual = false;
     const auto part = [&](Index t) {
-        std::conditional_t<fits_lanes<T>, LaneWorker<T>, SingleWorker<T>> worker(batch, plan, heights);
+        BatchWorker<T> worker(batch, plan, heights);
         for (Index slice = slices * t / threads; slice < slices * (t + 1) / threads && !unusual; ++slice) {
             const Index first = slice * together, last = std::min(first + together, batch.chains);
             if (looking && !ordinary(batch, first, last)) {
