@@ -20,7 +20,6 @@ template <Real T>
 struct SpeedWindow {
     T low{};
     T high{};
-    T gravity = T(conical_pendulum::standard_gravity);
 };
 
 /// The modes number `first` (from 1, slowest first) to `first + count - 1`.
@@ -67,11 +66,11 @@ class ModeCounter {
 
     /// The modes whose speeds lie in the window, by `below_speed`. Throws InvalidArgument unless 0 <= low < high and
     /// gravity is positive and finite.
-    ModeRange within(const SpeedWindow<T>& window) const {
+    ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
         check_window("angular speed", window.low, window.high);
-        detail::require_positive("modes", "gravity", window.gravity);
-        const Index before = window.low > T(0) ? below_speed(window.low, window.gravity) : 0;
-        const Index all = bounded(window.high) ? below_speed(window.high, window.gravity) : mode_count_;
+        detail::require_positive("modes", "gravity", gravity);
+        const Index before = window.low > T(0) ? below_speed(window.low, gravity) : 0;
+        const Index all = bounded(window.high) ? below_speed(window.high, gravity) : mode_count_;
         return {before + 1, std::max(all - before, Index(0))};
     }
 

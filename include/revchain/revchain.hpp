@@ -2,7 +2,7 @@
 #pragma once
 
 // Everything that needs Eigen alone, except what solves dense eigenproblems, which costs seconds of compile time:
-// linear/dense_reference.hpp, linear/rig_modes.hpp, finite/stability/*.hpp, models/with_dense.hpp. What needs GSL is in
+// questions/dense_reference.hpp, rig_modes.hpp, finite/stability/*.hpp, models/with_dense.hpp. What needs GSL is in
 // revchain/analytic.hpp.
 
 #include "revchain/bell.hpp"                           // IWYU pragma: export

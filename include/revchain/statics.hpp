@@ -234,8 +234,8 @@ TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& pl
     using std::isfinite;
     constexpr std::string_view where = "transverse_modes";
     const StringOfWeights<T> string = string_of_weights(weight, place, tension, where);
-    const Modes<T> found = modes(string.chain, {.first = 2});
-    TransverseModes<T> result{found.conical_height, found.error_bound, found.shape};
+    const Modes<T> found = modes(string.chain, {.first = 2, .count = all_modes});
+    TransverseModes<T> result{found.conical_height, found.error_bound, found.shapes().offset};
     for (Index k = 0; k < found.size(); ++k) {
         result.conical_height[k] = found.conical_height[k] * string.factor;
         if (!isfinite(result.conical_height[k]) || result.conical_height[k] == T(0))

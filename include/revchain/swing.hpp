@@ -242,8 +242,7 @@ inline SmallOscillation small_oscillation(const Chain<double>& chain, const Vect
     Offsets rest = from.cast<S>(), rest_speed = speed.cast<S>();
     double unsettled = 0, unsettled_speed = 0;
     if (all < chain.size()) {
-        const double least =
-            std::ldexp(modes(chain, {.first = all, .count = 1, .shapes = false}).conical_height[0], -length);
+        const double least = std::ldexp(modes(chain, {.first = all, .count = 1}).conical_height[0], -length);
         const S h(1e-8 * least);
         rest = system.settled(rest, h, unsettled), rest_speed = system.settled(rest_speed, h, unsettled_speed);
         for (Index m = 0; m < pins; ++m) result.start[m] = static_cast<double>(rest[m]);
@@ -259,7 +258,7 @@ inline SmallOscillation small_oscillation(const Chain<double>& chain, const Vect
         column->resize(count);
     Vector<double> reached = Vector<double>::Zero(pins);
     for (Index k = 0; k < count; ++k) {
-        const Vector<double> rough = found.shape.row(k).transpose();
+        const Vector<double> rough = found.shapes().offset.row(k).transpose();
         const S height = pencil::rayleigh_quotient<S, double>(system.pencil(), rough);
         const Offsets shape = pencil::eigenvector(system.pencil(), height).offset;
         const S inertia = system.inertia(shape, shape), frequency = sqrt(gravity / height);

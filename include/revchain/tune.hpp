@@ -81,7 +81,7 @@ class Tuning {
     double height(double x) const {
         const Chain<double> chain = with(x);
         if (chain.mode_count() < asked_.mode) return 0;
-        return modes(chain, {.first = asked_.mode, .count = 1, .shapes = false}).conical_height[0];
+        return modes(chain, {.first = asked_.mode, .count = 1}).conical_height[0];
     }
     /// d ln(height)/d ln(datum).
     double slope(double x, double at) const {

@@ -12,7 +12,7 @@ TEST_CASE("counts on either side of every height", "[linear]") {
     for (const auto& family : support::families()) {
         for (const Index n : {1, 2, 5, 60}) {
             const auto chain = family.make(n);
-            const auto m = revchain::modes(chain, {.shapes = false});
+            const auto m = revchain::modes(chain, {.count = revchain::all_modes});
             for (Index j = 0; j < m.size(); ++j) {
                 const double h = m.conical_height[j];
                 CAPTURE(family.name, n, j);

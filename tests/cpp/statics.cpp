@@ -132,7 +132,7 @@ TEST_CASE("Weights transferred to the axis: the shape is a mode of the straight 
     double worst_height = 0, worst_offset = 0;
     int wrong_number = 0, plummets = 0;
     for_random_shapes([&](const Chain<double>& chain, const SteadyShape& shape, int kind) {
-        const auto modes = revchain::modes(revchain::transferred_to_axis(chain, shape));
+        const auto modes = revchain::modes(revchain::transferred_to_axis(chain, shape), {.count = revchain::all_modes});
         Index k = 0;
         for (Index j = 1; j < modes.size(); ++j)
             if (std::abs(modes.conical_height[j] - shape.conical_height) <
@@ -147,7 +147,7 @@ TEST_CASE("Weights transferred to the axis: the shape is a mode of the straight 
             if (j != k) nearest = std::min(nearest, std::abs(modes.conical_height[j] / shape.conical_height - 1));
         const auto offset = shape.offset / shape.offset.cwiseAbs().maxCoeff();
         for (Index pin = 0; pin <= chain.size(); ++pin)
-            worst_offset = std::max(worst_offset, std::abs(modes.shape(k, pin) - offset[pin]) /
+            worst_offset = std::max(worst_offset, std::abs(modes.shapes().offset(k, pin) - offset[pin]) /
                                                       revchain::epsilon<double>() / steep * nearest);
         if (kind == 0) ++plummets, wrong_number += modes.first + k != shape.half_waves;
     });

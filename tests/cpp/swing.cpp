@@ -97,8 +97,8 @@ TEST_CASE("small oscillations: the power series in quadruple precision", "[linea
             const auto chain = support::families()[kind].make(n);
             const double gravity = 2.5;
             const auto from = random_start(random, n, 0.1), speed = random_start(random, n, 0.3);
-            const double fastest =
-                std::sqrt(gravity / revchain::modes(chain, {.first = n, .shapes = false}).conical_height[0]);
+            const double fastest = std::sqrt(
+                gravity / revchain::modes(chain, {.first = n, .count = revchain::all_modes}).conical_height[0]);
             const std::vector<double> times{0, 1 / fastest, -8 / fastest,
                                             20 / fastest};  // the series' terms reach e^20
             const auto found = revchain::small_oscillation(chain, from, speed, times, {.gravity = gravity});

@@ -16,10 +16,10 @@ void modes(fuzz::Random& random, const revchain::Chain<double>& chain) {
     if (chain.size() > 100 || random.one_in(2)) options.first = random.count(3), options.count = random.count(4);
     if (chain.size() <= 100 && random.one_in(4)) options = {.conical_height = {{random.number(), random.number()}}};
     if (random.one_in(4)) options.rtol = random.power(12) * 1e-8;
-    options.shapes = random.one_in(2), options.certify = random.one_in(3);
+    options.certify = random.one_in(3);
     using revchain::ModesMethod;
-    options.method = random.pick({ModesMethod::automatic, ModesMethod::bisection, ModesMethod::blocks,
-                                  ModesMethod::together, ModesMethod::spectrum});
+    options.method = random.pick({ModesMethod::automatic, ModesMethod::bisection, ModesMethod::condensed,
+                                  ModesMethod::aberth, ModesMethod::interpolated});
     const auto found = revchain::modes(chain, options);
     for (revchain::Index j = 0; j < found.size(); ++j)
         fuzz::expect_number(found.conical_height[j] + found.error_bound[j]);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz.hpp"
-#include "revchain/linear/rig_modes.hpp"
 #include "revchain/linear/rig_sensitivity.hpp"
 #include "revchain/response.hpp"
+#include "revchain/rig_modes.hpp"
 #include "revchain/steady_shapes.hpp"
 
 void fuzz::rigs(Random& random) {
     const std::uint64_t kind = random.below(3);
     const revchain::Rig rig = random.rig(kind == 2 ? 3 : 8);
     if (kind == 0) {
-        const auto found = revchain::rig_modes(rig, {.shapes = random.one_in(2)});
+        const auto found = revchain::modes(rig, {.count = revchain::all_modes});
         (void)found;
     } else if (kind == 1) {
         (void)revchain::response(rig, random.numbers(4));

@@ -73,14 +73,6 @@ inline bool pin(LumpedChain& small, const Chain<double>& chain) {
     return fit && worst_cross < 0x1p20;
 }
 
-/// Where finding all modes at once pays, few of them asked for or not: up to 40 times (10 links, all modes), never less
-/// than 0.9 times (measured with plummets and rods, N = 2 ... 100). Tighter tolerances would often be refused.
-inline bool all_together_pays(const Chain<double>& chain, const ModeRange& range,
-                              const HeightsOptions<double>& options) {
-    const Index n = chain.size(), count = range.count;
-    return options.rtol.value_or(0.0) >= 1e-14 && (n <= 32 || (n <= 64 && count >= 3) || (n <= 100 && 2 * count >= n));
-}
-
 /// Stage 1 of `modes` for small chains where the tolerance leaves room for bounds of some 20 ulp; nothing where it does
 /// not, or for chains that `pencil::small_spectrum` does not serve. Cost: as there, and 10 ns a link.
 inline std::optional<Heights<double>> heights_all_together(const Chain<double>& chain, const ModeRange& range,
@@ -93,7 +85,7 @@ inline std::optional<Heights<double>> heights_all_together(const Chain<double>& 
     if (!pin(small, chain)) return std::nullopt;
     pencil::SmallSpectrum all;
     if (!pencil::small_spectrum(small.links, small.roundings, goal, all)) return std::nullopt;
-    Heights<double> result{{}, "together"};
+    Heights<double> result{{}, "aberth"};
     result.height.reserve(static_cast<std::size_t>(range.count));
     for (Index j = range.first - 1; j < range.first - 1 + range.count; ++j) {
         const std::size_t i = static_cast<std::size_t>(j);

@@ -81,8 +81,8 @@ struct CompressedHeights {
     CompressedChain<T> compressed;
 };
 
-/// Stage 1 of `modes` for `compression_pays`; nothing where the bound would miss the tolerance asked or a mode could
-/// not be proved, so that the sure way is left.
+/// Stage 1 of `modes` for a few of the slowest modes of a long chain; nothing where the bound would miss the tolerance
+/// or a mode could not be proved: bisection is then left.
 ///
 /// Blocks, their modes bracketed by counts in T, two Newton steps (the last in `Wide<T>`), two proved counts on the
 /// blocks. The bound adds what condensing has changed, 1.8 ulp: docs/accuracy.md, "Blocks".
@@ -116,7 +116,7 @@ std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain
         return pencil::bisect(pencil, number, count, tolerance, pencil.least_shift, [](Index) {});
     };
     const auto rough = brackets(first, range.count, T(1e-3));
-    Heights<T> result{{}, "blocks"};
+    Heights<T> result{{}, "condensed"};
     result.height.reserve(rough.size());
     while (result.height.size() < rough.size()) {
         const std::size_t done = result.height.size();

@@ -2,12 +2,30 @@
 #pragma once
 
 #include "revchain/linear/condensed_heights.hpp"
-#include "revchain/linear/mode_table.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
+namespace revchain {
+template <Real T>
+struct ModeShapes;  // revchain/modes.hpp
+}
+
 namespace revchain::detail {
+
+/// Distances of the crossings from the free end, along the chain.
+template <Real T>
+Vector<T> nodes(const Chain<T>& chain, const std::vector<pencil::Crossing<T>>& crossings) {
+    Vector<T> found(static_cast<Index>(crossings.size()));
+    Wide<T> below(T(0));  // distance of the lower pin of link `m` from the free end
+    Index m = 0, i = 0;
+    for (const pencil::Crossing<T>& crossing : crossings) {
+        for (; m < crossing.element; ++m) below = below + Wide<T>(chain.length()[m]);
+        found[i++] = static_cast<T>(below + Wide<T>(crossing.share * chain.length()[m]));
+    }
+    return found;
+}
 
 /// Some neighbouring links as mass, spring, mass: lambda stiffness + cross between at_lower and at_upper.
 template <class T>
@@ -103,10 +121,10 @@ struct ShapePack {
 
 /// Stores offsets of a chunk's lower pins in the rows of `shape`, and where they change sign.
 template <class T>
-void store(Modes<T>& modes, ShapePack<T>& pack, std::size_t first, std::size_t lanes, Index link, Index count,
+void store(ModeShapes<T>& shapes, ShapePack<T>& pack, std::size_t first, std::size_t lanes, Index link, Index count,
            const std::vector<Pack<T>>& offset) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        T* row = &modes.shape(static_cast<Index>(first + lane), link);
+        T* row = &shapes.offset(static_cast<Index>(first + lane), link);
         T upper = pack.top[lane];
         for (Index i = count; i-- > 0;) {
             const T y = offset[static_cast<std::size_t>(i)][lane];
@@ -118,13 +136,13 @@ void store(Modes<T>& modes, ShapePack<T>& pack, std::size_t first, std::size_t l
     }
 }
 
-/// Stage 2 of `modes` after `heights_by_compression`: shapes, residuals and nodes of all its modes. Offsets between
+/// Stage 2 of `modes` for a condensed chain: shapes, residuals and nodes of all its modes. Offsets between
 /// blocks by twisted recursions in double words; from each block's upper pin down, link by link, with compensated sums.
 /// False where offsets leave the range of T; sure shapes are then still to be found.
 /// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the
 /// top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
 template <std::floating_point T>
-bool shapes_by_compression(Modes<T>& modes, const Chain<T>& chain, const CompressedChain<T>& compressed,
+bool shapes_by_compression(ModeShapes<T>& shapes, const Chain<T>& chain, const CompressedChain<T>& compressed,
                            const std::vector<Height<T>>& heights, Progress* progress, double from) {
     using std::ldexp;
     using V = Pack<T>;
@@ -186,7 +204,7 @@ bool shapes_by_compression(Modes<T>& modes, const Chain<T>& chain, const Compres
                     }
                     if (storing) {
                         weigh(chunk, pack.height.high, pack.top, above + count == size, offset.data(), pack.balance);
-                        store(modes, pack, k * pack_size, lanes_from(k * pack_size), above, count, offset);
+                        store(shapes, pack, k * pack_size, lanes_from(k * pack_size), above, count, offset);
                     }
                     pack.top = offset[0];
                 }
@@ -202,11 +220,11 @@ bool shapes_by_compression(Modes<T>& modes, const Chain<T>& chain, const Compres
         for (std::size_t lane = 0; lane < lanes_from(k * pack_size); ++lane) {
             const auto j = static_cast<Index>(k * pack_size + lane);
             auto& crossing = packs[k].crossing[lane];
-            modes.shape(j, size) = T(0);
-            modes.residual[j] =
+            shapes.offset(j, size) = T(0);
+            shapes.residual[j] =
                 max(packs[k].balance.worst, abs(packs[k].balance.force))[lane] / packs[k].balance.largest[lane];
             std::reverse(crossing.begin(), crossing.end());
-            modes.nodes[static_cast<std::size_t>(j)] = nodes(chain, crossing);
+            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, crossing);
         }
     return true;
 }

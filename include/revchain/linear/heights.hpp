@@ -29,7 +29,6 @@ struct Heights {
 template <Real T>
 struct HeightsOptions {
     std::optional<T> rtol{};  ///< absent: as accurate as T allows
-    bool shapes = false;      ///< whether shapes are wanted afterwards
     Progress* progress = nullptr;
 };
 

@@ -9,20 +9,6 @@
 
 namespace revchain::detail {
 
-/// Whether quotients in double are not enough.
-inline bool is_fine(const HeightsOptions<double>& options) {
-    return options.rtol.value_or(0.0) < pencil::spectrum::loosest_fine;
-}
-
-/// Where interpolating the characteristic polynomial pays: several modes, and more of them than blocks do well with,
-/// who are also faster with shapes to the last digit (measured with plummets and rods, N = 4 ... 10,000; flat within a
-/// factor of 2 in the last number).
-inline bool spectrum_pays(const Chain<double>& chain, const ModeRange& range, const HeightsOptions<double>& options) {
-    const Index last = range.first - 1 + range.count;
-    const bool blocks_pay = compression_pays(chain, range) && options.shapes && is_fine(options);
-    return range.count >= 8 && chain.size() >= 12 && last >= chain.size() / (blocks_pay ? 16 : 256);
-}
-
 /// Stage 1 of `modes` for many modes; nothing for chains that `pencil::all_eigenvalues` has no fast way for. Reports
 /// progress up to `share`. Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
 inline std::optional<Heights<double>> heights_by_spectrum(LazyCounter<double>& assembled, const ModeRange& range,
@@ -34,7 +20,7 @@ inline std::optional<Heights<double>> heights_by_spectrum(LazyCounter<double>& a
     const FloatingPointStateGuard quiet;
     const auto pinned = pencil::spectrum::pinned(wide);
     if (!pinned.fit) return std::nullopt;
-    Heights<double> result{{}, "spectrum"};
+    Heights<double> result{{}, "interpolated"};
     constexpr Index together = 2048;  // modes between two reports
     for (Index done = 0; done < range.count;) {
         const Index first = range.first - 1 + done, count = std::min(range.count - done, together);

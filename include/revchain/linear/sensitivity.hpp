@@ -5,10 +5,12 @@
 #include <string_view>
 
 #include "revchain/linear/mode_shape.hpp"
-#include "revchain/linear/mode_table.hpp"
 #include "revchain/numeric/progress.hpp"
 
 namespace revchain {
+
+template <Real T>
+struct Modes;  // revchain/modes.hpp
 
 /// The data of a link. While one of them changes, all the others are held, of this link and of all. `length` moves the
 /// lower pin: centre of gravity and radius of gyration stay where they are, in units of length. `length_in_proportion`

@@ -159,19 +159,21 @@ TEST_CASE("modes() takes them all together and falls back", "[linear]") {
     support::Random random(9);
     for (const int kind : {0, 1}) {
         const Chain<double> chain = random_chain(random, 10, kind);
-        const auto fast = revchain::modes(chain, {.rtol = 1e-14, .method = revchain::ModesMethod::together});
-        const auto best = revchain::modes(chain);
-        CHECK(fast.method == "together");
-        CHECK(revchain::modes(chain, {.rtol = 1e-14}).method == "together");
-        CHECK(revchain::modes(chain, {.count = 1, .rtol = 1e-8}).method == "together");
+        const auto fast = revchain::modes(
+            chain, {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth});
+        const auto best = revchain::modes(chain, {.count = revchain::all_modes});
+        CHECK(fast.method == "aberth");
+        CHECK(revchain::modes(chain, {.count = revchain::all_modes, .rtol = 1e-14}).method == "aberth");
+        CHECK(revchain::modes(chain, {.count = 1, .rtol = 1e-8}).method == "aberth");
         CHECK(best.method == "bisection");
         for (Index j = 0; j < 10; ++j) {
             CHECK(std::abs(fast.conical_height[j] / best.conical_height[j] - 1) <= fast.error_bound[j]);
-            CHECK((fast.shape.row(j) - best.shape.row(j)).cwiseAbs().maxCoeff() < 1e-12);
+            CHECK((fast.shapes().offset.row(j) - best.shapes().offset.row(j)).cwiseAbs().maxCoeff() < 1e-12);
         }
     }
     const auto other =
-        revchain::modes(support::families().back().make(5), {.rtol = 1e-14, .method = revchain::ModesMethod::together});
-    CHECK(other.method != "together");
+        revchain::modes(support::families().back().make(5),
+                        {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth});
+    CHECK(other.method != "aberth");
     CHECK(other.status == revchain::Status::success);
 }

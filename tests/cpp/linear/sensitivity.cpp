@@ -73,7 +73,7 @@ TEST_CASE("every derivative is within its bound, and rounded once where it is no
     for (const auto& family : support::families())
         for (const Index n : {1, 2, 3, 7, 30, 100}) {
             const auto chain = family.make(n);
-            const auto m = revchain::modes(chain, {.shapes = false});
+            const auto m = revchain::modes(chain, {.count = revchain::all_modes});
             const auto found = revchain::sensitivity(chain, m);
             const support::Truth truth(chain);
             CAPTURE(family.name, n);
@@ -104,7 +104,7 @@ TEST_CASE("every derivative is within its bound, and rounded once where it is no
 TEST_CASE("derivatives are what central differences in double-double say, to 1e-12", "[linear]") {
     using revchain::DoubleDouble;
     const auto chain = support::families()[7].make(9);  // rigid bodies, centroids above their pins among them
-    const auto found = revchain::sensitivity(chain, revchain::modes(chain));
+    const auto found = revchain::sensitivity(chain, revchain::modes(chain, {.count = revchain::all_modes}));
     std::vector<revchain::Link<DoubleDouble>> links;
     for (Index m = 0; m < chain.size(); ++m) {
         const auto link = chain.link(m);
@@ -131,7 +131,7 @@ TEST_CASE("derivatives are what central differences in double-double say, to 1e-
             case Datum::length_in_proportion:
                 link.length *= factor, link.centroid *= factor;
         }
-        return revchain::modes(Chain<DoubleDouble>(some), {.shapes = false}).conical_height;
+        return revchain::modes(Chain<DoubleDouble>(some), {.count = revchain::all_modes}).conical_height;
     };
     for (std::size_t d = 0; d < 5; ++d)
         for (Index m = 0; m < chain.size(); ++m) {
@@ -156,7 +156,7 @@ TEST_CASE("weights act by their ratios, lengths by their unit, and no link made 
     for (const auto& family : support::families())
         for (const Index n : {1, 5, 300}) {
             const auto chain = family.make(n);
-            const auto m = revchain::modes(chain, {.shapes = false});
+            const auto m = revchain::modes(chain, {.count = revchain::all_modes});
             const auto found = revchain::sensitivity(chain, m);
             CAPTURE(family.name, n);
             for (Index j = 0; j<m.size(); j += n> 100 ? 37 : 1) {
@@ -185,7 +185,7 @@ TEST_CASE("weights act by their ratios, lengths by their unit, and no link made 
 
 TEST_CASE("heights given in few digits, in any unit, for some modes: the same derivatives", "[linear]") {
     const auto chain = support::families()[6].make(12);
-    const auto all = revchain::modes(chain);
+    const auto all = revchain::modes(chain, {.count = revchain::all_modes});
     const auto found = revchain::sensitivity(chain, all);
     auto some = revchain::modes(chain, {.first = 3, .count = 1, .rtol = 1e-5});
     some.conical_height[0] *= 1 + 1e-6;
@@ -201,7 +201,7 @@ TEST_CASE("heights given in few digits, in any unit, for some modes: the same de
         link.length = std::ldexp(link.length, 300), link.centroid = std::ldexp(link.centroid, 300);
         return link;
     });
-    const auto other = revchain::sensitivity(scaled, revchain::modes(scaled));
+    const auto other = revchain::sensitivity(scaled, revchain::modes(scaled, {.count = revchain::all_modes}));
     for (Index j = 0; j < 12; ++j)
         for (Index m = 0; m < 12; ++m) {
             CHECK(other.weight().value(j, m) == std::ldexp(found.weight().value(j, m), 700));
@@ -211,13 +211,14 @@ TEST_CASE("heights given in few digits, in any unit, for some modes: the same de
 
 TEST_CASE("what no derivative can be told of says so", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(3);
-    auto m = revchain::modes(chain);
+    auto m = revchain::modes(chain, {.count = revchain::all_modes});
     m.conical_height[1] *= 3;  // near no height
     const auto found = revchain::sensitivity(chain, m);
     CHECK(std::isinf(found.weight().error_bound(1, 0)));
     CHECK(std::isfinite(found.weight().error_bound(0, 0)));
     const auto apart =
         support::chain_of(2, [](Index i) { return revchain::plummet<double>(i == 0 ? 1e-80 : 1e80, 1.0); });
-    CHECK_THROWS_AS(revchain::sensitivity(apart, revchain::modes(apart)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::sensitivity(apart, revchain::modes(apart, {.count = revchain::all_modes})),
+                    revchain::InvalidArgument);
     CHECK(revchain::sensitivity(chain, revchain::modes(chain, {.conical_height = {{100, 200}}})).size() == 0);
 }

@@ -459,7 +459,7 @@ TEST_CASE("§8 (20) at any inclination: three links, both ratios and the cubic",
                 pressed.push_back(link);
             }
             worst_height = std::max(worst_height, paper::error_in_ulp(height, root(cubic, Quad(height))) / steep);
-            const auto modes = revchain::modes(Chain<double>(pressed));
+            const auto modes = revchain::modes(Chain<double>(pressed), {.count = revchain::all_modes});
             for (const double h : modes.conical_height)
                 worst_pencil = std::max(worst_pencil, paper::error_in_ulp(h, root(cubic, Quad(h))) / steep);
             ++figures;

@@ -29,7 +29,7 @@ Chain<double> random_chain(support::Random& random, Index n, bool rods, double w
 }
 
 double height_of(const Chain<double>& chain, Index mode) {
-    return revchain::modes(chain, {.first = mode, .count = 1, .shapes = false}).conical_height[0];
+    return revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0];
 }
 
 /// Largest error of an inclination at a height given.

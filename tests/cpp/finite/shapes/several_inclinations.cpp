@@ -417,7 +417,7 @@ TEST_CASE("exactly a critical height: what rounding leaves open is narrow, and t
     Random random(307);
     for (int i = 0; i < 48; ++i) {
         const auto chain = chain_of_kind(i % 4, 1 + i % 3, random);
-        const auto heights = revchain::modes(chain, {.shapes = false}).conical_height;
+        const auto heights = revchain::modes(chain, {.count = revchain::all_modes}).conical_height;
         for (const double height : heights) {
             CAPTURE(i, chain.size(), height);
             const auto found = all_shapes(chain, height);

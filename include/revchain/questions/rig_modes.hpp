@@ -1,49 +1,141 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "revchain/linear/mode_shapes.hpp"
 #include "revchain/linear/rig_counts.hpp"
-#include "revchain/modes.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/spectrum.hpp"
+#include "revchain/rig_modes.hpp"
 
 namespace revchain {
 
-/// Beyond so many elements (the links, and a support that yields) `rig_modes` solves no dense eigenproblem.
-inline constexpr Index dense_rig_limit = 200;
-
-/// Whirl speeds of small amplitude of a rig, with shapes: Greenhill (1908) §8 (21) with supports, standing links,
-/// floats and flywheels. The radius of a support that is carried round plays no part.
-///
-/// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
-/// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in
-/// `other`. With momentum: K + n G - (n^2/g) M. Where K > 0 and M >= 0 each of its eigenvalues passes through 0 at most
-/// once on the way to either side of n = 0, so that counts number the speeds, 2N real ones where M > 0. Else all
-/// heights, or all speeds, come from one dense eigenproblem, refined in two words and enclosed in discs that hold one
-/// each: for at most `dense_rig_limit` elements.
-/// Accuracy, measured (tests/cpp/linear/rig_modes.cpp): heights without momentum, speeds with it, within 0.501 ulp of
-/// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of `modes`. A rig without anything is
-/// given to `modes`.
-/// Cost: 1 microsecond per link and mode with shapes, O(N k) memory; discs take seconds at the limit.
-/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, and beyond the limit. Of numbers
-/// beyond those there are, `available` of a sense, there are no modes. A bound that could not be proved is infinite and
-/// the status `tolerance_not_met`.
-RigModes rig_modes(const Rig& rig, const RigModesOptions& options = {});
-
 namespace detail {
 
+/// The range of mode numbers asked for of so many; fewer, or none, where there are not as many. How many there are of
+/// a sense is told by the result.
+inline ModeRange chosen(const ModesOptions<double>& options, Index available) {
+    if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
+    if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
+    const Index left = std::max<Index>(0, available - options.first + 1);
+    return {options.first, std::min(left, options.count.value_or(10))};
+}
+
+inline void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
+    modes.first = range.first, modes.available = available;
+    for (Vector<double>* column :
+         {&modes.conical_height, &modes.error_bound, &modes.angular_speed, &modes.speed_error_bound})
+        column->resize(range.count);
+}
+
+/// Finds shapes of rigged chains from the roots of their modes.
+class RigShapeFinder {
+   public:
+    RigShapeFinder(const Rig& rig, Index idle, pencil::SignedPencil<RigWord> sense, std::vector<RigWord> roots)
+        : chain_(rig.chain()), idle_(idle), sense_(std::move(sense)), roots_(std::move(roots)) {}
+
+    /// Of `count` modes from index `first` on.
+    ModeShapes<double> operator()(Index first, Index count, Progress* progress) const {
+        ModeShapes<double> shapes = room_for_shapes(chain_, count);
+        for (Index j = 0; j < count; ++j) {
+            const RigWord& root = roots_[static_cast<std::size_t>(first + j)];
+            const auto vector = pencil::twisted_vector(sense_, root);
+            Vector<double> rounded(sense_.size() + 1);
+            for (Index i = 0; i <= sense_.size(); ++i)
+                rounded[i] = static_cast<double>(vector[static_cast<std::size_t>(i)]);
+            Vector<double> offset(chain_.size() + 1);
+            offset.head(idle_).setConstant(rounded[0]);
+            offset.tail(offset.size() - idle_) = rounded.head(offset.size() - idle_);
+            shapes.residual[j] = pencil::relative_residual(sense_, root, rounded);
+            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, crossings_of(offset));
+            shapes.offset.row(j) = offset.transpose();
+            advance(progress, 1.0);  // may be cancelled
+        }
+        return shapes;
+    }
+
+   private:
+    /// The links on which offsets change sign, and where.
+    static std::vector<pencil::Crossing<double>> crossings_of(const Vector<double>& offset) {
+        std::vector<pencil::Crossing<double>> crossings;
+        double last = 0;
+        for (Index m = 0; m + 1 < offset.size(); ++m) {
+            const double lower = offset[m], upper = offset[m + 1];
+            if (lower != 0) last = lower;
+            if (upper != 0 && (upper < 0) != (last < 0) && last != 0) crossings.push_back({m, lower / (lower - upper)});
+        }
+        return crossings;
+    }
+
+    Chain<double> chain_;
+    Index idle_;
+    pencil::SignedPencil<RigWord> sense_;
+    std::vector<RigWord> roots_;
+};
+
+/// Stores mode number j (from 0) of those found; false where nothing was proved of it.
+inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pencil::SignedPencil<RigWord>& pencil,
+                     const FoundRoot& root) {
+    const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
+    const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
+    modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
+    modes.angular_speed[j] = static_cast<double>(speed);
+    // The margin is about what is given out; the other takes in half an ulp for each of the two roundings.
+    const double ulp = epsilon<double>(), few = 32 * operation_error<RigWord>();
+    const double margin = root.margin * (1 + 4 * root.margin) + few;
+    double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
+    if (pencil.quadratic) of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
+    const bool proved = of_height < 1;
+    modes.error_bound[j] = proved ? of_height : std::numeric_limits<double>::infinity();
+    modes.speed_error_bound[j] = proved ? of_speed : std::numeric_limits<double>::infinity();
+    return proved;
+}
+
+/// Finds the modes of one sense; reports progress from one share to another.
+inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& pencil, const CountedRoots& roots,
+                           Index available, const ModesOptions<double>& options, double from, double to) {
+    const ModeRange range = chosen(options, available);
+    make_room(modes, range, available);
+    if (range.count == 0) return true;
+    const double all = static_cast<double>(range.count);
+    const double height = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
+    const auto brackets = roots.brackets(
+        range.first - 1, range.count, roots.pencil().quadratic ? std::sqrt(height) : height,
+        [&](Index done) { advance(options.progress, from + (to - from) * 0.4 * static_cast<double>(done) / all); });
+    bool proved = true;
+    std::vector<RigWord> found;
+    for (Index j = 0; j < range.count; ++j) {
+        const FoundRoot root = roots.refined(range.first - 1 + j, brackets[static_cast<std::size_t>(j)]);
+        proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
+        found.push_back(root.x);
+        advance(options.progress, from + (to - from) * (0.4 + 0.6 * static_cast<double>(j + 1) / all));
+    }
+    modes.lazy_shapes = LazyModeShapes<double>(RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(found)));
+    return proved;
+}
+
 /// As the chain's own modes, which they are.
-inline RigModes plain_modes(const Rig& rig, const RigModesOptions& options) {
+inline RigModes plain_modes(const Rig& rig, const ModesOptions<double>& options) {
     RigModes result;
     const Index available = rig.chain().mode_count();
     const ModeRange range = chosen(options, available);
-    make_room(result.forward, range, available, rig.size(), options.shapes);
+    make_room(result.forward, range, available);
     result.complete = true, result.method = "modes";
     if (range.count == 0) return result;
-    const Modes<double> plain =
-        modes(rig.chain(),
-              {.first = range.first, .count = range.count, .shapes = options.shapes, .progress = options.progress});
-    result.forward = {
-        range.first,       available,   plain.conical_height, plain.error_bound, plain.angular_speed(options.gravity),
-        plain.error_bound, plain.shape, plain.residual};
+    const Modes<double> plain = modes(
+        rig.chain(), ModesOptions<double>{.first = range.first, .count = range.count, .progress = options.progress});
+    result.forward = {range.first,
+                      available,
+                      plain.conical_height,
+                      plain.error_bound,
+                      plain.angular_speed(options.gravity),
+                      plain.error_bound,
+                      plain.lazy_shapes};
     for (double& bound : result.forward.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
     result.status = plain.status;
     return result;
@@ -89,7 +181,7 @@ inline bool negative_heights(RigModes& result, const Rig& rig, const RigPencil& 
 }
 
 /// Without momentum, where heights are real.
-inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const RigModesOptions& options) {
+inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const ModesOptions<double>& options) {
     RigModes result;
     result.method = "counts";
     // Where K > 0, heights above h are the negative eigenvalues of hK - M. Where M >= 0 those of K - mu M, mu = 1/h,
@@ -117,7 +209,7 @@ inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const R
 }
 
 /// With momentum, K > 0 and M >= 0.
-inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const RigModesOptions& options) {
+inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const ModesOptions<double>& options) {
     RigModes result;
     result.has_momentum = true, result.method = "counts", result.complete = true;
     for (const bool forward : {true, false}) {
@@ -137,10 +229,10 @@ inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const Ri
 }
 
 /// Neither: all roots at once.
-inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const RigModesOptions& options) {
+inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const ModesOptions<double>& options) {
     if (pencil.pencil.size() > dense_rig_limit)
         throw_invalid(
-            "rig_modes",
+            "modes",
             "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a fluid that "
             "turns with them) is solved for at most " +
                 std::to_string(dense_rig_limit) + " links and supports that yield",
@@ -174,10 +266,16 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Ri
     }
     const auto store = [&](WhirlModes& modes, const std::vector<FoundRoot>& found, bool ahead) {
         const ModeRange range = chosen(options, static_cast<Index>(found.size()));
-        make_room(modes, range, static_cast<Index>(found.size()), rig.size(), options.shapes);
-        const auto sense = ahead ? pencil.pencil : pencil.pencil.reversed();
-        for (Index j = 0; j < range.count; ++j)
-            set_mode(modes, j, pencil, sense, found[static_cast<std::size_t>(range.first - 1 + j)], options.shapes);
+        make_room(modes, range, static_cast<Index>(found.size()));
+        auto sense = ahead ? pencil.pencil : pencil.pencil.reversed();
+        std::vector<RigWord> roots;
+        for (Index j = 0; j < range.count; ++j) {
+            const FoundRoot& root = found[static_cast<std::size_t>(range.first - 1 + j)];
+            set_mode(modes, j, pencil, sense, root);
+            roots.push_back(root.x);
+        }
+        modes.lazy_shapes =
+            LazyModeShapes<double>(RigShapeFinder(rig, pencil.idle, std::move(sense), std::move(roots)));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
@@ -208,15 +306,21 @@ inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes)
 
 }  // namespace detail
 
-inline RigModes rig_modes(const Rig& rig, const RigModesOptions& options) {
-    detail::require_positive("rig_modes", "gravity", options.gravity);
+REVCHAIN_INLINE RigModes modes(const Rig& rig, const ModesOptions<double>& options) {
+    detail::require_positive("modes", "gravity", options.gravity);
+    if (options.conical_height || options.angular_speed)
+        detail::throw_invalid("modes", "a window needs counts, which rigs do not have yet; give first and count");
+    if (options.certify)
+        detail::throw_invalid("modes", "certify needs counts, which rigs do not have yet; leave it out");
     if (detail::has_nothing(rig)) return detail::plain_modes(rig, options);
     const RigPencil pencil = rig_pencil(rig, options.gravity);
     RigModes result;
     if (pencil.pencil.size() == 0) {  // nothing to whirl
         result.complete = true, result.method = "counts";
-        for (WhirlModes* sense : {&result.forward, &result.backward})
-            detail::make_room(*sense, detail::chosen(options, 0), 0, rig.size(), options.shapes);
+        for (WhirlModes* sense : {&result.forward, &result.backward}) {
+            detail::make_room(*sense, detail::chosen(options, 0), 0);
+            sense->lazy_shapes = detail::LazyModeShapes<double>(detail::room_for_shapes(rig.chain(), 0));
+        }
     } else if (pencil.pencil.quadratic)
         result = pencil.stiffness_positive && pencil.mass_not_negative ? detail::counted_speeds(rig, pencil, options)
                                                                        : detail::enclosed_modes(rig, pencil, options);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "revchain/batch.hpp"
-#include "revchain/linear/batch_workers.hpp"
+#include "revchain/questions/batch_workers.hpp"
 
 namespace revchain {
 

@@ -4,7 +4,7 @@
 // the slowest speed is less than the fastest: the metric is the difference over the fastest speed.
 #include <Eigen/Eigenvalues>
 
-#include "revchain/linear/rig_modes.hpp"
+#include "revchain/rig_modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/rig_truth.hpp"
@@ -23,7 +23,7 @@ TEST_CASE("all 2N speeds of gyrostats, N to 200: as many as a dense linearisatio
             with.flywheels.push_back({3 * W * a * random.between(-1, 1), 0});
         }
         const Rig rig{Chain<double>(links), with};
-        const RigModes found = rig_modes(rig, {.shapes = false});
+        const RigModes found = modes(rig, {.count = revchain::all_modes});
         REQUIRE(found.complete);
         REQUIRE(found.forward.size() == n);
         REQUIRE(found.backward.size() == n);

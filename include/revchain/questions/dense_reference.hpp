@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linear/modes.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/dense.hpp"
 #include "revchain/pencil/twisted.hpp"
+#include "revchain/questions/modes.hpp"
 #include "revchain/recurrence.hpp"
 
 /// The same modes by two formulations that share no step with `modes`: slow, less accurate, and for that very reason
@@ -31,9 +31,9 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
     check(options);
     LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
-    Modes<T> result = room_for_modes(chain, range, options);
+    Modes<T> result = room_for_modes(range, options);
     result.method = method;
-    if (range.count == 0) return result;
+    ModeShapes<T> shapes = room_for_shapes(chain, range.count);
     const Pencils<T>& pencils = assembled.pencils();
     const pencil::Eigensystem<T> system = solve(pencils);
     for (Index j = 0; j < range.count; ++j) {
@@ -41,14 +41,13 @@ Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const c
         const T height = system.values[before];
         set_height(result, j, height, proved_error(pencils.wide(), before, height), chain.units().length_exponent,
                    options);
-        if (options.shapes) {
-            Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
-            offset.head(chain.size()) = system.vectors.col(before);
-            set_shape(result, j, chain, pencils.wide(), height, pencil::normalised(std::move(offset)));
-        }
+        Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
+        offset.head(chain.size()) = system.vectors.col(before);
+        set_shape(shapes, j, chain, pencils.wide(), height, pencil::normalised(std::move(offset)));
         if (options.certify) certify(result, j, pencils, chain.mode_count());
         advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
+    result.lazy_shapes = LazyModeShapes<T>(std::move(shapes));
     return result;
 }
 

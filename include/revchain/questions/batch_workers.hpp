@@ -16,7 +16,7 @@ namespace revchain::detail {
 template <Real T>
 void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& heights) {
     using std::sqrt;
-    const Modes<T> m = modes(chain_of(batch, c), {.count = count, .shapes = false});
+    const Modes<T> m = modes(chain_of(batch, c), {.count = count});
     if (!(m.error_bound.maxCoeff() < sqrt(epsilon<T>())))
         throw_invalid("conical_heights",
                       name_of_chain(batch, c) + ": its heights cannot be proved in this scalar; the error bound is",
