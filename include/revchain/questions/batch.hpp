@@ -78,7 +78,7 @@ Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options
         Table<T> heights(batch.chains, plan.count);
         if (detail::compute(batch, plan, options, true, heights)) return heights;
     }
-    const detail::BatchPlan plan = detail::look_at_each(batch, options.count);
+    const detail::BatchPlan plan = detail::classify(batch, options.count);
     Table<T> heights(batch.chains, plan.count);
     detail::compute(batch, plan, options, false, heights);
     return heights;

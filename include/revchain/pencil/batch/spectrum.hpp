@@ -101,7 +101,7 @@ inline std::size_t lane_work(std::ptrdiff_t size) {
 /// Preconditions: weights, lengths and centroids positive and finite, radii of gyration not negative, pendulum lengths
 /// at least the centroid; 1 <= count <= size; size <= 16 for LaneMethod::coefficients.
 ///
-/// A recurrence of its own beside that of `small_spectrum`: there the shifts of one chain lie side by side, which takes
+/// A recurrence of its own beside that of `aberth_spectrum`: there the shifts of one chain lie side by side, which takes
 /// 3 times as long for all modes of 10 links (as long for 40), here chains. The lumped masses of that recurrence would
 /// not do here: they cancel where centroids lie below their links.
 ///

@@ -31,7 +31,7 @@ struct Block {
 
 /// A chain of blocks, lowest first; the last one's upper pin is held. Valid for shifts lambda >= `least_shift`.
 template <Real T>
-struct BlockPencil {
+struct CondensedPencil {
     std::vector<Block<T>> blocks;
     T least_shift{};
     /// Every eigenvalue above `least_shift` is within this (relative) of the exact chain's: docs/accuracy.md.
@@ -87,7 +87,7 @@ template <class S, Real T>
 
 /// Those of all blocks, lowest first. Cost: 5 ns per block in packs of doubles, 20 in double words of such.
 template <class S, Real T>
-std::vector<LumpedElement<S>> elements_at(const BlockPencil<T>& pencil, const S& shift) {
+std::vector<LumpedElement<S>> elements_at(const CondensedPencil<T>& pencil, const S& shift) {
     std::vector<LumpedElement<S>> elements(pencil.blocks.size());
     simd([&](auto) __attribute__((always_inline)) {
         for (std::size_t m = 0; m < elements.size(); ++m) elements[m] = element_at<S>(pencil.blocks[m], shift);
@@ -98,7 +98,7 @@ std::vector<LumpedElement<S>> elements_at(const BlockPencil<T>& pencil, const S&
 /// For each shift the number of eigenvalues above it, as `count_above` of an ElementPencil.
 /// Preconditions: shifts >= least_shift. Cost: 15 ns per block for 8 shifts of double.
 template <Real T, std::size_t L>
-std::array<Index, L> count_above(const BlockPencil<T>& pencil, const std::array<T, L>& shifts) {
+std::array<Index, L> count_above(const CondensedPencil<T>& pencil, const std::array<T, L>& shifts) {
     using V = Pack<T>;
     return simd([&](auto) __attribute__((always_inline)) {
         constexpr std::size_t packs = (L + pack_size - 1) / pack_size;
@@ -129,7 +129,7 @@ struct CertifiedCounts {
 /// The count with a running bound on the error of the recursion from rounding, for the chain of exactly these elements:
 /// `proved` as in sturm.hpp. Cost: 40 ns per block for the four shifts of a pack.
 template <Real T>
-CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
+CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
     using V = Pack<T>;
     using S = DoubleWord<V>;
     return simd([&](auto) __attribute__((always_inline)) {
@@ -228,7 +228,7 @@ struct Improved {
 /// where one eigenvalue is near, the step cubes the error. S, a pack or a double word of one, says how accurately the
 /// form is summed. Cost: 100 to 200 ns per block.
 template <class S, Real T>
-Improved<S> improved(const BlockPencil<T>& pencil, const S& shift) {
+Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
     using V = Pack<T>;
     const V at = static_cast<V>(shift), step = at * T(1e-5);
     const std::vector<V> offset = offsets_between(elements_at(pencil, at));

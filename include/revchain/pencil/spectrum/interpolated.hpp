@@ -27,7 +27,7 @@ struct Candidate {
 /// What rounding adds to a Rayleigh quotient, relative: 16 links to a plain sum, one or two terms each.
 inline double rounding_quotient(const LumpedChain& chain, double mu) {
     const double skewed = std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
-    const double terms = static_cast<double>(longest_leg) * (chain.swings ? 3 : 2) + 24;
+    const double terms = static_cast<double>(longest_leg) * (chain.has_cross ? 3 : 2) + 24;
     return (epsilon<double>() / 2 + chain.data_error) * (terms + 8 * skewed);
 }
 
@@ -252,7 +252,7 @@ std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, con
 template <Real S>
 std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
                                                double tolerance) {
-    return all_eigenvalues(wide, spectrum::pinned(wide), first, last, total, tolerance);
+    return all_eigenvalues(wide, spectrum::lumped(wide), first, last, total, tolerance);
 }
 
 }  // namespace revchain::pencil
