@@ -109,9 +109,10 @@ template <class T>
 struct ShapePack {
     using V = Pack<T>;
     DoubleWord<V> height;
-    std::vector<DoubleWord<V>> between;  ///< offsets between blocks
-    V scale{T(1)};                       ///< makes the largest offset 1 and the free end's positive
-    V largest{};                         ///< offset seen, unscaled
+    std::vector<pencil::LumpedElement<DoubleWord<V>>> elements;  ///< of the blocks
+    std::vector<DoubleWord<V>> between;                          ///< offsets between them
+    V scale{T(1)};  ///< makes the largest offset 1 and the free end's positive
+    V largest{};    ///< offset seen, unscaled
     PinState<V> state;
     V top;  ///< offset of the pin reached, scaled
     Balance<V> balance;
@@ -141,13 +142,13 @@ void store(ModeShapes<T>& shapes, ShapePack<T>& pack, std::size_t first, std::si
 /// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the
 /// top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
 template <std::floating_point T>
-bool shapes_by_compression(ModeShapes<T>& shapes, const Chain<T>& chain, const CompressedChain<T>& compressed,
-                           const std::vector<Height<T>>& heights, Progress* progress, double from) {
+bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const CondensedChain<T>& condensed,
+                            const std::vector<Height<T>>& heights, Progress* progress, double from) {
     using std::ldexp;
     using V = Pack<T>;
     using P = DoubleWord<V>;
     using S = Wide<T>;
-    const auto& blocks = compressed.pencil.blocks;
+    const auto& blocks = condensed.pencil.blocks;
     const Index size = chain.size();
     const auto lanes_from = [&](std::size_t first) { return std::min(pack_size, heights.size() - first); };
     std::vector<ShapePack<T>> packs((heights.size() + pack_size - 1) / pack_size);
@@ -157,11 +158,12 @@ bool shapes_by_compression(ModeShapes<T>& shapes, const Chain<T>& chain, const C
         const std::size_t first = k * pack_size, lanes = lanes_from(first);
         for (std::size_t lane = 0; lane < pack_size; ++lane) {
             const S unrounded = heights[first + std::min(lane, lanes - 1)].unrounded;
-            const S height = ldexp(unrounded, chain.units().length_exponent) / S(compressed.unit_length);
+            const S height = ldexp(unrounded, chain.units().length_exponent) / S(condensed.unit_length);
             pack.height.high.set(lane, height.high);
             pack.height.low.set(lane, height.low);
         }
-        pack.between = pencil::offsets_between<P>(compressed.pencil, pack.height);
+        pack.elements = pencil::elements_at<P>(condensed.pencil, pack.height);
+        pack.between = pencil::offsets_between(pack.elements);
         V least(std::numeric_limits<T>::max()), largest{};
         for (std::size_t b = 0; b < blocks.size(); ++b) {
             largest = max(largest, abs(pack.between[b].high));
@@ -181,7 +183,7 @@ bool shapes_by_compression(ModeShapes<T>& shapes, const Chain<T>& chain, const C
         Index above = size;
         for (std::size_t b = blocks.size(); b-- > 0;) {
             for (ShapePack<T>& pack : packs) {
-                const auto e = pencil::element_at<P>(blocks[b], pack.height);
+                const auto& e = pack.elements[b];
                 const P& upper = pack.between[b + 1];
                 const P force = (pack.between[b] - upper) * e.spring + e.upper * upper;
                 pack.state = {{upper.high, upper.low}, {force.high, force.low}};
@@ -191,7 +193,7 @@ bool shapes_by_compression(ModeShapes<T>& shapes, const Chain<T>& chain, const C
             while (above > bottom) {
                 const Index count = std::min(above - bottom, LinkChunk<T>::most);
                 above -= count;
-                const LinkChunk<T> chunk(chain, above, count, compressed.unit_length);
+                const LinkChunk<T> chunk(chain, above, count, condensed.unit_length);
                 for (std::size_t k = 0; k < packs.size(); ++k) {
                     ShapePack<T>& pack = packs[k];
                     descend(chunk, pack.height.high, pack.state, offset.data());

@@ -27,7 +27,7 @@ struct Candidate {
 /// What rounding adds to a Rayleigh quotient, relative: 16 links to a plain sum, one or two terms each.
 inline double rounding_quotient(const LumpedChain& chain, double mu) {
     const double skewed = std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
-    const double terms = static_cast<double>(longest_leg) * (chain.swings ? 3 : 2) + 24;
+    const double terms = static_cast<double>(longest_leg) * (chain.has_cross ? 3 : 2) + 24;
     return (epsilon<double>() / 2 + chain.data_error) * (terms + 8 * skewed);
 }
 
@@ -96,26 +96,11 @@ inline double gap(const Candidate& larger, const Candidate& smaller, const Candi
 /// Kato and Temple: |lambda - quotient| <= residual^2 / distance to the rest of the spectrum.
 inline double temple(const Candidate& c, double distance) { return c.residual * c.residual / distance; }
 
-/// An eigenvalue by counts alone: bisection, twisted vector, two proved counts in two words.
-template <Real S>
-Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pencil, Index j,
-                  const Bracket<double>& bracket) {
-    const double margin = 2 * epsilon<double>();
-    double eigenvalue = between(bracket.lower, bracket.upper), rest = 0;
-    Certified<double> sure;
-    for (int round = 0; round < 2 && !std::isfinite(sure.error_bound); ++round) {
-        const S quotient = rayleigh_quotient<S>(wide, eigenvector(pencil, eigenvalue).offset);
-        eigenvalue = static_cast<double>(quotient);
-        rest = static_cast<double>(quotient - S(eigenvalue));
-        if (lies_within<S>(wide, j, eigenvalue, margin)) sure = {eigenvalue, bound_of_margin<S>(margin)};
-    }
-    if (!std::isfinite(sure.error_bound)) {
-        sure = bisect_certified<S>(wide, j, between(bracket.lower, bracket.upper));
-        rest = 0;
-    }
+/// An eigenvalue that counts have proved.
+inline Candidate counted(const Certified<double>& sure) {
     Candidate c;
     c.shift = 1 / sure.eigenvalue;
-    c.eigenvalue = sure.eigenvalue, c.rest = rest;
+    c.eigenvalue = sure.eigenvalue, c.rest = static_cast<double>(sure.unrounded - Wide<double>(sure.eigenvalue));
     c.residual = c.bound = sure.error_bound;
     c.reach = sure.error_bound * (1 + 0x1p-50) + 0x1p-50;
     c.counted = true;
@@ -126,11 +111,6 @@ Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pen
 inline constexpr double loosest_fine = 40 * 0x1p-52;
 
 }  // namespace spectrum
-
-/// An eigenvalue, its bound, and what it was before it was rounded.
-struct FineCertified : Certified<double> {
-    DoubleWord<double> unrounded;
-};
 
 /// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with
 /// a bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` (2
@@ -147,15 +127,16 @@ struct FineCertified : Certified<double> {
 /// for random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
 /// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
-std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,
-                                           Index first, Index last, Index total, double tolerance) {
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,
+                                               Index first, Index last, Index total, double tolerance) {
     using namespace spectrum;
-    std::vector<FineCertified> result;
+    std::vector<Certified<double>> result;
     if (first >= last) return result;
     const ElementPencil<double> pencil = rounded<double>(wide);
     const auto nothing = [](Index) {};
     const auto by_counts = [&](Index j, double guess) {
-        return counted(wide, pencil, j, bisect(pencil, j, Index(1), 2 * epsilon<double>(), guess, nothing).front());
+        const auto bracket = bisect(pencil, j, Index(1), 2 * epsilon<double>(), guess, nothing).front();
+        return counted(certified_eigenvalue(wide, pencil, j, between(bracket.lower, bracket.upper)));
     };
     std::vector<Candidate> all;
     Index begin = first;  // number of all.front()
@@ -258,19 +239,20 @@ std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const s
         all.clear();
         const auto brackets = bisect(pencil, first, last - first, 2 * epsilon<double>(), 1.0, nothing);
         for (std::size_t i = 0; i < brackets.size(); ++i)
-            all.push_back(counted(wide, pencil, first + static_cast<Index>(i), brackets[i]));
+            all.push_back(counted(certified_eigenvalue(wide, pencil, first + static_cast<Index>(i),
+                                                       between(brackets[i].lower, brackets[i].upper))));
     }
     for (Index j = first; j < last; ++j) {
         const Candidate& c = all[static_cast<std::size_t>(j - begin)];
-        result.push_back({{c.eigenvalue, c.bound}, {c.eigenvalue, c.rest}});
+        result.push_back({c.eigenvalue, c.bound, {c.eigenvalue, c.rest}});
     }
     return result;
 }
 
 template <Real S>
-std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
-                                           double tolerance) {
-    return all_eigenvalues(wide, spectrum::pinned(wide), first, last, total, tolerance);
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
+                                               double tolerance) {
+    return all_eigenvalues(wide, spectrum::lumped(wide), first, last, total, tolerance);
 }
 
 }  // namespace revchain::pencil
