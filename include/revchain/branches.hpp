@@ -130,7 +130,7 @@ class Diagram {
     }
     /// Every shape at one height must be met by a branch; where one is not, its branch is followed both ways.
     void look(double height) {
-        const auto list = steady_shapes(chain_, height, {.budget = options_.budget});
+        const auto list = steady_shapes(chain_, {.conical_height = height, .budget = options_.budget});
         result_.looked_at.push_back(height);
         result_.consistent = result_.consistent && list.complete;
         std::vector<int> met(list.shapes.size(), 0);

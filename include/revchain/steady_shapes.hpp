@@ -51,13 +51,20 @@ struct InclinationRange {
 
 /// The speed, as one of two numbers, and which shapes are wanted.
 struct SteadyShapesOptions {
-    std::optional<double> conical_height{};               ///< of the speed
-    std::optional<double> angular_speed{};                ///< rad/s; of a rig negative for the other direction
-    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+    std::optional<double> conical_height{};  ///< of the speed
+    std::optional<double> angular_speed{};   ///< rad/s; of a rig negative for the other direction
+    long budget = 3'000'000;   ///< links to look at, 0.5 microseconds each, 2 where l < a, more in double-double
     bool hanging_only = true;  ///< only shapes with every link within a right angle of the downward vertical; of a rig
                                ///< with each link in the rig's posture
     int direction = 1;         ///< of rotation, 1 or -1, where `conical_height` is given: it matters to flywheels
-    long budget = 3'000'000;   ///< links to look at, 0.5 microseconds each, 2 where l < a, more in double-double
+    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+};                                                        ///< of the speed
+std::optional<double> angular_speed{};                    ///< rad/s; of a rig negative for the other direction
+double gravity = conical_pendulum::standard_gravity;      ///< with `angular_speed`, and for rigs with flywheels
+bool hanging_only = true;  ///< only shapes with every link within a right angle of the downward vertical; of a rig
+                           ///< with each link in the rig's posture
+int direction = 1;         ///< of rotation, 1 or -1, where `conical_height` is given: it matters to flywheels
+long budget = 3'000'000;   ///< links to look at, 0.5 microseconds each, 2 where l < a, more in double-double
 };
 
 /// The shapes found, and whether there are more.
@@ -74,8 +81,8 @@ struct SteadyShapes {
 ///
 /// Method: the offset of the support as a function of the lowest link's tangent, Greenhill (1908) §8 (4), (12), in
 /// interval arithmetic with first and second derivatives, 0 ... the farthest tangent split until every part holds no
-/// zero or one; Newton's method and then Krawczyk's test on all pins in double-double. Links that stand, or hang at several
-/// inclinations under one load (l > a and lambda <= W h (l - a)/(W h + a S)), are followed along each of them; there a
+/// zero or one; Newton's method and then Krawczyk's test on all pins in double-double. Links that stand, or hang at
+/// several inclinations under one load (l > a and lambda <= W h (l - a)/(W h + a S)), are followed along each; there a
 /// part ends in a box about the tangents of all links that is proved to hold no zero or one (Krawczyk).
 /// Accuracy: every inclination within `error_bound`, proved: mostly 2.3e-16 (4.4e-16 of links that stand), and 2 ulp of
 /// itself (measured). `complete` is proved too. Where it is false, `undecided` says where shapes may be missing: at
@@ -83,8 +90,8 @@ struct SteadyShapes {
 /// some 1/300 of their length; those that a scan finds there all the same are in the list (where links hang at one
 /// inclination).
 /// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and `complete`
-/// is false: a sideways pull is an offset over the height, and double-double holds offsets to 2^-104 of that length. Below
-/// that, tensions would lose their digits.
+/// is false: a sideways pull is an offset over the height, and double-double holds offsets to 2^-104 of that length.
+/// Below that, tensions would lose their digits.
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
 /// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four
 /// (64 of equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.
@@ -94,8 +101,8 @@ struct SteadyShapes {
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite.
 SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options);
 
-/// All steady shapes of a rig that whirls at a given speed, in its posture or in any: as of a chain, with a support that
-/// yields or is carried round, flywheels, links in a fluid.
+/// All steady shapes of a rig that whirls at a given speed, in its posture or in any: as of a chain, with a support
+/// that yields or is carried round, flywheels, links in a fluid.
 ///
 /// A support on the axis: straight shapes are left out, and of two mirror images that whose free end is at a negative
 /// offset. A support carried round (a swing carousel) at radius b: every shape, outwards positive.

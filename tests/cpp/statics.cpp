@@ -43,7 +43,8 @@ void for_random_shapes(const std::function<void(const Chain<double>&, const Stea
             const auto chain = random_chain(random, size, i % 4);
             const double height =
                 revchain::modes(chain, {.count = 1}).conical_height[0] * random.log_between(0.02, 0.98);
-            for (const SteadyShape& shape : revchain::steady_shapes(chain, height, {.budget = 5000}).shapes)
+            for (const SteadyShape& shape :
+                 revchain::steady_shapes(chain, {.conical_height = height, .budget = 5000}).shapes)
                 check(chain, shape, i % 4);
         }
     }
@@ -124,7 +125,7 @@ TEST_CASE("Force diagram: sides are parallel to the rays, and pull as they do", 
 
 TEST_CASE("Force diagram: C_1 of a plummet is lambda above it", "[finite][force_diagram]") {
     const auto chain = Chain<double>::uniform_plummets(4, 4.0, 1.0);
-    for (const SteadyShape& shape : revchain::steady_shapes(chain, 0.2).shapes) {
+    for (const SteadyShape& shape : revchain::steady_shapes(chain, {.conical_height = 0.2}).shapes) {
         const ForceDiagram d = revchain::force_diagram(chain, shape);
         CHECK(std::abs(d.crossing[0] - d.pin(0, 1) - 0.2) < 1e-14);
         CHECK(d.crossing[3] == 0.0);
@@ -163,7 +164,7 @@ TEST_CASE("Weights transferred to the axis: the shape is a mode of the straight 
 
 TEST_CASE("Force diagram: of another chain", "[finite][force_diagram]") {
     const auto chain = Chain<double>::uniform_plummets(3, 3.0, 1.0);
-    const auto shape = revchain::steady_shapes(chain, 0.5).shapes.at(0);
+    const auto shape = revchain::steady_shapes(chain, {.conical_height = 0.5}).shapes.at(0);
     const auto other = Chain<double>::uniform_plummets(4, 3.0, 1.0);
     CHECK_THROWS_AS(revchain::force_diagram(other, shape), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::transferred_to_axis(other, shape), revchain::InvalidArgument);

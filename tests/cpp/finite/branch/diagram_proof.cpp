@@ -136,7 +136,7 @@ TEST_CASE("a branch left out is missed: three plummets without their isolated br
     CHECK(met.proof.complete);
     REQUIRE_FALSE(met.others.empty());
     for (const auto& at : met.others) {  // shapes on the branch left out, near its fold
-        const auto list = revchain::steady_shapes(chain, at.height).shapes;
+        const auto list = revchain::steady_shapes(chain, {.conical_height = at.height}).shapes;
         const double inclination = std::atan(at.x / at.height);
         CHECK(std::any_of(list.begin(), list.end(), [&](const auto& shape) {
             return shape.half_waves == 3 && std::abs(shape.inclination[0] - inclination) < 1e-6;
