@@ -29,7 +29,7 @@ ALLOWED = {
     "finite/balance": {"numeric", "system", "linear"},
     "finite/shapes": {"numeric", "system", "linear", "finite/balance"},
     "finite/branch": {"numeric", "system", "linear", "finite/balance", "finite/shapes"},
-    "finite/held": {"numeric", "system", "finite/balance", "finite/shapes"},
+    "finite/held": {"numeric", "system", "finite/balance", "finite/shapes", "finite/cord"},
     "finite/cord": {"numeric", "system"},
     "finite/stability": {"numeric", "system", "pencil/complex", "finite/balance", "finite/shapes"}
     | {"finite/branch", "finite/held"},

@@ -17,6 +17,15 @@ bool is_zero(const Interval<T>& x) {
     return x.low == T(0) && x.high == T(0);
 }
 
+template <class S>
+bool is_positive(const S& x) {
+    return x > S(0);
+}
+template <Real T>
+bool is_positive(const Interval<T>& x) {
+    return x.positive();
+}
+
 /// Length times cross, exactly 0 for a plummet: a product of intervals would be wider.
 template <class S>
 S turning_of(const Link<S>& link) {
