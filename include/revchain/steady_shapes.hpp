@@ -58,13 +58,6 @@ struct SteadyShapesOptions {
                                ///< with each link in the rig's posture
     int direction = 1;         ///< of rotation, 1 or -1, where `conical_height` is given: it matters to flywheels
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
-};                                                        ///< of the speed
-std::optional<double> angular_speed{};                    ///< rad/s; of a rig negative for the other direction
-double gravity = conical_pendulum::standard_gravity;      ///< with `angular_speed`, and for rigs with flywheels
-bool hanging_only = true;  ///< only shapes with every link within a right angle of the downward vertical; of a rig
-                           ///< with each link in the rig's posture
-int direction = 1;         ///< of rotation, 1 or -1, where `conical_height` is given: it matters to flywheels
-long budget = 3'000'000;   ///< links to look at, 0.5 microseconds each, 2 where l < a, more in double-double
 };
 
 /// The shapes found, and whether there are more.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "revchain/linear/pencils.hpp"
+#include "revchain/linear/scaled_links.hpp"
 #include "revchain/pencil/twisted.hpp"
 #include "revchain/sensitivity.hpp"
 
