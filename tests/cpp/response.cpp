@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/response.hpp"
 
-#include "revchain/count.hpp"
-#include "revchain/linear/driven_chain.hpp"
-
 #include <quadmath.h>
 
 #include "revchain/conical_pendulum.hpp"
+#include "revchain/count.hpp"
 #include "revchain/linear/driven_chain.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/pencil/forced/lanes.hpp"
