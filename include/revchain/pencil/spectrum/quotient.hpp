@@ -200,9 +200,9 @@ template <bool has_cross, class V>
     }
 }
 
-/// For any number of shifts what `solve(registers, has_cross, shifts, lowest, highest, results)` gives for `packs` packs
-/// of them, each joined near its `place`, or with no places given anywhere. Those that live together go together: what
-/// lies between the places is walked twice.
+/// For any number of shifts the results of `solve(registers, has_cross, shifts, lowest, highest, results)`, which takes
+/// `packs` packs of them, each joined near its `place`, or with no places given anywhere. Those that live together go
+/// together: what lies between the places is walked twice.
 template <class Result, std::size_t packs, class Solve>
 std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>& shifts,
                              const std::vector<std::size_t>& places, const Solve& solve) {
