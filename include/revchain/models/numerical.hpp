@@ -28,7 +28,7 @@ inline Answer answered(const Chain<double>& chain, const revchain::detail::Heigh
         const auto& height = found.height[static_cast<std::size_t>(j)];
         answer.conical_height[j] = std::ldexp(height.eigenvalue, exponent);
         answer.error_bound[j] = height.error_bound;
-        answer.unrounded.push_back(ldexp(height.unrounded, exponent));
+        answer.unrounded.push_back(height.unrounded);
     }
     return answer;
 }
