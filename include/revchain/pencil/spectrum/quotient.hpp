@@ -32,7 +32,8 @@ struct Walk {
 /// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin `end`. Going up, a
 /// walk has passed the mass of the pin it stands at; going down, it has not.
 template <bool has_cross, bool up, class V>
-[[gnu::always_inline]] inline void carry(const LumpedChain& chain, std::size_t begin, std::size_t end, Walk<V>* walk) {
+[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
+                                             Walk<V>* walk) {
     constexpr std::size_t P = quotient_packs;
     V mu[P], offset[P], force[P], inertia[P], stiffness[P], pins[P];
     for (std::size_t p = 0; p < P; ++p) {
@@ -149,7 +150,7 @@ template <bool has_cross, class V>
         if (!has_cross) walk[p].inertia.add(walk[p].force);
     }
     for (std::size_t at = 0; at <= high; ++at) {
-        if (at > 0) carry<has_cross, true>(chain, (at - 1) * leg, at * leg, walk);
+        if (at > 0) propagate<has_cross, true>(chain, (at - 1) * leg, at * leg, walk);
         if (at < low) continue;
         for (std::size_t p = 0; p < P; ++p) scratch[(at - low) * P + p] = AtPin<V>(walk[p]);
     }
@@ -162,7 +163,7 @@ template <bool has_cross, class V>
     }
     for (std::size_t at = legs + 1, end = n; at-- > low;) {
         const std::size_t begin = at * leg;
-        carry<has_cross, false>(chain, begin, end, walk);
+        propagate<has_cross, false>(chain, begin, end, walk);
         end = begin;
         if (at > high) continue;
         const double above = chain.flexibility_above[begin];
