@@ -38,7 +38,7 @@ T estimated_height(const Chain<T>& chain, Index number) {
         below = above;
     }
     if (slow) {
-        const auto bracket = pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces), [](Index) {}).front();
+        const auto bracket = pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces)).front();
         return pencil::between(bracket.lower, bracket.upper);
     }
     const T per_phase = phase / (T(number) - T(0.25));
@@ -113,7 +113,7 @@ std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain
     if (!(bound <= options.rtol.value_or(T(2) * epsilon<T>()))) return std::nullopt;
 
     const auto brackets = [&](Index number, Index count, const T& tolerance) {
-        return pencil::bisect(pencil, number, count, tolerance, pencil.least_shift, [](Index) {});
+        return pencil::bisect(pencil, number, count, tolerance, pencil.least_shift);
     };
     const auto rough = brackets(first, range.count, T(1e-3));
     Heights<T> result{{}, "condensed"};

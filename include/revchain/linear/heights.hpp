@@ -55,9 +55,9 @@ void restore_order(std::vector<Height<T>>& heights) {
 /// proved by two counts there, in double. Nothing where there is no such pencil or rounding leaves one in doubt: about
 /// where `goal` is below 8 ulp of P for each link.
 /// Cost for each link: 5 ns, 7 ns for each three bits and 8 modes (float: 5), and 24 ns a mode for the proof.
-template <std::floating_point P, class Finished>
+template <std::floating_point P>
 std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,
-                                             Finished finished) {
+                                             const std::function<void(Index)>& finished = {}) {
     const auto pencil = plain_pencil(chain);
     if (!pencil) return std::nullopt;
     // Brackets leave a quarter of the goal on either side to the counts' roundings.

@@ -66,8 +66,8 @@ struct SinglePrecision {
                detail::real(kind.size) * detail::loose_cost(error_bound(kind, question), question.count, 5.7e-9);
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
-        const auto found = revchain::detail::loose_heights<float>(
-            chain, detail::range_of(question), error_bound(kind, question) * (1 - 1e-6), [](Index) {});
+        const auto found = revchain::detail::loose_heights<float>(chain, detail::range_of(question),
+                                                                  error_bound(kind, question) * (1 - 1e-6));
         return detail::answered(chain, found);
     }
 };

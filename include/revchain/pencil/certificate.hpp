@@ -43,8 +43,8 @@ struct ProvedInterval {
     S middle() const { return lower + (upper - lower) / S(Narrow<S>(2)); }
 };
 
-/// An interval that holds eigenvalue number `j` by proved counts, `finest` wide (relative) or as narrow as rounding in S
-/// leaves no count in doubt. Nothing where no interval could be proved. `count(two shifts)` returns certified counts.
+/// An interval that holds eigenvalue number `j` by proved counts, `finest` wide (relative) or as narrow as rounding in
+/// S leaves no count in doubt. Nothing where no interval could be proved. `count(two shifts)` returns certified counts.
 /// Cost: about 60 calls.
 template <Real S, class Count>
 std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, const S& guess, const Narrow<S>& finest) {

@@ -22,7 +22,8 @@ template <class V>
 struct FineWalk {
     V mu, offset, sum, rest;
     V excess, squares, stiffness;  ///< sums of f d, f^2 / k, k d^2
-    V forces, offsets;  ///< sums of (force/k)^2 k and of (1 + mu X/k)^2 k y^2 over the upper pins; where has_cross only
+    V forces,
+        offsets;  ///< sums of (force/k)^2 k and of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
 };
 
 template <bool has_cross, bool up, bool fused, class V>

@@ -14,8 +14,8 @@ struct Window {
     Index size() const { return last - first; }
 };
 
-/// Cuts each window at `cuts(window)` shifts `at(window, number, cuts)`, from number 1 on, by counts. Pieces that hold no
-/// eigenvalue are left out.
+/// Cuts each window at `cuts(window)` shifts `at(window, number, cuts)`, from number 1 on, by counts. Pieces that hold
+/// no eigenvalue are left out.
 template <class Cuts, class At>
 std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows, const Cuts& cuts, const At& at) {
     std::vector<double> shifts;
