@@ -20,7 +20,8 @@ inline constexpr std::size_t quotient_packs = 4;
 
 /// A vector built link by link from one end, one for each shift of a pack: offset y and mu times the spring force G of
 /// the link ahead, with y^T M y (with cross masses, else mu times it) and y^T K y so far. The sums belong to the
-/// offsets as stored and to their differences: whatever rounding did to the recurrence, they are the energies of this vector.
+/// offsets as stored and to their differences: whatever rounding did to the recurrence, they are the energies of this
+/// vector.
 template <class V>
 struct Walk {
     V mu, offset, force;
