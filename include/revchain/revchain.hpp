@@ -17,13 +17,10 @@
 #include "revchain/finite/held/cord.hpp"               // IWYU pragma: export
 #include "revchain/held.hpp"                           // IWYU pragma: export
 #include "revchain/hoop.hpp"                           // IWYU pragma: export
-#include "revchain/linear/rig_sensitivity.hpp"         // IWYU pragma: export
-#include "revchain/linear/sensitivity.hpp"             // IWYU pragma: export
-#include "revchain/linear/uncertainty.hpp"             // IWYU pragma: export
+#include "revchain/sensitivity.hpp"         // IWYU pragma: export
 #include "revchain/models/heights.hpp"                 // IWYU pragma: export
 #include "revchain/modes.hpp"                          // IWYU pragma: export
 #include "revchain/numeric/double_double.hpp"          // IWYU pragma: export
-#include "revchain/paper/two_links_shapes.hpp"         // IWYU pragma: export
 #include "revchain/recurrence.hpp"                     // IWYU pragma: export
 #include "revchain/response.hpp"                       // IWYU pragma: export
 #include "revchain/rig.hpp"                            // IWYU pragma: export

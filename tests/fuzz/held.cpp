@@ -4,7 +4,7 @@
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "revchain/finite/held/cord.hpp"
 #include "revchain/finite/held/taut.hpp"
-#include "revchain/finite/stability/held.hpp"
+#include "revchain/stability.hpp"
 
 void fuzz::held(Random& random) {
     const std::uint64_t kind = random.below(5);

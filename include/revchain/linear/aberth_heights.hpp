@@ -10,10 +10,9 @@
 namespace revchain::detail {
 
 /// A chain as lumped pins and springs in double. Heights in units of `chain.units()`. With p = h/a, q = 1 - p the
-/// lumped masses are W p and W q, X = W (p q - r).
-/// False for chains not served: all have to be plummets, or all to have 0 <= h <= a and 0 < (rho/a)^2 < p q (l < a).
-/// Roundings: of S one (compensated); of p one, of q two; of k two with plummets, else four, of 1/k the same; the
-/// others in docs/accuracy.md, "All modes of small chains", 1.
+/// lumped masses are W p and W q, X = W (p q - r). False for chains not served: all have to be plummets, or all to have
+/// 0 <= h <= a and 0 < (rho/a)^2 < p q (l < a). Roundings: of S one (compensated); of p one, of q two; of k two with
+/// plummets, else four, of 1/k the same; the others in docs/accuracy.md, "All modes of small chains", 1.
 inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain) {
     const std::size_t n = static_cast<std::size_t>(chain.size());
     const ChainUnits units = chain.units();

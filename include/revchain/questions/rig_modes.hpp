@@ -335,4 +335,9 @@ REVCHAIN_INLINE RigModes modes(const Rig& rig, const ModesOptions<double>& optio
     return result;
 }
 
+REVCHAIN_INLINE Index count_modes(const Rig&, const CountOptions<double>&) {
+    detail::throw_invalid(
+        "count_modes", "modes of a Rig cannot be counted yet; ask modes(rig), whose forward.available counts them all");
+}
+
 }  // namespace revchain

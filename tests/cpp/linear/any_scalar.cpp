@@ -26,7 +26,7 @@ TEST_CASE("a user's own scalar", "[linear]") {
         product *= zero;
         factorial *= static_cast<double>(j + 1);
         CHECK(static_cast<double>(m.error_bound[j]) <= 1e-30);
-        CHECK(revchain::count_modes(chain, m.conical_height[j] * QuadScalar(1 - 1e-15)) == j + 1);
+        CHECK(revchain::count_modes(chain, {.conical_height = m.conical_height[j] * QuadScalar(1 - 1e-15)}) == j + 1);
     }
     CHECK(static_cast<double>(fabsq(sum / 144 - 1)) <= 1e-31);
     CHECK(static_cast<double>(fabsq(product / factorial - 1)) <= 1e-30);

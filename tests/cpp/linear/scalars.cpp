@@ -83,8 +83,8 @@ TEMPLATE_TEST_CASE("heights, bounds and certificates in more than double", "[lin
             CHECK(exact <= quad(c.upper[j]));
             CHECK(c.above_lower[j] > j);
             CHECK(c.above_upper[j] <= j);
-            CHECK(revchain::count_modes(links, c.lower[j]) == c.above_lower[j]);
-            CHECK(revchain::count_modes(links, c.upper[j]) == c.above_upper[j]);
+            CHECK(revchain::count_modes(links, {.conical_height = c.lower[j]}) == c.above_lower[j]);
+            CHECK(revchain::count_modes(links, {.conical_height = c.upper[j]}) == c.above_upper[j]);
             CHECK(width <= 2 * bound + 1);  // each end is rounded
         }
         CAPTURE(name, worst, worst_bound);

@@ -42,8 +42,8 @@ void require_certificate(const Chain<double>& chain, const revchain::Modes<doubl
         REQUIRE(m.conical_height[j] < c.upper[j]);
         REQUIRE(c.above_lower[j] >= number);
         REQUIRE(c.above_upper[j] <= number - 1);
-        REQUIRE(revchain::count_modes(chain, c.lower[j]) == c.above_lower[j]);
-        REQUIRE(revchain::count_modes(chain, c.upper[j]) == c.above_upper[j]);
+        REQUIRE(revchain::count_modes(chain, {.conical_height = c.lower[j]}) == c.above_lower[j]);
+        REQUIRE(revchain::count_modes(chain, {.conical_height = c.upper[j]}) == c.above_upper[j]);
         REQUIRE(truth.above(c.lower[j]) == c.above_lower[j]);
         REQUIRE(truth.above(c.upper[j]) == c.above_upper[j]);
         const double width = (c.upper[j] - c.lower[j]) / c.lower[j];
@@ -97,7 +97,7 @@ TEST_CASE("windows of heights are what counts say", "[linear]") {
             const double high = low * random.log_between(1.001, i % 2 ? 1.2 : 100);
             const auto part = modes(chain, {.conical_height = HeightWindow<double>{low, high}, .certify = i < 8});
             CAPTURE(family.name, low, high);
-            REQUIRE(part.first == revchain::count_modes(chain, high) + 1);
+            REQUIRE(part.first == revchain::count_modes(chain, {.conical_height = high}) + 1);
             REQUIRE(part.size() == (all.conical_height.array() > low && all.conical_height.array() <= high).count());
             require_part(part, all);
             if (i < 8) require_certificate(chain, part);
@@ -261,6 +261,6 @@ TEMPLATE_TEST_CASE("ranges and certificates in other scalars", "[linear]", float
         CHECK(m.certificate.above_upper[j] == 19 + j);
         CHECK(truth.above(m.certificate.lower[j]) == 20 + j);
         CHECK(truth.above(m.certificate.upper[j]) == 19 + j);
-        CHECK(revchain::count_modes(chain, m.certificate.lower[j]) == 20 + j);
+        CHECK(revchain::count_modes(chain, {.conical_height = m.certificate.lower[j]}) == 20 + j);
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/uncertainty.hpp"
+#include "revchain/sensitivity.hpp"
 
 #include <numbers>
 

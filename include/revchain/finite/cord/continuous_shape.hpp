@@ -59,14 +59,6 @@ inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x
             std::hypot(x.pull, below) * lambda * shape.kind.per_length};
 }
 
-/// The time of a series at which it reaches an arc length: arc' = pace T > 0. A step whose start was moved may end a
-/// little earlier.
-inline double time_at(const PathSeries& series, double arc, double duration) {
-    return time_of_zero(duration, 1.05 * duration, [&](double t) {
-        return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
-    });
-}
-
 /// Places, residual, error and condition of the path that ends at the support, gathered as it is followed.
 class ShapeSamples {
    public:
@@ -223,7 +215,8 @@ inline ContinuousPlace ContinuousShape::operator()(double arc) const {
         state = finite::Path::near_tip(kind, tip_offset, scaled);  // below where the path starts
     } else {
         const finite::PathSeries series(kind, step.start);
-        state = series.state(finite::time_at(series, scaled, step.duration));
+        // a step whose start was moved may end a little later
+        state = series.state(finite::time_at(series, scaled, 1.05 * step.duration));
     }
     ContinuousPlace place = finite::place_of(*this, state);
     place.arc_length = arc;

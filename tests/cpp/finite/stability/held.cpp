@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/stability/held.hpp"
+#include "revchain/stability.hpp"
 
 #include "revchain/held.hpp"
+#include "revchain/pencil/complex/gyroscopic.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 

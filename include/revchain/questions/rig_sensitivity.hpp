@@ -1,37 +1,18 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/conical_pendulum.hpp"
-#include "revchain/rig.hpp"
+#include <string>
+#include <string_view>
+
+#include "revchain/numeric/compiled.hpp"
+#include "revchain/sensitivity.hpp"
 
 namespace revchain {
 
-/// d(whirl speed)/d(datum) of one mode of a rig; everything else held. Speeds may have either sign. The first five are
-/// of the links' own data as `Datum` has them: flywheels keep their momentum, what is displaced its place and size.
-struct RigSensitivity {
-    Vector<double> weight;                ///< (N,)
-    Vector<double> length;                ///< (N,) the lower pin moved; 0 of the lowest link
-    Vector<double> centroid;              ///< (N,)
-    Vector<double> radius_of_gyration;    ///< (N,)
-    Vector<double> length_in_proportion;  ///< (N,) (a d/da + h d/dh + rho d/drho)/a
-    Vector<double> momentum;              ///< (N,) of each flywheel's H, per weight times length times time
-    Vector<double> displaced_weight;      ///< (N,) of the weight of the fluid displaced
-    Vector<double> added_weight;          ///< (N,) of what has to move with the link in still fluid
-    double stiffness;                     ///< of the support; 0 where it is firm
-    double carriage_weight;               ///< 0 where the support is firm
-};
-
-/// How what a chain is rigged with moves whirl speed n of a mode whose pins have these offsets (free end first, N + 1;
-/// the last that of the support's pin). From y^T (K + n G - n^2 M/g) y = 0, quadratic in n and stationary in y,
-///     dn/dx = - y^T (dK + n dG - n^2 dM/g) y / y^T (G - 2 n M/g) y.
-/// With s a link's slope, dG of H is s^2 over links that hang, -s^2 over those that stand. Formed in two words: the
-/// error is that of the offsets, some 4 e (|K| + |n G| + n^2 |M|/g) over the denominator for offsets within e of the
-/// largest.
-/// Cost O(N). Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, offsets not N + 1.
-inline RigSensitivity rig_sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset,
-                                      double gravity = conical_pendulum::standard_gravity) {
+REVCHAIN_INLINE RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset,
+                                           double gravity) {
     using S = Wide<double>;
-    constexpr std::string_view place = "rig_sensitivity";
+    constexpr std::string_view place = "sensitivity";
     if (!std::isfinite(angular_speed) || angular_speed == 0)
         detail::throw_invalid(place, "angular speed must be finite and not 0", angular_speed);
     detail::require_positive(place, "gravity", gravity);
@@ -121,14 +102,7 @@ inline RigSensitivity rig_sensitivity(const Rig& rig, double angular_speed, cons
     return result;
 }
 
-/// The momentum of the flywheel of link number `link` (from 1 for the lowest), all else held, with which
-/// `angular_speed` is a whirl speed, of whichever mode. There is one: momentum adds to the tension, and what hangs
-/// below and what holds above are springs at the link's pins at that speed. `stiffness`-like numbers in two words:
-/// relative error 1e-15 beside the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
-/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, a link that is none, and where no
-/// finite momentum has that effect.
-inline double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
-                                 double gravity = conical_pendulum::standard_gravity) {
+REVCHAIN_INLINE double momentum_for_speed(const Rig& rig, Index link, double angular_speed, double gravity) {
     using S = Wide<double>;
     constexpr std::string_view place = "momentum_for_speed";
     if (!std::isfinite(angular_speed) || angular_speed == 0)

@@ -1,47 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <array>
-#include <string_view>
+#include <string>
 
 #include "revchain/linear/mode_shape.hpp"
+#include "revchain/linear/scaled_links.hpp"
 #include "revchain/numeric/progress.hpp"
+#include "revchain/sensitivity.hpp"
 
 namespace revchain {
-
-template <Real T>
-struct Modes;  // revchain/modes.hpp
-
-/// The data of a link. While one of them changes, all the others are held, of this link and of all. `length` moves the
-/// lower pin: centre of gravity and radius of gyration stay where they are, in units of length. `length_in_proportion`
-/// takes both with it, as a plummet's thread and a rod's length do.
-enum class Datum { weight, length, centroid, radius_of_gyration, length_in_proportion };
-
-inline constexpr std::array<std::string_view, 5> datum_names{"weight", "length", "centroid", "radius_of_gyration",
-                                                             "length_in_proportion"};
-
-/// Derivatives of k conical heights with respect to one datum of each of N links, lowest first.
-template <Real T>
-struct Derivatives {
-    Table<T> value;        ///< (k, N)
-    Table<T> error_bound;  ///< (k, N), absolute; proved. Infinite where a mode could not be told from its neighbour
-};
-
-/// d(conical height)/d(datum) for modes number `first`, `first + 1`, ...
-template <Real T>
-struct Sensitivity {
-    Index first = 1;
-    std::array<Derivatives<T>, datum_names.size()> by_datum;
-
-    const Derivatives<T>& of(Datum datum) const { return by_datum[static_cast<std::size_t>(datum)]; }
-    const Derivatives<T>& weight() const { return of(Datum::weight); }  ///< unit of length over unit of weight
-    const Derivatives<T>& length() const { return of(Datum::length); }  ///< no unit, as all below; 0 of the lowest link
-    const Derivatives<T>& centroid() const { return of(Datum::centroid); }
-    const Derivatives<T>& radius_of_gyration() const { return of(Datum::radius_of_gyration); }  ///< never negative
-    /// (a d/da + h d/dh + rho d/drho)/a, never negative.
-    const Derivatives<T>& length_in_proportion() const { return of(Datum::length_in_proportion); }
-    Index size() const { return weight().value.rows(); }
-};
 
 namespace detail {
 
@@ -51,33 +18,6 @@ template <class N>
 struct Movement {
     N slope, centre, above;
 };
-
-/// A link in the units of its chain's pencil; `below` is the weight hung below it.
-template <class N>
-struct ScaledLink {
-    N weight, length, centroid, radius, below;
-    N pull() const { return weight * centroid / length + below; }  ///< kappa/a
-};
-
-template <Real T>
-std::vector<ScaledLink<Wide<T>>> scaled_links(const Chain<T>& chain) {
-    using std::ldexp;
-    using std::sqrt;
-    using S = Wide<T>;
-    const ChainUnits units = chain.units();
-    std::vector<ScaledLink<S>> links;
-    links.reserve(static_cast<std::size_t>(chain.size()));
-    S below(T(0));
-    for (Index m = 0; m < chain.size(); ++m) {
-        if (m % segment_size == 0) below = ldexp(chain.weight_below(m), -units.weight_exponent);
-        const Link<T> it = chain.link(m);
-        const S weight(ldexp(it.weight, -units.weight_exponent)), length(ldexp(it.length, -units.length_exponent)),
-            centroid(ldexp(it.centroid, -units.length_exponent));
-        links.push_back({weight, length, centroid, sqrt(it.gyration_ratio) * length, below});
-        below = below + weight;
-    }
-    return links;
-}
 
 /// The five derivatives of y^T (M - lambda K) y, offsets of the pins held: by `Datum`, each as what comes of the
 /// inertia and what comes of the weights that pull. `above` is here the sum of a s^2 itself.
@@ -159,16 +99,6 @@ void set_derivatives(Sensitivity<T>& result, Index j, const std::vector<ScaledLi
 
 }  // namespace detail
 
-/// How every datum of every link moves conical heights of `modes`, which has to be of this chain: the derivative of
-/// lambda = y^T M y / y^T K y at the exact shape, where the shape's own change does not matter,
-///     (y^T dM y - lambda y^T dK y) / y^T K y,
-/// link by link from offset and slope, and of weights the sum of a s^2 over the links above, on which they bear.
-/// Laws: sum of W d/dW = 0; sum of a d/da + h d/dh + rho d/drho = lambda; of it a link's part, a times
-/// `length_in_proportion`, is its share of y^T K y, so that no link made longer as a whole lowers a height.
-/// Accuracy: every entry within its error bound, which is proved; measured 0.51 ulp of the entry, but of entries small
-/// beside the largest 1e-28 of that (tests/cpp/linear/sensitivity.cpp). The heights in `modes` need not be accurate.
-/// Cost: 1.5 microseconds a link and mode; O(N k) memory.
-/// Throws InvalidArgument where the chain's weights are more than 1e123 apart.
 template <Real T>
 Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
     if (!chain.has_one_weight_unit())
@@ -193,6 +123,73 @@ Sensitivity<T> sensitivity(const Chain<T>& chain, const Modes<T>& modes) {
         const T scaled = pencils.scaled(height);
         const auto mode = detail::wide_mode<T>(pencils, modes.first + j, scaled, guess > M(0) ? guess : M(0.5));
         detail::set_derivatives(result, j, links, chain.units(), mode, pencils.wide().entry_error);
+    }
+    return result;
+}
+
+template <Real T>
+Uncertainty<T> uncertainty(const Sensitivity<T>& sensitivity, const Vector<T>& conical_height,
+                           const Deviations<T>& deviations) {
+    using std::abs;
+    using std::isfinite;
+    using std::sqrt;
+    constexpr std::string_view place = "uncertainty";
+    const Index k = sensitivity.size(), n = sensitivity.weight().value.cols();
+    if (conical_height.size() != k)
+        detail::throw_invalid(place, "there must be as many heights as modes, " + std::to_string(k),
+                              conical_height.size());
+    Uncertainty<T> result{Vector<T>::Zero(k),
+                          Vector<T>::Zero(k),
+                          {},
+                          std::vector<Datum>(static_cast<std::size_t>(k)),
+                          std::vector<Index>(static_cast<std::size_t>(k))};
+    for (auto& share : result.share) share = Table<T>::Zero(k, n);
+    for (std::size_t d = 0; d < datum_names.size(); ++d) {
+        if (!deviations[d]) continue;
+        const auto& [standard, covariance] = *deviations[d];
+        const std::string name(datum_names[d]);
+        const auto sound = [&](const T& x) { return isfinite(x) && x >= T(0); };
+        const bool correlated = standard.size() == 0;
+        if (!correlated && standard.size() != 1 && standard.size() != n)
+            detail::throw_invalid(
+                place, name + " must have one deviation or one for each of the " + std::to_string(n) + " links",
+                standard.size());
+        if (correlated && (covariance.rows() != n || covariance.cols() != n))
+            detail::throw_invalid(place,
+                                  "the covariance of " + name + " must have " + std::to_string(n) + " rows and columns",
+                                  covariance.rows());
+        for (const T& x : standard)
+            if (!sound(x)) detail::throw_invalid(place, name + " must be finite and not negative", x);
+        for (Index i = 0; i < covariance.rows(); ++i)
+            for (Index m = 0; m <= i; ++m)
+                if (!isfinite(covariance(i, m)) || covariance(i, m) != covariance(m, i) ||
+                    (i == m && !sound(covariance(i, i))))
+                    detail::throw_invalid(
+                        place, "the covariance of " + name + " must be finite, symmetric and its diagonal not negative",
+                        covariance(i, m));
+        const Table<T>& value = sensitivity.by_datum[d].value;
+        for (Index j = 0; j < k; ++j)
+            for (Index m = 0; m < n; ++m) {
+                const T deviation = correlated ? T(0) : value(j, m) * standard[standard.size() == 1 ? 0 : m];
+                const T variance =
+                    correlated ? value(j, m) * T(covariance.row(m).dot(value.row(j))) : deviation * deviation;
+                result.share[d](j, m) = variance;
+                result.conical_height[j] += variance;
+            }
+    }
+    for (Index j = 0; j < k; ++j) {
+        const std::size_t mode = static_cast<std::size_t>(j);
+        const T variance = result.conical_height[j];
+        T most(-1);
+        for (std::size_t d = 0; d < datum_names.size(); ++d)
+            for (Index m = 0; m < n; ++m) {
+                T& share = result.share[d](j, m);
+                if (abs(share) > most)
+                    most = abs(share), result.datum[mode] = static_cast<Datum>(d), result.link[mode] = m;
+                share = variance > T(0) ? share / variance : T(0);
+            }
+        result.conical_height[j] = variance > T(0) ? sqrt(variance) : T(0);
+        result.relative[j] = result.conical_height[j] / conical_height[j];
     }
     return result;
 }

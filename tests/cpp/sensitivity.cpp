@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/sensitivity.hpp"
+#include "revchain/sensitivity.hpp"
 
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"
