@@ -218,14 +218,14 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     Modes<T> result = room_for_modes(range, options);
     result.method = "bisection";
     Heights<T> found;
-    if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage, 1.0);
+    if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage);
     for (Index j = 0; j < range.count; ++j) {
-        const auto& height = found.height[static_cast<std::size_t>(j)];
+        const auto& height = found[static_cast<std::size_t>(j)];
         set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options);
         if (options.certify) certify(result, j, assembled.pencils(), chain.mode_count());
     }
     result.lazy_shapes =
-        LazyModeShapes<T>(ShapeFinder<T>(chain, range.first, std::move(found.height), is_loose(chain, stage), false));
+        LazyModeShapes<T>(ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false));
     return result;
 }
 
