@@ -39,7 +39,7 @@ struct Taylor {
 
 /// Calls `each(k, i, j)` for every pair of numbers i <= j, k its place in `Taylor::bend`.
 template <std::size_t D, class Each>
-void each_pair(const Each& each) {
+[[gnu::always_inline]] inline void each_pair(const Each& each) {
     std::size_t k = 0;
     for (std::size_t i = 0; i < D; ++i)
         for (std::size_t j = i; j < D; ++j) each(k++, i, j);

@@ -50,10 +50,7 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
     const auto support = enclosed<double>(support_of(chain));
-    const auto sign_at = [&](double t) { return detail::sign_at(narrow, lambda, t, support); };
-    const int first_sign = support.is_symmetric() ? 0 : sign_at(0);
-    const Isolation<double> first =
-        detail::isolate<double>(narrow, lambda, {0.0, last, first_sign, sign_at(last)}, 1e-14, budget, support);
+    const Isolation<double> first = detail::isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
     Isolation<Far> found;
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
@@ -61,14 +58,12 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     const auto wide = swept_links<Far>(chain);
     const Interval<Far> height_wide = enclosed<Far>(height);
     const auto support_wide = enclosed<Far>(support_of(chain));
-    const auto wide_sign_at = [&](const Far& t) { return detail::sign_at(wide, height_wide, t, support_wide); };
     const std::size_t count = first.undecided.size();
     for (std::size_t i = 0, end = 0; i < count; i = end) {
         for (end = i + 1; end < count && first.undecided[end].low == first.undecided[end - 1].high;) ++end;
         const Far low(first.undecided[i].low), high(first.undecided[end - 1].high);  // cells that touch are one
-        const int low_sign = low == Far(0) ? first_sign : wide_sign_at(low);
-        const auto again = detail::isolate<Far>(wide, height_wide, {low, high, low_sign, wide_sign_at(high)},
-                                                Far(1e-26), std::max(0L, budget - found.cells), support_wide);
+        const auto again = detail::isolate<Far>(wide, height_wide, {low, high}, Far(1e-26),
+                                                std::max(0L, budget - found.cells), support_wide);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
         for (const Bracket<Far>& b : again.undecided) {
@@ -80,8 +75,8 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     }
     if (found.undecided.empty()) return found;
     const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
-        const int sign = sign_at(static_cast<double>(t));
-        return sign != 0 ? sign : wide_sign_at(t);
+        const int sign = detail::sign_at(narrow, lambda, static_cast<double>(t), support);
+        return sign != 0 ? sign : detail::sign_at(wide, height_wide, t, support_wide);
     });
     found.shapes.insert(found.shapes.end(), more.begin(), more.end());
     return found;

@@ -76,31 +76,14 @@ class PostureSearch {
         const bool straight =
             support_.is_symmetric() && std::none_of(whole.path.begin(), whole.path.end(),
                                                     [](Piece p) { return p == Piece::right || p == Piece::left; });
-        std::vector<std::pair<T, T>> stack{{whole.low, whole.high}};
-        detail::Cutting<T> cutting;
-        long cells = 0;
-        while (!stack.empty()) {
-            revchain::detail::look();
-            const auto [low, high] = stack.back();
-            stack.pop_back();
-            if (cells >= budget) {
-                open_.push_back({whole.path, low, high});
-                continue;
-            }
-            ++cells;
-            cells_of_tests_ = 0;
-            const Part part = judged(whole.path, low, high, straight && low == T(0));
-            cells += cells_of_tests_;
-            if (part == Part::settled) continue;
-            const auto cut = cutting.between(low, high, narrowest, last);
-            if (!cut || part == Part::ruled_by_rounding) {
-                open_.push_back({whole.path, low, high});
-                continue;
-            }
-            stack.push_back({*cut, high});
-            stack.push_back({low, *cut});
-        }
-        return cells;
+        return detail::split(
+            Bracket<T>{whole.low, whole.high}, last, narrowest, budget,
+            [&](const Bracket<T>& part, long& cells) {
+                return classify(whole.path, part, straight && part.low == T(0), cells);
+            },
+            [&](const Bracket<T>& part) {
+                open_.push_back({whole.path, part.low, part.high});
+            });
     }
 
    private:
@@ -112,13 +95,13 @@ class PostureSearch {
             response_.emplace_back(links_[m], height, balance_.posture()[m]);
     }
 
-    /// Of a part of a path: holds no shape that is not in the list; may show more if split; will not.
-    enum class Part { settled, open, ruled_by_rounding };
-    Part judged(const std::vector<Piece>& path, const T& low, const T& high, bool holds_straight) {
-        const Cell<T, 1> cell(Interval<T>(low, high));
+    using Seen = detail::Seen;
+    /// A part is settled where every shape in it is in the list.
+    Seen classify(const std::vector<Piece>& path, const Bracket<T>& part, bool holds_straight, long& cells) {
+        const Cell<T, 1> cell(Interval<T>(part.low, part.high));
         Sweep rules{*this, path, cell};
         const auto end = sweep_up(links_, cell.first(), rules);
-        if (!end.reached) return Part::settled;
+        if (!end.reached) return Seen::settled;
         const bool smooth = rules.smooth;
         Taylor<T, 1> y = end.offset;
         if constexpr (is_held<End>) {
@@ -127,12 +110,12 @@ class PostureSearch {
             else
                 y.value = support_.miss(y.value, end.sum.value);
         }
-        if (holds_straight ? smooth && !y.slope[0].may_vanish() : !y.value.may_vanish()) return Part::settled;
-        cells_of_tests_ = static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
-        if (zeros_.settles(box_)) return Part::settled;
+        if (holds_straight ? smooth && !y.slope[0].may_vanish() : !y.value.may_vanish()) return Seen::settled;
+        cells += static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
+        if (zeros_.settles(box_)) return Seen::settled;
         const bool rounding = smooth && (holds_straight ? detail::rounding_rules(y.slope[0], y.centre_slope[0])
                                                         : detail::rounding_rules(y.value, y.centre_value));
-        return rounding ? Part::ruled_by_rounding : Part::open;
+        return rounding ? Seen::ruled_by_rounding : Seen::open;
     }
 
     /// The sweep along a path; without derivatives from the first link on that comes near a joint.
@@ -178,7 +161,6 @@ class PostureSearch {
     Box<T> box_;
     std::vector<Response<T>> response_;
     std::vector<OpenPart<T>> open_;
-    long cells_of_tests_ = 0;
 };
 
 }  // namespace revchain::finite
