@@ -155,7 +155,7 @@ struct TaylorSweep {
     const Interval<T>&height, &centre_height;
 
     Taylor<T, D> tighten(const Taylor<T, D>& f) const { return cell.centred(f); }
-    bool carry(std::size_t m, const Taylor<T, D>& R, Taylor<T, D>& t) const {
+    bool propagate(std::size_t m, const Taylor<T, D>& R, Taylor<T, D>& t) const {
         const Link<Interval<T>>& link = links[m];
         const Interval<T> stiffness = height * link.pull, turning = turning_of(link),
                           centre_stiffness = D == 1 ? stiffness : centre_height * link.pull;

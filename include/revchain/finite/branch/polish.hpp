@@ -6,8 +6,8 @@
 
 namespace revchain::finite {
 
-/// What is given beside the balance: one condition on the shape and the height, in two words, and its derivatives along
-/// the links' reaches a sin delta and along log lambda.
+/// What is given beside the balance: one condition on the shape and the height, in double-double, and its derivatives
+/// along the links' reaches a sin delta and along log lambda.
 template <class S>
 struct Condition {
     virtual ~Condition() = default;
@@ -177,7 +177,7 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
         // say. That goes by a factor of 1e-16 a step, and does no harm to the rest.
         double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
         for (std::size_t m = n; m-- > 0;) {
-            // of a link that is vertical by accident only what two words of its pins' offsets can tell
+            // of a link that is vertical by accident only what double-double offsets of its pins can tell
             const double lower = std::abs(static_cast<double>(y[m])), upper = std::abs(static_cast<double>(y[m + 1])),
                          there = std::abs(static_cast<double>(y[m] - y[m + 1])) * growth[m],
                          told = std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),

@@ -71,12 +71,12 @@ class BranchSearch {
     }
 
    private:
-    static constexpr int most_steps = 100'000;
+    static constexpr int max_steps = 100'000;
 
     ShapesOnBranch walked_from(const BranchPoint& start, ShapesOnBranch result, double log_end, bool all) {
         BranchWalk walk(root_.corrector, start, start.arc);
         const HeightMeasure to_end{log_end};
-        for (int step = 0; step < most_steps; ++step) {
+        for (int step = 0; step < max_steps; ++step) {
             if (!walk.advance()) return stopped(result, walk, BranchEnd::stuck);
             const auto last = crossings_of(walk, to_end);
             for (const WithinStep& each : crossings_of(walk, measure_)) {
@@ -137,8 +137,8 @@ ShapesOnBranch searched(BranchRoot& root, const Measure& measure, const Conditio
 /// States on the branch that leaves the vertical at mode `mode` (1 the slowest, as in `modes`) at which one number is
 /// as given: conical height, speed, tip inclination, tip radius or top tension; the first along the arc, or all.
 ///
-/// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the height in two words with
-/// what is given as a condition. Next to the vertical the onset of the branch serves as a start.
+/// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the height in double-double
+/// with what is given as a condition. Next to the vertical the onset of the branch serves as a start.
 /// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is proved (measured:
 /// 0.7 of it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed to a conical height of 1e-4 of the
 /// length: tests/cpp/finite/branch/branch.cpp). That the state is on this branch is checked step by step, not proved.

@@ -41,7 +41,7 @@ inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Int
     return single_valued(enclosed<double>(links.links), height);
 }
 
-/// Isolated in double, where that leaves cells open in two words; what the proof leaves open is scanned.
+/// Isolated in double, where that leaves cells open in double-double; what the proof leaves open is scanned.
 template <class AnyLinks>
 Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, double last,
                                  long links_to_look_at) {
@@ -116,8 +116,8 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
 }
 
 /// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of
-/// the support's offset on both sides of its lowest tangent, as near as two words can tell, and what all links then may
-/// do.
+/// the support's offset on both sides of its lowest tangent, as near as double-double can tell, and what all links then
+/// may do.
 template <class End>
 double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
                          const Bracket<DoubleDouble>& bracket, const Finished& found,
@@ -173,7 +173,7 @@ std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<do
     const auto links = swept_links<Far>(chain);
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
-    Box<Far> near;
+    TangentBox<Far> near;
     detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), support, &near);
     const WholeBalance balance(links, lambda, posture_of(chain), support);
     auto found = detail::settled(chain, height, balance, near);

@@ -49,34 +49,36 @@ inline bool same(const SteadyShape& x, const SteadyShape& y) {
 
 /// All shapes of a rig, both signs of the lowest link's tangent where the support is off the axis.
 inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, const Wide<double>& speed,
-                                  const RigShapesOptions& asked) {
-    const SteadyShapesOptions options{asked.budget, asked.hanging_only};
+                                  const RigShapesOptions& rig_options) {
+    const SteadyShapesOptions options{rig_options.budget, rig_options.hanging_only};
     if (rig == Rig(rig.chain(), {})) return steady_shapes(rig.chain(), height, options);
     const double scaled = std::ldexp(static_cast<double>(height), -rig.chain().units().length_exponent);
     SteadyShapes result;
     const auto leave_all = [&] {
-        const double end = asked.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;
+        const double end = rig_options.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;
         result.undecided = {{rig.support().radius > 0 ? -end : 0, end}};
         return result;
     };
     if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) return leave_all();  // tangents overflow
     RiggedLinks links = rigged_links(rig, height, speed);
     const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
-    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !asked.hanging_only,
-                                         enclosed<double>(links.support));
+    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda),
+                                         !rig_options.hanging_only, enclosed<double>(links.support));
     result = listed<SteadyShapes>(links, lambda, options);
     const bool unbounded = !links.support.firm &&
                            left_to_the_spring(swept_links<double>(links), enclosed<double>(links.support)).may_vanish();
     const auto leave_beyond = [&](SteadyShapes& found) {
         if (!unbounded) return;
         const double beyond = std::atan(last);
-        found.undecided.push_back({beyond, asked.hanging_only ? std::numbers::pi / 2 : std::numbers::pi - beyond});
+        found.undecided.push_back(
+            {beyond, rig_options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi - beyond});
         found.complete = false;
     };
     leave_beyond(result);
     if (links.support.is_symmetric()) return result;
     links.support.radius = -links.support.radius;
-    const SteadyShapesOptions rest{asked.budget - result.cells * static_cast<long>(rig.size()), asked.hanging_only};
+    const SteadyShapesOptions rest{rig_options.budget - result.cells * static_cast<long>(rig.size()),
+                                   rig_options.hanging_only};
     auto other = listed<SteadyShapes>(links, lambda, rest);
     leave_beyond(other);
     const std::size_t count = result.shapes.size();

@@ -8,7 +8,7 @@ namespace revchain::finite {
 
 /// What is proved of a shape that Newton's method found.
 struct Verified {
-    std::vector<DoubleDouble> offset;  ///< of the pins, the support's 0 last; its digits are those of two words
+    std::vector<DoubleDouble> offset;  ///< of the pins, the support's 0 last; its digits are those of double-double
     double inclination_error;          ///< a steady shape, and one alone, has all its inclinations within this, rad
     double condition;  ///< largest change of an inclination, rad, where each force changes by its own size, times it
 };
@@ -27,7 +27,7 @@ struct Forces {
     Forces(const std::vector<Link<Interval<Far>>>& links, const Interval<Far>& height,
            const std::vector<Interval<Far>>& y, const End& support) {
         const std::size_t n = links.size();
-        Interval<Far> carried(Far(0)), mass_below(Far(0));
+        Interval<Far> from_below(Far(0)), mass_below(Far(0));
         double size_below = 0;
         const auto largest = [](const Interval<Far>& x) { return static_cast<double>(x.size()); };
         for (std::size_t m = 0; m < n; ++m) {
@@ -40,18 +40,18 @@ struct Forces {
             }
             const Interval<Far> adjacent = sqrt(square), pull = height * link.pull * d / adjacent,
                                 turn = link.cross * d, at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
-            force.push_back(carried + pull + turn - at_lower);
+            force.push_back(from_below + pull + turn - at_lower);
             stiffness.push_back(height * link.pull * revchain::square(link.length) / (adjacent * square) + link.cross);
             mass.push_back(mass_below + link.moment);
             size.push_back(size_below + largest(pull) + largest(turn) + largest(at_lower));
             cosine.push_back(static_cast<double>((adjacent / link.length).low));
             size_below = largest(pull) + largest(turn) + largest(at_upper);
-            carried = -(pull + turn + at_upper), mass_below = link.rest;
+            from_below = -(pull + turn + at_upper), mass_below = link.rest;
         }
         if constexpr (is_held<End>) {  // a spring is a link more, the upper end of which stays where it is
             if (!support.yields()) return;
             const Interval<Far> pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
-            force.push_back(carried + pull - at_lower);
+            force.push_back(from_below + pull - at_lower);
             stiffness.push_back(support.stiffness), mass.push_back(mass_below + support.carriage);
             size.push_back(size_below + largest(pull) + largest(at_lower));
         }
@@ -107,9 +107,9 @@ struct Inverse {
 
 }  // namespace detail
 
-/// Newton's method to the end of two words, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969)
-/// 187, doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4
-/// microseconds a link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
+/// Newton's method to the last digit of double-double, then Krawczyk's test, on all pins at once: R. Krawczyk,
+/// Computing 4 (1969) 187, doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors:
+/// O(N), 4 microseconds a link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
 template <class End = OnAxis>
 Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
                   std::vector<DoubleDouble> offset, const End& support = {}) {
