@@ -31,6 +31,10 @@ struct Taylor {
     }
     friend Taylor operator+(const Taylor& f, const Taylor& g) { return combined(f, g, std::plus<Interval<T>>()); }
     friend Taylor operator-(const Taylor& f, const Taylor& g) { return combined(f, g, std::minus<Interval<T>>()); }
+    friend Taylor operator-(Taylor f, const Interval<T>& constant) {
+        f.value = f.value - constant, f.centre_value = f.centre_value - constant;
+        return f;
+    }
     friend Taylor operator*(const Interval<T>& k, const Taylor& f) {
         return combined(f, f, [&](const Interval<T>& x, const Interval<T>&) { return k * x; });
     }
@@ -186,7 +190,7 @@ Taylor<T, 1> support_offset(const std::vector<Link<Interval<T>>>& links, const I
                             const Cell<T, 1>& cell, const End& support = {}) {
     TaylorSweep<T, 1> rules{links, cell, height, height};
     const auto end = sweep_up(links, cell.first(), rules);
-    return support.miss(cell, end.offset, end.sum);
+    return is_held<End> ? cell.centred(support.miss(end.offset, end.sum)) : end.offset;
 }
 
 /// Offset of the support over a cell of x = lambda t, t the tangent of the lowest link, and of heights lambda: zero for

@@ -126,12 +126,6 @@ double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
     return small * wanted / std::abs(measure({state, state}).value + wanted);
 }
 
-template <class Measure>
-ShapesOnBranch searched(BranchRoot& root, const Measure& measure, const Condition<Wide<double>>& condition,
-                        double amplitude, double log_end, bool all) {
-    return BranchSearch<Measure>(root, measure, condition, amplitude).run(log_end, all);
-}
-
 }  // namespace finite
 
 /// States on the branch that leaves the vertical at mode `mode` (1 the slowest, as in `modes`) at which one number is
@@ -184,9 +178,9 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
                                       " and has no shape at one that is not less (it turns too slowly)",
                                   near);
         const double log_wanted = std::log(near * unit);
-        return finite::searched(root, finite::HeightMeasure{log_wanted}, finite::GivenHeight<S>(height * S(unit)),
-                                finite::amplitude_at(root.chain, root.onset, height * S(unit)),
-                                std::min(log_wanted, std::log(given.down_to.value_or(near / 2) * unit)), given.all);
+        return finite::BranchSearch(root, finite::HeightMeasure{log_wanted}, finite::GivenHeight<S>(height * S(unit)),
+                                    finite::amplitude_at(root.chain, root.onset, height * S(unit)))
+            .run(std::min(log_wanted, std::log(given.down_to.value_or(near / 2) * unit)), given.all);
     }
     const double log_end = std::log(lowest);
     if (given.tip_inclination) {
@@ -194,16 +188,18 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
             detail::throw_invalid(place, "tip inclination must lie between 0 and pi/2", *given.tip_inclination);
         const double rise = std::asinh(std::tan(*given.tip_inclination));
         const finite::TipInclinationMeasure measure{rise};
-        return finite::searched(root, measure, finite::GivenTipInclination<S>(*given.tip_inclination),
-                                finite::amplitude_of(root, measure, rise), log_end, given.all);
+        return finite::BranchSearch(root, measure, finite::GivenTipInclination<S>(*given.tip_inclination),
+                                    finite::amplitude_of(root, measure, rise))
+            .run(log_end, given.all);
     }
     if (given.tip_radius) {
         detail::require_positive(place, "tip radius", *given.tip_radius);
         if (!(*given.tip_radius < chain.total_length()))
             detail::throw_invalid(place, "tip radius must be less than the length of the chain", *given.tip_radius);
         const finite::TipRadiusMeasure measure{links, *given.tip_radius * unit};
-        return finite::searched(root, measure, finite::GivenTipRadius<S>(S(*given.tip_radius * unit)),
-                                finite::amplitude_of(root, measure, measure.wanted), log_end, given.all);
+        return finite::BranchSearch(root, measure, finite::GivenTipRadius<S>(S(*given.tip_radius * unit)),
+                                    finite::amplitude_of(root, measure, measure.wanted))
+            .run(log_end, given.all);
     }
     const double tension = *given.top_tension;
     const S weight = chain.weight_below(chain.size());
@@ -214,8 +210,9 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
     const double narrow = static_cast<double>(pull);
     const finite::TopPullMeasure measure{links, narrow};
     const double share = std::pow(std::ldexp(tension, -root.chain.units.weight_exponent) / narrow, 2);
-    return finite::searched(root, measure, finite::GivenTopTension<S>(pull, share),
-                            finite::amplitude_of(root, measure, narrow), log_end, given.all);
+    return finite::BranchSearch(root, measure, finite::GivenTopTension<S>(pull, share),
+                                finite::amplitude_of(root, measure, narrow))
+        .run(log_end, given.all);
 }
 
 /// The first of them along the arc. Throws InvalidArgument also where the number is not met.

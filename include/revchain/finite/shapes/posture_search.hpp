@@ -105,12 +105,7 @@ class PostureSearch {
         if (!end.reached) return Seen::settled;
         const bool smooth = rules.smooth;
         Taylor<T, 1> y = end.offset;
-        if constexpr (is_held<End>) {
-            if (smooth)
-                y = support_.miss(cell, y, end.sum);
-            else
-                y.value = support_.miss(y.value, end.sum.value);
-        }
+        if constexpr (is_held<End>) y = rules.tighten(support_.miss(y, end.sum));
         if (holds_straight ? smooth && !y.slope[0].may_vanish() : !y.value.may_vanish()) return Seen::settled;
         cells += static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
         if (zeros_.settles(box_)) return Seen::settled;
