@@ -125,8 +125,8 @@ struct Polished {
     double condition = 0;
 };
 
-/// `Polished::condition`, by the factors at a shape: forces of the sizes given in a few patterns of signs, and a relative
-/// change 1 of the number given, which leaves `given` of the condition. `growth`: 1/(a cos^2) of the links.
+/// `Polished::condition`, by the factors at a shape: forces of the sizes given in a few patterns of signs, and a
+/// relative change 1 of the number given, which leaves `given` of the condition. `growth`: 1/(a cos^2) of the links.
 template <class S>
 double condition_of(const std::vector<Link<S>>& links, BorderedChain& border, const std::vector<double>& size,
                     const std::vector<double>& growth, double given) {
