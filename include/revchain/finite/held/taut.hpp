@@ -86,7 +86,7 @@ double taut_number(const Count& count, Index k, double start) {
 /// the unit of the weights: the first `count` conical heights, and the offsets. Shapes held at finite amplitude leave
 /// from these: `held_shapes` of a span as short of the length as one likes.
 ///
-/// Method: counts of negative pivots in two words of double, from the held lower pin up, halved until two neighbouring
+/// Method: counts of negative pivots in double-double, from the held lower pin up, halved until two neighbouring
 /// doubles enclose the height. Accuracy: 1 ulp, the bound returned; shapes 1e-13 / gap of the heights. Cost 60 N for
 /// each. Fewer are returned where there are fewer: N - 1 of N links, one less for each pin without mass.
 /// Throws InvalidArgument for a tension that is not positive and finite, and a count below 1.
