@@ -13,7 +13,7 @@
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const auto r = revchain::response(chain, {.angular_speed = {2.0, 5.0}, .support_radius = 0.01});
-///     r.offset(0, 0);       // 0.0137 m: the free end at 2 rad/s, on the side of the support
+///     r.offset(0, 0);       // 0.0145272 m: the free end at 2 rad/s, on the side of the support
 ///     r.reversed[1];        // 1: at 5 rad/s it is opposite to the support
 ///     r.modes_below[1];     // 1 mode is slower than 5 rad/s
 namespace revchain {
