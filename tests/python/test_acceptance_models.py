@@ -494,7 +494,7 @@ def test_modes_that_are_not_there():
 
 def test_words_and_things_that_mean_nothing():
     chain = rc.Chain(weight=[1.0, 2.0], length=1.0)
-    for model in ("", "Closed Forms", "bisection", "nonsense", 3):
+    for model in ("", "Closed Forms", "halving", "nonsense", 3):
         with pytest.raises((ValueError, TypeError), match="model"):
             rc.solve(chain, model=model)
     for what in (None, 3, "scene.toml", [1, 2], np.ones(3)):

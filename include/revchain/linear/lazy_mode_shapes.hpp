@@ -31,6 +31,10 @@ class LazyModeShapes {
     }
 
     const ModeShapes<T>& all(Index count, Progress* progress) const {
+        if (!state_ && count == 0) {
+            static const ModeShapes<T> none;
+            return none;
+        }
         const std::scoped_lock lock(state().mutex);
         if (!state_->known) state_->known = state_->find(0, count, progress);
         return *state_->known;
