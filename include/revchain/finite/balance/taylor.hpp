@@ -41,8 +41,8 @@ struct Taylor {
     friend Taylor operator/(const Taylor& f, const Interval<T>& k) { return (Interval<T>(T(1)) / k) * f; }
 };
 
-/// Calls `each(k, i, j)` for every pair of numbers i <= j, k its place in `Taylor::bend`. Inlined by force: as a call
-/// it costs a proof of the diagram 1.15 of the time (GCC 12, -O3).
+/// Calls `each(k, i, j)` for every pair of numbers i <= j, k its place in `Taylor::bend`. Inlined by force: as a call,
+/// the proof of a diagram takes 1.15 times as long (GCC 12, -O3).
 template <std::size_t D, class Each>
 [[gnu::always_inline]] inline void each_pair(const Each& each) {
     std::size_t k = 0;
