@@ -192,6 +192,7 @@ TEST_CASE("Shapes of condensed chains are as good as their heights", "[condensat
         const Chain<double> chain = family.make(size);
         ModesOptions<double> options;
         options.count = 9;  // not a multiple of a pack
+        options.method = revchain::ModesMethod::condensed;
         const auto fast = modes(chain, options);
         options.method = revchain::ModesMethod::bisection;
         const auto sure = modes(chain, options);
