@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "revchain/finite/cord/line_density.hpp"
+#include "revchain/system/line_density.hpp"
 
 namespace revchain::finite {
 

@@ -6,6 +6,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/held/cord_series.hpp"
 #include "revchain/finite/held/curve.hpp"
+#include "revchain/system/cord.hpp"
 
 namespace revchain {
 
@@ -35,11 +36,7 @@ struct HeldCordShape {
     std::vector<finite::CordPlace> steps;  ///< what places are computed from, lengths over the cord's
 };
 
-struct HeldCordOptions {
-    int most_half_waves = 1;
-};
-
-/// Shapes of a cord held at both ends, one at the most for each number of half waves; see `HeldShapes`.
+/// Shapes of a cord held at both ends, see `HeldShapes`.
 struct HeldCordShapes {
     std::vector<HeldCordShape> shapes;
     std::vector<int> missing;
@@ -146,24 +143,16 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     return shape;
 }
 
-inline HeldCordShapes held_cord_shapes(double length, double span, double height, double weight,
-                                       const HeldCordOptions& options) {
-    constexpr std::string_view place = "held_cord_shapes";
-    revchain::detail::require_positive(place, "length", length);
-    revchain::detail::require_positive(place, "span", span);
-    revchain::detail::require_positive(place, "weight", weight);
-    if (!(height >= 0 && std::isfinite(height)))
-        revchain::detail::throw_invalid(place, "conical height must not be negative, and finite", height);
-    if (!(span < length)) revchain::detail::throw_invalid(place, "span must be less than the length", span);
-    if (options.most_half_waves < 1)
-        revchain::detail::throw_invalid(place, "most half waves must be at least 1", options.most_half_waves);
+/// The shape of each number of half waves up to `max_half_waves` at a span and a height; height 0: without gravity.
+inline HeldCordShapes held_cord_shapes(const Cord& held, double span, double height, int max_half_waves) {
+    const double length = held.length();
     HeldCordShapes result;
     HeldCord cord;
-    for (int k = 1; k <= options.most_half_waves; ++k) {
+    for (int k = 1; k <= max_half_waves; ++k) {
         std::optional<HeldState> state = cord.weightless(k, span / length);
         if (state && height > 0) state = cord.curve().to_height(*state, height / length);
         std::optional<HeldCordShape> shape;
-        if (state) shape = described(*state, span, length, weight);
+        if (state) shape = described(*state, span, length, held.weight());
         if (shape && shape->error_bound < 1e-3)  // else it hangs folded along the axis
             result.shapes.push_back(std::move(*shape));
         else
@@ -172,42 +161,21 @@ inline HeldCordShapes held_cord_shapes(double length, double span, double height
     return result;
 }
 
-}  // namespace finite
-
-/// Steady shapes of a uniform, perfectly flexible cord whose two ends are held on the axis, `span` apart, at a conical
-/// height: `held_shapes` of more and more links. Height 0 stands for no gravity: Greenhill (1908) §5, y = b sn(K x/a).
-///
-/// Method: power series of degree 24, exact derivatives with the two forces at the lower end, Newton's method along a
-/// curve from the nearly straight cord. Accuracy: 1e-13 of the length (tests/cpp/paper/section_5_held_cord.cpp). Cost:
-/// 20 microseconds a path, some 100 paths a shape.
-/// Throws InvalidArgument for numbers not positive and finite, but the height, which may be 0, and a span not below the
-/// length.
-inline HeldCordShapes held_cord_shapes(double length, double span, double conical_height, double weight = 1,
-                                       const HeldCordOptions& options = {}) {
-    return finite::held_cord_shapes(length, span, conical_height, weight, options);
-}
-
-/// Shapes of a cord for a given tension at the upper end instead of the span; see `held_shapes_under_tension`.
-inline HeldCordShapes held_cord_shapes_under_tension(double length, double height_times_tension, double conical_height,
-                                                     double weight = 1, const HeldCordOptions& options = {}) {
-    constexpr std::string_view place = "held_cord_shapes_under_tension";
-    detail::require_positive(place, "height times tension", height_times_tension);
-    detail::require_positive(place, "length", length);
-    detail::require_positive(place, "weight", weight);
-    if (!(conical_height >= 0 && std::isfinite(conical_height)))
-        detail::throw_invalid(place, "conical height must not be negative, and finite", conical_height);
-    if (options.most_half_waves < 1)
-        detail::throw_invalid(place, "most half waves must be at least 1", options.most_half_waves);
-    finite::HeldCord cord;
+/// All shapes on the branch of each number of half waves whose tension at the upper end, times the height, is
+/// `height_times_tension`.
+inline HeldCordShapes held_cord_shapes_under_tension(const Cord& held, double height_times_tension, double height,
+                                                     int max_half_waves) {
+    const double length = held.length(), weight = held.weight();
+    HeldCord cord;
     HeldCordShapes result;
-    for (int k = 1; k <= options.most_half_waves; ++k) {
+    for (int k = 1; k <= max_half_waves; ++k) {
         const std::size_t before = result.shapes.size();
         for (const double share : {0.9, 0.5, 0.99, 0.1}) {
             auto state = cord.weightless(k, share);
-            if (state && conical_height > 0) state = cord.curve().to_height(*state, conical_height / length);
+            if (state && height > 0) state = cord.curve().to_height(*state, height / length);
             if (!state) continue;
-            cord.curve().under(*state, height_times_tension / length / weight, [&](const finite::HeldState& found) {
-                HeldCordShape shape = finite::described(found, found.span * length, length, weight);
+            cord.curve().under(*state, height_times_tension / length / weight, [&](const HeldState& found) {
+                HeldCordShape shape = described(found, found.span * length, length, weight);
                 if (shape.error_bound < 1e-3) result.shapes.push_back(std::move(shape));
             });
             break;
@@ -216,6 +184,8 @@ inline HeldCordShapes held_cord_shapes_under_tension(double length, double heigh
     }
     return result;
 }
+
+}  // namespace finite
 
 inline HeldCordPlace HeldCordShape::operator()(double arc) const {
     if (!(arc >= 0 && arc <= length))

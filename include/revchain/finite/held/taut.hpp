@@ -5,15 +5,6 @@
 #include "revchain/numeric/progress.hpp"
 
 namespace revchain {
-
-/// Whirl speeds of a chain held straight between two points of its axis.
-struct TautModes {
-    double tension = 0;             ///< at the lower end, in the unit of the weights
-    Vector<double> conical_height;  ///< of mode k + 1, descending
-    Vector<double> error_bound;     ///< relative
-    Table<double> shape;            ///< (modes, N + 1) offsets of the pins, largest 1, the lowest free pin's positive
-};
-
 namespace finite {
 
 /// Small offsets of a chain held at both ends, tau = lambda times the tension at the lower end: the pencil of link
@@ -80,46 +71,78 @@ double taut_number(const Count& count, Index k, double start) {
     return low;
 }
 
-}  // namespace finite
-
-/// Whirl speeds of the straight chain whose two ends are held on the axis, its lower end pulled down with `tension`, in
-/// the unit of the weights: the first `count` conical heights, and the offsets. Shapes held at finite amplitude leave
-/// from these: `held_shapes` of a span as short of the length as one likes.
-///
-/// Method: counts of negative pivots in two words of double, from the held lower pin up, halved until two neighbouring
-/// doubles enclose the height. Accuracy: 1 ulp, the bound returned; shapes 1e-13 / gap of the heights. Cost 60 N for
-/// each. Fewer are returned where there are fewer: N - 1 of N links, one less for each pin without mass.
-/// Throws InvalidArgument for a tension that is not positive and finite, and a count below 1.
-inline TautModes taut_modes(const Chain<double>& chain, double tension, Index count) {
+/// A straight chain whose two ends are held on the axis, its lower end pulled down: its modes of small amplitude. Number
+/// k + 1 is at k. Shapes of finite amplitude begin there, where the span is all but the length.
+class TautChain {
+   public:
     using S = Wide<double>;
-    constexpr std::string_view place = "taut_modes";
-    detail::require_positive(place, "tension", tension);
-    if (count < 1) detail::throw_invalid(place, "count must be at least 1", count);
-    const auto chained = finite::links_of(chain);
-    const finite::TautLinks<S> taut(chained.links);
-    const S pull(std::ldexp(tension, -chained.units.weight_exponent));
-    const auto above = [&](double height) { return taut.count(S(height), pull * S(height)); };
-    std::vector<double> found;
-    for (Index k = 0; k < std::min(count, taut.pins()); ++k) {
-        const double height = finite::taut_number(above, k, 1.0);
-        if (height == 0) break;
-        found.push_back(height);
-    }
-    TautModes modes;
-    modes.tension = tension;
-    const auto size = static_cast<Index>(found.size());
-    modes.conical_height.resize(size), modes.shape.resize(size, chain.size() + 1);
-    modes.error_bound = Vector<double>::Constant(size, epsilon<double>());
-    for (Index k = 0; k < size; ++k) {
-        const double height = found[static_cast<std::size_t>(k)];
-        modes.conical_height[k] = std::ldexp(height, chained.units.length_exponent);
-        const std::vector<S> y = taut.shape(S(height), pull * S(height));
-        for (Index m = 0; m <= chain.size(); ++m)
-            modes.shape(k, m) = static_cast<double>(y[static_cast<std::size_t>(m)]);
-        modes.shape(k, chain.size()) = 0;
-        modes.shape.row(k) /= modes.shape.row(k).cwiseAbs().maxCoeff();
-    }
-    return modes;
-}
 
+    /// `lower_tension`: at the lower end, in the unit of the weights.
+    TautChain(const Chain<double>& chain, const S& lower_tension)
+        : chain_(links_of(chain)), tension_(ldexp(lower_tension, -chain_.units.weight_exponent)) {}
+
+    /// How many conical heights exceed `height`.
+    Index above(double height) const { return count(scaled(height)); }
+    /// N - 1 of N links, one less for each free pin without mass.
+    Index mode_count() const { return count(lowest); }
+    /// Conical height number k, to a rounding. Cost: 60 counts.
+    double height(Index k) const {
+        return std::ldexp(taut_number([&](double x) { return count(x); }, k, 1.0), chain_.units.length_exponent);
+    }
+    /// Offsets of the pins at a height of `height`, lower end first; the largest 1, that of the lowest free pin positive.
+    Vector<double> shape(double height) const {
+        const S at(scaled(height));
+        const std::vector<S> y = TautLinks<S>(chain_.links).shape(at, tension_ * at);
+        Vector<double> offset(static_cast<Index>(y.size()));
+        for (Index m = 0; m < offset.size(); ++m) offset[m] = static_cast<double>(y[static_cast<std::size_t>(m)]);
+        offset[offset.size() - 1] = 0;
+        return offset / offset.cwiseAbs().maxCoeff();
+    }
+    /// The largest force that the offsets leave unbalanced at a free pin, over the largest sum of forces that meet there.
+    double residual(double height, const Vector<double>& offset) const {
+        const auto size_of = [](const S& x) { return std::abs(static_cast<double>(x)); };
+        const S at(scaled(height));
+        S force(0);  // carried over from the link below
+        double size = 0, worst = 0, largest = 0;
+        for (std::size_t m = 0; m < chain_.links.size(); ++m) {
+            const Link<S>& link = chain_.links[m];
+            const auto i = static_cast<Index>(m);
+            const S lower(offset[i]), upper(offset[i + 1]), stiffness = (at * link.pull + tension_ * at) / link.length;
+            const S spring = stiffness * (lower - upper);
+            const double spring_size = size_of(stiffness) * (size_of(lower) + size_of(upper));
+            const S on_lower = (link.moment - link.cross) * lower + link.cross * upper;
+            const S on_upper = (link.rest - link.cross) * upper + link.cross * lower;
+            if (m > 0) worst = std::max(worst, size_of(force + (spring - on_lower)));
+            largest = std::max(largest, size + spring_size + size_of(on_lower));
+            force = -spring - on_upper, size = spring_size + size_of(on_upper);
+        }
+        return worst / largest;
+    }
+    /// Distances from the lower end at which the chain crosses the axis between its ends.
+    Vector<double> nodes(const Vector<double>& offset) const {
+        std::vector<double> found;
+        S below(0);
+        for (std::size_t m = 0; m < chain_.links.size(); ++m) {
+            const auto i = static_cast<Index>(m);
+            const double y = offset[i], next = offset[i + 1];
+            const S length = chain_.links[m].length;
+            if (y * next < 0 || (i > 0 && y == 0)) {
+                const S place = y == 0 ? below : below + length * S(y / (y - next));
+                found.push_back(std::ldexp(static_cast<double>(place), chain_.units.length_exponent));
+            }
+            below = below + length;
+        }
+        return Eigen::Map<const Vector<double>>(found.data(), static_cast<Index>(found.size()));
+    }
+
+   private:
+    static constexpr double lowest = 0x1p-400;  // below every height: `taut_number` goes no further down
+    double scaled(double height) const { return std::ldexp(height, -chain_.units.length_exponent); }
+    Index count(double height) const { return TautLinks<S>(chain_.links).count(S(height), tension_ * S(height)); }
+
+    Links<S> chain_;
+    S tension_;
+};
+
+}  // namespace finite
 }  // namespace revchain
