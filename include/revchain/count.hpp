@@ -163,21 +163,6 @@ struct CountOptions {
     T gravity = T(conical_pendulum::standard_gravity);  ///< with `angular_speed`
 };
 
-namespace detail {
-
-/// The conical height asked for, of systems whose modes are not counted in a wider scalar.
-inline double height_to_count(const CountOptions<double>& options) {
-    constexpr std::string_view place = "count_modes";
-    if (options.conical_height.has_value() == options.angular_speed.has_value())
-        throw_invalid(place, "give either conical_height or angular_speed");
-    const double height = options.conical_height ? *options.conical_height
-                                                 : conical_pendulum::height(*options.angular_speed, options.gravity);
-    require_positive(place, "conical height", height);
-    return height;
-}
-
-}  // namespace detail
-
 /// The number of modes slower than a speed, proved. Greenhill (1908) section 8 (21).
 /// Accuracy and ties: see `ModeCounter`, which saves the assembly where many counts of one chain are wanted.
 /// Cost: 0.1 microseconds a link. Throws InvalidArgument unless exactly one of the two is given, positive and finite.

@@ -18,10 +18,10 @@
 ///
 ///     const auto rods = revchain::Chain<double>::uniform_rods(40, 1.0);
 ///     const auto shapes = revchain::steady_shapes(revchain::Held(rods, {.span = 0.5}), {.angular_speed = 10.0});
-///     shapes.shapes[0].offset.maxCoeff();   // 0.391063 m: the sag
+///     shapes.shapes[0].offset.maxCoeff();   // 0.391553 m: the sag
 ///     shapes.shapes[0].error_bound;         // of every inclination, rad: proved
 ///     const auto m = revchain::modes(revchain::Held(rods, {.tension = 11.0}), {.count = 2});
-///     m.angular_speed()[0];                 // 31.8... rad/s: the straight chain begins to whirl
+///     m.angular_speed()[0];                 // 31.8773 rad/s: here the straight chain begins to whirl
 ///
 /// Links and arrays begin at the lower end, which is the free end of the chain or cord. Speeds of a chain held straight
 /// are questions of `modes`, shapes at finite amplitude of `steady_shapes`, and their stability of `stability`.
@@ -51,8 +51,9 @@ class Held {
             detail::throw_invalid("Held", "span must be less than the length " + detail::in_digits(length()), *by.span);
         if constexpr (std::is_same_v<System, Cord>)
             if (!system_.is_uniform() || system_.tip_weight() != 0)
-                detail::throw_invalid("Held", "a held cord must be uniform and without tip weight; for others cut it "
-                                              "into links, as Chain::tapered does");
+                detail::throw_invalid("Held",
+                                      "a held cord must be uniform and without tip weight; for others cut it "
+                                      "into links, as Chain::tapered does");
     }
 
     const System& system() const { return system_; }
@@ -90,10 +91,10 @@ struct HeldShapesOptions {
 /// newtons. A branch has a narrow range of tensions: those of the skipping rope lie between 1/(pi k)^2 and 1/(8 k^2) of
 /// mass times length times the speed squared, k the half waves. With gravity the tension is largest inside the branch,
 /// so that two spans have the same tension.
-/// Method for chains: the two forces at the lower end are the unknowns of the upward sweep of Greenhill (1908) section 8
-/// (21), with exact derivatives; a curve is followed by its arc in double, Newton's method takes over in double-double,
-/// and Krawczyk's test in intervals of double-double proves the bound. For cords: power series of degree 24; without
-/// gravity the shape is that of section 5, y = b sn(K x/a).
+/// Method for chains: the two forces at the lower end are the unknowns of the upward sweep of Greenhill (1908) section
+/// 8 (21), with exact derivatives. A curve is followed by its arc in double, Newton's method takes over in
+/// double-double, and Krawczyk's test in intervals of double-double proves the bound. For cords: power series of degree
+/// 24; without gravity the shape is that of section 5, y = b sn(K x/a).
 /// Accuracy: inclinations of chains are correctly rounded but for 1e-20, the bound mostly proved (tests/cpp/held.cpp);
 /// places of cords are within 1e-13 of the length, the bound an estimate. A tension is met to 1e-15 of it.
 /// Cost: about 100 sweeps of 0.1 microseconds a link, or 100 paths of 20 microseconds for a cord; for a tension the
@@ -109,8 +110,9 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& op
 /// heights, where the span is all but the length.
 ///
 /// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
-/// doubles enclose the height. Accuracy: 1 ulp, which is the error bound; shapes 1e-13 over the relative gap to the next
-/// height. Cost: 60 sweeps for each height, one for each shape. `method` and `other` of the options have no effect.
+/// doubles enclose the height. Accuracy: 1 ulp, which is the error bound; shapes 1e-13 over the relative gap to the
+/// next height. Cost: 60 sweeps for each height, one for each shape. `method` and `other` of the options have no
+/// effect.
 /// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), without gravity (the
 /// result holds conical heights), for a tension that does not exceed the weight (the chain would not be straight), for
 /// `certify`, and for wrong numbers and windows as `modes` of a chain does. N links have N - 1 modes, less one for each

@@ -15,8 +15,7 @@ namespace detail {
 /// The conical height of the speed asked for; 0 without gravity.
 inline Wide<double> height_asked(const HeldBy& by, const HeldShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes";
-    if (options.max_half_waves < 1)
-        throw_invalid(place, "max_half_waves must be at least 1", options.max_half_waves);
+    if (options.max_half_waves < 1) throw_invalid(place, "max_half_waves must be at least 1", options.max_half_waves);
     if (options.angular_speed) require_positive(place, "angular speed", *options.angular_speed);
     if (by.weightless) {
         if (options.conical_height)
@@ -42,8 +41,8 @@ inline Wide<double> height_asked(const HeldBy& by, const HeldShapesOptions& opti
 
 /// The conical height times the tension at the upper end; without gravity, tension over speed squared.
 inline double height_times_tension(const HeldBy& by, double height, const HeldShapesOptions& options) {
-    const double product = by.weightless ? *by.tension / *options.angular_speed / *options.angular_speed
-                                         : height * *by.tension;
+    const double product =
+        by.weightless ? *by.tension / *options.angular_speed / *options.angular_speed : height * *by.tension;
     require_positive("steady_shapes", "conical height times tension", product);
     return product;
 }
@@ -57,19 +56,22 @@ inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<dou
                       "steady_shapes for its shapes and stability for small motions about one; span",
                       *held.by().span);
     if (held.by().weightless)
-        throw_invalid(place, "modes are given as conical heights, of which there are none without gravity; leave out "
-                             "weightless, and take a weight that is small beside the tension");
+        throw_invalid(place,
+                      "modes are given as conical heights, of which there are none without gravity; leave out "
+                      "weightless, and take a weight that is small beside the tension");
     const Wide<double> lower = Wide<double>(*held.by().tension) - chain.weight_below(chain.size());
     if (!(lower > Wide<double>(0)))
-        throw_invalid(place, "tension at the upper end must exceed the weight of the chain " +
-                                 in_digits(chain.total_weight()) + ", or its lower part is slack",
+        throw_invalid(place,
+                      "tension at the upper end must exceed the weight of the chain " +
+                          in_digits(chain.total_weight()) + ", or its lower part is slack",
                       *held.by().tension);
     return {chain, lower};
 }
 
 [[noreturn]] inline void no_modes_of_cords(std::string_view place) {
-    throw_invalid(place, "modes of a cord under tension are not available yet; cut it into links, as "
-                         "Held(Chain<double>::uniform_rods(1000, length, weight), {.tension = ...})");
+    throw_invalid(place,
+                  "modes of a cord under tension are not available yet; cut it into links, as "
+                  "Held(Chain<double>::uniform_rods(1000, length, weight), {.tension = ...})");
 }
 
 }  // namespace detail
@@ -85,8 +87,7 @@ REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const 
 
 REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options) {
     const double height = static_cast<double>(detail::height_asked(held.by(), options));
-    if (held.by().span)
-        return finite::held_cord_shapes(held.system(), *held.by().span, height, options.max_half_waves);
+    if (held.by().span) return finite::held_cord_shapes(held.system(), *held.by().span, height, options.max_half_waves);
     return finite::held_cord_shapes_under_tension(
         held.system(), detail::height_times_tension(held.by(), height, options), height, options.max_half_waves);
 }
@@ -99,19 +100,18 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Modes
     const auto within = [&](const HeightWindow<double>& window) {
         return detail::modes_within(window, taut.mode_count(), [&](double height) { return taut.above(height); });
     };
-    const ModeRange range = detail::chosen(
-        taut.mode_count(), options, within, [&](const SpeedWindow<double>& window) {
-            return within(detail::window_of_heights(window, options.gravity));
-        });
+    const ModeRange range = detail::chosen(taut.mode_count(), options, within, [&](const SpeedWindow<double>& window) {
+        return within(detail::window_of_heights(window, options.gravity));
+    });
     Modes<double> result = detail::room_for_modes(range, options);
     result.method = "bisection";
     for (Index j = 0; j < range.count; ++j) {
         detail::set_height(result, j, taut.height(range.first - 1 + j), epsilon<double>(), 0, options);
         detail::advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
     }
-    result.lazy_shapes = detail::LazyModeShapes<double>(
-        [taut, pins = held.system().size() + 1, heights = result.conical_height](Index first, Index count,
-                                                                                 Progress* progress) {
+    result.lazy_shapes =
+        detail::LazyModeShapes<double>([taut, pins = held.system().size() + 1, heights = result.conical_height](
+                                           Index first, Index count, Progress* progress) {
             ModeShapes<double> shapes{Table<double>(count, pins), Vector<double>(count), {}};
             for (Index j = 0; j < count; ++j) {
                 const double height = heights[first + j];
@@ -127,7 +127,7 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Modes
 }
 
 REVCHAIN_INLINE Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
-    return detail::taut_chain("count_modes", held).above(detail::height_to_count(options));
+    return detail::taut_chain("count_modes", held).above(detail::height_given("count_modes", options));
 }
 
 REVCHAIN_INLINE Modes<double> modes(const Held<Cord>&, const ModesOptions<double>&) {

@@ -49,8 +49,7 @@ ModeRange chosen(Index all, const ModesOptions<T>& options, const InHeights& in_
 template <Real T>
 ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOptions<T>& options) {
     return chosen(
-        chain.mode_count(), options,
-        [&](const HeightWindow<T>& window) { return assembled.counter().within(window); },
+        chain.mode_count(), options, [&](const HeightWindow<T>& window) { return assembled.counter().within(window); },
         [&](const SpeedWindow<T>& window) { return assembled.counter().within(window, options.gravity); });
 }
 

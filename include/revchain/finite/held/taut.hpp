@@ -71,8 +71,8 @@ double taut_number(const Count& count, Index k, double start) {
     return low;
 }
 
-/// A straight chain whose two ends are held on the axis, its lower end pulled down: its modes of small amplitude. Number
-/// k + 1 is at k. Shapes of finite amplitude begin there, where the span is all but the length.
+/// Modes of small amplitude of a straight chain whose two ends are held on the axis, its lower end pulled down. Shapes
+/// of finite amplitude begin at their heights, where the span is all but the length.
 class TautChain {
    public:
     using S = Wide<double>;
@@ -85,11 +85,11 @@ class TautChain {
     Index above(double height) const { return count(scaled(height)); }
     /// N - 1 of N links, one less for each free pin without mass.
     Index mode_count() const { return count(lowest); }
-    /// Conical height number k, to a rounding. Cost: 60 counts.
+    /// The conical height at index k, from 0 for the largest, to a rounding. Cost: 60 counts.
     double height(Index k) const {
         return std::ldexp(taut_number([&](double x) { return count(x); }, k, 1.0), chain_.units.length_exponent);
     }
-    /// Offsets of the pins at a height of `height`, lower end first; the largest 1, that of the lowest free pin positive.
+    /// Offsets of the pins, lower end first, at a conical height; the largest 1, that of the lowest free pin positive.
     Vector<double> shape(double height) const {
         const S at(scaled(height));
         const std::vector<S> y = TautLinks<S>(chain_.links).shape(at, tension_ * at);
@@ -98,7 +98,7 @@ class TautChain {
         offset[offset.size() - 1] = 0;
         return offset / offset.cwiseAbs().maxCoeff();
     }
-    /// The largest force that the offsets leave unbalanced at a free pin, over the largest sum of forces that meet there.
+    /// The largest force that the offsets leave unbalanced at a free pin, over the largest sum of forces at a pin.
     double residual(double height, const Vector<double>& offset) const {
         const auto size_of = [](const S& x) { return std::abs(static_cast<double>(x)); };
         const S at(scaled(height));

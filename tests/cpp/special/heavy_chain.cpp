@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "revchain/cord.hpp"
+#include "revchain/special/heavy_chain.hpp"
 
 #include <fstream>
 #include <sstream>
