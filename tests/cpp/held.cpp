@@ -319,3 +319,178 @@ TEST_CASE("held straight: where shapes of finite amplitude begin") {
         CHECK((scaled - modes.shape(0)).cwiseAbs().maxCoeff() < 3 * slack);
     }
 }
+
+TEST_CASE("held straight: the tension at the upper end, less the weight in double-double") {
+    for (const auto& family : support::families()) {
+        const Chain<double> chain = family.make(12);
+        const double tension = 1.25 * chain.total_weight();
+        INFO(family.name);
+        const auto modes = revchain::modes(Held(chain, {.tension = tension}));
+        const revchain::finite::TautChain taut(chain, revchain::Wide<double>(tension) - chain.weight_below(12));
+        REQUIRE(modes.size() == std::min<Index>(10, taut.mode_count()));
+        CHECK(modes.first == 1);
+        CHECK(modes.method == "bisection");
+        CHECK(modes.status == revchain::Status::success);
+        const auto& shapes = modes.shapes();
+        for (Index j = 0; j < modes.size(); ++j) {
+            CHECK(modes.conical_height[j] == taut.height(j));
+            CHECK(modes.error_bound[j] == revchain::epsilon<double>());
+            CHECK(modes.shape(j) == taut.shape(modes.conical_height[j]));
+            const double height = modes.conical_height[j];
+            CHECK(revchain::count_modes(Held(chain, {.tension = tension}), {.conical_height = height * (1 - 1e-14)}) ==
+                  j + 1);
+            CHECK(revchain::count_modes(Held(chain, {.tension = tension}), {.conical_height = height * (1 + 1e-14)}) ==
+                  j);
+            CHECK(shapes.residual[j] < 1e-15);
+            // mode k has k - 1 nodes, each between two pins of different sign
+            const auto& nodes = shapes.nodes[static_cast<std::size_t>(j)];
+            Index changes = 0;
+            double below = 0;
+            for (Index m = 0; m < 12; ++m) {
+                const double y = shapes.offset(j, m), next = shapes.offset(j, m + 1), length = chain.link(m).length;
+                if (y * next < 0) {
+                    REQUIRE(changes < nodes.size());
+                    CHECK(std::abs(nodes[changes] - (below + length * y / (y - next))) < 1e-14 * chain.total_length());
+                    ++changes;
+                }
+                below += length;
+            }
+            CHECK(changes == nodes.size());
+        }
+    }
+}
+
+TEST_CASE("held straight: two plummets on three threads, in closed form") {
+    // lambda K y = M y with the tensions 2 w + T, w + T and T over the threads of length 1: M is the weight w
+    const double w = 0.5, T = 3.0;
+    const Chain<double> chain({revchain::plummet(w, 1.0), revchain::plummet(w, 1.0), revchain::plummet(w, 1.0)});
+    const auto modes = revchain::modes(Held(chain, {.tension = 3 * w + T}));  // the lowest one lies on its bearing
+    REQUIRE(modes.size() == 2);
+    const double lower = w + T, middle = 2 * w + T, upper = 3 * w + T;  // in the three threads
+    const double a = lower + middle, b = middle, c = middle + upper, root = std::hypot((a - c) / 2, b);
+    CHECK(std::abs(modes.conical_height[0] * ((a + c) / 2 - root) / w - 1) < 1e-15);
+    CHECK(std::abs(modes.conical_height[1] * ((a + c) / 2 + root) / w - 1) < 1e-15);
+    CHECK(modes.shape(0)[0] == 0);
+    CHECK(modes.shape(0)[3] == 0);
+    CHECK(std::abs(modes.shape(0)[1] / modes.shape(0)[2] - b / (a - w / modes.conical_height[0])) < 1e-14);
+    CHECK(modes.angular_speed(10.0)[0] == std::sqrt(10.0) / std::sqrt(modes.conical_height[0]));
+}
+
+TEST_CASE("held straight: numbers, windows, all modes") {
+    const Chain<double> rods = Chain<double>::uniform_rods(30, 1.0, 2.0);
+    const Held held(rods, {.tension = 7.0});
+    const auto all = revchain::modes(held, {.count = revchain::all_modes});
+    REQUIRE(all.size() == 29);
+    const auto some = revchain::modes(held, {.first = 4, .count = 3});
+    CHECK(some.first == 4);
+    CHECK(some.conical_height == all.conical_height.segment(3, 3));
+    CHECK(some.shape(1) == all.shape(4));
+    CHECK(revchain::modes(held, {.first = 25}).size() == 5);
+    const double low = all.conical_height[6], high = all.conical_height[2];
+    const auto window =
+        revchain::modes(held, {.conical_height = revchain::HeightWindow<double>{low * 0.999, high * 1.001}});
+    CHECK(window.range() == revchain::ModeRange{3, 5});
+    CHECK(window.conical_height == all.conical_height.segment(2, 5));
+    const auto speeds = all.angular_speed();
+    const auto by_speed =
+        revchain::modes(held, {.angular_speed = revchain::SpeedWindow<double>{speeds[2] * 0.999, speeds[6] * 1.001}});
+    CHECK(by_speed.range() == window.range());
+    const double infinity = std::numeric_limits<double>::infinity();
+    CHECK(revchain::modes(held, {.angular_speed = revchain::SpeedWindow<double>{0, infinity}}).size() == 29);
+    CHECK(revchain::modes(held, {.conical_height = revchain::HeightWindow<double>{1e3, infinity}}).size() == 0);
+    CHECK(revchain::count_modes(held, {.angular_speed = speeds[6] * 1.001}) == 7);
+    CHECK(revchain::count_modes(held, {.angular_speed = 2 * speeds[6] * 1.001, .gravity = 4 * 9.80665}) == 7);
+    CHECK(revchain::modes(held, {.rtol = 1e-3}).status == revchain::Status::success);
+    CHECK(revchain::modes(held, {.rtol = 1e-20}).status == revchain::Status::tolerance_not_met);
+}
+
+TEST_CASE("held: a weightless system under a tension") {
+    const Chain<double> rods = Chain<double>::uniform_rods(25, 1.0, 2.0);
+    const double speed = 7.0;
+    for (const auto& shape :
+         revchain::steady_shapes(Held(rods, {.span = 0.7, .weightless = true}), {.max_half_waves = 2}).shapes) {
+        CHECK(shape.conical_height == 0);
+        const double tension = shape.height_times_tension[25] * speed * speed;  // newtons, of masses
+        const auto found = revchain::steady_shapes(Held(rods, {.tension = tension, .weightless = true}),
+                                                   {.angular_speed = speed, .max_half_waves = shape.half_waves});
+        REQUIRE(!found.shapes.empty());
+        CHECK(std::abs(found.shapes.back().span - 0.7) < 1e-12);
+        CHECK((found.shapes.back().inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-11);
+    }
+    const revchain::Cord cord(1.0, {.weight = 2.0});
+    const auto rope = revchain::steady_shapes(Held(cord, {.span = 0.7, .weightless = true})).shapes.at(0);
+    const double tension = rope.height_times_tension[rope.height_times_tension.size() - 1] * speed * speed;
+    const auto found =
+        revchain::steady_shapes(Held(cord, {.tension = tension, .weightless = true}), {.angular_speed = speed});
+    REQUIRE(found.shapes.size() == 1);
+    CHECK(std::abs(found.shapes[0].span - 0.7) < 1e-12);
+}
+
+TEST_CASE("held: what has no answer says what to ask instead") {
+    using Catch::Matchers::ContainsSubstring;
+    using revchain::Cord;
+    const Chain<double> rods = Chain<double>::uniform_rods(20, 1.0, 3.0);
+    CHECK_THROWS_WITH(Held(rods, {}), ContainsSubstring("give either span or tension"));
+    CHECK_THROWS_WITH(Held(rods, {.span = 0.5, .tension = 1.0}), ContainsSubstring("give either span or tension"));
+    CHECK_THROWS_WITH(Held(rods, {.span = 1.0}), ContainsSubstring("less than the length 1, got 1"));
+    CHECK_THROWS_WITH(Held(Cord(1, {.tip_weight = 1}), {.span = 0.5}), ContainsSubstring("must be uniform"));
+    CHECK_THROWS_WITH(Held(Cord(1, {.density = 1.0}), {.span = 0.5}), ContainsSubstring("Chain::tapered"));
+
+    const Held bent(rods, {.span = 0.5}), straight(rods, {.tension = 4.0});
+    const Held light(rods, {.tension = 4.0, .weightless = true}), light_bent(rods, {.span = 0.5, .weightless = true});
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent), ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.conical_height = 1.0, .angular_speed = 1.0}),
+                      ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.angular_speed = 1.0, .gravity = 0}),
+                      ContainsSubstring("weightless = true"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.angular_speed = 1e200}),
+                      ContainsSubstring("gravity / angular_speed^2 must be positive and finite"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.conical_height = 0.1, .max_half_waves = 0}),
+                      ContainsSubstring("max_half_waves must be at least 1"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(light_bent, {.conical_height = 0.1}),
+                      ContainsSubstring("give angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(light), ContainsSubstring("give angular_speed"));
+
+    CHECK_THROWS_WITH(revchain::modes(bent), ContainsSubstring("stability"));
+    CHECK_THROWS_WITH(revchain::count_modes(bent, {.conical_height = 0.1}), ContainsSubstring("stability"));
+    CHECK_THROWS_WITH(revchain::modes(light), ContainsSubstring("weightless"));
+    const Chain<double> beads = Chain<double>::uniform_plummets(4, 1.0, 3.0);
+    CHECK_THROWS_WITH(revchain::modes(Held(beads, {.tension = 3.0})),
+                      ContainsSubstring("must exceed the weight of the chain 3"));
+    CHECK_THROWS_WITH(revchain::count_modes(Held(rods, {.tension = 2.0}), {.conical_height = 0.1}),
+                      ContainsSubstring("must exceed the weight"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.certify = true}), ContainsSubstring("count_modes"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.first = 20}), ContainsSubstring("must not exceed the 19 modes"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.count = 20}), ContainsSubstring("must not exceed the 19 modes"));
+    CHECK_THROWS_AS(revchain::modes(straight, {.first = 0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.count = 0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.rtol = -1.0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.conical_height = revchain::HeightWindow<double>{2, 1}}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.angular_speed = revchain::SpeedWindow<double>{-1, 1}}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.angular_speed = revchain::SpeedWindow<double>{1, 2}, .gravity = 0}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_WITH(revchain::count_modes(straight, {}), ContainsSubstring("give either"));
+    CHECK_THROWS_AS(revchain::count_modes(straight, {.conical_height = 0.0}), revchain::InvalidArgument);
+
+    const Held rope(Cord(1), {.tension = 2.0});
+    CHECK_THROWS_WITH(revchain::modes(rope), ContainsSubstring("cut it into links"));
+    CHECK_THROWS_WITH(revchain::count_modes(rope, {.conical_height = 0.1}), ContainsSubstring("cut it into links"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(rope), ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::tune(rope, {}), ContainsSubstring("cannot be tuned yet"));
+    CHECK_THROWS_WITH(revchain::tune(bent, {}), ContainsSubstring("cannot be tuned yet"));
+    CHECK_THROWS_WITH(revchain::explain(rope), ContainsSubstring("one method"));
+    CHECK_THROWS_WITH(revchain::explain(straight), ContainsSubstring("one method"));
+}
+
+TEST_CASE("held: a run can be cancelled") {
+    revchain::Progress progress;
+    const Chain<double> rods = Chain<double>::uniform_rods(20);
+    const auto modes = revchain::modes(Held(rods, {.tension = 4.0}), {.count = 3, .progress = &progress});
+    CHECK(progress.fraction() == 1);
+    progress.cancel();
+    CHECK_THROWS_AS(revchain::modes(Held(rods, {.tension = 4.0}), {.count = 3, .progress = &progress}),
+                    revchain::Cancelled);
+    CHECK_THROWS_AS(modes.shapes(&progress), revchain::Cancelled);
+}

@@ -41,8 +41,8 @@ inline Wide<double> height_asked(const HeldBy& by, const HeldShapesOptions& opti
 
 /// The conical height times the tension at the upper end; without gravity, tension over speed squared.
 inline double height_times_tension(const HeldBy& by, double height, const HeldShapesOptions& options) {
-    const double product =
-        by.weightless ? *by.tension / *options.angular_speed / *options.angular_speed : height * *by.tension;
+    const double tension = by.tension.value(), speed = options.angular_speed.value_or(1);
+    const double product = by.weightless ? tension / speed / speed : height * tension;
     require_positive("steady_shapes", "conical height times tension", product);
     return product;
 }

@@ -26,18 +26,44 @@ class TautLinks {
         });
         return negative;
     }
-    /// Offsets of the pins for a unit pull inwards at the lower end. To be called where the last comes out 0.
+    /// Offsets of the pins, both ends 0, for a unit pull inwards at the lower end; to be called at a mode's height. The
+    /// pencil is eliminated from both ends to the pin where least is left over (twisted factorization), so that the
+    /// offsets are as accurate in a light part of the chain as in a heavy one.
     std::vector<S> shape(const S& height, const S& along) const {
-        std::vector<S> y{S(0)};
-        sweep(
-            height, along, [&](std::size_t, const S& offset, const S&) { y.push_back(offset); }, false);
+        using std::abs;
+        const std::size_t count = links_->size();
+        std::vector<S> y(count + 1, S(0)), diagonal = y, beside = y;  // of pins; beside[m]: of pins m and m + 1
+        if (count < 2) return y;
+        for (std::size_t m = 0; m < count; ++m) {
+            const Link<S>& link = (*links_)[m];
+            const S k = (height * link.pull + along) / link.length;
+            diagonal[m] = diagonal[m] + (k - (link.moment - link.cross));
+            diagonal[m + 1] = diagonal[m + 1] + (k - (link.rest - link.cross));
+            beside[m] = -(k + link.cross);
+        }
+        const auto pivot = [](const S& x) { return x == S(0) ? S(std::numeric_limits<double>::min()) : x; };
+        std::vector<S> from_below = diagonal, from_above = diagonal;
+        for (std::size_t m = 2; m < count; ++m)
+            from_below[m] = diagonal[m] - beside[m - 1] * beside[m - 1] / pivot(from_below[m - 1]);
+        for (std::size_t m = count - 2; m > 0; --m)
+            from_above[m] = diagonal[m] - beside[m] * beside[m] / pivot(from_above[m + 1]);
+        const auto left = [&](std::size_t m) { return abs(from_below[m] + from_above[m] - diagonal[m]); };
+        std::size_t meet = 1;
+        for (std::size_t m = 2; m < count; ++m)
+            if (left(m) < left(meet)) meet = m;
+        y[meet] = S(1);
+        for (std::size_t m = meet; m-- > 1;) y[m] = -(beside[m] * y[m + 1]) / pivot(from_below[m]);
+        for (std::size_t m = meet + 1; m < count; ++m) y[m] = -(beside[m - 1] * y[m - 1]) / pivot(from_above[m]);
+        const Link<S>& lowest = links_->front();
+        const S unit = lowest.length / (height * lowest.pull + along + lowest.length * lowest.cross) / pivot(y[1]);
+        for (S& offset : y) offset = offset * unit;
         return y;
     }
     Index pins() const { return static_cast<Index>(links_->size()) - 1; }
 
    private:
     template <class Visit>
-    void sweep(const S& height, const S& along, Visit&& visit, bool rescale = true) const {
+    void sweep(const S& height, const S& along, Visit&& visit) const {
         using std::abs;
         revchain::detail::look();
         S y(0), H(-1);
@@ -50,7 +76,7 @@ class TautLinks {
             H = R + link.rest * y;
             visit(m, y, stiffness);
             const double size = std::abs(static_cast<double>(y)) + std::abs(static_cast<double>(H));
-            if (rescale && (size > 1e100 || size < 1e-100)) y = y / S(size), H = H / S(size);
+            if (size > 1e100 || size < 1e-100) y = y / S(size), H = H / S(size);
         }
     }
     const std::vector<Link<S>>* links_;
@@ -95,7 +121,6 @@ class TautChain {
         const std::vector<S> y = TautLinks<S>(chain_.links).shape(at, tension_ * at);
         Vector<double> offset(static_cast<Index>(y.size()));
         for (Index m = 0; m < offset.size(); ++m) offset[m] = static_cast<double>(y[static_cast<std::size_t>(m)]);
-        offset[offset.size() - 1] = 0;
         return offset / offset.cwiseAbs().maxCoeff();
     }
     /// The largest force that the offsets leave unbalanced at a free pin, over the largest sum of forces at a pin.
