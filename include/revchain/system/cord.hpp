@@ -40,12 +40,13 @@ class Cord {
                 detail::throw_invalid("Cord", "the exponent of the density must be above -1 and at most 1e4",
                                       *exponent);
             exponent_ = *exponent;
-        } else if (const auto* known = std::get_if<std::shared_ptr<const LineDensity>>(&options.density)) {
-            density_ = *known;
         } else {
-            density_ = std::make_shared<LineDensity>(std::get<1>(options.density), length);
-        }
-        if (!exponent_) {
+            if (const auto* function = std::get_if<std::function<double(double)>>(&options.density)) {
+                if (!*function) detail::throw_invalid("Cord", "the density must be a function, not an empty one");
+                density_ = std::make_shared<LineDensity>(*function, length);
+            } else {
+                density_ = std::get<std::shared_ptr<const LineDensity>>(options.density);
+            }
             if (!density_ || density_->length() != length)
                 detail::throw_invalid("Cord", "the density must be given over the length of the cord, not over",
                                       density_ ? density_->length() : 0.0);
