@@ -56,7 +56,7 @@ struct CordModes {
 /// 4 (p + 1) L / j_{p,k}^2, to 3 ulp; a uniform cord with a tip weight has the zeros of a cross product of Bessel
 /// functions, to 2 ulp. All others are solved by power series, to 4e-15 (tests/cpp/cord.cpp). `error_bound` says the
 /// same; it was measured, for exponents from -0.99 to 100. Offsets are within 1e-15 times the mode number, with series
-/// within 1e-13, of the largest one.
+/// within 1e-14, of the largest one.
 /// Cost: 0.01 to 15 microseconds a mode, with series ten paths of 0.1 ms a mode from the first on.
 /// Throws InvalidArgument as `modes` of a chain does, for all modes (there are infinitely many), for `certify`, for
 /// modes above number 1e5 with series, and where a density or a tip cannot be followed. `method` and `other` of the

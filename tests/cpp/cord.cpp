@@ -115,9 +115,9 @@ TEST_CASE("cord: power series agree with the closed forms") {
               revchain::count_modes(closed, {.conical_height = 0.01}));
     }
     CAPTURE(heights, offsets, nodes);
-    CHECK(heights < 4e-15);
-    CHECK(offsets < 1e-13);
-    CHECK(nodes < 1e-14);
+    CHECK(heights < 2e-15);
+    CHECK(offsets < 1e-14);
+    CHECK(nodes < 1e-15);
 }
 
 TEST_CASE("cord: a power with a tip weight, against ever more links") {

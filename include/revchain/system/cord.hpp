@@ -29,14 +29,11 @@ struct CordOptions {
 /// (see `LineDensity`), and polynomials over another length. Cost: 0.1 ms with a density function, else nothing.
 class Cord {
    public:
-    static constexpr double most_exponent = 1e4;
-    static constexpr double most_exponent_in_series = 20;  ///< s^p must not underflow close to the free end
-
     explicit Cord(double length, const CordOptions& options = {})
         : length_(length), weight_(options.weight.value_or(1)), tip_weight_(options.tip_weight) {
         detail::require_positive("Cord", "length", length);
         if (const double* exponent = std::get_if<double>(&options.density)) {
-            if (!(*exponent > -1 && *exponent <= most_exponent))
+            if (!(*exponent > -1 && *exponent <= 1e4))
                 detail::throw_invalid("Cord", "the exponent of the density must be above -1 and at most 1e4",
                                       *exponent);
             exponent_ = *exponent;
@@ -67,11 +64,11 @@ class Cord {
     /// The exponent of the density; nothing where it was given as a function.
     std::optional<double> exponent() const { return exponent_; }
     bool is_uniform() const { return exponent_ == 0.0; }
-    /// The density as polynomials, in proportion; nothing for a uniform cord. Of a power they are found at each call.
-    /// Throws InvalidArgument for an exponent above `most_exponent_in_series`.
+    /// The density as polynomials, in proportion; nothing for a uniform cord. Those of a power are found at each call.
+    /// Throws InvalidArgument for an exponent above 20: s^p would underflow close to the free end.
     std::shared_ptr<const LineDensity> line_density() const {
         if (!exponent_ || is_uniform()) return density_;
-        if (!(*exponent_ <= most_exponent_in_series))
+        if (!(*exponent_ <= 20))
             detail::throw_invalid("Cord", "power series take exponents of the density up to 20 only", *exponent_);
         return std::make_shared<LineDensity>(
             [length = length_, p = *exponent_](double s) { return std::pow(s / length, p); }, length_);
