@@ -3,8 +3,8 @@
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/finite/stability/held.hpp"
 #include "revchain/held.hpp"
+#include "revchain/stability.hpp"
 
 namespace {
 

@@ -102,7 +102,7 @@ py::tuple bell_and_clapper(const Chain& chain) {
                           found.present, found.derivative);
 }
 
-py::tuple sensitivity(const revchain::Rig& rig, double angular_speed, const Array& offset, double gravity) {
+py::tuple rig_sensitivity(const revchain::Rig& rig, double angular_speed, const Array& offset, double gravity) {
     const auto found = revchain::sensitivity(rig, angular_speed, vector(offset), gravity);
     return py::make_tuple(to_numpy(found.weight), to_numpy(found.length), to_numpy(found.centroid),
                           to_numpy(found.radius_of_gyration), to_numpy(found.length_in_proportion),

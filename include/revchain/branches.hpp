@@ -130,7 +130,7 @@ class Diagram {
     }
     /// Every shape at one height must be met by a branch; where one is not, its branch is followed both ways.
     void look(double height) {
-        const auto list = steady_shapes(chain_, height, {.budget = options_.budget});
+        const auto list = steady_shapes(chain_, {.conical_height = height, .budget = options_.budget});
         result_.looked_at.push_back(height);
         result_.consistent = result_.consistent && list.complete;
         std::vector<int> met(list.shapes.size(), 0);
@@ -180,7 +180,7 @@ class Diagram {
         DiagramProver prover(narrow_, options_.proof_budget);
         const auto proof =
             prover.run(lowest, first * unit_ * (1 + 1e-9), last,
-                       [&](const DiagramPoint& at, const Rectangle<double>& within) { return known(at, within); });
+                       [&](const DiagramPoint& at, const Rectangle& within) { return known(at, within); });
         result_.complete = proof.complete && result_.consistent;
         if (result_.complete)
             result_.remark = "proved complete: no branch is missing";
@@ -190,13 +190,14 @@ class Diagram {
             result_.remark += ", between the heights " + revchain::detail::in_digits(proof.open_low / unit_) + " and " +
                               revchain::detail::in_digits(proof.open_high / unit_);
     }
-    bool known(const DiagramPoint& at, const Rectangle<double>& within) {
+    bool known(const DiagramPoint& at, const Rectangle& within) {
         if (std::any_of(result_.branches.begin(), result_.branches.end(),
                         [&](const Branch& each) { return goes_through(each, corrector_, at, within); }))
             return true;
         if (stuck_ >= 20) return false;
         std::vector<Interval<double>> tangents;
-        detail::support_offset(narrow_, Interval<double>(at.height), Interval<double>(at.x / at.height), &tangents);
+        detail::support_offset(narrow_, Interval<double>(at.height), Interval<double>(at.x / at.height), OnAxis{},
+                               &tangents);
         BranchState state, across;
         for (const auto& t : tangents) state.rise.push_back(std::asinh(t.middle()));
         state.log_height = std::log(at.height);

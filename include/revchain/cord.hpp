@@ -13,8 +13,8 @@
 ///     const revchain::Cord cord(0.36);                           // m; uniform
 ///     const auto m = revchain::modes(cord, {.count = 3});
 ///     m.angular_speed()[0];                                      // 6.27571 rad/s
-///     m.offset(1, 0.18);                                         // of the second mode at 0.18 m from the free end
-///     m.nodes(2);                                                // 0.0278012 m and 0.146483 m from the free end
+///     m.offset(1, 0.18);                                         // -0.401734: second mode, 0.18 m from the free end
+///     m.nodes(2)[0];                                             // 0.0278012 m from the free end: the lower node
 ///     const auto shapes = revchain::steady_shapes(cord, {.angular_speed = 20.0});
 ///     shapes.shapes.size();                                      // 2 shapes at finite amplitude: all there are
 ///     const revchain::Cord line(2.0, {.weight = 0.5, .density = 1.0, .tip_weight = 3.0});   // thicker towards the top

@@ -20,7 +20,6 @@
 #include "revchain/models/heights.hpp"                 // IWYU pragma: export
 #include "revchain/modes.hpp"                          // IWYU pragma: export
 #include "revchain/numeric/double_double.hpp"          // IWYU pragma: export
-#include "revchain/paper/two_links_shapes.hpp"         // IWYU pragma: export
 #include "revchain/recurrence.hpp"                     // IWYU pragma: export
 #include "revchain/response.hpp"                       // IWYU pragma: export
 #include "revchain/rig.hpp"                            // IWYU pragma: export

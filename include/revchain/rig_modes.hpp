@@ -14,7 +14,7 @@
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const revchain::Rig rig(chain, {.support = revchain::horizontal_spring(50.0)});
 ///     const auto m = revchain::modes(rig, {.count = 2});
-///     m.forward.angular_speed[0];      // 3.74112 rad/s, the slowest mode
+///     m.forward.angular_speed[0];      // 3.72206 rad/s, the slowest mode
 ///     m.forward.speed_error_bound[0];  // its relative error is at most 2.3e-16: proved
 ///     m.forward.shape(0);              // offsets of the pins, free end first
 namespace revchain {

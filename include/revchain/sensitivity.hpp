@@ -56,7 +56,7 @@ struct Sensitivity {
 /// Laws: sum of W d/dW = 0; sum of a d/da + h d/dh + rho d/drho = lambda; of it a link's part, a times
 /// `length_in_proportion`, is its share of y^T K y, so that no link made longer as a whole lowers a height.
 /// Accuracy: every entry within its error bound, which is proved; measured 0.51 ulp of the entry, but of entries small
-/// beside the largest 1e-28 of that (tests/cpp/linear/sensitivity.cpp). The heights in `modes` need not be accurate.
+/// beside the largest 1e-28 of that (tests/cpp/sensitivity.cpp). The heights in `modes` need not be accurate.
 /// Cost: 1.5 microseconds a link and mode; O(N k) memory.
 /// Throws InvalidArgument where the chain's weights are more than 1e123 apart.
 template <Real T>

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "revchain/models/heights.hpp"
-#include "revchain/questions/explain.hpp"
 #include "support/catch.hpp"
 
 using namespace revchain;
@@ -21,8 +20,13 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 template <class Choice>
+Explanation explanation(const Choice& choice) {
+    return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
+}
+
+template <class Choice>
 std::vector<std::string> explained(const Choice& choice) {
-    const std::string text = detail::explained(choice).text();
+    const std::string text = explanation(choice).text();
     REQUIRE(text.back() == '\n');
     const auto lines = lines_of(text);
     REQUIRE(lines.size() == choice.estimates.size() + (choice.meets_tolerance ? 1 : 2));
@@ -73,13 +77,13 @@ TEST_CASE("explain: to the letter") {
                             Estimate{"rather longer", {}, 0x1p-51, 0.25}},
                            0,
                            true};
-    CHECK(detail::explained(choice).text() ==
+    CHECK(explanation(choice).text() ==
           "   model          error bound  expected to take\n"
           "-> short              1.5e-03            250 ns\n"
           "   no                       -                 -  more than two links\n"
           "   rather longer      4.4e-16            250 ms\n");
     const Choice<1> none{{Estimate{"only", {}, 0.5, 1e-12}}, 0, false};
-    CHECK(detail::explained(none).text() ==
+    CHECK(explanation(none).text() ==
           "no model keeps the tolerance\n"
           "   model  error bound  expected to take\n"
           "-> only       5.0e-01          0.001 ns\n");

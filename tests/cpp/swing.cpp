@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/swing.hpp"
 
+#include "revchain/modes.hpp"
+
 #include <quadmath.h>
 
 #include "support/catch.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/tune.hpp"
 
+#include "revchain/questions/tune_candidates.hpp"
+
 #include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"

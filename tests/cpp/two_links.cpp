@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
@@ -163,7 +163,8 @@ TEST_CASE("Jointed links: every figure, and no other", "[finite][jointed]") {
         const Letters q = letters(links);
         const bool one_inclination = height * (q.W1 * q.a2 + q.W2 * q.h2) > q.m_l2 - q.W2 * q.h2 * q.a2;  // of link 2
         if (one_inclination) {
-            const auto found = revchain::steady_shapes(Chain<double>({lower, upper}), height, {.budget = 2000});
+            const auto found =
+                revchain::steady_shapes(Chain<double>({lower, upper}), {.conical_height = height, .budget = 2000});
             CHECK(found.complete);
             ++compared;
             REQUIRE(found.shapes.size() == shapes.size());

@@ -2,7 +2,7 @@
 #include "revchain/held.hpp"
 #include "fuzz.hpp"
 #include "revchain/cord.hpp"
-#include "revchain/finite/stability/held.hpp"
+#include "revchain/stability.hpp"
 
 void fuzz::held(Random& random) {
     const std::uint64_t kind = random.below(5);

@@ -18,7 +18,9 @@ void fuzz::rigs(Random& random) {
         (void)revchain::sensitivity(rig, random.number(), offset, random.number());
     } else {
         const int sense = random.one_in(2) ? 1 : -1;
-        (void)revchain::steady_shapes(rig, random.number() * rig.chain().total_length(),
-                                      {.budget = 3000, .hanging_only = random.one_in(2), .sense = sense});
+        (void)revchain::steady_shapes(rig, {.conical_height = random.number() * rig.chain().total_length(),
+                                            .budget = 3000,
+                                            .hanging_only = random.one_in(2),
+                                            .direction = sense});
     }
 }

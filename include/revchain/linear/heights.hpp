@@ -14,13 +14,9 @@
 /// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
 namespace revchain::detail {
 
-/// A height in the units of the chain's pencils.
+/// A height in the units of the chain's pencils; the bound is relative to the exact height, and proved.
 template <Real T>
-struct Height {
-    T value{};
-    T error_bound{};      ///< of `value`, relative to the exact height; proved
-    Wide<T> unrounded{};  ///< what the shape is computed at
-};
+using Height = pencil::Certified<T>;
 
 /// What the first stage of `modes` gives: the heights of a range of modes, descending.
 template <Real T>
@@ -43,37 +39,12 @@ bool is_loose(const Chain<T>& chain, const HeightsOptions<T>& options) {
     return std::min(options.rtol.value_or(T(0)), T(0.5)) > T(64) * epsilon<T>() * T(chain.size());
 }
 
-/// Height number `j` (from 0) to `goal`, from its bracket: the cheapest certificate first.
-template <Real T>
-Height<T> refined(const Pencils<T>& pencils, Index j, const pencil::Bracket<T>& bracket, const T& goal, bool loose) {
-    using S = Wide<T>;
-    using M = Narrow<S>;
-    const T start = pencil::between(bracket.lower, bracket.upper);
-    if (loose && pencil::lies_within<T>(pencils.rounded(), j, start, goal / T(2)))
-        return {start, pencil::bound_of_margin<T>(goal / T(2)), S(start)};
-    // One round nearly always, two at most: the quotient's error is the square of the vector's. Where no arithmetic is
-    // wider than T, rounding in T limits what two counts can prove: then as many ulp as it takes, within a factor of 2.
-    T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // with what goes with it 2 ulp at most
-    T height = start;
-    S fine(start);
-    for (int round = 0; round < (std::is_same_v<S, T> ? 24 : 2); ++round) {
-        if (round < 2)
-            fine = pencil::rayleigh_quotient<S>(pencils.wide(), pencil::eigenvector(pencils.rounded(), height).offset);
-        height = static_cast<T>(fine);
-        if (pencil::lies_within<S>(pencils.wide(), j, height, static_cast<M>(margin)))
-            return {height, pencil::bound_of_margin<S>(margin), fine};
-        if constexpr (std::is_same_v<S, T>) margin = margin * T(2);
-    }
-    const auto sure = pencil::bisect_certified<S>(pencils.wide(), j, start);
-    return {sure.eigenvalue, sure.error_bound, S(static_cast<M>(sure.eigenvalue))};
-}
-
 /// Heights closer together than their bounds may come out in the wrong order; exchanged, the larger bound holds for
 /// both.
 template <Real T>
 void restore_order(std::vector<Height<T>>& heights) {
     for (std::size_t j = 1; j < heights.size(); ++j)
-        for (std::size_t i = j; i > 0 && heights[i - 1].value < heights[i].value; --i) {
+        for (std::size_t i = j; i > 0 && heights[i - 1].eigenvalue < heights[i].eigenvalue; --i) {
             std::swap(heights[i - 1], heights[i]);
             heights[i].error_bound = heights[i - 1].error_bound =
                 std::max(heights[i - 1].error_bound, heights[i].error_bound);
@@ -127,7 +98,11 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
     result.height.reserve(brackets.size());
     for (const auto& bracket : brackets) {
         const Index j = static_cast<Index>(result.height.size());
-        result.height.push_back(refined(pencils, range.first - 1 + j, bracket, goal, loose));
+        const T start = pencil::between(bracket.lower, bracket.upper);
+        const bool near = loose && pencil::lies_within<T>(pencils.rounded(), range.first - 1 + j, start, goal / T(2));
+        result.height.push_back(near ? Height<T>{start, pencil::bound_of_margin<T>(goal / T(2)), Wide<T>(start)}
+                                     : pencil::certified_eigenvalue<Wide<T>, T>(pencils.wide(), pencils.rounded(),
+                                                                                range.first - 1 + j, start));
         advance(options.progress, share * (0.5 + 0.5 * static_cast<double>(j + 1) / count));
     }
     restore_order(result.height);

@@ -42,20 +42,21 @@ class ShapeFinder {
         const auto begin = height_.begin() + from;
         const std::vector<Height<T>> height(begin, begin + count);
         if constexpr (std::is_same_v<T, double>)
-            if (condense_ && compression_pays(chain_, {first_ + from, count}) && chain_.has_one_weight_unit() &&
+            if (condense_ && condensation_pays(chain_, {first_ + from, count}) && chain_.has_one_weight_unit() &&
                 std::abs(chain_.units().weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
                 const T unit = std::ldexp(T(1), chain_.units().length_exponent) / LinkColumns<T>(chain_).unit_length;
-                const auto compressed = compress(chain_, T(0.95) * height.back().value * unit);
-                if (shapes_by_compression(shapes, chain_, compressed, height, progress, 1.0)) return shapes;
+                const auto condensed = condensed_chain(chain_, T(0.95) * height.back().eigenvalue * unit);
+                if (shapes_by_condensation(shapes, chain_, condensed, height, progress, 1.0)) return shapes;
             }
         const Pencils<T> pencils(chain_);
         for (Index j = 0; j < count; ++j) {
             const Height<T>& at = height[static_cast<std::size_t>(j)];
             if (loose_)
-                set_shape(shapes, j, chain_, pencils.rounded(), at.value,
-                          pencil::eigenvector(pencils.rounded(), at.value));
+                set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,
+                          pencil::eigenvector(pencils.rounded(), at.eigenvalue));
             else
-                set_shape(shapes, j, chain_, pencils.wide(), at.value, fine_shape<T>(pencils.wide(), at.unrounded));
+                set_shape(shapes, j, chain_, pencils.wide(), at.eigenvalue,
+                          fine_shape<T>(pencils.wide(), at.unrounded));
             advance(progress, 1.0);  // may be cancelled
         }
         return shapes;

@@ -3,7 +3,7 @@
 
 #include "revchain/count.hpp"
 #include "revchain/linear/rig_pencil.hpp"
-#include "revchain/pencil/bisection.hpp"
+#include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/signed_twisted.hpp"
 
 /// The part of `rig_modes` that counts: for rigs whose roots are all real and one count numbers.
@@ -63,8 +63,7 @@ class CountedRoots {
             if (!(root > RigWord(0.0)) || !isfinite(root)) break;
             x = root;
             const RigWord out = given_out(x), reach = out * RigWord(margin);
-            const auto count = counted<2>({out - reach, out + reach});
-            if (count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j) return {x, margin};
+            if (pencil::bracketed(counted<2>({out - reach, out + reach}), j)) return {x, margin};
         }
         return bisected(j, pencil::between(bracket.lower, bracket.upper));
     }
@@ -90,30 +89,11 @@ class CountedRoots {
 
     /// By proved counts alone, as far as they go.
     FoundRoot bisected(Index j, double guess) const {
-        const RigWord centre(guess);
-        RigWord lower = centre, upper = centre;
-        bool has_lower = false, has_upper = false;
-        for (double margin = 8 * epsilon<double>(); !(has_lower && has_upper); margin *= 16) {
-            if (margin > 1e6) return {centre};
-            const RigWord stretch(1 + margin);
-            const auto count = counted<2>({centre / stretch, centre * stretch});
-            if (!has_lower && count[0].proved && count[0].above > j) lower = centre / stretch, has_lower = true;
-            if (!has_upper && count[1].proved && count[1].above <= j) upper = centre * stretch, has_upper = true;
-        }
-        for (int round = 0; round < 200; ++round) {
-            if (static_cast<double>(upper - lower) < epsilon<double>() / 4 * static_cast<double>(lower)) break;
-            const RigWord third = (upper - lower) / RigWord(3.0);
-            const std::array<RigWord, 2> shifts{lower + third, upper - third};
-            const auto count = counted<2>(shifts);
-            bool moved = false;
-            for (std::size_t i = 0; i < 2; ++i) {
-                if (!count[i].proved) continue;
-                if (count[i].above > j && shifts[i] > lower) lower = shifts[i], moved = true;
-                if (count[i].above <= j && shifts[i] < upper) upper = shifts[i], moved = true;
-            }
-            if (!moved) break;
-        }
-        const RigWord x = lower + (upper - lower) / RigWord(2.0), out = given_out(x);
+        const auto count = [&](const std::array<RigWord, 2>& shifts) { return counted<2>(shifts); };
+        const auto found = pencil::proved_interval(count, j, RigWord(guess), epsilon<double>() / 4);
+        if (!found) return {RigWord(guess)};
+        const auto& [lower, upper] = *found;
+        const RigWord x = found->middle(), out = given_out(x);
         const double worst = std::max(static_cast<double>(out - lower), static_cast<double>(upper - out));
         return {x, worst / static_cast<double>(lower) * (1 + 8 * epsilon<double>())};
     }

@@ -37,7 +37,7 @@ struct DoubleDoubleBisection {
         answer.conical_height_low.resize(question.count);
         for (Index j = 0; j < question.count; ++j) {
             const auto& height = found.height[static_cast<std::size_t>(j)];
-            const auto word = height.value.word();
+            const auto word = height.eigenvalue.word();
             answer.conical_height[j] = std::ldexp(word.high, exponent);
             answer.conical_height_low[j] = std::ldexp(word.low, exponent);
             answer.error_bound[j] = static_cast<double>(height.error_bound) * (1 + 1e-15);

@@ -26,7 +26,7 @@ inline Answer answered(const Chain<double>& chain, const revchain::detail::Heigh
     answer.unrounded.reserve(found.height.size());
     for (Index j = 0; j < count; ++j) {
         const auto& height = found.height[static_cast<std::size_t>(j)];
-        answer.conical_height[j] = std::ldexp(height.value, exponent);
+        answer.conical_height[j] = std::ldexp(height.eigenvalue, exponent);
         answer.error_bound[j] = height.error_bound;
         answer.unrounded.push_back(ldexp(height.unrounded, exponent));
     }
@@ -126,8 +126,8 @@ struct Condensed {
                    (5e-5 * count * (1 + count / 20) + 7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        const auto found = revchain::detail::heights_by_compression(chain, detail::range_of(question),
-                                                                    detail::options_for(question), 1.0);
+        const auto found = revchain::detail::heights_by_condensation(chain, detail::range_of(question),
+                                                                     detail::options_for(question), 1.0);
         return found ? detail::answered(chain, found->found) : Answer::none();
     }
 };
@@ -158,8 +158,8 @@ struct Aberth {
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         Question loose = question;
         loose.rtol = std::max(question.rtol, bound);
-        return detail::answered(chain, revchain::detail::heights_all_together(chain, detail::range_of(question),
-                                                                              detail::options_for(loose)));
+        return detail::answered(
+            chain, revchain::detail::heights_by_aberth(chain, detail::range_of(question), detail::options_for(loose)));
     }
 };
 
@@ -185,8 +185,8 @@ struct Interpolated {
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         revchain::detail::LazyCounter<double> assembled(chain);
         return detail::answered(
-            chain, revchain::detail::heights_by_spectrum(assembled, detail::range_of(question), kind.mode_count,
-                                                         detail::options_for(question), 1.0));
+            chain, revchain::detail::heights_by_interpolation(assembled, detail::range_of(question), kind.mode_count,
+                                                              detail::options_for(question), 1.0));
     }
 };
 

@@ -8,6 +8,12 @@
 
 namespace revchain::pencil {
 
+/// Bounds on the absolute errors of an element's numbers.
+template <Real M>
+struct ElementError {
+    M stiffness{}, spin{}, lower{}, upper{}, cross{};
+};
+
 /// One element between two neighbouring pins of a family of symmetric matrices in one unknown x,
 ///
 ///     Q(x) = L(x) [ 1 -1 ; -1 1 ] - [ A X ; X B ],     L = x k,  or with spins  L = x^2 k + x s,
@@ -18,6 +24,7 @@ struct SignedElement {
     S stiffness{};  ///< k
     S spin{};       ///< s
     S lower{}, upper{}, cross{};
+    ElementError<Narrow<S>> error{};
 
     S weight() const { return (lower + cross) + (cross + upper); }
     S determinant() const { return lower * upper - cross * cross; }
@@ -25,12 +32,6 @@ struct SignedElement {
     S above(const S& L, const S& D, const S& weight, const S& determinant, const S& p) const {
         return ((L - upper) * D - (L * weight - determinant)) / p;
     }
-};
-
-/// Bounds on the absolute errors of an element's numbers.
-template <Real M>
-struct SignedElementError {
-    M stiffness{}, spin{}, lower{}, upper{}, cross{};
 };
 
 /// x, or x^2 and x: what the stiffness and the spin of each element are multiplied by.
@@ -43,7 +44,6 @@ struct Factors {
 template <Real S>
 struct SignedPencil {
     std::vector<SignedElement<S>> elements;
-    std::vector<SignedElementError<Narrow<S>>> errors;
     bool quadratic = false;  ///< L = x^2 k + x s
 
     Index size() const { return static_cast<Index>(elements.size()); }
@@ -141,9 +141,8 @@ std::array<CertifiedCount, N> certified_count(const SignedPencil<S>& pencil, con
     std::array<M, N> error{};
     std::array<CertifiedCount, N> result{};
     for (std::size_t i = 0; i < N; ++i) factors[i] = pencil.factors(shifts[i]), result[i].proved = true;
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const SignedElement<S>& e = pencil.elements[m];
-        const SignedElementError<M>& off = pencil.errors[m];
+    for (const SignedElement<S>& e : pencil.elements) {
+        const ElementError<M>& off = e.error;
         const M k = size_of(e.stiffness), s = size_of(e.spin);
         const M lower = size_of(e.lower), upper = size_of(e.upper), cross = size_of(e.cross);
         const S weight = e.weight(), determinant = e.determinant();

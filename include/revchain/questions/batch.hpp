@@ -41,7 +41,7 @@ bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptio
     const Index threads = std::max<Index>(1, std::min(options.threads, slices));
     std::atomic<bool> unusual = false;
     const auto part = [&](Index t) {
-        std::conditional_t<fits_lanes<T>, LaneWorker<T>, SingleWorker<T>> worker(batch, plan, heights);
+        BatchWorker<T> worker(batch, plan, heights);
         for (Index slice = slices * t / threads; slice < slices * (t + 1) / threads && !unusual; ++slice) {
             const Index first = slice * together, last = std::min(first + together, batch.chains);
             if (looking && !ordinary(batch, first, last)) {
@@ -78,7 +78,7 @@ Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options
         Table<T> heights(batch.chains, plan.count);
         if (detail::compute(batch, plan, options, true, heights)) return heights;
     }
-    const detail::BatchPlan plan = detail::look_at_each(batch, options.count);
+    const detail::BatchPlan plan = detail::classify(batch, options.count);
     Table<T> heights(batch.chains, plan.count);
     detail::compute(batch, plan, options, false, heights);
     return heights;

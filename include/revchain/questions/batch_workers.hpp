@@ -27,11 +27,12 @@ void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& h
 template <class T>
 inline constexpr bool fits_lanes = std::is_same_v<T, double> || std::is_same_v<T, float>;
 
-/// The chains first ... last - 1 of a batch, `block_lanes` at a time.
+/// The chains first ... last - 1 of a batch, `block_lanes` at a time, or in scalars that do not fit the lanes one by
+/// one.
 template <Real T>
-class LaneWorker {
+class BatchWorker {
    public:
-    LaneWorker(const ChainBatch<T>& batch, const BatchPlan& plan, Table<T>& heights)
+    BatchWorker(const ChainBatch<T>& batch, const BatchPlan& plan, Table<T>& heights)
         : batch_(batch),
           plan_(plan),
           heights_(heights),
@@ -42,28 +43,30 @@ class LaneWorker {
     void run(Index first, Index last) {
         auto alone = std::lower_bound(plan_.alone.begin(), plan_.alone.end(), first);
         for (Index c = first; c < last; ++c) {
-            if (alone != plan_.alone.end() && *alone == c) {
+            const bool is_alone = alone != plan_.alone.end() && *alone == c;
+            if (is_alone) ++alone;
+            if (is_alone || !fits_lanes<T>)
                 heights_alone(batch_, c, plan_.count, heights_);
-                ++alone;
-            } else {
+            else if constexpr (fits_lanes<T>)
                 take(c, first_method());
-            }
         }
     }
 
     /// What could not be proved at once.
     void finish(Progress* progress) {
-        solve(first_method());
-        std::vector<Index> again;
-        again.swap(unproved_);
-        if (first_method() == pencil::LaneMethod::coefficients) {
-            for (const Index c : again) take(c, pencil::LaneMethod::recurrence);
-            solve(pencil::LaneMethod::recurrence);
+        if constexpr (fits_lanes<T>) {
+            solve(first_method());
+            std::vector<Index> again;
             again.swap(unproved_);
-        }
-        for (const Index c : again) {
-            heights_alone(batch_, c, plan_.count, heights_);
-            advance(progress, 1.0);
+            if (first_method() == pencil::LaneMethod::coefficients) {
+                for (const Index c : again) take(c, pencil::LaneMethod::recurrence);
+                solve(pencil::LaneMethod::recurrence);
+                again.swap(unproved_);
+            }
+            for (const Index c : again) {
+                heights_alone(batch_, c, plan_.count, heights_);
+                advance(progress, 1.0);
+            }
         }
     }
 
@@ -125,23 +128,6 @@ class LaneWorker {
     std::array<Index, pencil::block_lanes> chains_{};
     Index waiting_ = 0;
     std::vector<Index> unproved_;
-};
-
-/// One chain after the other.
-template <Real T>
-class SingleWorker {
-   public:
-    SingleWorker(const ChainBatch<T>& batch, const BatchPlan& plan, Table<T>& heights)
-        : batch_(batch), plan_(plan), heights_(heights) {}
-    void run(Index first, Index last) {
-        for (Index c = first; c < last; ++c) heights_alone(batch_, c, plan_.count, heights_);
-    }
-    void finish(Progress*) {}
-
-   private:
-    const ChainBatch<T>& batch_;
-    const BatchPlan& plan_;
-    Table<T>& heights_;
 };
 
 }  // namespace revchain::detail

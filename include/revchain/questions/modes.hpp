@@ -225,7 +225,7 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage, 1.0);
     for (Index j = 0; j < range.count; ++j) {
         const auto& height = found.height[static_cast<std::size_t>(j)];
-        set_height(result, j, height.value, height.error_bound, chain.units().length_exponent, options);
+        set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options);
         if (options.certify) certify(result, j, assembled.pencils(), chain.mode_count());
     }
     result.lazy_shapes =

@@ -8,6 +8,7 @@
 
 #include "revchain/linear/mode_shape.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/pencil/twisted.hpp"

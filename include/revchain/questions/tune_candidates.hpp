@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "revchain/linear/pencils.hpp"
+#include "revchain/linear/scaled_links.hpp"
 #include "revchain/pencil/twisted.hpp"
-#include "revchain/sensitivity.hpp"
+#include "revchain/questions/sensitivity.hpp"
 
 /// What `tune` has to know of one link: another value of a datum, the range it may have, and the values at which the
 /// chain has a given conical height, of whichever mode.

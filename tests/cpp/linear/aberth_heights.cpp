@@ -16,7 +16,7 @@ constexpr double ulp = 0x1p-52;
 using Found = std::optional<revchain::detail::Heights<double>>;
 
 Found all_heights(const Chain<double>& chain, double rtol = 1e-14) {
-    return revchain::detail::heights_all_together(chain, {1, chain.mode_count()}, {.rtol = rtol});
+    return revchain::detail::heights_by_aberth(chain, {1, chain.mode_count()}, {.rtol = rtol});
 }
 
 double worst_error(const Chain<double>& chain, const Found& found, double rtol = 1e-14) {
@@ -26,9 +26,9 @@ double worst_error(const Chain<double>& chain, const Found& found, double rtol =
     double worst = 0;
     for (Index j = 0; j < chain.mode_count(); ++j) {
         const auto& height = found->height[static_cast<std::size_t>(j)];
-        CAPTURE(j, height.value, height.error_bound);
+        CAPTURE(j, height.eigenvalue, height.error_bound);
         REQUIRE(height.error_bound <= rtol);
-        const Quad value = Quad(height.value), reach = Quad(1e-12);
+        const Quad value = Quad(height.eigenvalue), reach = Quad(1e-12);
         const Quad exact = truth.height(j, value * (1 - reach) * unit, value * (1 + reach) * unit, 1e-21) / unit;
         const double error = static_cast<double>(fabsq((value - exact) / exact));
         REQUIRE(error <= height.error_bound);
@@ -132,7 +132,7 @@ TEST_CASE("heights all together: the unit does not matter", "[linear]") {
         const auto one = all_heights(chain), other = all_heights(Chain<double>(scaled));
         REQUIRE((one && other));
         for (std::size_t j = 0; j < 7; ++j) {
-            CHECK(one->height[j].value == other->height[j].value);
+            CHECK(one->height[j].eigenvalue == other->height[j].eigenvalue);
             CHECK(one->height[j].error_bound == other->height[j].error_bound);
         }
     }
@@ -142,12 +142,12 @@ TEST_CASE("heights all together: some of the modes, and tolerances out of reach"
     support::Random random(6);
     const Chain<double> chain = random_chain(random, 10, 0);
     const Found all = all_heights(chain);
-    const Found some = revchain::detail::heights_all_together(chain, {4, 3}, {.rtol = 1e-14});
+    const Found some = revchain::detail::heights_by_aberth(chain, {4, 3}, {.rtol = 1e-14});
     REQUIRE((all && some));
     REQUIRE(some->height.size() == 3);
-    for (std::size_t j = 0; j < 3; ++j) CHECK(some->height[j].value == all->height[j + 3].value);
+    for (std::size_t j = 0; j < 3; ++j) CHECK(some->height[j].eigenvalue == all->height[j + 3].eigenvalue);
     CHECK_FALSE(all_heights(chain, 1e-15));
-    CHECK_FALSE(revchain::detail::heights_all_together(chain, {1, 10}, {}));
+    CHECK_FALSE(revchain::detail::heights_by_aberth(chain, {1, 10}, {}));
     CHECK_FALSE(all_heights(Chain<double>::uniform_plummets(129)));
     // massless threads, l > a, and links of both kinds are left to others
     CHECK_FALSE(all_heights(support::families().back().make(5)));

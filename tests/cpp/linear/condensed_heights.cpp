@@ -10,7 +10,7 @@ using support::Random;
 
 namespace {
 
-/// Worst error in ulp, and in units of the bound, of the compressed heights of a range against those by bisection,
+/// Worst error in ulp, and in units of the bound, of the condensed heights of a range against those by bisection,
 /// whose `unrounded` is good to 1e-20.
 struct Comparison {
     double ulp = 0;
@@ -22,7 +22,7 @@ struct Comparison {
 Comparison compare(const Chain<double>& chain, Index first, Index count) {
     const detail::HeightsOptions<double> options;
     const ModeRange range{first, count};
-    const auto fast = detail::heights_by_compression(chain, range, options, 1.0);
+    const auto fast = detail::heights_by_condensation(chain, range, options, 1.0);
     detail::LazyCounter<double> assembled(chain);
     const auto sure = detail::heights_by_bisection(chain, assembled, range, options, 1.0);
     Comparison result;
@@ -31,7 +31,8 @@ Comparison compare(const Chain<double>& chain, Index first, Index count) {
     for (std::size_t j = 0; j < sure.height.size(); ++j) {
         const auto& truth = sure.height[j];
         const double error =
-            std::abs(static_cast<double>(Wide<double>(fast->found.height[j].value) - truth.unrounded)) / truth.value;
+            std::abs(static_cast<double>(Wide<double>(fast->found.height[j].eigenvalue) - truth.unrounded)) /
+            truth.eigenvalue;
         // A height that bisection itself is not sure of is compared within both bounds.
         const double bound = fast->found.height[j].error_bound + (truth.error_bound > 1e-15 ? truth.error_bound : 0.0);
         result.ulp = std::max(result.ulp, truth.error_bound > 1e-15 ? 0.0 : error * 0x1p52);
@@ -59,7 +60,7 @@ Chain<double> any_chain(Random& random, Index size) {
 
 }  // namespace
 
-TEST_CASE("Compressed heights agree with those by bisection for every kind of chain", "[compression]") {
+TEST_CASE("Condensed heights agree with those by bisection for every kind of chain", "[condensation]") {
     const Index size = GENERATE(256, 1000, 4096, 10007);
     double worst = 0, bound = 0;
     for (const auto& family : support::families()) {
@@ -78,7 +79,7 @@ TEST_CASE("Compressed heights agree with those by bisection for every kind of ch
     WARN(size << " links: worst error " << worst << " ulp, largest bound " << bound * 0x1p52 << " ulp");
 }
 
-TEST_CASE("Compressed heights of random chains of mixed links are within their bounds", "[compression]") {
+TEST_CASE("Condensed heights of random chains of mixed links are within their bounds", "[condensation]") {
     Random random(20);
     double worst = 0;
     int found = 0;
@@ -101,7 +102,7 @@ TEST_CASE("Compressed heights of random chains of mixed links are within their b
     WARN("found " << found << " of " << chains << ", worst error " << worst << " ulp");
 }
 
-TEST_CASE("A million links: counts on the whole chain prove what the blocks say", "[compression]") {
+TEST_CASE("A million links: counts on the whole chain prove what the blocks say", "[condensation]") {
     const bool rods = GENERATE(false, true);
     Random random(21);
     const Index size = 1000000;
@@ -126,7 +127,7 @@ TEST_CASE("A million links: counts on the whole chain prove what the blocks say"
     }
 }
 
-TEST_CASE("Ten million plummets: Laguerre zeros by their asymptotics", "[compression]") {
+TEST_CASE("Ten million plummets: Laguerre zeros by their asymptotics", "[condensation]") {
     // x_k = j^2/v (1 + (j^2 - 2)/(3 v^2) + O(v^-4)), v = 4 N + 2 (Tricomi); lambda = a / x_k.
     const Index size = 10000000;
     const double j[] = {2.4048255576957727686, 5.5200781102863106496, 8.6537279129110122170};
@@ -146,7 +147,7 @@ TEST_CASE("Ten million plummets: Laguerre zeros by their asymptotics", "[compres
     }
 }
 
-TEST_CASE("Compressed heights scale exactly with units that are powers of two", "[compression]") {
+TEST_CASE("Condensed heights scale exactly with units that are powers of two", "[condensation]") {
     Random random(22);
     const Index size = 3000;
     std::vector<Link<double>> links;
@@ -176,7 +177,7 @@ TEST_CASE("Compressed heights scale exactly with units that are powers of two", 
     CHECK(heights(200, -300) == ordinary);
 }
 
-TEST_CASE("A tolerance below what double holds is not met, and the bounds say so", "[compression]") {
+TEST_CASE("A tolerance below what double holds is not met, and the bounds say so", "[condensation]") {
     const auto chain = Chain<double>::uniform_plummets(1000);
     ModesOptions<double> options;
     options.count = 3;
@@ -186,7 +187,7 @@ TEST_CASE("A tolerance below what double holds is not met, and the bounds say so
     CHECK((found.error_bound.array() <= 0x1.0001p-51).all());
 }
 
-TEST_CASE("Shapes of compressed chains are as good as their heights", "[compression]") {
+TEST_CASE("Shapes of condensed chains are as good as their heights", "[condensation]") {
     const Index size = GENERATE(256, 3001, 20000);
     for (const auto& family : support::families()) {
         const Chain<double> chain = family.make(size);

@@ -305,10 +305,10 @@ TEST_CASE("§4 with a tip mass: the balance of forces, and many plummets", "[pap
             for (Index k = 0; k < 4; ++k) {
                 worst_height[run] = std::max(worst_height[run], std::abs(m.conical_height[k] / height[k] - 1));
                 const tip_mass::Mode mode(k + 1, 1.0, tip);
-                CHECK(m.nodes[static_cast<std::size_t>(k)].size() == mode.nodes().size());
-                const double scale = m.shape(k, 0);
+                CHECK(m.shapes().nodes[static_cast<std::size_t>(k)].size() == mode.nodes().size());
+                const double scale = m.shapes().offset(k, 0);
                 for (Index pin = 0; pin <= size; pin += 50)
-                    CHECK(std::abs(m.shape(k, pin) -
+                    CHECK(std::abs(m.shapes().offset(k, pin) -
                                    scale * mode.shape(std::min(static_cast<double>(pin) * step, 1.0))) < 1e-3);
             }
         }

@@ -55,14 +55,6 @@ inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x
             std::hypot(x.pull, below) * lambda * shape.kind.line_weight};
 }
 
-/// The time of a series at which it reaches an arc length: arc' = pace T > 0. A step whose start was moved may end a
-/// little earlier.
-inline double time_at(const PathSeries& series, double arc, double duration) {
-    return time_of_zero(duration, 1.05 * duration, [&](double t) {
-        return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
-    });
-}
-
 /// The place of a path at an arc length, from its steps.
 inline PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, double tip_offset, double arc) {
     const auto after = std::upper_bound(steps.begin() + 1, steps.end(), arc,
@@ -72,7 +64,7 @@ inline PathState state_at(const PathKind& kind, const std::vector<Path::Step>& s
         return TipSeries(step.start.offset, kind.bend).state(arc);
     if (arc < steps.front().start.arc) return Path::near_tip(kind, tip_offset, arc);  // below where the path starts
     const PathSeries series(kind, step.start);
-    return series.state(time_at(series, arc, step.duration));
+    return series.state(time_at(series, arc, 1.05 * step.duration));  // a step that was moved may end a little later
 }
 
 /// Places, residual, error and condition of the path that ends at the support, gathered as it is followed.

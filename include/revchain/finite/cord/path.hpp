@@ -116,13 +116,7 @@ class Path {
         if (kind_.density == nullptr) return duration;
         const double end = kind_.density->end_of_piece(series.arc[0] * kind_.unit) / kind_.unit;
         if (PathSeries::at(series.arc, duration) <= end) return duration;
-        double low = 0, high = duration;  // sigma grows with t
-        for (int i = 0; i < 200 && low < high; ++i) {
-            const double middle = low + (high - low) / 2;
-            if (middle == low || middle == high) break;
-            (PathSeries::at(series.arc, middle) < end ? low : high) = middle;
-        }
-        return high;
+        return time_at(series, end, duration);
     }
     bool ended(const Options& options, const PathState& state) const {
         return static_cast<int>(crossings_.size()) >= options.crossings || state.arc > options.farthest ||
@@ -144,7 +138,7 @@ class Path {
     }
     void note_crossing(const PathSeries& series, double duration, bool with_change) {
         const double sign = series.offset[0] > 0 ? -1 : 1;
-        const double t = time_of_zero(duration, duration, [&](double time) {
+        const double t = time_of_zero(duration, [&](double time) {
             double value = series.offset[PathSeries::order], slope = 0;
             for (std::size_t k = PathSeries::order; k-- > 0;) {
                 slope = slope * time + value;

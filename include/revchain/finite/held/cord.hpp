@@ -57,11 +57,14 @@ class HeldCord {
 
     HeldCurve<HeldCord> curve() { return {*this, 1, 1}; }
 
-    std::optional<HeldState> weightless(int half_waves, double span) {
+    /// The state with `half_waves` half waves, reached from the nearly straight weightless cord: its ends are drawn
+    /// together, then gravity grows. Lengths are over the cord's.
+    std::optional<HeldState> at_height(int half_waves, double span, double height) {
         const double waves = half_waves * std::numbers::pi, along = 1 / (waves * waves), slack = 1 - span,
                      first = std::min(slack, 1e-3);
         auto state = curve().corrected({{-2 * std::sqrt(first) * along, along, 0}, 1 - first});
         if (state && slack > first) state = curve().to_span(*state, span);
+        if (state && height > 0) state = curve().to_height(*state, height);
         return state;
     }
 };
@@ -118,17 +121,14 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
         {std::abs(integral - first) / largest_tension, std::abs(end.offset), std::abs(end.rise - span / length)});
 
     // A change of the span, or of the height, asks two forces, and both the inclinations.
-    const double a = end.offset_change[0], b = end.offset_change[1], c = end.rise_change[0], d = end.rise_change[1],
-                 determinant = a * d - b * c;
-    double moved = 0;
     const auto condition = [&](double y, double z, double direct) {
-        const double across = (d * y - b * z) / determinant, along = (a * z - c * y) / determinant;
+        const auto forces = end.forces_to_move(y, z);
         double most = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             const CordPlace& x = places[i];
             const double squared = x.across * x.across + x.along * x.along;
             const auto change = [&](double CordPlace::*part) {
-                return changes[i][0].*part * across + changes[i][1].*part * along + changes[i][2].*part * direct;
+                return changes[i][0].*part * forces[0] + changes[i][1].*part * forces[1] + changes[i][2].*part * direct;
             };
             const double turn = change(&CordPlace::across) * x.along - change(&CordPlace::along) * x.across;
             most = std::max(most, std::abs(turn) / squared);
@@ -137,52 +137,37 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     };
     shape.condition = std::max(condition(0, span / length, 0),
                                condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, lambda));
-    moved = std::max(condition(0, 1, 0), condition(1, 0, 0));
+    const double moved = std::max(condition(0, 1, 0), condition(1, 0, 0));
     // Rounding of the forces and of the end's place, and where it turns sharply of the arc.
     shape.error_bound = epsilon<double>() * (2 + 2 * shape.condition + 2 * moved + steepest);
     return shape;
 }
 
 /// The shape of each number of half waves up to `max_half_waves` at a span and a height; height 0: without gravity.
-inline HeldCordShapes held_cord_shapes(const Cord& held, double span, double height, int max_half_waves) {
-    const double length = held.length();
-    HeldCordShapes result;
-    HeldCord cord;
-    for (int k = 1; k <= max_half_waves; ++k) {
-        std::optional<HeldState> state = cord.weightless(k, span / length);
-        if (state && height > 0) state = cord.curve().to_height(*state, height / length);
-        std::optional<HeldCordShape> shape;
-        if (state) shape = described(*state, span, length, held.weight());
-        if (shape && shape->error_bound < 1e-3)  // else it hangs folded along the axis
-            result.shapes.push_back(std::move(*shape));
-        else
-            result.missing.push_back(k);
-    }
-    return result;
+inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
+    const double length = cord.length();
+    return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
+        if (const auto state = HeldCord().at_height(k, span / length, height / length))
+            add(std::optional(described(*state, span, length, cord.weight())));
+    });
 }
 
 /// All shapes on the branch of each number of half waves whose tension at the upper end, times the height, is
 /// `height_times_tension`.
-inline HeldCordShapes held_cord_shapes_under_tension(const Cord& held, double height_times_tension, double height,
+inline HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension, double height,
                                                      int max_half_waves) {
-    const double length = held.length(), weight = held.weight();
-    HeldCord cord;
-    HeldCordShapes result;
-    for (int k = 1; k <= max_half_waves; ++k) {
-        const std::size_t before = result.shapes.size();
+    const double length = cord.length(), weight = cord.weight();
+    return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
+        HeldCord held;
         for (const double share : {0.9, 0.5, 0.99, 0.1}) {
-            auto state = cord.weightless(k, share);
-            if (state && height > 0) state = cord.curve().to_height(*state, height / length);
+            const auto state = held.at_height(k, share, height / length);
             if (!state) continue;
-            cord.curve().under(*state, height_times_tension / length / weight, [&](const HeldState& found) {
-                HeldCordShape shape = described(found, found.span * length, length, weight);
-                if (shape.error_bound < 1e-3) result.shapes.push_back(std::move(shape));
+            held.curve().under(*state, height_times_tension / length / weight, [&](const HeldState& found) {
+                add(std::optional(described(found, found.span * length, length, weight)));
             });
             break;
         }
-        if (result.shapes.size() == before) result.missing.push_back(k);
-    }
-    return result;
+    });
 }
 
 }  // namespace finite

@@ -46,8 +46,9 @@ class HeldChain {
 
     HeldCurve<HeldChain> curve() { return {*this, static_cast<double>(length_), static_cast<double>(weight_)}; }
 
-    /// Without gravity and with `half_waves` half waves, `span` apart: from the nearly straight chain on.
-    std::optional<HeldState> weightless(int half_waves, const S& span) {
+    /// The state with `half_waves` half waves, reached from the nearly straight weightless chain: its ends are drawn
+    /// together, then gravity grows.
+    std::optional<HeldState> at_height(int half_waves, const S& span, double height) {
         const TautLinks<double> taut(links_);
         if (half_waves > taut.pins()) return {};
         const double along = taut_number([&](double x) { return taut.count(0.0, x); }, half_waves - 1,
@@ -63,6 +64,7 @@ class HeldChain {
         HeldState start{{-std::sqrt(first / short_of), along, 0}, whole - first};
         auto state = curve().corrected(start);
         if (state && slack > first) state = curve().to_span(*state, static_cast<double>(span));
+        if (state && height > 0) state = curve().to_height(*state, height);
         return state;
     }
 
@@ -115,27 +117,16 @@ class HeldChain {
     std::vector<Direction<double>> kept_, trial_;
 };
 
-/// Error bounds of inclinations beyond which a shape is none: the chain hangs folded along the axis.
-constexpr double furthest = 1e-3;
-
 /// The shape of each number of half waves up to `max_half_waves` at a span and a height; height 0: without gravity.
 inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wide<double>& height, int max_half_waves,
                               bool prove) {
     HeldChain held(chain);
     const int exponent = held.links().units.length_exponent;
     const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
-    HeldShapes result;
-    for (int k = 1; k <= max_half_waves; ++k) {
-        std::optional<HeldState> state = held.weightless(k, apart);
-        if (state && lambda > Wide<double>(0)) state = held.curve().to_height(*state, static_cast<double>(lambda));
-        std::optional<HeldShape> shape;
-        if (state) shape = held.finished(*state, apart, lambda, prove);
-        if (shape && shape->error_bound < furthest)
-            result.shapes.push_back(std::move(*shape));
-        else
-            result.missing.push_back(k);
-    }
-    return result;
+    return each_half_wave<HeldShapes>(max_half_waves, [&](int k, const auto& add) {
+        if (const auto state = held.at_height(k, apart, static_cast<double>(lambda)))
+            add(held.finished(*state, apart, lambda, prove));
+    });
 }
 
 /// All shapes on the branch of each number of half waves whose tension at the upper end, times the height, is
@@ -147,22 +138,16 @@ inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double h
     const ChainUnits units = held.links().units;
     const double wanted = std::ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
                  lambda = std::ldexp(conical_height, -units.length_exponent);
-    HeldShapes result;
-    for (int k = 1; k <= max_half_waves; ++k) {
-        const std::size_t before = result.shapes.size();
+    return each_half_wave<HeldShapes>(max_half_waves, [&](int k, const auto& add) {
         for (const double share : {0.9, 0.5, 0.99, 0.1}) {
-            auto state = held.weightless(k, held.length() * S(share));
-            if (state && lambda > 0) state = held.curve().to_height(*state, lambda);
+            const auto state = held.at_height(k, held.length() * S(share), lambda);
             if (!state) continue;
             held.curve().under(*state, wanted, [&](const HeldState& found) {
-                auto shape = held.finished(found, S(found.span), S(lambda), prove);
-                if (shape && shape->error_bound < furthest) result.shapes.push_back(std::move(*shape));
+                add(held.finished(found, S(found.span), S(lambda), prove));
             });
             break;
         }
-        if (result.shapes.size() == before) result.missing.push_back(k);
-    }
-    return result;
+    });
 }
 
 }  // namespace finite

@@ -4,7 +4,7 @@
 #include <optional>
 #include <random>
 
-#include "revchain/finite/balance/jet.hpp"
+#include "revchain/finite/balance/taylor.hpp"
 #include "revchain/numeric/progress.hpp"
 
 namespace revchain::finite {
@@ -24,42 +24,6 @@ struct Isolation {
 };
 
 namespace detail {
-
-/// Offset of the support (how far it is off where the `support` holds it) for tangents of the lowest link within an
-/// interval, and, if asked, those of all links.
-template <Real T, class End = OnAxis>
-Interval<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-                           const Interval<T>& lowest, std::vector<Interval<T>>* tangents = nullptr,
-                           const End& support = {}) {
-    Interval<T> y, sum, t = lowest;
-    for (std::size_t m = 0; m < links.size(); ++m) {
-        const Link<Interval<T>>& link = links[m];
-        const Interval<T> stiffness = height * link.pull, turning = link.length * link.cross;
-        const bool plummet = link.cross.low == T(0) && link.cross.high == T(0);
-        Interval<T> R;
-        if (m > 0) {
-            R = sum + link.moment * y;
-            t = plummet ? R / stiffness : tangent(stiffness, turning, R);
-        }
-        if (tangents) tangents->push_back(t);
-        const Interval<T> s = Sine<T>(t).value;
-        if (m == 0) {
-            R = stiffness * t;
-            if (!plummet) R = R + turning * s;
-            y = R / link.moment;
-        }
-        y = y - link.length * s;
-        sum = R + link.rest * y;
-    }
-    return support.miss(y, sum);
-}
-
-/// Its sign at one tangent: 0 where rounding leaves it open.
-template <Real T, class End = OnAxis>
-int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t,
-            const End& support = {}) {
-    return support_offset<T>(links, height, Interval<T>(t), nullptr, support).sign();
-}
 
 template <Real T>
 struct Part {
@@ -116,10 +80,10 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
             found.undecided.push_back({part.low, part.high});
             continue;
         }
-        const Jet<T> end = support_offset(links, height, Cell<T>(part.low, part.high), support);
+        const auto end = support_offset(links, height, Cell<T, 1>(Interval<T>(part.low, part.high)), support);
         const bool from_zero = part.low == T(0) && support.is_symmetric();
         if (!from_zero && !end.value.may_vanish()) continue;
-        if (!end.slope.may_vanish()) {
+        if (!end.slope[0].may_vanish()) {
             if (from_zero) continue;  // the straight chain alone
             if (part.low_sign * part.high_sign != 0) {
                 if (part.low_sign != part.high_sign) found.shapes.push_back({part.low, part.high});
@@ -128,7 +92,7 @@ Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval
         }
         const auto cut = cutting.between(part.low, part.high, narrowest, whole.high);
         if (!cut ||
-            rounding_rules(from_zero ? end.slope : end.value, from_zero ? end.centre_slope : end.centre_value)) {
+            rounding_rules(from_zero ? end.slope[0] : end.value, from_zero ? end.centre_slope[0] : end.centre_value)) {
             found.undecided.push_back({part.low, part.high});
             continue;
         }

@@ -33,9 +33,8 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
 /// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
 template <class T>
 bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
-    return std::all_of(links.begin() + 1, links.end(), [&](const Link<Interval<T>>& link) {
-        return grows_fast(height * link.pull, link.length * link.cross);
-    });
+    return std::all_of(links.begin() + 1, links.end(),
+                       [&](const Link<Interval<T>>& link) { return grows_fast(height * link.pull, turning_of(link)); });
 }
 
 inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Interval<double>& height) {
@@ -102,7 +101,7 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
     const std::vector<Link<S>>& links = chain.links;
     const auto support = support_of(chain);
     S low = bracket.low.word(), high = bracket.high.word();
-    const auto falls_short = [&](const S& t) { return missed(links, height, t, support) < S(0); };
+    const auto falls_short = [&](const S& t) { return detail::support_offset(links, height, t, support) < S(0); };
     const bool rises = falls_short(low);
     const auto halve = [&]() {
         const S middle = low + (high - low) * S(0.5);
@@ -140,7 +139,7 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
         const auto sign_at = [&](const Far& t) { return detail::sign_at(links, lambda, t, support); };
         if (!far && !whole && sign_at(low) * sign_at(high) != -1) continue;
         std::vector<Interval<Far>> tangents;
-        detail::support_offset(links, lambda, Interval<Far>(low, high), &tangents);
+        detail::support_offset(links, lambda, Interval<Far>(low, high), OnAxis{}, &tangents);
         double worst = 0;
         for (std::size_t m = 0; m < tangents.size(); ++m) {
             const Far t(detail::tangent_in(found.shape, middle, m));
@@ -180,7 +179,7 @@ std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<do
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
     Box<Far> near;
-    detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), &near, support);
+    detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), support, &near);
     const WholeBalance balance(links, lambda, posture_of(chain), support);
     auto found = detail::settled(chain, height, balance, near);
     if (!found) return std::nullopt;

@@ -115,82 +115,61 @@ class PostureSearch {
     /// Of a part of a path: holds no shape that is not in the list; may show more if split; will not.
     enum class Part { settled, open, ruled_by_rounding };
     Part judged(const std::vector<Piece>& path, const T& low, const T& high, bool holds_straight) {
-        const Cell<T> cell(low, high);
-        Jet<T> y, sum, t = cell.x();
-        bool smooth = true;
-        for (std::size_t m = 0; m < links_.size(); ++m) {
-            const Link<Interval<T>>& link = links_[m];
-            const Response<T>& response = response_[m];
-            Jet<T> R;
-            if (m > 0) {
-                R = sum + link.moment * y;
-                if (smooth) R = cell.centred(R);
-                const Met<T> met = response.met(path[m], R.value);
-                if (!met.possible) return Part::settled;
-                smooth = smooth && met.smooth;
-                t.value = met.tangent;
-                if (smooth) smooth = derive(response, path[m], R, t);
-                if (smooth) t = cell.centred(t);
-            }
-            box_[m] = t.value;
-            const Jet<T> s = sine(m, t, smooth ? &cell : nullptr);
-            if (m == 0) {
-                R = response.stiffness() * t;
-                if (!response.is_plummet()) R = R + link.length * link.cross * s;
-                y = cell.centred((Interval<T>(T(1)) / link.moment) * R);
-            }
-            y = y - link.length * s;
-            if (smooth) y = cell.centred(y);
-            sum = R;
-            if (!(link.rest.low == T(0) && link.rest.high == T(0))) sum = sum + link.rest * y;
-            if (smooth) sum = cell.centred(sum);
-        }
+        const Cell<T, 1> cell(Interval<T>(low, high));
+        Sweep rules{*this, path, cell};
+        const auto end = sweep_up(links_, cell.first(), rules);
+        if (!end.reached) return Part::settled;
+        const bool smooth = rules.smooth;
+        Taylor<T, 1> y = end.offset;
         if constexpr (is_held<End>) {
             if (smooth)
-                y = support_.miss(cell, y, sum);
+                y = support_.miss(cell, y, end.sum);
             else
-                y.value = support_.miss(y.value, sum.value);
+                y.value = support_.miss(y.value, end.sum.value);
         }
-        if (holds_straight ? smooth && !y.slope.may_vanish() : !y.value.may_vanish()) return Part::settled;
+        if (holds_straight ? smooth && !y.slope[0].may_vanish() : !y.value.may_vanish()) return Part::settled;
         cells_of_tests_ = static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
         if (zeros_.settles(box_)) return Part::settled;
-        const bool rounding = smooth && (holds_straight ? detail::rounding_rules(y.slope, y.centre_slope)
+        const bool rounding = smooth && (holds_straight ? detail::rounding_rules(y.slope[0], y.centre_slope[0])
                                                         : detail::rounding_rules(y.value, y.centre_value));
         return rounding ? Part::ruled_by_rounding : Part::open;
     }
 
-    /// Derivatives of the tangent that carries R.
-    bool derive(const Response<T>& response, Piece piece, const Jet<T>& R, Jet<T>& t) const {
-        if (response.is_plummet()) {
-            t = (Interval<T>(T(1)) / response.stiffness()) * R;
+    /// The sweep along a path; without derivatives from the first link on that comes near a joint.
+    struct Sweep {
+        PostureSearch& search;
+        const std::vector<Piece>& path;
+        const Cell<T, 1>& cell;
+        bool smooth = true;
+
+        Taylor<T, 1> tighten(const Taylor<T, 1>& f) const { return smooth ? cell.centred(f) : f; }
+        bool carry(std::size_t m, const Taylor<T, 1>& R, Taylor<T, 1>& t) {
+            const Response<T>& response = search.response_[m];
+            const Met<T> over = response.met(path[m], R.value);
+            t.value = over.tangent;
+            smooth = smooth && over.smooth;
+            if (!over.possible || !smooth) return over.possible;
+            if (response.is_plummet()) {
+                t = R / response.stiffness();
+                return true;
+            }
+            const Met<T> centre = response.met(path[m], R.centre_value);
+            t.centre_value = centre.tangent;
+            smooth = centre.possible && centre.smooth &&
+                     detail::derive(response.stiffness(), response.stiffness(), response.turning(), {}, R, t);
             return true;
         }
-        const Met<T> centre = response.met(piece, R.centre_value);
-        if (!centre.possible || !centre.smooth) return false;
-        t.centre_value = centre.tangent;
-        const detail::Sine<T> over(t.value), at_centre(t.centre_value);
-        const Interval<T> growth = response.stiffness() + response.turning() * over.slope;
-        if (growth.may_vanish()) return false;
-        t.slope = R.slope / growth;
-        t.centre_slope = R.centre_slope / (response.stiffness() + response.turning() * at_centre.slope);
-        t.bend = (R.bend + Interval<T>(T(3)) * response.turning() * over.half_bend * square(t.slope)) / growth;
-        return true;
-    }
-
-    /// Of one link's inclination; without derivatives where there is no cell.
-    Jet<T> sine(std::size_t m, const Jet<T>& t, const Cell<T>* cell) const {
-        Jet<T> s;
-        const detail::Sine<T> over(t.value);
-        s.value = over.value;
-        if (cell) {
-            const detail::Sine<T> centre(t.centre_value);
-            s = {over.value, over.slope * t.slope,
-                 over.slope * t.bend - Interval<T>(T(3)) * over.half_bend * square(t.slope), centre.value,
-                 centre.slope * t.centre_slope};
-            s = cell->centred(s);
+        Taylor<T, 1> sine(std::size_t m, const Taylor<T, 1>& t) const {
+            Taylor<T, 1> s;
+            if (smooth)
+                s = detail::sine_at(t);
+            else
+                s.value = detail::sine_at(t.value);
+            return search.balance_.posture()[m] == Posture::hangs ? s : Interval<T>(T(-1)) * s;
         }
-        return balance_.posture()[m] == Posture::hangs ? s : Interval<T>(T(-1)) * s;
-    }
+        Taylor<T, 1> upright(const Taylor<T, 1>& t) const { return search.response_[0].stiffness() * t; }
+        void pass(std::size_t m, const Taylor<T, 1>& t, const Taylor<T, 1>&) { search.box_[m] = t.value; }
+    };
 
     const std::vector<Link<Interval<T>>>& links_;
     [[no_unique_address]] End support_;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "revchain/finite/branch/branch.hpp"
-#include "revchain/finite/stability/stability.hpp"
 #include "revchain/numeric/progress.hpp"
+#include "revchain/stability.hpp"
 
 namespace revchain {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/stability/held.hpp"
+#include "revchain/stability.hpp"
 
+#include "revchain/pencil/complex/gyroscopic.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/held.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/stability/stability.hpp"
+#include "revchain/stability.hpp"
 
 #include "revchain/finite/stability/windows.hpp"
 #include "revchain/modes.hpp"
@@ -53,7 +53,7 @@ struct Plummets {
 TEST_CASE("one plummet: sqrt(1 + 3 cos^2 d) free, sin d driven", "[finite]") {
     for (const double cosine : {0.1, 0.5, 0.9, 0.999}) {
         const Chain<double> chain({revchain::plummet(2.0, 3.0)});
-        const SteadyShape shape = revchain::steady_shapes(chain, 3.0 * cosine).shapes.at(0);
+        const SteadyShape shape = revchain::steady_shapes(chain, {.conical_height = 3.0 * cosine}).shapes.at(0);
         const Stability free = revchain::stability(chain, shape);
         CHECK(free.verdict == Verdict::minimum);
         CHECK(free.exponents.size() == 2);
@@ -64,7 +64,7 @@ TEST_CASE("one plummet: sqrt(1 + 3 cos^2 d) free, sin d driven", "[finite]") {
     }
     // a compound link: the same free equation with its own inertia; driven, section 7 (6), n sin d whatever the link
     const Chain<double> rod({revchain::uniform_rod(1.0, 2.0)});
-    const SteadyShape shape = revchain::steady_shapes(rod, 0.5).shapes.at(0);
+    const SteadyShape shape = revchain::steady_shapes(rod, {.conical_height = 0.5}).shapes.at(0);
     CHECK(revchain::stability(rod, shape, StabilityFrame::driven).exponents.back().imag() ==
           Approx(std::sin(shape.inclination[0])).epsilon(1e-13));
 }
@@ -72,7 +72,7 @@ TEST_CASE("one plummet: sqrt(1 + 3 cos^2 d) free, sin d driven", "[finite]") {
 TEST_CASE("two links on the second branch: unstable below 0.463321 (plummets) and 0.500763 (rods)", "[finite]") {
     const auto growth = [](const Chain<double>& chain, double ratio) {
         const double second = revchain::modes(chain, {.count = revchain::all_modes}).conical_height[1];
-        for (const SteadyShape& shape : revchain::steady_shapes(chain, ratio * second).shapes)
+        for (const SteadyShape& shape : revchain::steady_shapes(chain, {.conical_height = ratio * second}).shapes)
             if (shape.half_waves == 2) return revchain::stability(chain, shape);
         throw std::runtime_error("no such shape");
     };
@@ -94,7 +94,8 @@ TEST_CASE("branch 1 is a minimum; exponents come in fours", "[finite]") {
                               : revchain::plummet<double>(weight, length);
         });
         const double first = revchain::modes(chain, {.count = 1}).conical_height[0];
-        for (const SteadyShape& shape : revchain::steady_shapes(chain, first * random.between(0.05, 0.95)).shapes) {
+        for (const SteadyShape& shape :
+             revchain::steady_shapes(chain, {.conical_height = first * random.between(0.05, 0.95)}).shapes) {
             for (const auto frame : {StabilityFrame::free, StabilityFrame::driven}) {
                 const Stability s = revchain::stability(chain, shape, frame);
                 if (shape.half_waves == 1 && frame == StabilityFrame::free) CHECK(s.verdict == Verdict::minimum);
@@ -114,7 +115,7 @@ TEST_CASE("growth as the whole nonlinear chain shows it", "[finite]") {
     // three plummets, every shape: exponents against the linearised accelerations of masses on rigid threads in space
     const Plummets model{{1.0, 2.0, 0.5}, {1.0, 0.7, 1.3}, 0.03};
     const Chain<double> chain({revchain::plummet(1.0, 1.0), revchain::plummet(2.0, 0.7), revchain::plummet(0.5, 1.3)});
-    const auto found = revchain::steady_shapes(chain, 0.03);
+    const auto found = revchain::steady_shapes(chain, {.conical_height = 0.03});
     REQUIRE(found.shapes.size() >= 3);
     for (const SteadyShape& shape : found.shapes) {
         const Index n = 3;
@@ -165,7 +166,7 @@ TEST_CASE("growth as the whole nonlinear chain shows it", "[finite]") {
 
 TEST_CASE("links without weight: those in line are one", "[finite][stability]") {
     const auto exponents = [](const Chain<double>& chain, std::size_t which, revchain::StabilityFrame frame) {
-        const auto shapes = revchain::steady_shapes(chain, 0.13).shapes;
+        const auto shapes = revchain::steady_shapes(chain, {.conical_height = 0.13}).shapes;
         REQUIRE(shapes.size() > which);
         return revchain::stability(chain, shapes[which], frame);
     };
