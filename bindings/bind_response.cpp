@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bindings.hpp"
@@ -49,7 +52,20 @@ py::tuple small_oscillation(const Chain<double>& chain, const Array& offsets, co
                                          .time = as_vector(time),
                                          .count = modes,
                                          .gravity = gravity};
-    const auto found = without_lock([&] { return revchain::swing(chain, options); });
+    const auto found = without_lock([&] {
+        try {
+            return revchain::swing(chain, options);
+        } catch (const revchain::InvalidArgument& error) {  // with the names that the arguments have in Python
+            std::string text = error.what();
+            for (const auto& [from, to] :
+                 std::array<std::pair<std::string, std::string>, 4>{{{"swing: ", "small_oscillation: "},
+                                                                     {": offset ", ": offsets "},
+                                                                     {": velocity ", ": velocities "},
+                                                                     {": count must", ": modes must"}}})
+                if (const auto at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
+            throw revchain::InvalidArgument(text);
+        }
+    });
     return py::make_tuple(to_numpy(found.offset), to_numpy(found.velocity), to_numpy(found.angular_frequency),
                           to_numpy(found.energy), to_numpy(found.shape), to_numpy(found.cosine), to_numpy(found.sine),
                           to_numpy(found.start), found.projected, found.energy_left_out,

@@ -248,4 +248,12 @@ inline Branches branches(const Chain<double>& chain, double conical_height, cons
     return finite::Diagram(chain, conical_height, options).run();
 }
 
+/// Throws InvalidArgument: branches of a rig cannot be followed yet.
+[[noreturn]] inline Branches branches(const Rig&, double, const BranchesOptions& = {}) {
+    detail::throw_invalid("branches", "branches of a Rig cannot be followed yet; ask steady_shapes(rig) at each speed");
+}
+[[noreturn]] inline Branch branch(const Rig&, Index, double, const BranchOptions& = {}) {
+    detail::throw_invalid("branch", "branches of a Rig cannot be followed yet; ask steady_shapes(rig) at each speed");
+}
+
 }  // namespace revchain

@@ -7,6 +7,7 @@
 
 #include "revchain/models/select.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/rig.hpp"
 
 /// Which method `modes` takes for a tolerance, and what the others would cost.
 ///
@@ -30,6 +31,9 @@ struct Explanation {
 /// Accuracy: error bounds are those that each method is sure to keep, times were within a factor of 3 of measured times
 /// (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does, and for windows.
 Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options = {});
+
+/// Throws InvalidArgument: a rig has one method for each kind, which `RigModes::method` names.
+Explanation explain(const Rig& rig, const ModesOptions<double>& options = {});
 
 }  // namespace revchain
 

@@ -203,3 +203,10 @@ TEST_CASE("no branch at all; errors", "[finite]") {
         CHECK_THROWS_AS(revchain::branches(plummets(3), bad), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::branches(plummets(3), 0.1, {.lists = 0}), revchain::InvalidArgument);
 }
+
+TEST_CASE("branches of a rig are refused with what to ask instead", "[finite]") {
+    const revchain::Rig rig(plummets(2), {});
+    using Catch::Matchers::ContainsSubstring;
+    CHECK_THROWS_WITH(revchain::branches(rig, 0.1), ContainsSubstring("ask steady_shapes(rig)"));
+    CHECK_THROWS_WITH(revchain::branch(rig, 1, 0.1), ContainsSubstring("ask steady_shapes(rig)"));
+}

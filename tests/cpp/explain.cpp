@@ -103,4 +103,5 @@ TEST_CASE("explain names the method that modes takes") {
     CHECK(explain(chain).meets_tolerance);
     CHECK_THROWS_AS(explain(chain, {.count = 4}), InvalidArgument);
     CHECK_THROWS_AS(explain(chain, {.conical_height = {{0.1, 1.0}}}), InvalidArgument);
+    CHECK_THROWS_WITH(explain(Rig(chain, {})), Catch::Matchers::ContainsSubstring("RigModes::method"));
 }

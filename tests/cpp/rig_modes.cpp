@@ -454,3 +454,35 @@ TEST_CASE("chains stiffer than their spring by many decades", "[linear]") {
     const Rig soft(Chain<double>({plummet(1.0, 1.0), plummet(1.0, 1e-6)}), {.support = horizontal_spring(1e-12, 0)});
     CHECK(modes(soft, {.count = revchain::all_modes}).forward.conical_height[0] == 2e12 + 0.5);
 }
+
+TEST_CASE("rigs: questions without an answer yet say what to ask instead", "[linear]") {
+    const Rig rig(Chain<double>::uniform_rods(3), {.support = horizontal_spring(2.0)});
+    using Catch::Matchers::ContainsSubstring;
+    CHECK_THROWS_WITH(modes(rig, {.conical_height = {{0.1, 1.0}}}), ContainsSubstring("give first and count"));
+    CHECK_THROWS_WITH(modes(rig, {.angular_speed = {{1.0, 2.0}}}), ContainsSubstring("give first and count"));
+    CHECK_THROWS_WITH(modes(rig, {.certify = true}), ContainsSubstring("leave it out"));
+    CHECK_THROWS_WITH(count_modes(rig, {.angular_speed = 1.0}), ContainsSubstring("forward.available"));
+}
+
+TEST_CASE("rigs: shapes when they are asked for, and where they cross the axis", "[linear]") {
+    const Rig rig(Chain<double>::uniform_rods(12), {.support = horizontal_spring(2.0)});
+    const auto m = modes(rig).forward;
+    REQUIRE(m.size() == 10);
+    CHECK(m.available == 13);
+    const auto first = m.shape(4);  // alone, before the others
+    CHECK(m.shapes().offset.row(4).transpose() == first);
+    for (Index j = 0; j < m.size(); ++j) {
+        const auto& nodes = m.shapes().nodes[static_cast<std::size_t>(j)];
+        const auto offset = m.shape(j);
+        Index changes = 0;
+        for (Index pin = 0; pin + 1 < offset.size(); ++pin) {
+            if (offset[pin] * offset[pin + 1] >= 0) continue;
+            const double share = offset[pin] / (offset[pin] - offset[pin + 1]);
+            REQUIRE(changes < nodes.size());
+            CHECK(std::abs(nodes[changes] - (static_cast<double>(pin) + share) / 12) < 1e-15);
+            ++changes;
+        }
+        CHECK(changes == nodes.size());
+    }
+    CHECK_THROWS_AS(m.shape(10), InvalidArgument);
+}

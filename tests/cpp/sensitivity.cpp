@@ -3,6 +3,7 @@
 
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"
+#include "revchain/questions/modes.hpp"  // also for double-double
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"

@@ -216,3 +216,9 @@ TEST_CASE("questions that are none are refused", "[linear]") {
     CHECK_THROWS_AS(revchain::tune(chain, {.conical_height = 1.0, .low = 0}), InvalidArgument);
     CHECK_THROWS_AS(revchain::tune(chain, {.angular_speed = 1.0, .gravity = 0}), InvalidArgument);
 }
+
+TEST_CASE("a rig cannot be tuned yet, and the message says what to do", "[linear]") {
+    const revchain::Rig rig(Chain<double>::uniform_rods(2), {});
+    CHECK_THROWS_WITH(revchain::tune(rig, {.angular_speed = 3.0}),
+                      Catch::Matchers::ContainsSubstring("momentum_for_speed"));
+}

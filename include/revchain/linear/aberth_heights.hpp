@@ -78,11 +78,11 @@ inline std::optional<Heights<double>> heights_by_aberth(const Chain<double>& cha
     if (!lump(links, chain)) return std::nullopt;
     pencil::AberthSpectrum all;
     if (!pencil::aberth_spectrum(links, goal, all)) return std::nullopt;
-    Heights<double> result{{}, "aberth"};
-    result.height.reserve(static_cast<std::size_t>(range.count));
+    Heights<double> result;
+    result.reserve(static_cast<std::size_t>(range.count));
     for (Index j = range.first - 1; j < range.first - 1 + range.count; ++j) {
         const std::size_t i = static_cast<std::size_t>(j);
-        result.height.push_back({all.eigenvalue[i], all.bound[i], all.eigenvalue[i]});
+        result.push_back({all.eigenvalue[i], all.bound[i], all.eigenvalue[i]});
     }
     return result;
 }

@@ -38,7 +38,7 @@ T estimated_height(const Chain<T>& chain, Index number) {
         below = above;
     }
     if (slow) {
-        const auto bracket = pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces), [](Index) {}).front();
+        const auto bracket = pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces)).front();
         return pencil::between(bracket.lower, bracket.upper);
     }
     const T per_phase = phase / (T(number) - T(0.25));
@@ -89,7 +89,7 @@ struct CondensedHeights {
 /// Cost: `condensed_chain`, and 20 microseconds a mode.
 template <std::floating_point T>
 std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain, const ModeRange& range,
-                                                           const HeightsOptions<T>& options, double share) {
+                                                           const HeightsOptions<T>& options) {
     using std::ldexp;
     using S = Wide<T>;
     if (options.rtol && *options.rtol < T(2) * epsilon<T>()) return std::nullopt;
@@ -113,13 +113,13 @@ std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain
     if (!(bound <= options.rtol.value_or(T(2) * epsilon<T>()))) return std::nullopt;
 
     const auto brackets = [&](Index number, Index count, const T& tolerance) {
-        return pencil::bisect(pencil, number, count, tolerance, pencil.least_shift, [](Index) {});
+        return pencil::bisect(pencil, number, count, tolerance, pencil.least_shift);
     };
     const auto rough = brackets(first, range.count, T(1e-3));
-    Heights<T> result{{}, "condensed"};
-    result.height.reserve(rough.size());
-    while (result.height.size() < rough.size()) {
-        const std::size_t done = result.height.size();
+    Heights<T> result;
+    result.reserve(rough.size());
+    while (result.size() < rough.size()) {
+        const std::size_t done = result.size();
         const std::size_t count = std::min(pack_size, rough.size() - done);
         auto found = refined(pencil, first, rough, done, margin);
         if (!found) {  // neighbours so close that a step from 1e-3 may end at the wrong one
@@ -130,11 +130,11 @@ std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain
         for (std::size_t lane = 0; lane < count; ++lane) {
             const S height = S(found->high[lane], found->low[lane]) * S(condensed.unit_length);
             const S scaled = ldexp(height, -units.length_exponent);
-            result.height.push_back({static_cast<T>(scaled), bound, scaled});
+            result.push_back({static_cast<T>(scaled), bound, scaled});
         }
-        advance(options.progress, share * static_cast<double>(done + count) / static_cast<double>(rough.size()));
+        advance(options.progress, static_cast<double>(done + count) / static_cast<double>(rough.size()));
     }
-    restore_order(result.height);
+    restore_order<T>(result);
     return CondensedHeights<T>{std::move(result), std::move(condensed)};
 }
 

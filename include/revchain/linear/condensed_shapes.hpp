@@ -170,7 +170,7 @@ void store(ModeShapes<T>& shapes, ShapePack<T>& pack, std::size_t first, std::si
 /// top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
 template <std::floating_point T>
 bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const CondensedChain<T>& condensed,
-                            const std::vector<Height<T>>& heights, Progress* progress, double from) {
+                            const Heights<T>& heights, Progress* progress) {
     using std::ldexp;
     using V = Pack<T>;
     using S = Wide<T>;
@@ -208,7 +208,7 @@ bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const 
                 pack.top = offset[0];
             }
         }
-        advance(progress, 1 - (1 - from) * static_cast<double>(above) / static_cast<double>(size));
+        advance(progress, 1 - static_cast<double>(above) / static_cast<double>(size));
     }
     for (std::size_t k = 0; k < packs.size(); ++k)
         for (std::size_t lane = 0; lane < lanes_from(k * pack_size); ++lane) {

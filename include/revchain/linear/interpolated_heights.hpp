@@ -9,27 +9,27 @@
 
 namespace revchain::detail {
 
-/// Stage 1 of `modes` for many modes; nothing for chains that `pencil::all_eigenvalues` has no fast way for. Reports
-/// progress up to `share`. Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
+/// Stage 1 of `modes` for many modes; nothing for chains that `pencil::all_eigenvalues` has no fast way for.
+/// Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
 inline std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& assembled, const ModeRange& range,
-                                                               Index mode_count, const HeightsOptions<double>& options,
-                                                               double share) {
+                                                               Index mode_count,
+                                                               const HeightsOptions<double>& options) {
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();
     if (wide.size() < 2) return std::nullopt;
     const FloatingPointStateGuard quiet;
     const auto lumped = pencil::spectrum::lumped(wide);
     if (!lumped.fit) return std::nullopt;
-    Heights<double> result{{}, "interpolated"};
+    Heights<double> result;
     constexpr Index together = 2048;  // modes between two reports
     for (Index done = 0; done < range.count;) {
         const Index first = range.first - 1 + done, count = std::min(range.count - done, together);
-        for (const auto& sure : pencil::all_eigenvalues(wide, lumped, first, first + count, mode_count, goal))
-            result.height.push_back(sure);
+        const auto found = pencil::all_eigenvalues(wide, lumped, first, first + count, mode_count, goal);
+        result.insert(result.end(), found.begin(), found.end());
         done += count;
-        advance(options.progress, share * static_cast<double>(done) / static_cast<double>(range.count));
+        advance(options.progress, static_cast<double>(done) / static_cast<double>(range.count));
     }
-    restore_order(result.height);
+    restore_order<double>(result);
     return result;
 }
 

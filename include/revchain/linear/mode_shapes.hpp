@@ -32,7 +32,7 @@ class ShapeFinder {
    public:
     /// `height[i]`: of mode number `first + i`. `loose`: T suffices at the height given; else shapes are found in
     /// `Wide<T>` at the height before it was rounded. `condense`: whether a long chain may be condensed first.
-    ShapeFinder(const Chain<T>& chain, Index first, std::vector<Height<T>> height, bool loose, bool condense)
+    ShapeFinder(const Chain<T>& chain, Index first, Heights<T> height, bool loose, bool condense)
         : chain_(chain), first_(first), height_(std::move(height)), loose_(loose), condense_(condense) {}
 
     /// Of `count` modes from index `from` on.
@@ -40,13 +40,13 @@ class ShapeFinder {
         ModeShapes<T> shapes = room_for_shapes(chain_, count);
         if (count == 0) return shapes;
         const auto begin = height_.begin() + from;
-        const std::vector<Height<T>> height(begin, begin + count);
+        const Heights<T> height(begin, begin + count);
         if constexpr (std::is_same_v<T, double>)
             if (condense_ && condensation_pays(chain_, {first_ + from, count}) && chain_.has_one_weight_unit() &&
                 std::abs(chain_.units().weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
                 const T unit = std::ldexp(T(1), chain_.units().length_exponent) / LinkColumns<T>(chain_).unit_length;
                 const auto condensed = condensed_chain(chain_, T(0.95) * height.back().eigenvalue * unit);
-                if (shapes_by_condensation(shapes, chain_, condensed, height, progress, 1.0)) return shapes;
+                if (shapes_by_condensation(shapes, chain_, condensed, height, progress)) return shapes;
             }
         const Pencils<T> pencils(chain_);
         for (Index j = 0; j < count; ++j) {
@@ -65,7 +65,7 @@ class ShapeFinder {
    private:
     Chain<T> chain_;
     Index first_;
-    std::vector<Height<T>> height_;
+    Heights<T> height_;
     bool loose_, condense_;
 };
 

@@ -47,8 +47,8 @@ class CountedRoots {
     }
 
     /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
-    template <class Finished>
-    std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start, Finished finished) const {
+    std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
+                                                  const std::function<void(Index)>& finished) const {
         return pencil::bisect(counter_, first, count, 2 * epsilon<double>(), start, finished);
     }
 

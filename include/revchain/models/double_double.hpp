@@ -31,12 +31,12 @@ struct DoubleDoubleBisection {
         const auto wide = converted<DoubleDouble>(chain);
         revchain::detail::LazyCounter<DoubleDouble> assembled(wide);
         const auto found = revchain::detail::heights_by_bisection(wide, assembled, {question.first, question.count},
-                                                                  {.progress = question.progress}, 1.0);
+                                                                  {.progress = question.progress});
         const int exponent = chain.units().length_exponent;
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
         answer.conical_height_low.resize(question.count);
         for (Index j = 0; j < question.count; ++j) {
-            const auto& height = found.height[static_cast<std::size_t>(j)];
+            const auto& height = found[static_cast<std::size_t>(j)];
             const auto word = height.eigenvalue.word();
             answer.conical_height[j] = std::ldexp(word.high, exponent);
             answer.conical_height_low[j] = std::ldexp(word.low, exponent);

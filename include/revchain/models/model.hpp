@@ -33,8 +33,9 @@ struct Answer {
     Vector<double> error_bound;
     /// Whether the model had an answer after all.
     bool found = true;
-    Vector<double> conical_height_low{};    ///< what a double cannot hold of the heights; empty where it is not known
-    std::vector<Wide<double>> unrounded{};  ///< the heights that were rounded, for shapes; may be empty
+    Vector<double> conical_height_low{};  ///< what a double cannot hold of the heights; empty where it is not known
+    /// The heights before they were rounded, in units of 2^length_exponent of the chain: for shapes; may be empty.
+    std::vector<Wide<double>> unrounded{};
 
     static Answer none() { return {{}, {}, false}; }
     double worst_bound() const {

@@ -20,15 +20,15 @@ inline ModeRange range_of(const Question& question) { return {question.first, qu
 
 /// A way is asked alone, not through `modes`: where it has no heights, no other does the work.
 inline Answer answered(const Chain<double>& chain, const revchain::detail::Heights<double>& found) {
-    const Index count = static_cast<Index>(found.height.size());
+    const Index count = static_cast<Index>(found.size());
     const int exponent = chain.units().length_exponent;
     Answer answer{Vector<double>(count), Vector<double>(count)};
-    answer.unrounded.reserve(found.height.size());
+    answer.unrounded.reserve(found.size());
     for (Index j = 0; j < count; ++j) {
-        const auto& height = found.height[static_cast<std::size_t>(j)];
+        const auto& height = found[static_cast<std::size_t>(j)];
         answer.conical_height[j] = std::ldexp(height.eigenvalue, exponent);
         answer.error_bound[j] = height.error_bound;
-        answer.unrounded.push_back(ldexp(height.unrounded, exponent));
+        answer.unrounded.push_back(height.unrounded);
     }
     return answer;
 }
@@ -66,8 +66,8 @@ struct SinglePrecision {
                detail::real(kind.size) * detail::loose_cost(error_bound(kind, question), question.count, 5.7e-9);
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
-        const auto found = revchain::detail::loose_heights<float>(
-            chain, detail::range_of(question), error_bound(kind, question) * (1 - 1e-6), [](Index) {});
+        const auto found = revchain::detail::loose_heights<float>(chain, detail::range_of(question),
+                                                                  error_bound(kind, question) * (1 - 1e-6));
         return detail::answered(chain, found);
     }
 };
@@ -92,7 +92,7 @@ struct Bisection {
         revchain::detail::LazyCounter<double> assembled(chain);
         return detail::answered(chain,
                                 revchain::detail::heights_by_bisection(chain, assembled, detail::range_of(question),
-                                                                       detail::options_for(question), 1.0));
+                                                                       detail::options_for(question)));
     }
 
    private:
@@ -126,8 +126,8 @@ struct Condensed {
                    (5e-5 * count * (1 + count / 20) + 7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        const auto found = revchain::detail::heights_by_condensation(chain, detail::range_of(question),
-                                                                     detail::options_for(question), 1.0);
+        const auto found =
+            revchain::detail::heights_by_condensation(chain, detail::range_of(question), detail::options_for(question));
         return found ? detail::answered(chain, found->found) : Answer::none();
     }
 };
@@ -186,7 +186,7 @@ struct Interpolated {
         revchain::detail::LazyCounter<double> assembled(chain);
         return detail::answered(
             chain, revchain::detail::heights_by_interpolation(assembled, detail::range_of(question), kind.mode_count,
-                                                              detail::options_for(question), 1.0));
+                                                              detail::options_for(question)));
     }
 };
 

@@ -125,7 +125,8 @@ std::array<Index, N> count_above(const SignedCounter<T>& counter, const std::arr
 /// nothing where links are stiff beside what they bear, with a running bound on its error: as a function of what D' is
 /// made of, D' = L - B - (L + X)^2/p has the slopes q^2 in D and -A, (1 - q)^2 in L, -1 in B, -2q in X, with q = (L +
 /// X)/p and 1 - q = (D - A - X)/p; to that come the roundings of numerator, p and quotient.
-/// Cost O(N): in double words 80 ns a link and x.
+/// Cost O(N): in double words 80 ns a link and x. Beside the count of an ElementPencil because that one needs positive
+/// stiffnesses; this one proves as much of a chain but takes 1.4 times as long, in double 4 times.
 template <Real S, std::size_t N>
 std::array<CertifiedCount, N> certified_count(const SignedPencil<S>& pencil, const std::array<S, N>& shifts) {
     using std::abs;

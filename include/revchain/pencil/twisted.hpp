@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,8 +40,8 @@ Across<S> across(const Element<S>& e, const S& stiffness, const S& near, const S
     const T by_coupling =
         T(2) * abs(static_cast<T>(coupling)) * ((k + e.weight + static_cast<T>(near_mass) + far) / p) + (k + far);
     const T by_weight = (k + far) * (abs(static_cast<T>(near)) / p) + (k + static_cast<T>(e.turning)) * (e.weight / p);
-    return {by_coupling < by_weight ? carried_by_coupling(stiffness, far_mass, coupling, inverse)
-                                    : carried(e, stiffness, near, far_mass, inverse),
+    return {by_coupling < by_weight ? propagate_by_coupling(stiffness, far_mass, coupling, inverse)
+                                    : propagate(e, stiffness, near, far_mass, inverse),
             ratio<Ratio>(coupling, pivot)};
 }
 
@@ -203,40 +204,26 @@ Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eige
 
 namespace detail {
 
-/// Offsets of an element's pins, brought to one unit for all elements where their own differ: forces are as offsets
-/// times weights (`share` 1), energies as squares of offsets times weights (`share` 2). The largest is then of the
-/// order of 1.
+/// A function (element, pin) that returns offsets brought to one unit for all elements where their own differ: forces
+/// are as offsets times weights (`share` 1), energies as squares of offsets times weights (`share` 2). The largest is
+/// then of the order of 1.
 template <Real S, Real T>
-class InOneUnit {
-   public:
-    InOneUnit(const ElementPencil<S>& pencil, const Vector<T>& offset, int share)
-        : pencil_(pencil), offset_(offset), share_(share) {
-        using std::abs;
-        using std::frexp;
-        bool first = true;
-        for (std::size_t m = 0; m < pencil.units.size(); ++m)
-            for (Index pin = static_cast<Index>(m); pin < static_cast<Index>(m) + 2; ++pin) {
-                if (offset[pin] == T(0)) continue;
-                int exponent = 0;
-                frexp(offset[pin], &exponent);
-                exponent += pencil.units[m] / share;
-                if (first || exponent > largest_) largest_ = exponent;
-                first = false;
-            }
-    }
-    S operator()(std::size_t element, Index pin) const {
-        using std::ldexp;
-        const T& y = offset_[pin];
-        return S(static_cast<Narrow<S>>(
-            pencil_.units.empty() ? y : T(ldexp(y, pencil_.units[element] / share_ - largest_))));
-    }
-
-   private:
-    const ElementPencil<S>& pencil_;
-    const Vector<T>& offset_;
-    int share_;
-    int largest_ = 0;
-};
+auto in_one_unit(const ElementPencil<S>& pencil, const Vector<T>& offset, int share) {
+    using std::frexp;
+    using std::ldexp;
+    std::optional<int> largest;
+    for (std::size_t m = 0; m < pencil.units.size(); ++m)
+        for (const T& y : {offset[static_cast<Index>(m)], offset[static_cast<Index>(m) + 1]}) {
+            if (y == T(0)) continue;
+            int exponent = 0;
+            frexp(y, &exponent);
+            largest = std::max(largest.value_or(std::numeric_limits<int>::min()), exponent + pencil.units[m] / share);
+        }
+    return [&pencil, &offset, share, unit = largest.value_or(0)](std::size_t element, Index pin) {
+        const T& y = offset[pin];
+        return S(static_cast<Narrow<S>>(pencil.units.empty() ? y : T(ldexp(y, pencil.units[element] / share - unit))));
+    };
+}
 
 }  // namespace detail
 
@@ -252,7 +239,7 @@ S mass_form(const E& e, const S& lower, const S& upper) {
 /// Preconditions: offsets of pins 0 ... N, not all 0. Cost: one pass, no division.
 template <Real S, Real T>
 S rayleigh_quotient(const ElementPencil<S>& pencil, const Vector<T>& offset) {
-    const detail::InOneUnit<S, T> offsets(pencil, offset, 2);
+    const auto offsets = detail::in_one_unit(pencil, offset, 2);
     S inertia(0), stiffness(0);
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const Element<S>& e = pencil.elements[m];
@@ -303,7 +290,7 @@ template <Real S, Real T>
 T relative_residual(const ElementPencil<S>& pencil, const T& eigenvalue, const Vector<T>& offset) {
     using std::abs;
     using M = Narrow<S>;
-    const detail::InOneUnit<S, T> offsets(pencil, offset, 1);
+    const auto offsets = detail::in_one_unit(pencil, offset, 1);
     const auto link = [&](std::size_t m) {
         const Element<S>& e = pencil.elements[m];
         const S k = e.stiffness * S(static_cast<M>(eigenvalue));

@@ -27,8 +27,7 @@ void heights_alone(const ChainBatch<T>& batch, Index c, Index count, Table<T>& h
 template <class T>
 inline constexpr bool fits_lanes = std::is_same_v<T, double> || std::is_same_v<T, float>;
 
-/// The chains first ... last - 1 of a batch, `block_lanes` at a time, or in scalars that do not fit the lanes one by
-/// one.
+/// The chains first ... last - 1 of a batch: `block_lanes` at a time, in scalars that do not fit the lanes one by one.
 template <Real T>
 class BatchWorker {
    public:

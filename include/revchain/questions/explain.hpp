@@ -77,4 +77,8 @@ REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ModesOptio
                              : detail::explained(select(models::for_full_accuracy, chain, question));
 }
 
+REVCHAIN_INLINE Explanation explain(const Rig&, const ModesOptions<double>&) {
+    detail::throw_invalid("explain", "a Rig has one method for each kind, no choice; RigModes::method names it");
+}
+
 }  // namespace revchain

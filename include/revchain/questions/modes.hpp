@@ -8,6 +8,7 @@
 #include "revchain/linear/mode_shapes.hpp"
 #include "revchain/models/for_modes.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/system/converted.hpp"
 
 namespace revchain {
@@ -118,16 +119,17 @@ inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, 
     std::vector<Height<double>> heights;
     heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
     for (Index j = 0; j < answer.conical_height.size(); ++j) {
-        const Wide<double> unrounded = answer.unrounded.empty() ? Wide<double>(answer.conical_height[j])
-                                                                : answer.unrounded[static_cast<std::size_t>(j)];
-        heights.push_back(
-            {std::ldexp(answer.conical_height[j], exponent), answer.error_bound[j], ldexp(unrounded, exponent)});
+        const Wide<double> height = answer.unrounded.empty()
+                                        ? Wide<double>(std::ldexp(answer.conical_height[j], exponent))
+                                        : answer.unrounded[static_cast<std::size_t>(j)];
+        heights.push_back({static_cast<double>(height), answer.error_bound[j], height});
     }
     return heights;
 }
 
 /// Heights by the cheapest model, or by the method asked for; by bisection where that has none.
 inline Solution solved(const Chain<double>& chain, const ModeRange& range, const ModesOptions<double>& options) {
+    const FloatingPointStateGuard quiet;  // costs and bounds of models may be infinite
     const Question question{range.first, range.count, options.rtol.value_or(0.0), 0, options.progress};
     if (options.method == ModesMethod::automatic)
         return question.rtol > 0 ? solve(models::for_tolerance, chain, question)
@@ -222,14 +224,14 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     Modes<T> result = room_for_modes(range, options);
     result.method = "bisection";
     Heights<T> found;
-    if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage, 1.0);
+    if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage);
     for (Index j = 0; j < range.count; ++j) {
-        const auto& height = found.height[static_cast<std::size_t>(j)];
+        const auto& height = found[static_cast<std::size_t>(j)];
         set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options);
         if (options.certify) certify(result, j, assembled.pencils(), chain.mode_count());
     }
     result.lazy_shapes =
-        LazyModeShapes<T>(ShapeFinder<T>(chain, range.first, std::move(found.height), is_loose(chain, stage), false));
+        LazyModeShapes<T>(ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false));
     return result;
 }
 

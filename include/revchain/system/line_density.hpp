@@ -22,8 +22,8 @@ class LineDensity {
    public:
     static constexpr int degree = 12;
     static constexpr double rounding = 8e-15;  // below what functions of a dozen operations give
-    static constexpr int least_halvings = 2, most_halvings = 46, most_at_tip = 40;
-    static constexpr std::size_t most_pieces = 20'000;
+    static constexpr int least_halvings = 2, max_halvings = 46, max_at_tip = 40;
+    static constexpr std::size_t max_pieces = 20'000;
 
     /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a
     /// function that is rough at too many places.
@@ -161,12 +161,12 @@ class LineDensity {
                 good = good && std::abs(value(piece, x) - f(piece.middle + piece.half * x)) <= 10 * rounding * largest;
             }
         }
-        if (!good && halvings < (low == 0 ? most_at_tip : most_halvings)) {
+        if (!good && halvings < (low == 0 ? max_at_tip : max_halvings)) {
             divide(f, low, piece.middle, halvings + 1);
             divide(f, piece.middle, high, halvings + 1);
             return;
         }
-        if (pieces_.size() == most_pieces)
+        if (pieces_.size() == max_pieces)
             detail::throw_invalid("LineDensity", "weight per length is rough at too many places");
         if (low == 0 && !good) {
             piece.factor.fill(0);

@@ -20,12 +20,12 @@ Found all_heights(const Chain<double>& chain, double rtol = 1e-14) {
 }
 
 double worst_error(const Chain<double>& chain, const Found& found, double rtol = 1e-14) {
-    REQUIRE(static_cast<Index>(found->height.size()) == chain.mode_count());
+    REQUIRE(static_cast<Index>(found->size()) == chain.mode_count());
     const support::Truth truth(chain);
     const Quad unit = std::ldexp(1.0, chain.units().length_exponent);
     double worst = 0;
     for (Index j = 0; j < chain.mode_count(); ++j) {
-        const auto& height = found->height[static_cast<std::size_t>(j)];
+        const auto& height = (*found)[static_cast<std::size_t>(j)];
         CAPTURE(j, height.eigenvalue, height.error_bound);
         REQUIRE(height.error_bound <= rtol);
         const Quad value = Quad(height.eigenvalue), reach = Quad(1e-12);
@@ -132,8 +132,8 @@ TEST_CASE("heights all together: the unit does not matter", "[linear]") {
         const auto one = all_heights(chain), other = all_heights(Chain<double>(scaled));
         REQUIRE((one && other));
         for (std::size_t j = 0; j < 7; ++j) {
-            CHECK(one->height[j].eigenvalue == other->height[j].eigenvalue);
-            CHECK(one->height[j].error_bound == other->height[j].error_bound);
+            CHECK((*one)[j].eigenvalue == (*other)[j].eigenvalue);
+            CHECK((*one)[j].error_bound == (*other)[j].error_bound);
         }
     }
 }
@@ -144,8 +144,8 @@ TEST_CASE("heights all together: some of the modes, and tolerances out of reach"
     const Found all = all_heights(chain);
     const Found some = revchain::detail::heights_by_aberth(chain, {4, 3}, {.rtol = 1e-14});
     REQUIRE((all && some));
-    REQUIRE(some->height.size() == 3);
-    for (std::size_t j = 0; j < 3; ++j) CHECK(some->height[j].eigenvalue == all->height[j + 3].eigenvalue);
+    REQUIRE(some->size() == 3);
+    for (std::size_t j = 0; j < 3; ++j) CHECK((*some)[j].eigenvalue == (*all)[j + 3].eigenvalue);
     CHECK_FALSE(all_heights(chain, 1e-15));
     CHECK_FALSE(revchain::detail::heights_by_aberth(chain, {1, 10}, {}));
     CHECK_FALSE(all_heights(Chain<double>::uniform_plummets(129)));

@@ -20,24 +20,24 @@ using Links = std::vector<Link<double>>;
 /// What heights are before they are rounded, against those of bisection (good to 1e-20), in units of the blocks' error
 /// and the margin.
 double error_of(const Chain<double>& chain, Index first, Index count) {
-    const auto fast = detail::heights_by_condensation(chain, {first, count}, {}, 1.0);
+    const auto fast = detail::heights_by_condensation(chain, {first, count}, {});
     if (!fast) return -1;
     detail::LazyCounter<double> assembled(chain);
-    const auto sure = detail::heights_by_bisection(chain, assembled, {first, count}, {}, 1.0);
+    const auto sure = detail::heights_by_bisection(chain, assembled, {first, count}, {});
     double worst = 0;
-    for (std::size_t j = 0; j < sure.height.size(); ++j) {
-        CHECK(fast->found.height[j].error_bound <= 0x1p-51);
-        const auto difference = fast->found.height[j].unrounded - sure.height[j].unrounded;
-        worst = std::max(worst, std::abs(static_cast<double>(difference)) / sure.height[j].eigenvalue);
+    for (std::size_t j = 0; j < sure.size(); ++j) {
+        CHECK(fast->found[j].error_bound <= 0x1p-51);
+        const auto difference = fast->found[j].unrounded - sure[j].unrounded;
+        worst = std::max(worst, std::abs(static_cast<double>(difference)) / sure[j].eigenvalue);
     }
     return worst / (fast->condensed.pencil.error + 0x1p-55);
 }
 
 /// Whether height number j (from 1) is what `heights_by_condensation` says, by exact counts; true where it gives up.
 bool is_within(const Chain<double>& chain, Index j) {
-    const auto found = detail::heights_by_condensation(chain, {j, 1}, {}, 1.0);
+    const auto found = detail::heights_by_condensation(chain, {j, 1}, {});
     if (!found) return true;
-    const auto& height = found->found.height[0];
+    const auto& height = found->found[0];
     const double value = std::ldexp(height.eigenvalue, chain.units().length_exponent);
     return support::count_in_big_floats(chain, value, height.error_bound) < j &&
            support::count_in_big_floats(chain, value, -height.error_bound) >= j;

@@ -22,22 +22,21 @@ struct Comparison {
 Comparison compare(const Chain<double>& chain, Index first, Index count) {
     const detail::HeightsOptions<double> options;
     const ModeRange range{first, count};
-    const auto fast = detail::heights_by_condensation(chain, range, options, 1.0);
+    const auto fast = detail::heights_by_condensation(chain, range, options);
     detail::LazyCounter<double> assembled(chain);
-    const auto sure = detail::heights_by_bisection(chain, assembled, range, options, 1.0);
+    const auto sure = detail::heights_by_bisection(chain, assembled, range, options);
     Comparison result;
     result.found = fast.has_value();
     if (!fast) return result;
-    for (std::size_t j = 0; j < sure.height.size(); ++j) {
-        const auto& truth = sure.height[j];
+    for (std::size_t j = 0; j < sure.size(); ++j) {
+        const auto& truth = sure[j];
         const double error =
-            std::abs(static_cast<double>(Wide<double>(fast->found.height[j].eigenvalue) - truth.unrounded)) /
-            truth.eigenvalue;
+            std::abs(static_cast<double>(Wide<double>(fast->found[j].eigenvalue) - truth.unrounded)) / truth.eigenvalue;
         // A height that bisection itself is not sure of is compared within both bounds.
-        const double bound = fast->found.height[j].error_bound + (truth.error_bound > 1e-15 ? truth.error_bound : 0.0);
+        const double bound = fast->found[j].error_bound + (truth.error_bound > 1e-15 ? truth.error_bound : 0.0);
         result.ulp = std::max(result.ulp, truth.error_bound > 1e-15 ? 0.0 : error * 0x1p52);
         result.bounds = std::max(result.bounds, error / bound);
-        result.largest_bound = std::max(result.largest_bound, fast->found.height[j].error_bound);
+        result.largest_bound = std::max(result.largest_bound, fast->found[j].error_bound);
     }
     return result;
 }
@@ -193,6 +192,7 @@ TEST_CASE("Shapes of condensed chains are as good as their heights", "[condensat
         const Chain<double> chain = family.make(size);
         ModesOptions<double> options;
         options.count = 9;  // not a multiple of a pack
+        options.method = revchain::ModesMethod::condensed;
         const auto fast = modes(chain, options);
         options.method = revchain::ModesMethod::bisection;
         const auto sure = modes(chain, options);

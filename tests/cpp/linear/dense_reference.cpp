@@ -12,7 +12,8 @@ TEST_CASE("three formulations give the same modes, each within its own bound", "
         for (const Index n : {1, 2, 3, 5, 20}) {
             const auto chain = family.make(n);
             const auto fast = revchain::modes(chain, {.count = revchain::all_modes});
-            for (const auto& slow : {revchain::modes_dense(chain, {}), revchain::modes_recurrence(chain, {})}) {
+            for (const auto& slow : {revchain::modes_dense(chain, {.count = revchain::all_modes}),
+                                     revchain::modes_recurrence(chain, {.count = revchain::all_modes})}) {
                 REQUIRE(slow.size() == fast.size());
                 for (Index j = 0; j < fast.size(); ++j) {
                     CAPTURE(family.name, n, j, slow.method, slow.error_bound[j]);
@@ -47,7 +48,8 @@ TEST_CASE("a dense solver that cannot keep the tolerance says so", "[linear]") {
     const auto chain = support::chain_of(
         30, [](Index m) { return revchain::plummet<double>(support::graded(29 - m, 30, 1e12), 1.0); });
     CHECK(revchain::modes(chain, {.count = revchain::all_modes, .rtol = 1e-14}).status == revchain::Status::success);
-    CHECK(revchain::modes_dense(chain, {.rtol = 1e-14}).status == revchain::Status::tolerance_not_met);
+    CHECK(revchain::modes_dense(chain, {.count = revchain::all_modes, .rtol = 1e-14}).status ==
+          revchain::Status::tolerance_not_met);
 }
 
 TEST_CASE("any modes by the dense solvers", "[linear]") {

@@ -15,7 +15,7 @@ struct SweepEnd {
 
 /// The upward sweep of Greenhill (1908) §8 (4), (12): every link in balance, from the tangent t of the lowest one. All
 /// arithmetics share it: `S` are numbers or intervals, `F` too or Taylor series. `rules` holds what differs:
-///   carry(m, R, t)   sets t to the tangent of link m under the load R; false where there is none;
+///   propagate(m, R, t)   sets t to the tangent of link m under the load R; false where there is none;
 ///   sine(m, t)       the sine of the inclination of link m;
 ///   upright(t)       lambda pull t, the load R of the lowest link less its part with the sine;
 ///   tighten(f)       f, or an enclosure that is narrower;
@@ -29,7 +29,7 @@ SweepEnd<F> sweep_up(const std::vector<Link<S>>& links, F t, Rules& rules) {
         F R;
         if (m > 0) {
             R = rules.tighten(sum + link.moment * y);
-            end.reached = rules.carry(m, R, t);
+            end.reached = rules.propagate(m, R, t);
             if (!end.reached) return end;
             t = rules.tighten(t);
         }
@@ -54,7 +54,7 @@ struct PlainSweep {
     std::vector<S>*tangents = nullptr, *offsets = nullptr;  ///< where to put those of links and lower pins
 
     const S& tighten(const S& x) const { return x; }
-    bool carry(std::size_t m, const S& R, S& t) const {
+    bool propagate(std::size_t m, const S& R, S& t) const {
         t = detail::tangent_of(S(height * links[m].pull), turning_of(links[m]), R);
         return true;
     }

@@ -123,13 +123,13 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
     for (std::size_t j = count; j-- > 0;) {
         const int crossing = static_cast<int>(j) + 1;
         for (std::size_t i = ranges[j].size(); i-- > 0;) {
-            const TipOffset tip(kind, crossing, at_rest[j], length, ranges[j][i], law);
-            if (auto shape = finished(kind, tip.value(), crossing, chain.length, height)) {
+            const TipOffset tip = tip_offset(kind, crossing, at_rest[j], length, ranges[j][i], law);
+            if (auto shape = finished(kind, tip.value, crossing, chain.length, height)) {
                 result.shapes.push_back(std::move(*shape));
             } else {
                 result.complete = false;
             }
-            law = tip.law();
+            law = tip.law;
         }
         law = law.of_one_before(crossing);
     }

@@ -25,7 +25,7 @@ class Path {
         std::size_t step;
         double time;
     };
-    static constexpr std::size_t most_steps = 50'000;
+    static constexpr std::size_t max_steps = 50'000;
 
     struct Options {
         int crossings = std::numeric_limits<int>::max();
@@ -58,7 +58,7 @@ class Path {
             int passed = 0;
             for (int cuts = 0; cuts < 200; ++cuts) {
                 passed = quadrants(state, next.state);
-                const bool told = next.most_phase < 1.5 * std::numbers::pi;
+                const bool told = next.max_phase < 1.5 * std::numbers::pi;
                 if (told && crossings_in(state, passed) <= 1) break;
                 duration *= 0.6;
                 next = series.reached(duration);
@@ -120,7 +120,7 @@ class Path {
     }
     bool ended(const Options& options, const PathState& state) const {
         return static_cast<int>(crossings_.size()) >= options.crossings || state.arc > options.farthest ||
-               steps_.size() >= most_steps;
+               steps_.size() >= max_steps;
     }
     /// eta > 0 > u: 0, then in the order in which they are passed.
     static int quadrant(const PathState& x) {

@@ -101,7 +101,7 @@ class PathSeries {
     /// now does not exceed: dtheta/dt <= pace sqrt(largest rho T).
     struct Reached {
         PathState state;
-        double tension, most_phase;
+        double tension, max_phase;
     };
     Reached reached(double t) const {  // side by side, as each sum waits for itself
         const Coefficients& pulled = is_dense_ ? mass : tension;
@@ -112,9 +112,9 @@ class PathSeries {
             x.state.pull = x.state.pull * t + pull[k];
             x.state.height = x.state.height * t + height[k];
             x.tension = x.tension * t + tension[k];
-            x.most_phase = x.most_phase * t + std::abs(pulled[k]);
+            x.max_phase = x.max_phase * t + std::abs(pulled[k]);
         }
-        x.most_phase = pace * t * std::sqrt(x.most_phase);
+        x.max_phase = pace * t * std::sqrt(x.max_phase);
         return x;
     }
     PathState state(double t) const { return reached(t).state; }

@@ -67,7 +67,7 @@ class CordSeries {
 
 /// A cord from its lower end to its upper, for given forces at the lower. `visit(series, duration)` sees every step.
 struct CordPath {
-    static constexpr int most_steps = 20'000;
+    static constexpr int max_steps = 20'000;
     static constexpr double tolerance = 1e-18;
 
     template <class Visit>
@@ -75,7 +75,7 @@ struct CordPath {
         CordPlace place{0, 0, 0, -forces.across, forces.along};
         CordChange change{};
         change[0].across = -1, change[1].along = 1;
-        for (int step = 0; step < most_steps; ++step) {
+        for (int step = 0; step < max_steps; ++step) {
             // Sharper turns leave no digit of the inclination: the cord is folded along the axis.
             if (!(std::hypot(place.across, place.along) > epsilon<double>() * forces.height)) return {};
             const CordSeries series(place, forces.height, &change);

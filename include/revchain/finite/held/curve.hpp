@@ -24,7 +24,7 @@ class HeldCurve {
     /// Sizes that weigh steps: total length and weight.
     HeldCurve(Shooter& shooter, double length, double weight) : shooter_(&shooter), length_(length), weight_(weight) {}
 
-    static constexpr int most_steps = 3000;
+    static constexpr int max_steps = 3000;
 
     /// Newton's method at span and height of `state`, as far as double goes.
     std::optional<HeldState> corrected(HeldState state) {
@@ -179,7 +179,7 @@ class HeldCurve {
         HeldEnd<double> end = (*shooter_)(state.forces, true);
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<spans>(state);
-        for (int count = 0; count < most_steps && step > 1e-9; ++count) {
+        for (int count = 0; count < max_steps && step > 1e-9; ++count) {
             revchain::detail::look();
             const auto [over_y, over_z] = gradients<spans>(end, scale);
             Triple tangent = normalised(over_y, over_z);

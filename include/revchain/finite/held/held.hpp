@@ -68,12 +68,12 @@ class HeldChain {
         return state;
     }
 
-    /// Newton's method in two words at span and height, from a state in double; the shape there.
+    /// Newton's method in double-double at span and height, from a state in double; the shape there.
     std::optional<HeldShape> finished(const HeldState& state, const S& span, const S& height, bool prove) const {
         HeldForces<S> forces{S(state.forces.across), S(state.forces.along), height};
         std::vector<Direction<S>> direction;
         for (const Direction<double>& d : kept_) direction.push_back({S(d.sine), S(d.cosine)});
-        for (Direction<S>& d : direction) {  // of unit length, to two words
+        for (Direction<S>& d : direction) {  // of unit length, to double-double
             using std::sqrt;
             const S size = sqrt(d.sine * d.sine + d.cosine * d.cosine);
             d.sine = d.sine / size, d.cosine = d.cosine / size;

@@ -8,18 +8,18 @@ namespace revchain::finite {
 /// A stretch of tangents along which R grows or falls throughout. Where stiffness +- turning > 0 there is but one, the
 /// whole; else R falls in the middle and grows to its right and left, and meets at the joints
 /// t = +-sqrt((|turning|/stiffness)^(2/3) - 1).
-enum class Piece { whole, right, middle, left };
+enum class MonotoneBranch { whole, right, middle, left };
 
 /// Whether R grows with t, and nowhere at less than a hundredth of `stiffness`. Where it is flatter about t = 0 than
-/// that, it is taken by pieces, the middle one of them without width.
+/// that, it is taken by branches, the middle one of them without width.
 template <Real T>
 bool grows_fast(const Interval<T>& stiffness, const Interval<T>& turning) {
     return turning.low >= T(0) || (Interval<T>(T(0.99)) * stiffness + turning).positive();
 }
 
-/// Tangents of a piece under a load R; `smooth` where all of R is met away from the joints, so that derivatives exist.
+/// Tangents of a branch under a load R; `smooth` where all of R is met away from the joints, so that derivatives exist.
 template <Real T>
-struct Met {
+struct LoadedTangents {
     Interval<T> tangent;
     bool possible = true, smooth = true;
 };
@@ -45,11 +45,11 @@ class Response {
         return plummet_ ? stiffness_ * t : stiffness_ * t + turning_ * detail::sine_at(t);
     }
 
-    Met<T> met(Piece piece, const Interval<T>& R) const {
-        if (piece == Piece::whole) return {detail::tangent_of(stiffness_, turning_, R), true, true};
-        if (piece == Piece::right) return right_of_joint(R);
-        if (piece == Piece::middle) return between_joints(R);
-        Met<T> mirrored = right_of_joint(-R);
+    LoadedTangents<T> met(MonotoneBranch branch, const Interval<T>& R) const {
+        if (branch == MonotoneBranch::whole) return {detail::tangent_of(stiffness_, turning_, R), true, true};
+        if (branch == MonotoneBranch::right) return right_of_joint(R);
+        if (branch == MonotoneBranch::middle) return between_joints(R);
+        LoadedTangents<T> mirrored = right_of_joint(-R);
         mirrored.tangent = -mirrored.tangent;
         return mirrored;
     }
@@ -86,13 +86,13 @@ class Response {
 
     static constexpr int tries = 60;
 
-    Met<T> right_of_joint(const Interval<T>& R) const {
+    LoadedTangents<T> right_of_joint(const Interval<T>& R) const {
         if (least_.low > R.high) return {{}, false, false};
         const T k = stiffness_.low;
         const auto from_right = [&](const T& wanted) {
             return near(T((wanted - turning_.low) / k + joint_.high), wanted);
         };
-        Met<T> met;
+        LoadedTangents<T> met;
         met.smooth = R.low > least_.high;
         const T high = met.smooth || R.high > least_.high ? std::max(joint_.high, from_right(R.high)) : joint_.high;
         met.tangent.high = detail::first_passing(high, detail::rounding_step(high), 2 * tries,
@@ -118,14 +118,14 @@ class Response {
         return t < joint_.low ? std::pair(t, true) : std::pair(joint_.high, false);
     }
 
-    Met<T> between_joints(const Interval<T>& R) const {
+    LoadedTangents<T> between_joints(const Interval<T>& R) const {
         if (least_.low > R.high || R.low > -least_.low) return {{}, false, false};
         const auto [high, high_inside] = last_between(R.low);
         const auto [low, low_inside] = last_between(T(-R.high));
         return {{T(-low), high}, true, high_inside && low_inside};
     }
 
-    static Met<T> nothing_known() {
+    static LoadedTangents<T> nothing_known() {
         const T nan = std::numeric_limits<T>::quiet_NaN();
         return {{nan, nan}, true, false};
     }

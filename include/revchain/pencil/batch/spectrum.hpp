@@ -101,9 +101,9 @@ inline std::size_t lane_work(std::ptrdiff_t size) {
 /// Preconditions: weights, lengths and centroids positive and finite, radii of gyration not negative, pendulum lengths
 /// at least the centroid; 1 <= count <= size; size <= 16 for LaneMethod::coefficients.
 ///
-/// A recurrence of its own beside that of `aberth_spectrum`: there the shifts of one chain lie side by side, which
-/// takes 3 times as long for all modes of 10 links (as long for 40), here chains. The lumped masses of that recurrence
-/// would not do here: they cancel where centroids lie below their links.
+/// A recurrence of its own beside that of `aberth_spectrum`: there the shifts of one chain lie side by side, here
+/// chains, which takes a third of the time for all modes of 10 links (as long for 40). The lumped masses of that
+/// recurrence would not do here: they cancel where centroids lie below their links.
 ///
 /// First approximations by Laguerre's iteration from the left, in y at the support as a polynomial in mu = 1/lambda,
 /// known zeros divided out; then the Rayleigh quotient of the shape there, whose error is the square of the shape's.

@@ -140,7 +140,7 @@ class Candidates {
     void count(Index first, Index last) {
         begin_ = first;
         all_.clear();
-        for (const auto& bracket : bisect(pencil_, first, last - first, 2 * epsilon<double>(), 1.0, [](Index) {}))
+        for (const auto& bracket : bisect(pencil_, first, last - first, 2 * epsilon<double>(), 1.0))
             all_.push_back(proved(first + static_cast<Index>(all_.size()), bracket));
     }
 
@@ -222,7 +222,7 @@ class Candidates {
                 const Index j = begin_ + static_cast<Index>(i);
                 if ((j < first || j >= last) && distance(i) - c.reach > 0) continue;  // a neighbour only
                 const double guess = std::isfinite(c.residual) ? c.eigenvalue : 1 / c.shift;
-                c = proved(j, bisect(pencil_, j, Index(1), 2 * epsilon<double>(), guess, [](Index) {}).front());
+                c = proved(j, bisect(pencil_, j, Index(1), 2 * epsilon<double>(), guess).front());
                 changed = true;
                 if (!std::isfinite(c.bound)) return false;
             }

@@ -19,21 +19,22 @@ struct Quotient {
 inline constexpr std::size_t quotient_packs = 4;
 
 /// A vector built link by link from one end, one for each shift of a pack: offset y and mu times the spring force G of
-/// the link ahead, with y^T M y (where has_cross, else mu times it) and y^T K y so far. The sums belong to the offsets
-/// as stored and to their differences: whatever rounding did to the recurrence, they are the energies of this very
+/// the link ahead, with y^T M y (with cross masses, else mu times it) and y^T K y so far. The sums belong to the
+/// offsets as stored and to their differences: whatever rounding did to the recurrence, they are the energies of this
 /// vector.
 template <class V>
 struct Walk {
     V mu, offset, force;
     CompensatedSum<V> inertia, stiffness;  // plain sums over a leg are added without loss
     V forces;                              ///< bound on the sum of (force/k)^2 k over the links
-    V offsets;  ///< bound on the sum of (1 + mu X/k)^2 k y^2 over the upper pins; where has_cross only
+    V offsets;  ///< bound on the sum of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
 };
 
 /// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin `end`. Going up, a
 /// walk has passed the mass of the pin it stands at; going down, it has not.
 template <bool has_cross, bool up, class V>
-[[gnu::always_inline]] inline void carry(const LumpedChain& chain, std::size_t begin, std::size_t end, Walk<V>* walk) {
+[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
+                                             Walk<V>* walk) {
     constexpr std::size_t P = quotient_packs;
     V mu[P], offset[P], force[P], inertia[P], stiffness[P], pins[P];
     for (std::size_t p = 0; p < P; ++p) {
@@ -132,7 +133,7 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
 /// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin where the
 /// residual is least, of those between `lowest` and `highest` whose number `longest`, a power of 2, divides. Its error
 /// is the square of the vector's.
-/// Cost per shift and link (AVX-512): 0.45 ns without has_cross, 0.86 with.
+/// Cost per shift and link (AVX-512): 0.45 ns without cross masses, 0.86 with.
 template <bool has_cross, class V>
 [[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
                                              std::size_t highest, std::size_t longest, Quotient* result,
@@ -150,7 +151,7 @@ template <bool has_cross, class V>
         if (!has_cross) walk[p].inertia.add(walk[p].force);
     }
     for (std::size_t at = 0; at <= high; ++at) {
-        if (at > 0) carry<has_cross, true>(chain, (at - 1) * leg, at * leg, walk);
+        if (at > 0) propagate<has_cross, true>(chain, (at - 1) * leg, at * leg, walk);
         if (at < low) continue;
         for (std::size_t p = 0; p < P; ++p) scratch[(at - low) * P + p] = AtPin<V>(walk[p]);
     }
@@ -163,7 +164,7 @@ template <bool has_cross, class V>
     }
     for (std::size_t at = legs + 1, end = n; at-- > low;) {
         const std::size_t begin = at * leg;
-        carry<has_cross, false>(chain, begin, end, walk);
+        propagate<has_cross, false>(chain, begin, end, walk);
         end = begin;
         if (at > high) continue;
         const double above = chain.flexibility_above[begin];
@@ -200,9 +201,9 @@ template <bool has_cross, class V>
     }
 }
 
-/// For any number of shifts the results of `solve(registers, has_cross, shifts, lowest, highest, results)`, which takes
-/// `packs` packs of them, each joined near its `place`, or with no places given anywhere. Those that live together go
-/// together: what lies between the places is walked twice.
+/// For any number of shifts what `solve(registers, has_cross, shifts, lowest, highest, results)` gives for `packs`
+/// packs of them, each joined near its `place`, or with no places given anywhere. Those that live together go together:
+/// what lies between the places is walked twice.
 template <class Result, std::size_t packs, class Solve>
 std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>& shifts,
                              const std::vector<std::size_t>& places, const Solve& solve) {

@@ -22,12 +22,13 @@ template <class V>
 struct FineWalk {
     V mu, offset, sum, rest;
     V excess, squares, stiffness;  ///< sums of f d, f^2 / k, k d^2
-    V forces, offsets;  ///< sums of (force/k)^2 k and of (1 + mu X/k)^2 k y^2 over the upper pins; where has_cross only
+    V forces,
+        offsets;  ///< sums of (force/k)^2 k and of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
 };
 
 template <bool has_cross, bool up, bool fused, class V>
-[[gnu::always_inline]] inline void carry(const LumpedChain& chain, std::size_t begin, std::size_t end,
-                                         FineWalk<V>* walk) {
+[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
+                                             FineWalk<V>* walk) {
     constexpr std::size_t P = fine_packs;
     FineWalk<V> at[P];
     for (std::size_t p = 0; p < P; ++p) at[p] = walk[p];
@@ -117,7 +118,7 @@ template <bool has_cross, bool fused, class V>
         walk[p].rest = V(chain.tip_mass_rest);
     }
     for (std::size_t at = 0; at <= high; ++at) {
-        if (at > 0) carry<has_cross, true, fused>(chain, (at - 1) * leg, at * leg, walk);
+        if (at > 0) propagate<has_cross, true, fused>(chain, (at - 1) * leg, at * leg, walk);
         if (at < low) continue;
         for (std::size_t p = 0; p < P; ++p) scratch[(at - low) * P + p] = walk[p];
     }
@@ -131,7 +132,7 @@ template <bool has_cross, bool fused, class V>
     }
     for (std::size_t at = legs + 1, end = n; at-- > low;) {
         const std::size_t begin = at * leg;
-        carry<has_cross, false, fused>(chain, begin, end, walk);
+        propagate<has_cross, false, fused>(chain, begin, end, walk);
         end = begin;
         if (at > high) continue;
         const double above = chain.flexibility_above[begin];

@@ -26,7 +26,7 @@ inline constexpr std::size_t sample_packs = 6;
 ///
 ///     V' = s V - G/k,     G' = s G + m mu V',     V = 1, G = mu m_0 at the free end.
 ///
-/// Cost per shift and link (AVX-512): 0.13 ns without has_cross (X = 0), 0.23 with.
+/// Cost per shift and link (AVX-512): 0.13 ns without cross masses (X = 0), 0.23 with.
 ///
 /// With `count`, also the number of eigenvalues below the shift; else `history`, the sign of the offset after every
 /// `history_step` links from the free end, 64 signs to a word, the first in the highest bit used.

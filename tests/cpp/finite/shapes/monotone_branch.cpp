@@ -10,7 +10,7 @@ using support::Random;
 
 TEST_CASE("the tangents of a piece: all that carry a load, and derivatives only away from the joints", "[finite]") {
     using revchain::Interval;
-    using revchain::finite::Piece;
+    using revchain::finite::MonotoneBranch;
     using revchain::finite::Posture;
     Random random(308);
     int smooth = 0, met_in_all = 0, near_joint = 0;
@@ -23,11 +23,12 @@ TEST_CASE("the tangents of a piece: all that carry a load, and derivatives only 
         REQUIRE_FALSE(response.is_single());
         const Quad ratio = cbrtq(Quad(c) / k), joint = sqrtq(ratio * ratio - 1);
         const auto load = [&](const Quad& t) { return k * t - c * t / sqrtq(1 + t * t); };
-        const auto piece = std::array{Piece::right, Piece::middle, Piece::left}[static_cast<std::size_t>(i / 3 % 3)];
+        const auto piece = std::array{MonotoneBranch::right, MonotoneBranch::middle,
+                                      MonotoneBranch::left}[static_cast<std::size_t>(i / 3 % 3)];
         const auto on_piece = [&]() -> Quad {
             const double off = random.log_between(1e-9, 1.0);
-            if (piece == Piece::middle) return joint * (random() < 0.5 ? -1 : 1) * (1 - off);
-            return (piece == Piece::right ? 1 : -1) * joint * (1 + off * 100);
+            if (piece == MonotoneBranch::middle) return joint * (random() < 0.5 ? -1 : 1) * (1 - off);
+            return (piece == MonotoneBranch::right ? 1 : -1) * joint * (1 + off * 100);
         };
         const Quad one = on_piece(), other = random() < 0.3   ? one
                                              : random() < 0.5 ? one * (1 + Quad(1e-6))
@@ -41,13 +42,14 @@ TEST_CASE("the tangents of a piece: all that carry a load, and derivatives only 
         if (met.smooth) {  // one monotone stretch
             const bool inside = Quad(met.tangent.high) < joint && Quad(met.tangent.low) > -joint;
             const bool beyond = Quad(met.tangent.low) > joint || Quad(met.tangent.high) < -joint;
-            CHECK((piece == Piece::middle ? inside : beyond));
+            CHECK((piece == MonotoneBranch::middle ? inside : beyond));
         } else {
             ++near_joint;
         }
         for (int j = 0; j < 20; ++j) {
             const Quad t = j < 2 ? (j == 0 ? one : other) : one + (other - one) * random();
-            const bool is_on = piece == Piece::middle ? fabsq(t) <= joint : (piece == Piece::right ? t : -t) >= joint;
+            const bool is_on = piece == MonotoneBranch::middle ? fabsq(t) <= joint
+                                                               : (piece == MonotoneBranch::right ? t : -t) >= joint;
             if (!is_on || load(t) < R.low || load(t) > R.high) continue;
             ++met_in_all;
             CHECK(Quad(met.tangent.low) <= t);

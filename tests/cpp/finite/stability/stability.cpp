@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/stability.hpp"
 
+#include <Eigen/Dense>
+
 #include "revchain/finite/stability/windows.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
