@@ -102,6 +102,22 @@ T height_from_seconds_pendulum(const T& seconds_pendulum, const T& period) {
 
 }  // namespace conical_pendulum
 
+namespace detail {
+
+/// The conical height that options give, or that of the angular speed they give.
+/// Throws InvalidArgument unless they give exactly one of the two, positive and finite.
+template <class Options>
+double height_given(std::string_view place, const Options& options) {
+    if (options.conical_height.has_value() == options.angular_speed.has_value())
+        throw_invalid(place, "give either conical_height or angular_speed");
+    const double height = options.conical_height ? *options.conical_height
+                                                 : conical_pendulum::height(*options.angular_speed, options.gravity);
+    require_positive(place, options.conical_height ? "conical height" : "gravity / angular_speed^2", height);
+    return height;
+}
+
+}  // namespace detail
+
 /// A plummet at a steady inclination. Tension is over the weight.
 template <Real T>
 struct InclinedPendulum {

@@ -33,6 +33,43 @@ struct ModeRange {
     friend bool operator==(const ModeRange&, const ModeRange&) = default;
 };
 
+namespace detail {
+
+template <Real T>
+bool is_bounded(const T& x) {
+    using std::isfinite;
+    return isfinite(x);
+}
+
+template <Real T>
+void check_window(std::string_view name, const T& low, const T& high) {
+    const std::string window = std::string(name) + " window: ";
+    if (!is_bounded(low) || low < T(0))
+        throw_invalid("modes", window + "its low end must be finite and not negative", low);
+    if (!(high > low)) throw_invalid("modes", window + "its high end must exceed its low end " + in_digits(low), high);
+}
+
+/// The modes in a window, of `all` there are; `above(height)` counts those whose height exceeds a height.
+template <Real T, class Above>
+ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& above) {
+    check_window("conical height", window.low, window.high);
+    const Index before = is_bounded(window.high) ? above(window.high) : 0;
+    if (window.low > T(0)) all = above(window.low);
+    return {before + 1, std::max(all - before, Index(0))};
+}
+
+/// The window of heights that is a window of speeds.
+template <Real T>
+HeightWindow<T> window_of_heights(const SpeedWindow<T>& window, const T& gravity) {
+    check_window("angular speed", window.low, window.high);
+    require_positive("modes", "gravity", gravity);
+    const auto height = [&](const T& speed) { return gravity / speed / speed; };
+    return {is_bounded(window.high) ? height(window.high) : T(0),
+            window.low > T(0) ? height(window.low) : std::numeric_limits<T>::infinity()};
+}
+
+}  // namespace detail
+
 /// Counts the modes of one chain on either side of a height or a speed, without computing any: assembled once, then
 /// one O(N) pass for each question.
 ///
@@ -62,19 +99,16 @@ class ModeCounter {
     /// The modes whose heights lie in the window: what exceeds `low` and does not exceed `high`, by `above_height`.
     /// Windows that meet share no mode and lose none. Throws InvalidArgument unless 0 <= low < high.
     ModeRange within(const HeightWindow<T>& window) const {
-        check_window("conical height", window.low, window.high);
-        const Index before = bounded(window.high) ? above_height(window.high) : 0;
-        const Index all = window.low > T(0) ? above_height(window.low) : mode_count_;
-        return {before + 1, std::max(all - before, Index(0))};
+        return detail::modes_within(window, mode_count_, [&](const T& height) { return above_height(height); });
     }
 
     /// The modes whose speeds lie in the window, by `below_speed`. Throws InvalidArgument unless 0 <= low < high and
     /// gravity is positive and finite.
     ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
-        check_window("angular speed", window.low, window.high);
+        detail::check_window("angular speed", window.low, window.high);
         detail::require_positive("modes", "gravity", gravity);
         const Index before = window.low > T(0) ? below_speed(window.low, gravity) : 0;
-        const Index all = bounded(window.high) ? below_speed(window.high, gravity) : mode_count_;
+        const Index all = detail::is_bounded(window.high) ? below_speed(window.high, gravity) : mode_count_;
         return {before + 1, std::max(all - before, Index(0))};
     }
 
@@ -82,20 +116,6 @@ class ModeCounter {
     const detail::Pencils<T>& pencils() const { return pencils_; }
 
    private:
-    static bool bounded(const T& x) {
-        using std::isfinite;
-        return isfinite(x);
-    }
-
-    static void check_window(std::string_view name, const T& low, const T& high) {
-        const std::string window = std::string(name) + " window: ";
-        if (!bounded(low) || low < T(0))
-            detail::throw_invalid("modes", window + "its low end must be finite and not negative", low);
-        if (!(high > low))
-            detail::throw_invalid("modes", window + "its high end must exceed its low end " + detail::in_digits(low),
-                                  high);
-    }
-
     /// `rough` is `height` in T: it says where the height has left the range of the scalar.
     Index above(const Wide<T>& height, const T& rough) const {
         using std::ldexp;

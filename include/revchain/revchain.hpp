@@ -14,7 +14,6 @@
 #include "revchain/explain.hpp"                        // IWYU pragma: export
 #include "revchain/finite/branch/shape_on_branch.hpp"  // IWYU pragma: export
 #include "revchain/finite/cord/continuous_chain.hpp"   // IWYU pragma: export
-#include "revchain/finite/held/cord.hpp"               // IWYU pragma: export
 #include "revchain/held.hpp"                           // IWYU pragma: export
 #include "revchain/hoop.hpp"                           // IWYU pragma: export
 #include "revchain/sensitivity.hpp"         // IWYU pragma: export

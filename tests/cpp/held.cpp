@@ -6,11 +6,13 @@
 #include "revchain/rope.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
+#include "support/held.hpp"
 #include "support/truth.hpp"
 
 namespace {
 
 using revchain::Chain;
+using revchain::Held;
 using revchain::HeldShape;
 using revchain::Index;
 using support::Quad;
@@ -84,7 +86,7 @@ TEST_CASE("held at both ends: inclinations within their proved bound of a Lagran
                     const Chain<double> chain = family.make(size);
                     const double length = chain.total_length();
                     const auto found =
-                        revchain::held_shapes(chain, share * length, slow * length, {.most_half_waves = 3});
+                        support::held_shapes(chain, share * length, slow * length, {.max_half_waves = 3});
                     CHECK(found.shapes.size() + found.missing.size() == 3);
                     CHECK_FALSE(found.complete);
                     for (const HeldShape& shape : found.shapes) {
@@ -110,7 +112,7 @@ TEST_CASE("held at both ends: extremes of weight") {
         if (family.name.find("1e12") == std::string::npos) continue;
         const Chain<double> chain = family.make(8);
         for (const double share : {0.99, 0.7}) {
-            const auto found = revchain::held_shapes(chain, share * chain.total_length(), 0.0);
+            const auto found = support::held_shapes(chain, share * chain.total_length(), 0.0);
             for (const HeldShape& shape : found.shapes) {
                 INFO(family.name << " " << share);
                 CHECK(against_truth(chain, shape) <= shape.error_bound);
@@ -125,7 +127,7 @@ TEST_CASE("held at both ends: two links make a triangle") {
     const double up = (lower * lower - upper * upper + span * span) / (2 * span);
     const double out = std::sqrt(lower * lower - up * up);
     for (const double height : {0.0, 0.3}) {
-        const auto found = revchain::held_shapes(chain, span, height, {.most_half_waves = 2});
+        const auto found = support::held_shapes(chain, span, height, {.max_half_waves = 2});
         REQUIRE(found.shapes.size() == 1);
         CHECK(found.missing == std::vector<int>{2});
         const HeldShape& shape = found.shapes[0];
@@ -141,7 +143,7 @@ TEST_CASE("held at both ends: two links make a triangle") {
     }
     // the lower thread cannot reach so far without the upper pushing
     const Chain<double> uneven({revchain::plummet(1.0, 2.0), revchain::plummet(1.0, 1.0)});
-    CHECK(revchain::held_shapes(uneven, 1.5, 0.0).shapes.empty());
+    CHECK(support::held_shapes(uneven, 1.5, 0.0).shapes.empty());
 }
 
 TEST_CASE("held at both ends: many links tend to the skipping rope by order 2") {
@@ -152,7 +154,7 @@ TEST_CASE("held at both ends: many links tend to the skipping rope by order 2") 
         for (std::size_t i = 0; i < 3; ++i) {
             const Index size = 60 << i;
             const auto off = [&](const Chain<double>& chain) {
-                const auto found = revchain::held_shapes(chain, 0.5, 0.0, {.most_half_waves = waves});
+                const auto found = support::held_shapes(chain, 0.5, 0.0, {.max_half_waves = waves});
                 REQUIRE(found.shapes.size() == static_cast<std::size_t>(waves));
                 const HeldShape& shape = found.shapes.back();
                 CHECK(shape.half_waves == waves);
@@ -180,7 +182,7 @@ TEST_CASE("held at both ends: many links tend to the skipping rope by order 2") 
 TEST_CASE("held at both ends: laws") {
     const Chain<double> chain = support::families()[3].make(12);
     const double length = chain.total_length(), span = 0.6 * length, height = 0.04 * length;
-    const HeldShape shape = revchain::held_shapes(chain, span, height).shapes.at(0);
+    const HeldShape shape = support::held_shapes(chain, span, height).shapes.at(0);
     double weight = 0, centrifugal = 0, moment = 0;
     for (Index m = 0; m < chain.size(); ++m) {
         const auto link = chain.link(m);
@@ -204,25 +206,32 @@ TEST_CASE("held at both ends: laws") {
             links.push_back(link);
         }
         const HeldShape same =
-            revchain::held_shapes(Chain<double>(links), span * 0x1p-30, height * 0x1p-30).shapes.at(0);
+            support::held_shapes(Chain<double>(links), span * 0x1p-30, height * 0x1p-30).shapes.at(0);
         CHECK(same.inclination == shape.inclination);
         CHECK(same.lower_pull[0] == shape.lower_pull[0] * 0x1p10);
         CHECK(same.moment_of_inertia == shape.moment_of_inertia * 0x1p-20);
         CHECK(same.height_times_energy == shape.height_times_energy * 0x1p-20);
     }
     SECTION("symmetric without gravity") {
-        const HeldShape even = revchain::held_shapes(Chain<double>::uniform_rods(11), 0.5, 0.0).shapes.at(0);
+        const HeldShape even = support::held_shapes(Chain<double>::uniform_rods(11), 0.5, 0.0).shapes.at(0);
         for (Index m = 0; m < 11; ++m) CHECK(std::abs(even.inclination[m] + even.inclination[10 - m]) < 2.3e-16);
     }
     SECTION("the speed, in two words") {
-        const auto at = revchain::held_shapes_at_speed(chain, span, std::sqrt(9.81 / height), 9.81).shapes.at(0);
+        const Held held(chain, {.span = span});
+        const auto at =
+            revchain::steady_shapes(held, {.angular_speed = std::sqrt(9.81 / height), .gravity = 9.81}).shapes.at(0);
         CHECK((at.inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-15);
-        const auto none = revchain::held_shapes_at_speed(chain, span, 5.0, 0.0).shapes.at(0);
-        CHECK(none.inclination == revchain::held_shapes(chain, span, 0.0).shapes.at(0).inclination);
+        const Held light(chain, {.span = span, .weightless = true});
+        const auto none = revchain::steady_shapes(light, {.angular_speed = 5.0}).shapes.at(0);
+        CHECK(revchain::steady_shapes(light).shapes.at(0).inclination == none.inclination);
+        CHECK(none.inclination == support::held_shapes(chain, span, 0.0).shapes.at(0).inclination);
     }
     SECTION("tension instead of span") {
         const double wanted = shape.height_times_tension[chain.size()];
-        const auto found = revchain::held_shapes_under_tension(chain, wanted, height);
+        const auto under = [&](double tension) {
+            return revchain::steady_shapes(Held(chain, {.tension = tension}), {.conical_height = height});
+        };
+        const auto found = under(wanted / height);
         REQUIRE(found.shapes.size() == 1);
         double nearest = length;
         for (const HeldShape& other : found.shapes) {
@@ -230,13 +239,13 @@ TEST_CASE("held at both ends: laws") {
             nearest = std::min(nearest, std::abs(other.span - span));
         }
         CHECK(nearest < 1e-12 * length);
-        CHECK(revchain::held_shapes_under_tension(chain, 10 * wanted, height).shapes.empty());
+        CHECK(under(10 * wanted / height).shapes.empty());
     }
     SECTION("change of inclinations with the span") {
         const double by = 1e-6;
         double worst = 0;
         for (const auto& [further, slower] : {std::pair{1 + by, 1.0}, {1.0, 1 + by}}) {
-            const HeldShape moved = revchain::held_shapes(chain, span * further, height * slower).shapes.at(0);
+            const HeldShape moved = support::held_shapes(chain, span * further, height * slower).shapes.at(0);
             worst = std::max(worst, (moved.inclination - shape.inclination).cwiseAbs().maxCoeff() / by);
         }
         CHECK(std::abs(worst / shape.condition - 1) < 1e-5);
@@ -246,20 +255,22 @@ TEST_CASE("held at both ends: laws") {
 TEST_CASE("held at both ends: refused, and nothing where a chain folds") {
     const Chain<double> chain = Chain<double>::uniform_rods(20);
     using revchain::InvalidArgument;
-    CHECK_THROWS_AS(revchain::held_shapes(chain, 0.0, 0.1), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_shapes(chain, 1.01, 0.1), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_shapes(chain, 0.5, -0.1), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_shapes(chain, 0.5, NAN), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_shapes(chain, 0.5, 0.1, {.most_half_waves = 0}), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_shapes_at_speed(chain, 0.5, 0.0, 9.8), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_shapes_at_speed(chain, 0.5, 1.0, -9.8), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_shapes_under_tension(chain, 0.0, 0.1), InvalidArgument);
-    CHECK_THROWS_AS(revchain::taut_modes(chain, 0.0, 1), InvalidArgument);
-    CHECK_THROWS_AS(revchain::taut_modes(chain, 1.0, 0), InvalidArgument);
-    const auto slow = revchain::held_shapes(chain, 0.5, 10.0, {.most_half_waves = 2});
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {0.0, -1.0, nan, infinity}) {
+        CAPTURE(bad);
+        CHECK_THROWS_AS(Held(chain, {.span = bad}), InvalidArgument);
+        CHECK_THROWS_AS(Held(chain, {.tension = bad}), InvalidArgument);
+        const Held held(chain, {.span = 0.5});
+        CHECK_THROWS_AS(revchain::steady_shapes(held, {.conical_height = bad}), InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shapes(held, {.angular_speed = bad}), InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shapes(held, {.angular_speed = 1.0, .gravity = bad}), InvalidArgument);
+        const Held light(chain, {.span = 0.5, .weightless = true});
+        CHECK_THROWS_AS(revchain::steady_shapes(light, {.angular_speed = bad}), InvalidArgument);
+    }
+    const auto slow = support::held_shapes(chain, 0.5, 10.0, {.max_half_waves = 2});
     CHECK(slow.shapes.empty());
     CHECK(slow.missing == std::vector<int>{1, 2});
-    CHECK(revchain::held_shapes(Chain<double>::uniform_rods(1), 0.5, 0.1).shapes.empty());
+    CHECK(support::held_shapes(Chain<double>::uniform_rods(1), 0.5, 0.1).shapes.empty());
 }
 
 TEST_CASE("held straight: heights within an ulp of the assembled pencil in quadruple precision") {
@@ -268,7 +279,7 @@ TEST_CASE("held straight: heights within an ulp of the assembled pencil in quadr
             for (const double pull : {1e-3, 1.0, 1e3}) {
                 const Chain<double> chain = family.make(size);
                 const double tension = pull * chain.total_weight();
-                const auto modes = revchain::taut_modes(chain, tension, 5);
+                const revchain::finite::TautChain modes(chain, revchain::Wide<double>(tension));
                 // negative pivots of height K - M, the lowest pin left out
                 const auto above = [&](Quad height) {
                     Index negative = 0;
@@ -288,9 +299,9 @@ TEST_CASE("held straight: heights within an ulp of the assembled pencil in quadr
                     }
                     return negative;
                 };
-                for (Index k = 0; k < modes.conical_height.size(); ++k) {
+                for (Index k = 0; k < std::min<Index>(5, modes.mode_count()); ++k) {
                     INFO(family.name << " " << size << " " << pull << " mode " << k + 1);
-                    const Quad height = modes.conical_height[k], by = modes.error_bound[k];
+                    const Quad height = modes.height(k), by = revchain::epsilon<double>();
                     CHECK(above(height * (1 - by)) == k + 1);
                     CHECK(above(height * (1 + by)) == k);
                 }
@@ -301,10 +312,185 @@ TEST_CASE("held straight: where shapes of finite amplitude begin") {
     const Chain<double> chain = support::families()[2].make(9);
     const double length = chain.total_length(), height = 0.03 * length;
     for (const double slack : {1e-4, 1e-6}) {
-        const HeldShape shape = revchain::held_shapes(chain, length * (1 - slack), height).shapes.at(0);
-        const auto modes = revchain::taut_modes(chain, shape.lower_pull[1] / height, 1);
+        const HeldShape shape = support::held_shapes(chain, length * (1 - slack), height).shapes.at(0);
+        const auto modes = revchain::modes(Held(chain, {.tension = -shape.upper_pull[1] / height}), {.count = 1});
         CHECK(std::abs(modes.conical_height[0] / height - 1) < 3 * slack);
         const revchain::Vector<double> scaled = shape.offset / shape.offset.cwiseAbs().maxCoeff();
-        CHECK((scaled.transpose() - modes.shape.row(0)).cwiseAbs().maxCoeff() < 3 * slack);
+        CHECK((scaled - modes.shape(0)).cwiseAbs().maxCoeff() < 3 * slack);
     }
+}
+
+TEST_CASE("held straight: the tension at the upper end, less the weight in double-double") {
+    for (const auto& family : support::families()) {
+        const Chain<double> chain = family.make(12);
+        const double tension = 1.25 * chain.total_weight();
+        INFO(family.name);
+        const auto modes = revchain::modes(Held(chain, {.tension = tension}));
+        const revchain::finite::TautChain taut(chain, revchain::Wide<double>(tension) - chain.weight_below(12));
+        REQUIRE(modes.size() == std::min<Index>(10, taut.mode_count()));
+        CHECK(modes.first == 1);
+        CHECK(modes.method == "bisection");
+        CHECK(modes.status == revchain::Status::success);
+        const auto& shapes = modes.shapes();
+        for (Index j = 0; j < modes.size(); ++j) {
+            CHECK(modes.conical_height[j] == taut.height(j));
+            CHECK(modes.error_bound[j] == revchain::epsilon<double>());
+            CHECK(modes.shape(j) == taut.shape(modes.conical_height[j]));
+            const double height = modes.conical_height[j];
+            CHECK(revchain::count_modes(Held(chain, {.tension = tension}), {.conical_height = height * (1 - 1e-14)}) ==
+                  j + 1);
+            CHECK(revchain::count_modes(Held(chain, {.tension = tension}), {.conical_height = height * (1 + 1e-14)}) ==
+                  j);
+            CHECK(shapes.residual[j] < 1e-15);
+            // mode k has k - 1 nodes, each between two pins of different sign
+            const auto& nodes = shapes.nodes[static_cast<std::size_t>(j)];
+            Index changes = 0;
+            double below = 0;
+            for (Index m = 0; m < 12; ++m) {
+                const double y = shapes.offset(j, m), next = shapes.offset(j, m + 1), length = chain.link(m).length;
+                if (y * next < 0) {
+                    REQUIRE(changes < nodes.size());
+                    CHECK(std::abs(nodes[changes] - (below + length * y / (y - next))) < 1e-14 * chain.total_length());
+                    ++changes;
+                }
+                below += length;
+            }
+            CHECK(changes == nodes.size());
+        }
+    }
+}
+
+TEST_CASE("held straight: two plummets on three threads, in closed form") {
+    // lambda K y = M y with the tensions 2 w + T, w + T and T over the threads of length 1: M is the weight w
+    const double w = 0.5, T = 3.0;
+    const Chain<double> chain({revchain::plummet(w, 1.0), revchain::plummet(w, 1.0), revchain::plummet(w, 1.0)});
+    const auto modes = revchain::modes(Held(chain, {.tension = 3 * w + T}));  // the lowest one lies on its bearing
+    REQUIRE(modes.size() == 2);
+    const double lower = w + T, middle = 2 * w + T, upper = 3 * w + T;  // in the three threads
+    const double a = lower + middle, b = middle, c = middle + upper, root = std::hypot((a - c) / 2, b);
+    CHECK(std::abs(modes.conical_height[0] * ((a + c) / 2 - root) / w - 1) < 1e-15);
+    CHECK(std::abs(modes.conical_height[1] * ((a + c) / 2 + root) / w - 1) < 1e-15);
+    CHECK(modes.shape(0)[0] == 0);
+    CHECK(modes.shape(0)[3] == 0);
+    CHECK(std::abs(modes.shape(0)[1] / modes.shape(0)[2] - b / (a - w / modes.conical_height[0])) < 1e-14);
+    CHECK(modes.angular_speed(10.0)[0] == std::sqrt(10.0) / std::sqrt(modes.conical_height[0]));
+}
+
+TEST_CASE("held straight: numbers, windows, all modes") {
+    const Chain<double> rods = Chain<double>::uniform_rods(30, 1.0, 2.0);
+    const Held held(rods, {.tension = 7.0});
+    const auto all = revchain::modes(held, {.count = revchain::all_modes});
+    REQUIRE(all.size() == 29);
+    const auto some = revchain::modes(held, {.first = 4, .count = 3});
+    CHECK(some.first == 4);
+    CHECK(some.conical_height == all.conical_height.segment(3, 3));
+    CHECK(some.shape(1) == all.shape(4));
+    CHECK(revchain::modes(held, {.first = 25}).size() == 5);
+    const double low = all.conical_height[6], high = all.conical_height[2];
+    const auto window =
+        revchain::modes(held, {.conical_height = revchain::HeightWindow<double>{low * 0.999, high * 1.001}});
+    CHECK(window.range() == revchain::ModeRange{3, 5});
+    CHECK(window.conical_height == all.conical_height.segment(2, 5));
+    const auto speeds = all.angular_speed();
+    const auto by_speed =
+        revchain::modes(held, {.angular_speed = revchain::SpeedWindow<double>{speeds[2] * 0.999, speeds[6] * 1.001}});
+    CHECK(by_speed.range() == window.range());
+    const double infinity = std::numeric_limits<double>::infinity();
+    CHECK(revchain::modes(held, {.angular_speed = revchain::SpeedWindow<double>{0, infinity}}).size() == 29);
+    CHECK(revchain::modes(held, {.conical_height = revchain::HeightWindow<double>{1e3, infinity}}).size() == 0);
+    CHECK(revchain::count_modes(held, {.angular_speed = speeds[6] * 1.001}) == 7);
+    CHECK(revchain::count_modes(held, {.angular_speed = 2 * speeds[6] * 1.001, .gravity = 4 * 9.80665}) == 7);
+    CHECK(revchain::modes(held, {.rtol = 1e-3}).status == revchain::Status::success);
+    CHECK(revchain::modes(held, {.rtol = 1e-20}).status == revchain::Status::tolerance_not_met);
+}
+
+TEST_CASE("held: a weightless system under a tension") {
+    const Chain<double> rods = Chain<double>::uniform_rods(25, 1.0, 2.0);
+    const double speed = 7.0;
+    for (const auto& shape :
+         revchain::steady_shapes(Held(rods, {.span = 0.7, .weightless = true}), {.max_half_waves = 2}).shapes) {
+        CHECK(shape.conical_height == 0);
+        const double tension = shape.height_times_tension[25] * speed * speed;  // newtons, of masses
+        const auto found = revchain::steady_shapes(Held(rods, {.tension = tension, .weightless = true}),
+                                                   {.angular_speed = speed, .max_half_waves = shape.half_waves});
+        REQUIRE(!found.shapes.empty());
+        CHECK(std::abs(found.shapes.back().span - 0.7) < 1e-12);
+        CHECK((found.shapes.back().inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-11);
+    }
+    const revchain::Cord cord(1.0, {.weight = 2.0});
+    const auto rope = revchain::steady_shapes(Held(cord, {.span = 0.7, .weightless = true})).shapes.at(0);
+    const double tension = rope.height_times_tension[rope.height_times_tension.size() - 1] * speed * speed;
+    const auto found =
+        revchain::steady_shapes(Held(cord, {.tension = tension, .weightless = true}), {.angular_speed = speed});
+    REQUIRE(found.shapes.size() == 1);
+    CHECK(std::abs(found.shapes[0].span - 0.7) < 1e-12);
+}
+
+TEST_CASE("held: what has no answer says what to ask instead") {
+    using Catch::Matchers::ContainsSubstring;
+    using revchain::Cord;
+    const Chain<double> rods = Chain<double>::uniform_rods(20, 1.0, 3.0);
+    CHECK_THROWS_WITH(Held(rods, {}), ContainsSubstring("give either span or tension"));
+    CHECK_THROWS_WITH(Held(rods, {.span = 0.5, .tension = 1.0}), ContainsSubstring("give either span or tension"));
+    CHECK_THROWS_WITH(Held(rods, {.span = 1.0}), ContainsSubstring("less than the length 1, got 1"));
+    CHECK_THROWS_WITH(Held(Cord(1, {.tip_weight = 1}), {.span = 0.5}), ContainsSubstring("must be uniform"));
+    CHECK_THROWS_WITH(Held(Cord(1, {.density = 1.0}), {.span = 0.5}), ContainsSubstring("Chain::tapered"));
+
+    const Held bent(rods, {.span = 0.5}), straight(rods, {.tension = 4.0});
+    const Held light(rods, {.tension = 4.0, .weightless = true}), light_bent(rods, {.span = 0.5, .weightless = true});
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent), ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.conical_height = 1.0, .angular_speed = 1.0}),
+                      ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.angular_speed = 1.0, .gravity = 0}),
+                      ContainsSubstring("weightless = true"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.angular_speed = 1e200}),
+                      ContainsSubstring("gravity / angular_speed^2 must be positive and finite"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.conical_height = 0.1, .max_half_waves = 0}),
+                      ContainsSubstring("max_half_waves must be at least 1"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(light_bent, {.conical_height = 0.1}),
+                      ContainsSubstring("give angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(light), ContainsSubstring("give angular_speed"));
+
+    CHECK_THROWS_WITH(revchain::modes(bent), ContainsSubstring("stability"));
+    CHECK_THROWS_WITH(revchain::count_modes(bent, {.conical_height = 0.1}), ContainsSubstring("stability"));
+    CHECK_THROWS_WITH(revchain::modes(light), ContainsSubstring("weightless"));
+    const Chain<double> beads = Chain<double>::uniform_plummets(4, 1.0, 3.0);
+    CHECK_THROWS_WITH(revchain::modes(Held(beads, {.tension = 3.0})),
+                      ContainsSubstring("must exceed the weight of the chain 3"));
+    CHECK_THROWS_WITH(revchain::count_modes(Held(rods, {.tension = 2.0}), {.conical_height = 0.1}),
+                      ContainsSubstring("must exceed the weight"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.certify = true}), ContainsSubstring("count_modes"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.first = 20}), ContainsSubstring("must not exceed the 19 modes"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.count = 20}), ContainsSubstring("must not exceed the 19 modes"));
+    CHECK_THROWS_AS(revchain::modes(straight, {.first = 0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.count = 0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.rtol = -1.0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.conical_height = revchain::HeightWindow<double>{2, 1}}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.angular_speed = revchain::SpeedWindow<double>{-1, 1}}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.angular_speed = revchain::SpeedWindow<double>{1, 2}, .gravity = 0}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_WITH(revchain::count_modes(straight, {}), ContainsSubstring("give either"));
+    CHECK_THROWS_AS(revchain::count_modes(straight, {.conical_height = 0.0}), revchain::InvalidArgument);
+
+    const Held rope(Cord(1), {.tension = 2.0});
+    CHECK_THROWS_WITH(revchain::modes(rope), ContainsSubstring("cut it into links"));
+    CHECK_THROWS_WITH(revchain::count_modes(rope, {.conical_height = 0.1}), ContainsSubstring("cut it into links"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(rope), ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::tune(rope, {}), ContainsSubstring("cannot be tuned yet"));
+    CHECK_THROWS_WITH(revchain::tune(bent, {}), ContainsSubstring("cannot be tuned yet"));
+    CHECK_THROWS_WITH(revchain::explain(rope), ContainsSubstring("one method"));
+    CHECK_THROWS_WITH(revchain::explain(straight), ContainsSubstring("one method"));
+}
+
+TEST_CASE("held: a run can be cancelled") {
+    revchain::Progress progress;
+    const Chain<double> rods = Chain<double>::uniform_rods(20);
+    const auto modes = revchain::modes(Held(rods, {.tension = 4.0}), {.count = 3, .progress = &progress});
+    CHECK(progress.fraction() == 1);
+    progress.cancel();
+    CHECK_THROWS_AS(revchain::modes(Held(rods, {.tension = 4.0}), {.count = 3, .progress = &progress}),
+                    revchain::Cancelled);
+    CHECK_THROWS_AS(modes.shapes(&progress), revchain::Cancelled);
 }

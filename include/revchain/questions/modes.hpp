@@ -21,16 +21,15 @@ void check(const ModesOptions<T>& options) {
         throw_invalid("modes", "rtol must not be negative or NaN", *options.rtol);
 }
 
-/// The numbers of the modes asked for.
-template <Real T>
-ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOptions<T>& options) {
+/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those in a window.
+template <Real T, class InHeights, class InSpeeds>
+ModeRange chosen(Index all, const ModesOptions<T>& options, const InHeights& in_heights, const InSpeeds& in_speeds) {
     const bool numbered = options.first != 1 || options.count.has_value();
     if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
         throw_invalid("modes",
                       "give one of mode numbers (first, count), conical_height and angular_speed, not several");
-    if (options.conical_height) return assembled.counter().within(*options.conical_height);
-    if (options.angular_speed) return assembled.counter().within(*options.angular_speed, options.gravity);
-    const Index all = chain.mode_count();
+    if (options.conical_height) return in_heights(*options.conical_height);
+    if (options.angular_speed) return in_speeds(*options.angular_speed);
     const std::string of = std::to_string(all) + " modes of this chain";
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
     if (options.first > all) throw_invalid("modes", "first must not exceed the " + of, options.first);
@@ -46,6 +45,13 @@ ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOp
                                                               std::to_string(options.first) + " on of the " + of),
             count);
     return {options.first, count};
+}
+
+template <Real T>
+ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOptions<T>& options) {
+    return chosen(
+        chain.mode_count(), options, [&](const HeightWindow<T>& window) { return assembled.counter().within(window); },
+        [&](const SpeedWindow<T>& window) { return assembled.counter().within(window, options.gravity); });
 }
 
 /// Room for what the options ask of these modes, nothing computed yet.

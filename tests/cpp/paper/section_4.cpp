@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include "paper.hpp"
-#include "revchain/cord.hpp"
+#include "revchain/special/heavy_chain.hpp"
+#include "revchain/special/tapered_chain.hpp"
 #include "revchain/special/tip_mass.hpp"
 
 namespace heavy_chain = revchain::analytic::heavy_chain;

@@ -74,6 +74,7 @@ class Path {
             if (!(next.state.arc > state.arc)) break;  // a density too rough to follow
             state = next.state;
         }
+        end_ = state.arc;
     }
     Path(const PathKind& kind, double tip_offset, const Options& options)
         : Path(kind, tip_offset, options, [](const auto&, double) {}) {}
@@ -81,6 +82,8 @@ class Path {
     const std::vector<Crossing>& crossings() const { return crossings_; }
     const std::vector<Step>& steps() const { return steps_; }
     double tip_offset() const { return tip_offset_; }
+    /// Arc length at which the last step ended.
+    double end() const { return end_; }
     bool starts_by_series() const { return kind_.density == nullptr && kind_.tip == 0; }
     /// Tension carried by its own series against that of u and V, over the largest.
     double discrepancy() const { return discrepancy_ / largest_tension_; }
@@ -156,7 +159,7 @@ class Path {
     double tip_offset_;
     std::vector<Step> steps_;
     std::vector<Crossing> crossings_;
-    double largest_tension_ = 0, discrepancy_ = 0;
+    double largest_tension_ = 0, discrepancy_ = 0, end_ = 0;
 };
 
 }  // namespace revchain::finite

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "revchain/finite/cord/line_density.hpp"
+#include "revchain/system/line_density.hpp"
 
 namespace revchain::finite {
 
@@ -31,6 +31,7 @@ struct PathKind {
     double per_length = 1;                 ///< its values are over this
     const LineDensity* density = nullptr;  ///< uniform, rho = 1, where there is none
     double bend = 1;                       ///< 0: small amplitude, T = V
+    double line_weight = 1;                ///< mean weight per length of the cord: tensions are in its unit
 
     double weight_below(double arc) const {
         return tip + (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));

@@ -6,6 +6,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/held/cord_series.hpp"
 #include "revchain/finite/held/curve.hpp"
+#include "revchain/system/cord.hpp"
 
 namespace revchain {
 
@@ -35,11 +36,7 @@ struct HeldCordShape {
     std::vector<finite::CordPlace> steps;  ///< what places are computed from, lengths over the cord's
 };
 
-struct HeldCordOptions {
-    int most_half_waves = 1;
-};
-
-/// Shapes of a cord held at both ends, one at the most for each number of half waves; see `HeldShapes`.
+/// Shapes of a cord held at both ends, see `HeldShapes`.
 struct HeldCordShapes {
     std::vector<HeldCordShape> shapes;
     std::vector<int> missing;
@@ -146,53 +143,34 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     return shape;
 }
 
-inline void check_cord(std::string_view place, double length, double height, double weight) {
-    revchain::detail::require_positive(place, "length", length);
-    revchain::detail::require_positive(place, "weight", weight);
-    if (!(height >= 0 && std::isfinite(height)))
-        revchain::detail::throw_invalid(place, "conical height must not be negative, and finite", height);
-}
-
-}  // namespace finite
-
-/// Steady shapes of a uniform, perfectly flexible cord whose two ends are held on the axis, `span` apart, at a conical
-/// height: `held_shapes` of more and more links. Height 0 stands for no gravity: Greenhill (1908) §5, y = b sn(K x/a).
-///
-/// Method: power series of degree 24, exact derivatives with the two forces at the lower end, Newton's method along a
-/// curve from the nearly straight cord. Accuracy: 1e-13 of the length (tests/cpp/paper/section_5_held_cord.cpp). Cost:
-/// 20 microseconds a path, some 100 paths a shape.
-/// Throws InvalidArgument for numbers not positive and finite, but the height, which may be 0, and a span not below the
-/// length.
-inline HeldCordShapes held_cord_shapes(double length, double span, double conical_height, double weight = 1,
-                                       const HeldCordOptions& options = {}) {
-    constexpr std::string_view place = "held_cord_shapes";
-    finite::check_cord(place, length, conical_height, weight);
-    detail::require_positive(place, "span", span);
-    if (!(span < length)) detail::throw_invalid(place, "span must be less than the length", span);
-    return finite::each_half_wave<HeldCordShapes>(place, options.most_half_waves, [&](int k, const auto& add) {
-        if (const auto state = finite::HeldCord().at_height(k, span / length, conical_height / length))
-            add(std::optional(finite::described(*state, span, length, weight)));
+/// The shape of each number of half waves up to `max_half_waves` at a span and a height; height 0: without gravity.
+inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
+    const double length = cord.length();
+    return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
+        if (const auto state = HeldCord().at_height(k, span / length, height / length))
+            add(std::optional(described(*state, span, length, cord.weight())));
     });
 }
 
-/// Shapes of a cord for a given tension at the upper end instead of the span; see `held_shapes_under_tension`.
-inline HeldCordShapes held_cord_shapes_under_tension(double length, double height_times_tension, double conical_height,
-                                                     double weight = 1, const HeldCordOptions& options = {}) {
-    constexpr std::string_view place = "held_cord_shapes_under_tension";
-    detail::require_positive(place, "height times tension", height_times_tension);
-    finite::check_cord(place, length, conical_height, weight);
-    return finite::each_half_wave<HeldCordShapes>(place, options.most_half_waves, [&](int k, const auto& add) {
-        finite::HeldCord cord;
+/// All shapes on the branch of each number of half waves whose tension at the upper end, times the height, is
+/// `height_times_tension`.
+inline HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension, double height,
+                                                     int max_half_waves) {
+    const double length = cord.length(), weight = cord.weight();
+    return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
+        HeldCord held;
         for (const double share : {0.9, 0.5, 0.99, 0.1}) {
-            const auto state = cord.at_height(k, share, conical_height / length);
+            const auto state = held.at_height(k, share, height / length);
             if (!state) continue;
-            cord.curve().under(*state, height_times_tension / length / weight, [&](const finite::HeldState& found) {
-                add(std::optional(finite::described(found, found.span * length, length, weight)));
+            held.curve().under(*state, height_times_tension / length / weight, [&](const HeldState& found) {
+                add(std::optional(described(found, found.span * length, length, weight)));
             });
             break;
         }
     });
 }
+
+}  // namespace finite
 
 inline HeldCordPlace HeldCordShape::operator()(double arc) const {
     if (!(arc >= 0 && arc <= length))

@@ -261,11 +261,10 @@ class HeldCurve {
 };
 
 /// Collects shapes of 1 ... `most` half waves. `find(k, add)` looks for those of k half waves and calls `add` with a
-/// shape or none. Throws InvalidArgument for a number below 1.
+/// shape or none.
 template <class Shapes, class Find>
-Shapes each_half_wave(std::string_view place, int most, const Find& find) {
+Shapes each_half_wave(int most, const Find& find) {
     constexpr double folded = 1e-3;  // error bounds beyond which a shape is none: it hangs folded along the axis
-    if (most < 1) revchain::detail::throw_invalid(place, "most half waves must be at least 1", most);
     Shapes result;
     for (int k = 1; k <= most; ++k) {
         const std::size_t before = result.shapes.size();
