@@ -140,7 +140,8 @@ Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const 
         if (!at.known) return nothing();
         inverse = detail::Inverse(at);
     }
-    const auto& [p, q, w] = inverse;
+    const auto &p = inverse.p, &q = inverse.q;  // no structured binding: Clang captures those from version 16 on
+    const Far w = inverse.w;
 
     // Sizes, a little more for rounding.
     const double share = 1.0000001 / size(w);

@@ -90,7 +90,7 @@ template <class S, Real T>
 template <Real T, std::size_t L>
 std::array<Index, L> count_above(const BlockPencil<T>& pencil, const std::array<T, L>& shifts) {
     using V = Pack<T>;
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         constexpr std::size_t packs = (L + pack_size - 1) / pack_size;
         std::array<V, packs> shift, below{}, negative{};
         for (std::size_t i = 0; i < packs * pack_size; ++i)
@@ -122,7 +122,7 @@ template <Real T>
 CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
     using V = Pack<T>;
     using S = DoubleWord<V>;
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         const T unit = T(2) * operation_error<DoubleWord<T>>();
         const T inflate = T(1) + T(16) * epsilon<T>();
         const T underflow = std::numeric_limits<T>::min() * T(4);
@@ -156,10 +156,10 @@ CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const Dou
 template <class S, Real T>
 std::vector<S> offsets_between(const BlockPencil<T>& pencil, const S& eigenvalue) {
     using V = Pack<T>;
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         const std::size_t n = pencil.blocks.size();
         const S one(V(T(1)));
-        const auto not_zero = [](const S& pivot, const S& spring) __attribute__((always_inline)) {
+        const auto not_zero = [](const S& pivot, const S& spring) REVCHAIN_INLINED {
             const V tiny = static_cast<V>(spring) * (epsilon<T>() * epsilon<T>());
             return pivot + S(if_equal(static_cast<V>(pivot), V{}, tiny, V{}));
         };
@@ -219,7 +219,7 @@ struct Improved {
 template <class S, Real T>
 Improved<S> improved(const BlockPencil<T>& pencil, const S& shift) {
     using V = Pack<T>;
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         const V at = static_cast<V>(shift), step = at * T(1e-5);
         const std::vector<V> offset = offsets_between<V>(pencil, at);
         // The form at the shift, in S; its derivative from a second value, in T.

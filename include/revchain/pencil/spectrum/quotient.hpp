@@ -42,7 +42,7 @@ template <bool swings, bool up, class V>
         const LumpedLink e = chain.links[up ? i : begin + (end - 1 - i)];
 #pragma GCC unroll 8
         for (std::size_t p = 0; p < P; ++p) {
-            const auto pass_pin = [&]() __attribute__((always_inline)) {
+            const auto pass_pin = [&]() REVCHAIN_INLINED {
                 const V q = e.mass * (mu[p] * offset[p]);
                 (swings ? pins[p] : inertia[p]) += q * offset[p];
                 force[p] = up ? force[p] + q : force[p] - q;
@@ -210,7 +210,7 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
     if (!places.empty())
         std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
     std::vector<Result> result(shifts.size());
-    simd([&](auto registers) __attribute__((always_inline)) {
+    simd([&](auto registers) REVCHAIN_INLINED {
         constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
         Result found[together];
         double padded[together];
@@ -237,7 +237,7 @@ inline std::vector<Quotient> quotients_all(const LumpedChain& chain, const std::
     return in_packs<Quotient, quotient_packs>(
         chain, shifts, places,
         [&](auto registers, auto swings, const double* some, std::size_t lowest, std::size_t highest, Quotient* found)
-            __attribute__((always_inline)) {
+            REVCHAIN_INLINED {
                 std::vector<AtPin<Pack<double, registers.doubles>>> scratch;
                 quotients<swings.value>(chain, some, lowest, highest, longest, found, scratch);
             });

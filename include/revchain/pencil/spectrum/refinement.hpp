@@ -38,7 +38,7 @@ template <bool swings, bool up, bool fused, class V>
 #pragma GCC unroll 8
         for (std::size_t p = 0; p < P; ++p) {
             FineWalk<V>& w = at[p];
-            const auto pass_pin = [&]() __attribute__((always_inline)) {
+            const auto pass_pin = [&]() REVCHAIN_INLINED {
                 const DoubleWord<V> q = two_product<fused>(V(e.mass), w.offset);
                 const DoubleWord<V> total = two_sum(w.sum, up ? q.high : -q.high);
                 const V left = q.low + rest.mass * w.offset;
@@ -147,7 +147,7 @@ template <bool swings, bool fused, class V>
             const V energy = a.stiffness * scale_up + b.stiffness * scale_down;
             const V square = gap * gap * above / energy;
             const auto better = square < least[p];  // false for a NaN: no twist at a node
-            const auto take = [&](V & to, const V& from_up, const V& from_down) __attribute__((always_inline)) {
+            const auto take = [&](V& to, const V& from_up, const V& from_down) REVCHAIN_INLINED {
                 to = select(better, from_up * scale_up + from_down * scale_down, to);
             };
             least[p] = select(better, square, least[p]);
@@ -185,13 +185,13 @@ template <bool swings, bool fused, class V>
 inline std::vector<FineQuotient> fine_quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                                     const std::vector<std::size_t>& places,
                                                     std::size_t longest = longest_leg) {
-    return in_packs<FineQuotient, fine_packs>(
-        chain, shifts, places,
-        [&](auto registers, auto swings, const double* some, std::size_t lowest, std::size_t highest,
-            FineQuotient* found) __attribute__((always_inline)) {
-            std::vector<FineWalk<Pack<double, registers.doubles>>> scratch;
-            fine_quotients<swings.value, registers.fused>(chain, some, lowest, highest, longest, found, scratch);
-        });
+    return in_packs<FineQuotient, fine_packs>(chain, shifts, places,
+                                              [&](auto registers, auto swings, const double* some, std::size_t lowest,
+                                                  std::size_t highest, FineQuotient* found) REVCHAIN_INLINED {
+                                                  std::vector<FineWalk<Pack<double, registers.doubles>>> scratch;
+                                                  fine_quotients<swings.value, registers.fused>(
+                                                      chain, some, lowest, highest, longest, found, scratch);
+                                              });
 }
 
 }  // namespace revchain::pencil::spectrum

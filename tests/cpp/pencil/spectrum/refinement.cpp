@@ -253,7 +253,7 @@ TEST_CASE("products are exact in packs of every kind", "[linalg]") {
             x[k] = (random() - 0.5) * std::pow(2.0, random.between(-90, 90));
             y[k] = (random() - 0.5) * std::pow(2.0, random.between(-90, 90));
         }
-        revchain::simd([&](auto registers) __attribute__((always_inline)) {
+        revchain::simd([&](auto registers) REVCHAIN_INLINED {
             using V = revchain::Pack<double, registers.doubles>;
             for (std::size_t k = 0; k < 8; k += V::size) {
                 const V a = V::load(&x[k]), b = V::load(&y[k]);
