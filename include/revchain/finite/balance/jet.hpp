@@ -130,7 +130,7 @@ Interval<T> tangent(const Interval<T>& stiffness, const Interval<T>& turning, co
 template <Real T, class End = OnAxis>
 Jet<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Cell<T>& cell,
                       const End& support = {}) {
-    const Interval<T> zero(T(0)), three(T(3));
+    const Interval<T> three(T(3));
     Jet<T> y, sum, t = cell.x();  // offset of the pin below; H; tangent
     for (std::size_t m = 0; m < links.size(); ++m) {
         const Link<Interval<T>>& link = links[m];

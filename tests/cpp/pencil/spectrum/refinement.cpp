@@ -106,7 +106,7 @@ TEST_CASE("all eigenvalues of every kind of chain are the nearest doubles", "[li
 }
 
 TEST_CASE("long chains to the last digit", "[linalg]") {
-    for (const std::size_t family : {0, 1, 2, 3, 4, 5, 9}) {
+    for (const std::size_t family : {0u, 1u, 2u, 3u, 4u, 5u, 9u}) {
         const Worst worst = worst_of(support::families()[family].make(1500), 61);
         CAPTURE(family);
         CHECK(worst.error <= 0.501);
@@ -179,7 +179,7 @@ TEST_CASE("a chain that takes the bound at its word", "[linalg]") {
 }
 
 TEST_CASE("a range to the last digit", "[linalg]") {
-    for (const std::size_t family : {0, 1, 2, 3}) {
+    for (const std::size_t family : {0u, 1u, 2u, 3u}) {
         const auto chain = support::families()[family].make(300);
         const auto assembled = revchain::assemble(chain);
         const auto all = pencil::all_eigenvalues(assembled.pencil, Index(0), Index(300), Index(300), 2 * ulp);
