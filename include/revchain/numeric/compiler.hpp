@@ -17,6 +17,9 @@
 #define REVCHAIN_INLINED
 #endif
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // on vectors handed to functions: always inlined, they never are
+
 namespace revchain::detail {
 
 /// x itself, a number or a vector of numbers. The compiler must not fuse the operation that computed x with the one
@@ -37,3 +40,5 @@ template <class T>
 }
 
 }  // namespace revchain::detail
+
+#pragma GCC diagnostic pop

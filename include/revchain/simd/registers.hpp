@@ -8,6 +8,9 @@
 
 #include "revchain/numeric/compiler.hpp"
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // on vectors handed to functions: always inlined, they never are
+
 namespace revchain::detail {
 
 /// Whole numbers as large as T.
@@ -71,3 +74,5 @@ struct RegisterOf {
 #endif
 
 }  // namespace revchain::detail
+
+#pragma GCC diagnostic pop
