@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 #include <utility>
 
 #include "revchain/numeric/double_word.hpp"
@@ -40,7 +39,7 @@ T period(const T& height, const T& gravity = T(standard_gravity)) {
     using std::sqrt;
     detail::require_positive("conical_pendulum::period", "height", height);
     detail::require_positive("conical_pendulum::period", "gravity", gravity);
-    return T(2) * std::numbers::pi_v<T> * (sqrt(height) / sqrt(gravity));
+    return T(2) * detail::pi<T> * (sqrt(height) / sqrt(gravity));
 }
 
 /// lambda = g T^2 / (4 pi^2). §1 (1)
@@ -48,14 +47,14 @@ template <Real T>
 T height_from_period(const T& period, const T& gravity = T(standard_gravity)) {
     detail::require_positive("conical_pendulum::height_from_period", "period", period);
     detail::require_positive("conical_pendulum::height_from_period", "gravity", gravity);
-    const T radian = period / (T(2) * std::numbers::pi_v<T>);
+    const T radian = period / (T(2) * detail::pi<T>);
     return gravity * radian * radian;
 }
 
 /// Revolutions per second, 1 / T.
 template <Real T>
 T revolutions_per_second(const T& height, const T& gravity = T(standard_gravity)) {
-    return angular_speed(height, gravity) / (T(2) * std::numbers::pi_v<T>);
+    return angular_speed(height, gravity) / (T(2) * detail::pi<T>);
 }
 
 /// lambda = g / (2 pi R)^2, from revolutions per second R.
@@ -63,7 +62,7 @@ template <Real T>
 T height_from_revolutions_per_second(const T& revolutions, const T& gravity = T(standard_gravity)) {
     detail::require_positive("conical_pendulum::height_from_revolutions_per_second", "revolutions per second",
                              revolutions);
-    return height(T(T(2) * std::numbers::pi_v<T> * revolutions), gravity);
+    return height(T(T(2) * detail::pi<T> * revolutions), gravity);
 }
 
 /// g = 4 pi^2 l / T^2, from the length and the period (of a small double beat) of a simple pendulum. §1 (4)
@@ -71,7 +70,7 @@ template <Real T>
 T gravity(const T& length, const T& period) {
     detail::require_positive("conical_pendulum::gravity", "length", length);
     detail::require_positive("conical_pendulum::gravity", "period", period);
-    const T radian = period / (T(2) * std::numbers::pi_v<T>);
+    const T radian = period / (T(2) * detail::pi<T>);
     return length / radian / radian;
 }
 
@@ -80,7 +79,7 @@ T gravity(const T& length, const T& period) {
 template <Real T>
 T gravity_from_seconds_pendulum(const T& length) {
     detail::require_positive("conical_pendulum::gravity_from_seconds_pendulum", "length", length);
-    return std::numbers::pi_v<T> * std::numbers::pi_v<T> * length;
+    return detail::pi<T> * detail::pi<T> * length;
 }
 
 /// lambda = L T^2 / 4 with L the seconds pendulum: the form that needs no g. §1 (7)

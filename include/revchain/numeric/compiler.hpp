@@ -17,12 +17,9 @@
 #define REVCHAIN_INLINED
 #endif
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // on vectors handed to functions: always inlined, they never are
-
 namespace revchain::detail {
 
-/// x itself, a number or a vector of numbers. The compiler must not fuse the operation that computed x with the one
+/// x itself. The compiler must not fuse the operation that computed x with the one
 /// that uses it. Error-free transformations need this: GCC fuses a product with every sum that uses it, also across
 /// functions that it inlines into one compiled for a processor with fused operations. Clang fuses within one
 /// expression, and under -ffp-contract=fast only a product that is used once: the transformations use each argument
@@ -40,5 +37,3 @@ template <class T>
 }
 
 }  // namespace revchain::detail
-
-#pragma GCC diagnostic pop

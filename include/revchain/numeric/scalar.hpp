@@ -13,12 +13,19 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <numbers>
 
 namespace revchain {
 
 using Index = Eigen::Index;
 
 namespace detail {
+/// pi, to the last digit of T.
+template <class T>
+inline constexpr T pi = std::numbers::pi_v<T>;
+template <>
+inline constexpr long double pi<long double> = 3.14159265358979323846264338327950288L;  // libc++ 14: that of double
+
 // The functions a scalar brings besides its operators, found in std or next to the type.
 using std::abs;
 using std::frexp;

@@ -56,7 +56,7 @@ struct Pack {
 
     [[gnu::always_inline]] Pack() = default;
     [[gnu::always_inline]] Pack(const T& x) {  // NOLINT(google-explicit-constructor)
-        *this = each([&](auto& r, std::size_t) { r = RegisterOf::everywhere(x); });
+        *this = each([&](auto& r, std::size_t) { RegisterOf::fill(r, x); });
     }
     [[gnu::always_inline]] Pack(const T& a, const T& b, const T& c, const T& d) requires(size == 4 && Count == 1) {
         if constexpr (count == 1)
@@ -77,7 +77,7 @@ struct Pack {
 
     /// The numbers themselves, kept from being fused: `detail::rounded`.
     [[gnu::always_inline]] Pack rounded() const {
-        return each([&](auto& r, std::size_t i) REVCHAIN_INLINED { r = detail::unfused(part[i]); });
+        return each([&](auto& r, std::size_t i) REVCHAIN_INLINED { RegisterOf::copy_unfused(r, part[i]); });
     }
 
     [[gnu::always_inline]] T operator[](std::size_t lane) const {
@@ -108,11 +108,11 @@ struct Pack {
 
     [[gnu::always_inline]] friend Mask operator<(const Pack& x, const Pack& y) {
         return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { r = RegisterOf::answer(x.part[i] < y.part[i]); });
+                              REVCHAIN_INLINED { RegisterOf::answer(r, x.part[i] < y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask equal(const Pack& x, const Pack& y) {
         return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { r = RegisterOf::answer(x.part[i] == y.part[i]); });
+                              REVCHAIN_INLINED { RegisterOf::answer(r, x.part[i] == y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask operator>(const Pack& x, const Pack& y) { return y < x; }
 
@@ -136,11 +136,11 @@ struct Pack {
     }
     [[gnu::always_inline]] friend Mask operator==(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { r = RegisterOf::answer(x.part[i] == y.part[i]); });
+                              REVCHAIN_INLINED { RegisterOf::answer(r, x.part[i] == y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask operator>(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { r = RegisterOf::answer(x.part[i] > y.part[i]); });
+                              REVCHAIN_INLINED { RegisterOf::answer(r, x.part[i] > y.part[i]); });
     }
     /// Whether some answer is yes; of whole numbers, whether one is negative.
     [[gnu::always_inline]] friend bool any(const Mask& x) {
@@ -167,7 +167,7 @@ struct Pack {
 
     [[gnu::always_inline]] friend Pack abs(const Pack& x) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
-            r = RegisterOf::of_bits(RegisterOf::bits(x.part[i]) & Natural(std::numeric_limits<Integer>::max()));
+            r = REVCHAIN_BITS_AS(Register, REVCHAIN_BITS_AS(Integers, x.part[i]) & std::numeric_limits<Integer>::max());
         });
     }
     /// The nearest number with the leading half of the digits; the rest has no more digits than that. Adding to the
@@ -175,38 +175,39 @@ struct Pack {
     [[gnu::always_inline]] friend Pack upper_half(const Pack& x) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             constexpr int cut = (std::numeric_limits<T>::digits + 1) / 2;
-            const auto half_up = RegisterOf::bits(x.part[i]) + (Naturals{} + (Natural(1) << (cut - 1)));
-            r = RegisterOf::of_bits(half_up & (Naturals{} + (~Natural(0) << cut)));
+            const auto half_up = REVCHAIN_BITS_AS(Naturals, x.part[i]) + (Naturals{} + (Natural(1) << (cut - 1)));
+            r = REVCHAIN_BITS_AS(Register, half_up & (Naturals{} + (~Natural(0) << cut)));
         });
     }
     /// 1 where the signs differ (a zero has one), else 0.
     [[gnu::always_inline]] friend Mask differ_in_sign(const Pack& x, const Pack& y) {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED {
-            const auto differ = RegisterOf::bits(x.part[i]) ^ RegisterOf::bits(y.part[i]);
-            r = Integers(differ >> (8 * sizeof(T) - 1));
+            const auto differ = REVCHAIN_BITS_AS(Naturals, x.part[i]) ^ REVCHAIN_BITS_AS(Naturals, y.part[i]);
+            r = REVCHAIN_BITS_AS(Integers, differ >> (8 * sizeof(T) - 1));
         });
     }
     /// The bits as a whole number: positive numbers are in the same order. Where an answer is no choice but a number of
     /// its own, whole numbers are the faster way: GCC 12 compares packs of 64 bytes number by number.
     [[gnu::always_inline]] friend Mask bits(const Pack& x) {
-        return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED { r = Integers(RegisterOf::bits(x.part[i])); });
+        return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED { r = REVCHAIN_BITS_AS(Integers, x.part[i]); });
     }
     /// e and 2^-e, both exact, for 2^e <= x < 2^(e+1). Precondition: x is positive and normal, and so is 2^-e.
     [[gnu::always_inline]] friend Mask exponent(const Pack& x) {
-        return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { r = Integers(RegisterOf::bits(x.part[i]) >> fraction_bits) - bias; });
+        return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED {
+            r = REVCHAIN_BITS_AS(Integers, REVCHAIN_BITS_AS(Naturals, x.part[i]) >> fraction_bits) - bias;
+        });
     }
     [[gnu::always_inline]] friend Pack inverse_power(const Pack& x) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
-            const auto power = RegisterOf::bits(x.part[i]) & (Natural(2 * bias + 1) << fraction_bits);
-            r = RegisterOf::of_bits((Natural(2 * bias) << fraction_bits) - power);
+            const auto power = REVCHAIN_BITS_AS(Integers, x.part[i]) & ((2 * bias + 1) << fraction_bits);
+            r = REVCHAIN_BITS_AS(Register, ((2 * bias) << fraction_bits) - power);
         });
     }
     /// About 1/sqrt(x), within 4 per cent: half the exponent, and the rest as it comes. Precondition: x is normal, or
     /// 0.
     [[gnu::always_inline]] friend Pack rough_inverse_root(const Pack& x) requires(sizeof(T) == 8) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
-            r = RegisterOf::of_bits(Natural(0x5fe6eb50c7b537a9) - (RegisterOf::bits(x.part[i]) >> 1));
+            r = REVCHAIN_BITS_AS(Register, 0x5fe6eb50c7b537a9ULL - (REVCHAIN_BITS_AS(Naturals, x.part[i]) >> 1));
         });
     }
 

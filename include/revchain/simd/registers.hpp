@@ -8,17 +8,18 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"  // on vectors handed to functions: always inlined, they never are
-
 namespace revchain::detail {
 
 /// Whole numbers as large as T.
 template <class T>
 using IntegerLike = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_t>;
 
-// What a pack consists of: `width` numbers that the operators act on one by one, and what those do not offer.
+// What a pack consists of: `width` numbers that the operators act on one by one, and what those do not offer. No
+// function returns a vector: GCC warns that how it does so depends on the processor.
 #if !defined(REVCHAIN_NO_VECTOR_EXTENSIONS)
+
+/// x with the same bits, as another type of the same size.
+#define REVCHAIN_BITS_AS(type, x) reinterpret_cast<type>(x)
 
 /// One register of `Width` numbers: a vector type of GCC and Clang.
 template <class T, std::size_t Width>
@@ -35,23 +36,31 @@ struct RegisterOf {
     typedef Natural Naturals __attribute__((vector_size(Width * sizeof(T)), aligned(Width * sizeof(T))));
     // NOLINTEND(modernize-use-using)
 
-    [[gnu::always_inline]] static Numbers everywhere(const T& x) {
+    [[gnu::always_inline]] static void fill(Numbers& to, const T& x) {
 #if defined(__clang__)
-        return x - Numbers{};
+        to = x - Numbers{};
 #else
-        return __builtin_shuffle(Numbers{x}, Integers{});  // one instruction; of anything else GCC 12 makes eight
+        to = __builtin_shuffle(Numbers{x}, Integers{});  // one instruction; of anything else GCC 12 makes eight
+#endif
+    }
+    /// `detail::unfused`
+    [[gnu::always_inline]] static void copy_unfused(Numbers& to, const Numbers& from) {
+#if defined(__clang__)
+        to = from;
+#else
+        to = __builtin_assoc_barrier(from);
 #endif
     }
     [[gnu::always_inline]] static T get(const Numbers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static Integer get(const Integers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static void set(Numbers& to, std::size_t i, const T& x) { to[i] = x; }
-    /// What a comparison returns: all bits set (yes) or none.
-    [[gnu::always_inline]] static Integers answer(const Integers& yes) { return yes; }
-    [[gnu::always_inline]] static Naturals bits(const Numbers& x) { return reinterpret_cast<Naturals>(x); }
-    [[gnu::always_inline]] static Numbers of_bits(const Naturals& x) { return reinterpret_cast<Numbers>(x); }
+    /// What a comparison returns as a mask: all bits set (yes) or none.
+    [[gnu::always_inline]] static void answer(Integers& to, const Integers& yes) { to = yes; }
 };
 
 #else
+
+#define REVCHAIN_BITS_AS(type, x) std::bit_cast<type>(x)
 
 /// One number in place of a register, whatever `Width` is.
 template <class T, std::size_t Width>
@@ -62,17 +71,14 @@ struct RegisterOf {
     using Integers = IntegerLike<T>;
     using Naturals = std::make_unsigned_t<Integers>;
 
-    static T everywhere(T x) { return x; }
+    static void fill(T& to, T x) { to = x; }
+    static void copy_unfused(T& to, T from) { to = unfused(from); }
     static T get(T x, std::size_t) { return x; }
     static Integers get(Integers x, std::size_t) { return x; }
     static void set(T& to, std::size_t, T x) { to = x; }
-    static Integers answer(bool yes) { return -Integers(yes); }
-    static Naturals bits(T x) { return std::bit_cast<Naturals>(x); }
-    static T of_bits(Naturals x) { return std::bit_cast<T>(x); }
+    static void answer(Integers& to, bool yes) { to = -Integers(yes); }
 };
 
 #endif
 
 }  // namespace revchain::detail
-
-#pragma GCC diagnostic pop
