@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
         const auto pencil = revchain::pencil::rounded<double>(assembled.pencil);
         const bool plummets = f % 2 == 0;
         std::vector<std::vector<double>> times(3), heights(3);
-        std::vector<revchain::pencil::FineCertified> ours;
+        std::vector<revchain::pencil::Certified<double>> ours;
         for (int r = 0; r < repetitions; ++r) {
 #if defined(BENCH_HAS_LAPACK)
             times[0].push_back(plummets ? dlasq1(pencil, heights[0]) : dsbgv(pencil, heights[0]));

@@ -71,7 +71,7 @@ void ours(const Table& exact) {
     revchain::ContinuousShapes shapes;
     for (int i = 0; i < 25; ++i) {
         const double before = bench::cpu_seconds();
-        shapes = revchain::continuous_shapes({length}, 1.0);
+        shapes = revchain::steady_shapes(revchain::Cord(length), {.conical_height = 1.0});
         times.push_back(1e3 * (bench::cpu_seconds() - before));
         for (const auto& shape : shapes.shapes) sink += shape.offset.sum();
     }

@@ -83,7 +83,7 @@ std::vector<std::vector<Row>> measure(const Cutting& cutting, Index largest) {
         if (size < cutting.smallest) continue;
         const auto chain = cutting.make(size);
         const Index count = std::min<Index>(10, chain.mode_count());
-        const auto m = revchain::modes(chain, {.count = count, .shapes = false});
+        const auto m = revchain::modes(chain, {.count = count});
         for (std::size_t i = 0; i < curves.size(); ++i) {
             const Zero zero = support::bessel_zeros<long double>[i];
             if (zero.mode > count) continue;

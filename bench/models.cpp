@@ -13,6 +13,7 @@
 #include <string>
 
 #include "revchain/models/with_dense.hpp"
+#include "revchain/modes.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"
 
@@ -61,7 +62,7 @@ int costs() {
                     const auto choice = select(height_models_with_dense, chain, question);
                     for (const Estimate& estimate : choice.estimates) {
                         if (!estimate.fit.applies || estimate.cost > 0.5) continue;
-                        if (kind < 2 && estimate.name == models::ElementBisection::name && size > 1000) continue;
+                        if (kind < 2 && estimate.name == models::Bisection::name && size > 1000) continue;
                         std::vector<double> times;
                         bool found = true;
                         double took = 0, ratio = 0;
@@ -101,7 +102,7 @@ int choice(int count) {
         const Index most = std::min<Index>(chain.mode_count(), 20);
         const Index first = 1 + static_cast<Index>(random.between(0, 0.999 * static_cast<double>(most)));
         const Index many = 1 + static_cast<Index>(random.between(0, static_cast<double>(most - first) + 0.999));
-        const Modes<double> truth = modes(chain, {.first = first, .count = many, .shapes = false});
+        const Modes<double> truth = modes(chain, {.first = first, .count = many});
         for (const double rtol : {1.0, 0.1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15}) {
             const Question question{first, many, rtol};
             const auto chosen = select(height_models_with_dense, chain, question);

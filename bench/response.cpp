@@ -35,13 +35,13 @@ void report(const std::string& name, const Chain<double>& chain, Index speeds, b
     std::vector<double> heights;
     support::Random random(3);
     for (Index i = 0; i < speeds; ++i) heights.push_back(random.log_between(1e-3, 1.0) * chain.total_length());
-    revchain::ResponseOptions options;
+    revchain::ResponseOptions options{.conical_height = heights};
     if (!all) options.pins = std::vector<Index>{0};
     std::vector<double> times;
     revchain::Response found;
     for (int i = 0; i < 3; ++i) {
         const double start = bench::cpu_seconds();
-        found = revchain::response(chain, heights, options);
+        found = revchain::response(chain, options);
         times.push_back(bench::cpu_seconds() - start);
     }
     double bound = 0, error = 0;

@@ -4,7 +4,7 @@
 // speed in ulp. Medians of 5 rounds; half a minute.
 #include <cstdio>
 
-#include "revchain/linear/rig_modes.hpp"
+#include "revchain/rig_modes.hpp"
 #include "support/chains.hpp"
 #include "timing.hpp"
 
@@ -22,9 +22,9 @@ int main() {
         double worst = 0;
         for (int round = 0; round < 5; ++round) {
             const double start = bench::cpu_seconds();
-            const auto m = revchain::rig_modes(rig, {.count = count});
+            const auto m = revchain::modes(rig, {.count = count});
             const double middle = bench::cpu_seconds();
-            const auto v = revchain::rig_modes(rig, {.count = count, .shapes = false});
+            const auto v = revchain::modes(rig, {.count = count});
             const double end = bench::cpu_seconds();
             const auto c = revchain::modes(chain, {.count = count, .method = revchain::ModesMethod::bisection});
             const double last = bench::cpu_seconds();

@@ -36,7 +36,7 @@ double difference(const support::Cutting<double>& cutting, Index count, const re
 
 int main(int argc, char** argv) {
     const Index largest = argc > 1 ? std::atol(argv[1]) : 5120;
-    const auto uncut = revchain::continuous_shapes({}, 1 / ratio);
+    const auto uncut = revchain::steady_shapes(revchain::Cord(1), {.conical_height = 1 / ratio});
     std::printf("cutting,half_waves,links,difference,order\n");
     for (const auto& cutting : support::cuttings<double>())
         for (const auto& shape : uncut.shapes) {

@@ -87,15 +87,15 @@ int main() {
             constexpr Index count = 200;
             const std::vector<Links> all = random_links(rods, count, n);
             std::vector<Chain<double>> chains(all.begin(), all.end());
-            const revchain::ModesOptions<double> options{.rtol = 1e-14, .shapes = false};
-            auto by_spectrum = options;
-            by_spectrum.method = revchain::ModesMethod::spectrum;
+            const revchain::ModesOptions<double> options{.count = revchain::all_modes, .rtol = 1e-14};
+            auto by_interpolation = options;
+            by_interpolation.method = revchain::ModesMethod::interpolated;
 
             double together = 0, error = 0, peer_error = 0, bound = 0, peer[most]{};
             const std::size_t sample = n > 30 ? 3 : n > 16 ? 20 : 200;
             for (std::size_t i = 0; i < all.size(); ++i) {
                 const auto modes = revchain::modes(chains[i], options);
-                together += modes.method == "together" ? 1.0 / count : 0;
+                together += modes.method == "aberth" ? 1.0 / count : 0;
                 bound = std::max(bound, modes.error_bound.maxCoeff());
                 if (i >= sample) continue;
                 const support::Truth truth(chains[i]);
@@ -121,7 +121,7 @@ int main() {
                 modes.push_back(
                     microseconds([&](std::size_t i) { return revchain::modes(chains[i], options).conical_height[0]; }));
                 spectrum.push_back(microseconds(
-                    [&](std::size_t i) { return revchain::modes(chains[i], by_spectrum).conical_height[0]; }));
+                    [&](std::size_t i) { return revchain::modes(chains[i], by_interpolation).conical_height[0]; }));
                 other.push_back(microseconds([&](std::size_t i) {
                     lapack(rods, all[i], peer);
                     return peer[0];

@@ -23,13 +23,13 @@ struct Timed {
     double milliseconds = 0, worst_bound = 0;
 };
 
-Timed timed(const Chain<double>& chain, double height, const revchain::SteadyShapesOptions& options, int runs = 5) {
+Timed timed(const Chain<double>& chain, const revchain::SteadyShapesOptions& options, int runs = 5) {
     Timed result;
     std::vector<double> times;
     double sink = 0;
     for (int i = 0; i < runs; ++i) {
         const double start = bench::cpu_seconds();
-        result.found = revchain::steady_shapes(chain, height, options);
+        result.found = revchain::steady_shapes(chain, options);
         times.push_back(1e3 * (bench::cpu_seconds() - start));
         sink += static_cast<double>(result.found.cells);
         if (times.back() > 1000) break;
@@ -61,7 +61,7 @@ void family(const std::string& name, int count, Index most_links, double weights
         const auto chain = support::chain_of(
             n, [&](Index) { return link(random, random.log_between(1.0, weights), random.log_between(1.0, lengths)); });
         const double height = chain.total_length() * random.log_between(least, 10 * least);
-        const Timed t = timed(chain, height, {.hanging_only = hanging_only}, 1);
+        const Timed t = timed(chain, {.conical_height = height, .hanging_only = hanging_only}, 1);
         worst.milliseconds = std::max(worst.milliseconds, t.milliseconds);
         worst.worst_bound = std::max(worst.worst_bound, t.worst_bound);
         shapes = std::max(shapes, t.found.shapes.size()), cells = std::max(cells, t.found.cells);
@@ -79,20 +79,21 @@ int main() {
     std::printf("chain,shapes,complete,cells,milliseconds,worst_bound\n");
     for (const auto& [n, ratio] : {std::pair<Index, double>{8, 35.4025}, {8, 166}, {10, 50}, {10, 166}, {12, 166}})
         report("plummets " + std::to_string(n) + " at a/lambda " + std::to_string(ratio).substr(0, 7),
-               timed(plummets(n), 1 / ratio, {}));
+               timed(plummets(n), {.conical_height = 1 / ratio}));
     for (const Index n : {6, 8})
-        report("rods " + std::to_string(n) + " at a/lambda 166", timed(rods(n), 1 / 166.0, {}));
+        report("rods " + std::to_string(n) + " at a/lambda 166", timed(rods(n), {.conical_height = 1 / 166.0}));
     for (const Index n : {100, 1000}) {
         const double length = static_cast<double>(n);
-        report("plummets " + std::to_string(n) + " at lambda = L/10", timed(plummets(n), length / 10, {}));
-        report("rods " + std::to_string(n) + " at lambda = L/10", timed(rods(n), length / 10, {}));
+        report("plummets " + std::to_string(n) + " at lambda = L/10",
+               timed(plummets(n), {.conical_height = length / 10}));
+        report("rods " + std::to_string(n) + " at lambda = L/10", timed(rods(n), {.conical_height = length / 10}));
     }
     for (const Index n : {2, 3, 4})
         report("any posture: plummets " + std::to_string(n) + " at a/lambda 166",
-               timed(plummets(n), 1 / 166.0, {.hanging_only = false}));
+               timed(plummets(n), {.conical_height = 1 / 166.0, .hanging_only = false}));
     for (const Index n : {3, 4})
         report("any posture: rods " + std::to_string(n) + " at a/lambda 166",
-               timed(rods(n), 1 / 166.0, {.hanging_only = false}));
+               timed(rods(n), {.conical_height = 1 / 166.0, .hanging_only = false}));
 
     const auto plummet = [](support::Random&, double W, double a) { return revchain::plummet(W, a); };
     const auto rod = [](support::Random&, double W, double a) { return revchain::uniform_rod(W, a); };

@@ -21,6 +21,7 @@
 #include <random>
 
 #include "revchain/models/with_dense.hpp"
+#include "revchain/modes.hpp"
 #include "timing.hpp"
 #include "tradeoff/height_truth.hpp"
 #include "tradeoff/inclined_truth.hpp"
@@ -77,7 +78,7 @@ double error_of(const Answer& answer, const std::vector<Quad>& truth, double& sh
 }
 
 std::vector<Quad> truth_of(const Chain<double>& chain, Index count) {
-    const Modes<double> near = modes(chain, {.count = count, .shapes = false});
+    const Modes<double> near = modes(chain, {.count = count});
     std::vector<Quad> truth;
     const auto find = [&](const auto& heights) {
         for (Index j = 0; j < count; ++j)

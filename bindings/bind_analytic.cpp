@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
-#include "revchain/cord.hpp"
+#include "revchain/special/heavy_chain.hpp"
+#include "revchain/special/tapered_chain.hpp"
 #include "revchain/special/tip_mass.hpp"
 
 namespace {

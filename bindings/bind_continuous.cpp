@@ -6,13 +6,14 @@
 
 namespace {
 
-using revchain::ContinuousChain;
 using revchain::ContinuousShape;
 using revchain::ContinuousShapes;
 using revchain::LineDensity;
 
-ContinuousChain chain_of(double length, double tip_weight, const LineDensity* density) {
-    return {length, tip_weight, density};
+/// A density given is in the unit of the weights; else the cord weighs 1 for each unit of length.
+revchain::Cord cord_of(double length, double tip_weight, std::shared_ptr<const LineDensity> density) {
+    if (density) return revchain::Cord(length, {.density = std::move(density), .tip_weight = tip_weight});
+    return revchain::Cord(length, {.weight = length, .tip_weight = tip_weight});
 }
 
 }  // namespace
@@ -21,7 +22,7 @@ void bind_continuous(py::module_& module) {
     const auto column = [](revchain::Vector<double> ContinuousShape::*member) {
         return [member](const ContinuousShape& shape) { return to_numpy(shape.*member); };
     };
-    py::class_<LineDensity>(module, "LineDensity", "Weight per length, as polynomials.")
+    py::class_<LineDensity, std::shared_ptr<LineDensity>>(module, "LineDensity", "Weight per length, as polynomials.")
         .def(py::init<const std::function<double(double)>&, double>(), "weight_per_length"_a, "length"_a)
         .def("weight_below", &LineDensity::weight_below, "s"_a);
     py::class_<ContinuousShape>(module, "ContinuousShape", "A steady shape of a whirling chain without links.")
@@ -52,18 +53,20 @@ void bind_continuous(py::module_& module) {
         .def_readonly("complete", &ContinuousShapes::complete);
     module.def(
         "continuous_shapes",
-        [](double length, double tip_weight, const LineDensity* density, double height, int scanned) {
+        [](double length, double tip_weight, std::shared_ptr<LineDensity> density, double height, int scanned) {
             const py::gil_scoped_release release;
-            return revchain::continuous_shapes(chain_of(length, tip_weight, density), height, {.scanned = scanned});
+            return revchain::steady_shapes(cord_of(length, tip_weight, std::move(density)),
+                                           {.conical_height = height, .scanned = scanned});
         },
-        "length"_a, "tip_weight"_a, "density"_a.none(true), "height"_a, "scanned"_a, py::keep_alive<0, 3>());
+        "length"_a, "tip_weight"_a, "density"_a.none(true), "height"_a, "scanned"_a);
     module.def(
         "continuous_critical_heights",
-        [](double length, double tip_weight, const LineDensity* density, revchain::Index count) {
+        [](double length, double tip_weight, std::shared_ptr<LineDensity> density, revchain::Index count) {
             revchain::Vector<double> heights;
             {
                 const py::gil_scoped_release release;
-                heights = revchain::continuous_critical_heights(chain_of(length, tip_weight, density), count);
+                const revchain::finite::ContinuousChain chain(cord_of(length, tip_weight, std::move(density)));
+                heights = revchain::finite::critical_heights(chain, count);
             }
             return to_numpy(heights);
         },

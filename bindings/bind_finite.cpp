@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
 #include "interrupt.hpp"
-#include "revchain/finite/stability/stability.hpp"
+#include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
 #include <pybind11/complex.h>
@@ -67,15 +67,17 @@ void bind_finite(py::module_& module) {
         "steady_shapes",
         [](const Chain& chain, double height, long budget, bool hanging_only) {
             const py::gil_scoped_release release;
-            return revchain::steady_shapes(chain, height, {.budget = budget, .hanging_only = hanging_only});
+            return revchain::steady_shapes(chain,
+                                           {.conical_height = height, .budget = budget, .hanging_only = hanging_only});
         },
         "chain"_a, "height"_a, "budget"_a, "hanging_only"_a);
     module.def(
         "steady_shapes_at_speed",
         [](const Chain& chain, double angular_speed, double gravity, long budget, bool hanging_only) {
             const py::gil_scoped_release release;
-            return revchain::steady_shapes_at_speed(chain, angular_speed, gravity,
-                                                    {.budget = budget, .hanging_only = hanging_only});
+            return revchain::steady_shapes(
+                chain,
+                {.angular_speed = angular_speed, .budget = budget, .hanging_only = hanging_only, .gravity = gravity});
         },
         "chain"_a, "angular_speed"_a, "gravity"_a, "budget"_a, "hanging_only"_a);
     using revchain::Rig;
@@ -83,16 +85,20 @@ void bind_finite(py::module_& module) {
         "steady_shapes_of_rig",
         [](const Rig& rig, double height, long budget, bool hanging_only, int sense, double gravity) {
             const py::gil_scoped_release release;
-            return revchain::steady_shapes(
-                rig, height, {.budget = budget, .hanging_only = hanging_only, .sense = sense, .gravity = gravity});
+            return revchain::steady_shapes(rig, {.conical_height = height,
+                                                 .budget = budget,
+                                                 .hanging_only = hanging_only,
+                                                 .direction = sense,
+                                                 .gravity = gravity});
         },
         "rig"_a, "height"_a, "budget"_a, "hanging_only"_a, "sense"_a, "gravity"_a);
     module.def(
         "steady_shapes_of_rig_at_speed",
         [](const Rig& rig, double angular_speed, long budget, bool hanging_only, double gravity) {
             const py::gil_scoped_release release;
-            return revchain::steady_shapes_at_speed(
-                rig, angular_speed, {.budget = budget, .hanging_only = hanging_only, .gravity = gravity});
+            return revchain::steady_shapes(
+                rig,
+                {.angular_speed = angular_speed, .budget = budget, .hanging_only = hanging_only, .gravity = gravity});
         },
         "rig"_a, "angular_speed"_a, "budget"_a, "hanging_only"_a, "gravity"_a);
 }

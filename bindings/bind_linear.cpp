@@ -7,9 +7,9 @@
 #include "bindings.hpp"
 #include "interrupt.hpp"
 #include "revchain/count.hpp"
-#include "revchain/linear/dense_reference.hpp"
-#include "revchain/linear/modes.hpp"  // also for double-double
 #include "revchain/modes.hpp"
+#include "revchain/questions/dense_reference.hpp"
+#include "revchain/questions/modes.hpp"  // also for double-double
 #include "scalars.hpp"
 
 namespace {
@@ -19,8 +19,8 @@ using Chain = revchain::Chain<double>;
 using Pair = std::pair<double, double>;
 using Triple = std::tuple<double, double, double>;
 
-constexpr std::array<std::string_view, 7> methods{"auto",     "bisection", "blocks",    "together",
-                                                  "spectrum", "dense",     "recurrence"};
+constexpr std::array<std::string_view, 7> methods{"auto",         "bisection", "condensed", "aberth",
+                                                  "interpolated", "dense",     "recurrence"};
 constexpr std::array<std::string_view, 4> precisions{"single", "double", "extended", "double-double"};
 
 template <std::size_t N>
@@ -45,14 +45,14 @@ struct Asked {
 
     template <class T>
     revchain::ModesOptions<T> options(revchain::Progress* progress) const {
-        revchain::ModesOptions<T> result{.first = first, .count = count};
+        revchain::ModesOptions<T> result{.first = first};
+        if (count || !(conical_height || angular_speed)) result.count = count.value_or(revchain::all_modes);
         const auto number = [](double x) { return static_cast<T>(x); };
         if (conical_height) result.conical_height = {number(conical_height->first), number(conical_height->second)};
         if (angular_speed)
-            result.angular_speed = {number(std::get<0>(*angular_speed)), number(std::get<1>(*angular_speed)),
-                                    number(std::get<2>(*angular_speed))};
+            result.angular_speed = {number(std::get<0>(*angular_speed)), number(std::get<1>(*angular_speed))},
+            result.gravity = number(std::get<2>(*angular_speed));
         if (rtol) result.rtol = number(*rtol);
-        result.shapes = shapes;
         result.certify = certify;
         result.progress = progress;
         result.method = method;
@@ -80,10 +80,10 @@ py::tuple as_tuple(const revchain::Modes<T>& m, bool shapes, bool certified) {
     for (Index j = 0; j < m.size(); ++j) number.mutable_data()[j] = m.first + j;
     py::object shape = py::none(), residual = py::none(), nodes = py::none(), certificate = py::none();
     if (shapes) {
-        shape = leading(m.shape);
-        residual = leading(m.residual);
-        py::list lists(m.nodes.size());
-        for (std::size_t j = 0; j < m.nodes.size(); ++j) lists[j] = leading(m.nodes[j]);
+        shape = leading(m.shapes().offset);
+        residual = leading(m.shapes().residual);
+        py::list lists(m.shapes().nodes.size());
+        for (std::size_t j = 0; j < m.shapes().nodes.size(); ++j) lists[j] = leading(m.shapes().nodes[j]);
         nodes = std::move(lists);
     }
     if (certified) {
@@ -98,7 +98,12 @@ py::tuple as_tuple(const revchain::Modes<T>& m, bool shapes, bool certified) {
 
 template <class T>
 py::tuple solved(const Chain& chain, const Asked& asked, const std::string& method, revchain::Progress* progress) {
-    const Solver<T> solve = solver<T>(method);
+    const auto solve = [way = solver<T>(method), shapes = asked.shapes, progress](
+                           const revchain::Chain<T>& own, const revchain::ModesOptions<T>& options) {
+        revchain::Modes<T> found = way(own, options);
+        if (shapes) found.shapes(progress);
+        return found;
+    };
     const auto found = [&] {
         if constexpr (std::is_same_v<T, double>) {
             if (method == "dense")
@@ -117,11 +122,11 @@ py::tuple modes(const Chain& chain, Index first, std::optional<Index> count, std
                 const std::string& precision, const std::string& method, revchain::Progress* progress) {
     check_word("method", method, methods);
     check_word("precision", precision, precisions);
-    const auto way = method == "bisection"  ? revchain::ModesMethod::bisection
-                     : method == "blocks"   ? revchain::ModesMethod::blocks
-                     : method == "together" ? revchain::ModesMethod::together
-                     : method == "spectrum" ? revchain::ModesMethod::spectrum
-                                            : revchain::ModesMethod::automatic;
+    const auto way = method == "bisection"      ? revchain::ModesMethod::bisection
+                     : method == "condensed"    ? revchain::ModesMethod::condensed
+                     : method == "aberth"       ? revchain::ModesMethod::aberth
+                     : method == "interpolated" ? revchain::ModesMethod::interpolated
+                                                : revchain::ModesMethod::automatic;
     const Asked asked{first, count, conical_height, angular_speed, rtol, shapes, certify, way};
     if (precision == "single") return solved<float>(chain, asked, method, progress);
     if (precision == "extended") return solved<long double>(chain, asked, method, progress);

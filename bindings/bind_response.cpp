@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bindings.hpp"
@@ -31,11 +34,9 @@ template <class Carried>
 py::tuple response(const Carried& carried, const Array& given, bool speeds, double support_radius,
                    const std::optional<Numbers>& pins, double gravity) {
     revchain::ResponseOptions options{.support_radius = support_radius, .gravity = gravity};
+    (speeds ? options.angular_speed : options.conical_height) = as_vector(given);
     if (pins) options.pins = std::vector<Index>(pins->data(), pins->data() + pins->size());
-    const std::vector<double> at = as_vector(given);
-    const auto found = without_lock([&] {
-        return speeds ? revchain::response_at_speed(carried, at, options) : revchain::response(carried, at, options);
-    });
+    const auto found = without_lock([&] { return revchain::response(carried, options); });
     return py::make_tuple(to_numpy(found.offset), to_numpy(found.error_bound), whole(found.modes_below),
                           flags(found.reversed), flags(found.resonant), to_numpy(found.support_force),
                           to_numpy(found.support_force_error));
@@ -46,10 +47,25 @@ py::tuple small_oscillation(const Chain<double>& chain, const Array& offsets, co
     const auto column = [](const Array& array) {
         return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(array.data(), array.size()));
     };
-    const auto from = column(offsets), speed = column(velocities);
-    const std::vector<double> at = as_vector(time);
-    const auto found = without_lock(
-        [&] { return revchain::small_oscillation(chain, from, speed, at, {.modes = modes, .gravity = gravity}); });
+    const revchain::SwingOptions options{.offset = column(offsets),
+                                         .velocity = column(velocities),
+                                         .time = as_vector(time),
+                                         .count = modes,
+                                         .gravity = gravity};
+    const auto found = without_lock([&] {
+        try {
+            return revchain::swing(chain, options);
+        } catch (const revchain::InvalidArgument& error) {  // with the names that the arguments have in Python
+            std::string text = error.what();
+            for (const auto& [from, to] :
+                 std::array<std::pair<std::string, std::string>, 4>{{{"swing: ", "small_oscillation: "},
+                                                                     {": offset ", ": offsets "},
+                                                                     {": velocity ", ": velocities "},
+                                                                     {": count must", ": modes must"}}})
+                if (const auto at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
+            throw revchain::InvalidArgument(text);
+        }
+    });
     return py::make_tuple(to_numpy(found.offset), to_numpy(found.velocity), to_numpy(found.angular_frequency),
                           to_numpy(found.energy), to_numpy(found.shape), to_numpy(found.cosine), to_numpy(found.sine),
                           to_numpy(found.start), found.projected, found.energy_left_out,

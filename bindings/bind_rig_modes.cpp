@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "revchain/linear/rig_modes.hpp"
+#include "revchain/rig_modes.hpp"
 
 namespace {
 
@@ -15,7 +15,7 @@ py::tuple sense(const revchain::WhirlModes& modes, bool shapes) {
     py::array_t<std::int64_t> number(modes.size());
     for (Index j = 0; j < modes.size(); ++j) number.mutable_data()[j] = modes.first + j;
     py::object shape = py::none(), residual = py::none();
-    if (shapes) shape = to_numpy(modes.shape), residual = to_numpy(modes.residual);
+    if (shapes) shape = to_numpy(modes.shapes().offset), residual = to_numpy(modes.shapes().residual);
     return py::make_tuple(frozen(number), modes.available, to_numpy(modes.conical_height), to_numpy(modes.error_bound),
                           to_numpy(modes.angular_speed), to_numpy(modes.speed_error_bound), shape, residual);
 }
@@ -31,8 +31,11 @@ py::array column(const Items& items, const Number& number) {
 py::tuple solve(const Rig& rig, Index first, std::optional<Index> count, double gravity, bool shapes,
                 revchain::Progress* progress) {
     const RigModes m = without_lock([&] {
-        return revchain::rig_modes(
-            rig, {.first = first, .count = count, .gravity = gravity, .shapes = shapes, .progress = progress});
+        const RigModes found = revchain::modes(
+            rig,
+            {.first = first, .count = count.value_or(revchain::all_modes), .gravity = gravity, .progress = progress});
+        if (shapes) found.forward.shapes(progress), found.backward.shapes(progress);
+        return found;
     });
     using Other = revchain::OtherMode;
     using Slack = revchain::SlackLink;

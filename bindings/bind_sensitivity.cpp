@@ -3,8 +3,7 @@
 
 #include "bindings.hpp"
 #include "revchain/bell.hpp"
-#include "revchain/linear/rig_sensitivity.hpp"
-#include "revchain/linear/uncertainty.hpp"
+#include "revchain/sensitivity.hpp"
 #include "revchain/system/edit.hpp"
 #include "revchain/tune.hpp"
 
@@ -104,7 +103,7 @@ py::tuple bell_and_clapper(const Chain& chain) {
 }
 
 py::tuple rig_sensitivity(const revchain::Rig& rig, double angular_speed, const Array& offset, double gravity) {
-    const auto found = revchain::rig_sensitivity(rig, angular_speed, vector(offset), gravity);
+    const auto found = revchain::sensitivity(rig, angular_speed, vector(offset), gravity);
     return py::make_tuple(to_numpy(found.weight), to_numpy(found.length), to_numpy(found.centroid),
                           to_numpy(found.radius_of_gyration), to_numpy(found.length_in_proportion),
                           to_numpy(found.momentum), to_numpy(found.displaced_weight), to_numpy(found.added_weight),

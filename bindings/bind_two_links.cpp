@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bindings.hpp"
 #include "revchain/buffer.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 
 #include <sstream>
 

@@ -2,9 +2,9 @@
 // Methods of this library: a line each at the bottom.
 #pragma once
 
-#include "revchain/linear/dense_reference.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"
+#include "revchain/questions/dense_reference.hpp"
 #include "support/quad_scalar.hpp"
 #include "worker/method.hpp"
 
@@ -33,7 +33,7 @@ template <class T, class Solve>
 void add_library_method(Registry& registry, std::string name, std::string scalar, std::size_t largest,
                         bool has_tolerance, Solve solve) {
     const auto run = [solve](const RawChain& raw, std::size_t count, double rtol, Heights& heights) {
-        revchain::ModesOptions<T> options{.count = static_cast<revchain::Index>(count), .shapes = false};
+        revchain::ModesOptions<T> options{.count = static_cast<revchain::Index>(count)};
         if (rtol > 0) options.rtol = T(rtol);
         const auto modes = solve(library_chain<T>(raw), options);
         for (const T& height : modes.conical_height) {

@@ -70,5 +70,5 @@ extern template Table<double> conical_heights(const ChainBatch<double>&, const B
 extern template Table<long double> conical_heights(const ChainBatch<long double>&, const BatchOptions&);
 }  // namespace revchain
 #else
-#include "revchain/linear/batch.hpp"
+#include "revchain/questions/batch.hpp"
 #endif

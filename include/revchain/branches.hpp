@@ -97,7 +97,7 @@ class Diagram {
     }
 
     Branches run() {
-        Index count = count_modes(chain_, result_.conical_height);
+        Index count = count_modes(chain_, {.conical_height = result_.conical_height});
         result_.complete = count == 0;  // see steady_shapes
         // at the very height of a mode, as rounded, its branch is not there yet
         while (count > 0 && !(result_.conical_height < height_of(count))) --count;
@@ -130,7 +130,7 @@ class Diagram {
     }
     /// Every shape at one height must be met by a branch; where one is not, its branch is followed both ways.
     void look(double height) {
-        const auto list = steady_shapes(chain_, height, {.budget = options_.budget});
+        const auto list = steady_shapes(chain_, {.conical_height = height, .budget = options_.budget});
         result_.looked_at.push_back(height);
         result_.consistent = result_.consistent && list.complete;
         std::vector<int> met(list.shapes.size(), 0);
@@ -180,7 +180,7 @@ class Diagram {
         DiagramProver prover(narrow_, options_.proof_budget);
         const auto proof =
             prover.run(lowest, first * unit_ * (1 + 1e-9), last,
-                       [&](const DiagramPoint& at, const Rectangle<double>& within) { return known(at, within); });
+                       [&](const DiagramPoint& at, const Rectangle& within) { return known(at, within); });
         result_.complete = proof.complete && result_.consistent;
         if (result_.complete)
             result_.remark = "proved complete: no branch is missing";
@@ -190,13 +190,14 @@ class Diagram {
             result_.remark += ", between the heights " + revchain::detail::in_digits(proof.open_low / unit_) + " and " +
                               revchain::detail::in_digits(proof.open_high / unit_);
     }
-    bool known(const DiagramPoint& at, const Rectangle<double>& within) {
+    bool known(const DiagramPoint& at, const Rectangle& within) {
         if (std::any_of(result_.branches.begin(), result_.branches.end(),
                         [&](const Branch& each) { return goes_through(each, corrector_, at, within); }))
             return true;
         if (stuck_ >= 20) return false;
         std::vector<Interval<double>> tangents;
-        detail::support_offset(narrow_, Interval<double>(at.height), Interval<double>(at.x / at.height), &tangents);
+        detail::support_offset(narrow_, Interval<double>(at.height), Interval<double>(at.x / at.height), OnAxis{},
+                               &tangents);
         BranchState state, across;
         for (const auto& t : tangents) state.rise.push_back(std::asinh(t.middle()));
         state.log_height = std::log(at.height);
@@ -245,6 +246,14 @@ inline Branches branches(const Chain<double>& chain, double conical_height, cons
     detail::require_positive("branches", "conical height", conical_height);
     if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     return finite::Diagram(chain, conical_height, options).run();
+}
+
+/// Throws InvalidArgument: branches of a rig cannot be followed yet.
+[[noreturn]] inline Branches branches(const Rig&, double, const BranchesOptions& = {}) {
+    detail::throw_invalid("branches", "branches of a Rig cannot be followed yet; ask steady_shapes(rig) at each speed");
+}
+[[noreturn]] inline Branch branch(const Rig&, Index, double, const BranchOptions& = {}) {
+    detail::throw_invalid("branch", "branches of a Rig cannot be followed yet; ask steady_shapes(rig) at each speed");
 }
 
 }  // namespace revchain

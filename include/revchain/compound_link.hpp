@@ -8,31 +8,40 @@
 #include "revchain/numeric/product.hpp"
 #include "revchain/numeric/status.hpp"
 
-/// One rigid link, Greenhill (1908) §6. Lengths in any unit. All throw InvalidArgument for a centroid not positive, a
-/// radius of gyration negative, or either not finite.
+/// One rigid link of any form that hangs by a pin, and its whirl round an axis through the pin.
+///
+///     const revchain::CompoundLink<double> bar{0.5, 0.2887};  // a uniform bar of length 1 hung by its end
+///     bar.pendulum_length();                                  // 0.666695
+///     const auto s = revchain::swung_link(bar, 0.4);          // at the speed with a conical height of 0.4
+///     s.inclination;                                          // 0.927328 rad
+///
+/// Greenhill (1908) §6. Lengths in any unit, angles in rad. Functions throw InvalidArgument for a centroid that is not
+/// positive, a radius of gyration that is negative, and numbers that are not finite.
 namespace revchain {
 
-/// A compound link: its weight acts at `centroid` from the pin it hangs by, and turns about there with
-/// `radius_of_gyration`.
+/// A rigid link.
 template <Real T>
 struct CompoundLink {
-    T centroid;            ///< h > 0
-    T radius_of_gyration;  ///< k >= 0; 0 is a plummet
+    T centroid;            ///< h > 0, distance of the centre of gravity from the pin
+    T radius_of_gyration;  ///< k >= 0, about the centre of gravity; 0 for a plummet
 
-    /// l = h + k^2/h, of the equivalent simple pendulum; also the distance of the centre of oscillation from the pin.
+    /// l = h + k^2/h, the length of the equivalent simple pendulum; also the distance of the centre of oscillation from
+    /// the pin. Accuracy: 1.5 ulp.
     T pendulum_length() const {
         using std::isfinite;
         const T length = static_cast<T>(Wide<T>(centroid) + squares_over_centroid().value());
         return isfinite(length) ? length : centroid + square_over_centroid();  // infinite where it overflows
     }
-    /// k^2/h: the centroid from the centre of oscillation; hung from there the two change places, §6.
+    /// k^2/h, the distance from the centre of gravity to the centre of oscillation. A link hung by its centre of
+    /// oscillation has h and k^2/h exchanged, §6.
     T square_over_centroid() const { return static_cast<T>(squares_over_centroid().value()); }
+    /// k^2/h in two words, as a product that does not overflow.
     detail::Product<Wide<T>> squares_over_centroid() const {
         const Wide<T> k(radius_of_gyration);
         return detail::Product<Wide<T>>{}.times(k).times(k).over(centroid);
     }
-    /// Share h/l of the weight at the centre of oscillation, where two particles that move as the link does replace it
-    /// (Maxwell); the rest is at the pin. §6.
+    /// h/l, the share of the weight at the centre of oscillation when two particles replace the link (Maxwell); the
+    /// rest is at the pin. §6. Accuracy: 2 ulp.
     T share_at_centre_of_oscillation() const { return centroid / pendulum_length(); }
 };
 
@@ -46,16 +55,14 @@ void check(std::string_view place, const CompoundLink<T>& link) {
                       link.radius_of_gyration);
 }
 
-/// The pendulum length of `link` less that of `other`. Accuracy: 1 ulp for built-in numbers however near the two are,
-/// for centroids above 1e-140 of the lengths.
+/// Pendulum length of `link` minus that of `other`. Accuracy: 1 ulp for built-in scalars even where the two nearly
+/// agree, for centroids above 1e-140 of the lengths.
 template <std::floating_point T>
 T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other) {
     using S = Wide<T>;
     if constexpr (std::is_same_v<T, float>) {
-        const auto in_double = [](const CompoundLink<T>& x) {
-            return CompoundLink<double>{x.centroid, x.radius_of_gyration};
-        };
-        return static_cast<T>(pendulum_difference(in_double(link), in_double(other)));
+        return static_cast<T>(pendulum_difference(CompoundLink<double>{link.centroid, link.radius_of_gyration},
+                                                  CompoundLink<double>{other.centroid, other.radius_of_gyration}));
     } else {
         int power = 0;
         std::frexp(std::max(link.pendulum_length(), other.pendulum_length()), &power);
@@ -63,7 +70,7 @@ T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other)
         const T h0 = std::ldexp(other.centroid, -power), k0 = std::ldexp(other.radius_of_gyration, -power);
         const S whole = CompoundLink<S>{S(h), S(k)}.pendulum_length() - CompoundLink<S>{S(h0), S(k0)}.pendulum_length();
         if (std::abs(static_cast<T>(whole)) > T(0x1p-20)) return std::ldexp(static_cast<T>(whole), power);
-        // h h0 times the difference: a sum of products of three numbers, each four words, exact
+        // h h0 times the difference is a sum of products of three numbers, each exactly four words.
         std::array<T, 16> terms;
         std::size_t size = 0;
         const auto add = [&](const T& x, const T& y, const T& z) {
@@ -74,8 +81,8 @@ T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other)
             }
         };
         add(h, h, h0), add(k, k, h0), add(h0, h0, T(-h)), add(k0, k0, T(-h));
-        for (std::size_t pass = 1; pass < size;
-             ++pass)  // no digit is lost: each pass moves what sums leave over downwards
+        // Each pass leaves the exact sum unchanged and moves rounding errors to the front.
+        for (std::size_t pass = 1; pass < size; ++pass)
             for (std::size_t i = 1; i < size; ++i) {
                 const DoubleWord<T> sum = two_sum(terms[i], terms[i - 1]);
                 terms[i] = sum.high, terms[i - 1] = sum.low;
@@ -85,29 +92,24 @@ T pendulum_difference(const CompoundLink<T>& link, const CompoundLink<T>& other)
 }
 }  // namespace detail
 
-/// A link that swings round, hung from an axle on the axis.
+/// A link at a steady inclination, hung from an axle on the axis.
 template <Real T>
 struct SwungLink {
-    T inclination;           ///< to the vertical, rad, 0 ... pi/2
-    T reaction;              ///< at the axle, over the weight
-    T reaction_inclination;  ///< of its line, which runs through the point E below the centroid, level with L; rad
-    /// Relative change of the inclination over the largest relative change of the data; 0 for a vertical link.
-    T condition;
+    T inclination;           ///< to the vertical, 0 ... pi/2
+    T reaction;              ///< force at the axle over the weight
+    T reaction_inclination;  ///< of the line of that force to the vertical; it meets the vertical through the centre of
+                             ///< gravity at E, at the level of the centre of oscillation L
+    T condition;  ///< relative change of the inclination per relative change of the data; 0 if it is vertical
 };
 
-/// A link turning at the speed whose conical height is `height`: inclined as a plummet at its centre of oscillation,
-/// cos(inclination) = height/l, it pulls at its axle with its weight downwards and W (h/height) sin(inclination)
-/// outwards. §6 (1), (2). Accuracy: 4 ulp, for the data as given, however near `height` and l are. There the
-/// inclination changes by up to `condition` times as much as the data, in ratio:  cot d / d (1 + (|h - k^2/h| + 2
-/// k^2/h)/l).
-/// Throws InvalidArgument for a height that is not positive and finite.
+/// The link at the speed with conical height `height`: cos(inclination) = height / l. The axle carries the weight W
+/// downwards and W (h / height) sin(inclination) outwards. §6 (1), (2).
+/// Accuracy: 4 ulp for the data as given, also where height and l nearly agree. The condition is there
+/// cot d / d (1 + (|h - k^2/h| + 2 k^2/h)/l) with d the inclination.
+/// Also throws InvalidArgument for a height that is not positive and finite. O(1).
 template <Real T>
 SwungLink<T> swung_link(const CompoundLink<T>& link, const T& height) {
-    using std::abs;
-    using std::asin;
-    using std::atan;
-    using std::hypot;
-    using std::sqrt;
+    using std::abs, std::asin, std::atan, std::hypot, std::sqrt;
     detail::check("swung_link", link);
     detail::require_positive("swung_link", "height", height);
     const T h = link.centroid, length = link.pendulum_length();

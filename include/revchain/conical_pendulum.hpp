@@ -8,28 +8,39 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/numeric/zero_between.hpp"
 
-/// The conical pendulum, Greenhill (1908) §1 (1)-(7): the only home of g. Everything else in this library is a length
-/// or a ratio of weights; the conical height lambda = g / n^2 is the height of the pendulum that turns with speed n.
-/// Units: any consistent set (g in length/s^2). Accuracy: at most 2.1 ulp, measured against 34 digits in
-/// tests/cpp/conical_pendulum.cpp. All throw InvalidArgument unless every argument is positive and finite.
-namespace revchain::conical_pendulum {
+/// The conical pendulum, and one plummet that is free, held by a second thread, or carried round a circle.
+///
+///     namespace pendulum = revchain::conical_pendulum;
+///     pendulum::angular_speed(0.5);                          // 4.42869 rad/s: a conical pendulum 0.5 m high
+///     pendulum::height_from_period(2.0);                     // 0.993621 m: one revolution in 2 s
+///     const auto p = revchain::inclined_pendulum(1.0, 0.5);  // a thread of 1 m at the speed of the first line
+///     p.inclination;                                         // 1.0472 rad: 60 degrees
+///     p.tension;                                             // 2 times the weight
+///
+/// Greenhill (1908) §1. A conical pendulum of height lambda turns with the angular speed n = sqrt(g / lambda); lambda
+/// is the conical height of that speed. Gravity g enters the library in `revchain::conical_pendulum` only; everything
+/// else is a length or a ratio of weights. Units: any consistent set, angles in rad. All functions are O(1) and throw
+/// InvalidArgument unless every argument is positive and finite.
+namespace revchain {
 
-inline constexpr double standard_gravity = 9.80665;  // m/s^2, exact by convention (3rd CGPM, 1901)
+/// Speed, period, gravity and conical height from each other, §1 (1)-(7).
+/// Accuracy: 2.1 ulp, measured against 34 digits in tests/cpp/conical_pendulum.cpp.
+namespace conical_pendulum {
+
+inline constexpr double standard_gravity = 9.80665;  ///< m/s^2, exact by convention (3rd CGPM, 1901)
 
 /// n = sqrt(g / lambda), rad/s. §1 (1)
 template <Real T>
 T angular_speed(const T& height, const T& gravity = T(standard_gravity)) {
     using std::sqrt;
-    detail::require_positive("conical_pendulum::angular_speed", "height", height);
-    detail::require_positive("conical_pendulum::angular_speed", "gravity", gravity);
+    detail::require_positive("conical_pendulum::angular_speed", "height", height, "gravity", gravity);
     return sqrt(gravity) / sqrt(height);  // not sqrt(g / lambda): the quotient may leave the range
 }
 
 /// lambda = g / n^2. §1 (1)
 template <Real T>
 T height(const T& angular_speed, const T& gravity = T(standard_gravity)) {
-    detail::require_positive("conical_pendulum::height", "angular speed", angular_speed);
-    detail::require_positive("conical_pendulum::height", "gravity", gravity);
+    detail::require_positive("conical_pendulum::height", "angular speed", angular_speed, "gravity", gravity);
     return gravity / angular_speed / angular_speed;
 }
 
@@ -37,16 +48,14 @@ T height(const T& angular_speed, const T& gravity = T(standard_gravity)) {
 template <Real T>
 T period(const T& height, const T& gravity = T(standard_gravity)) {
     using std::sqrt;
-    detail::require_positive("conical_pendulum::period", "height", height);
-    detail::require_positive("conical_pendulum::period", "gravity", gravity);
+    detail::require_positive("conical_pendulum::period", "height", height, "gravity", gravity);
     return T(2) * detail::pi<T> * (sqrt(height) / sqrt(gravity));
 }
 
 /// lambda = g T^2 / (4 pi^2). §1 (1)
 template <Real T>
 T height_from_period(const T& period, const T& gravity = T(standard_gravity)) {
-    detail::require_positive("conical_pendulum::height_from_period", "period", period);
-    detail::require_positive("conical_pendulum::height_from_period", "gravity", gravity);
+    detail::require_positive("conical_pendulum::height_from_period", "period", period, "gravity", gravity);
     const T radian = period / (T(2) * detail::pi<T>);
     return gravity * radian * radian;
 }
@@ -57,7 +66,7 @@ T revolutions_per_second(const T& height, const T& gravity = T(standard_gravity)
     return angular_speed(height, gravity) / (T(2) * detail::pi<T>);
 }
 
-/// lambda = g / (2 pi R)^2, from revolutions per second R.
+/// lambda = g / (2 pi R)^2 from R revolutions per second.
 template <Real T>
 T height_from_revolutions_per_second(const T& revolutions, const T& gravity = T(standard_gravity)) {
     detail::require_positive("conical_pendulum::height_from_revolutions_per_second", "revolutions per second",
@@ -65,57 +74,65 @@ T height_from_revolutions_per_second(const T& revolutions, const T& gravity = T(
     return height(T(T(2) * detail::pi<T> * revolutions), gravity);
 }
 
-/// g = 4 pi^2 l / T^2, from the length and the period (of a small double beat) of a simple pendulum. §1 (4)
+/// g = 4 pi^2 l / T^2 from the length of a simple pendulum and its period for a small swing to and fro. §1 (4)
 template <Real T>
 T gravity(const T& length, const T& period) {
-    detail::require_positive("conical_pendulum::gravity", "length", length);
-    detail::require_positive("conical_pendulum::gravity", "period", period);
+    detail::require_positive("conical_pendulum::gravity", "length", length, "period", period);
     const T radian = period / (T(2) * detail::pi<T>);
     return length / radian / radian;
 }
 
-/// g = pi^2 L from the length L of the pendulum that beats seconds (T = 2): 39.1396 inches in London in 1824 give
-/// 386.29 inches/s^2 (§1 (6) prints 386.28). §1 (5)-(6)
+/// g = pi^2 L from the length L of the pendulum that beats seconds (T = 2). The 39.1396 inches of London in 1824 give
+/// 386.29 inches/s^2; §1 (6) prints 386.28. §1 (5)-(6)
 template <Real T>
 T gravity_from_seconds_pendulum(const T& length) {
     detail::require_positive("conical_pendulum::gravity_from_seconds_pendulum", "length", length);
     return detail::pi<T> * detail::pi<T> * length;
 }
 
-/// lambda = L T^2 / 4 with L the seconds pendulum: the form that needs no g. §1 (7)
+/// lambda = L T^2 / 4 from the length L of the seconds pendulum; needs no g. §1 (7)
 template <Real T>
 T height_from_seconds_pendulum(const T& seconds_pendulum, const T& period) {
-    detail::require_positive("conical_pendulum::height_from_seconds_pendulum", "seconds pendulum", seconds_pendulum);
-    detail::require_positive("conical_pendulum::height_from_seconds_pendulum", "period", period);
+    detail::require_positive("conical_pendulum::height_from_seconds_pendulum", "seconds pendulum", seconds_pendulum,
+                             "period", period);
     const T half = period / T(2);
     return seconds_pendulum * half * half;
 }
 
-}  // namespace revchain::conical_pendulum
+}  // namespace conical_pendulum
 
-/// One plummet at any inclination, free or held, and the whirling machine: Greenhill (1908) §1. Lengths in any unit,
-/// tensions over the plummet's weight. Accuracy: 3 ulp, measured in tests/cpp/paper/section_1.cpp. All throw
-/// InvalidArgument unless lengths and heights are positive and finite.
-namespace revchain {
+namespace detail {
 
-/// Where a plummet swings round, and how its thread pulls.
+/// The conical height that options give, or that of the angular speed they give.
+/// Throws InvalidArgument unless they give exactly one of the two, positive and finite.
+template <class Options>
+double height_given(std::string_view place, const Options& options) {
+    if (options.conical_height.has_value() == options.angular_speed.has_value())
+        throw_invalid(place, "give either conical_height or angular_speed");
+    const double height = options.conical_height ? *options.conical_height
+                                                 : conical_pendulum::height(*options.angular_speed, options.gravity);
+    require_positive(place, options.conical_height ? "conical height" : "gravity / angular_speed^2", height);
+    return height;
+}
+
+}  // namespace detail
+
+/// A plummet at a steady inclination. Tension is over the weight.
 template <Real T>
 struct InclinedPendulum {
-    T inclination;  ///< of the thread to the vertical, rad, 0 ... pi/2
+    T inclination;  ///< of the thread to the vertical, 0 ... pi/2
     T radius;       ///< of the circle
     T depth;        ///< below the point of support on the axis
-    T tension;      ///< over the weight
+    T tension;
 };
 
-/// A plummet on a thread of `length` turning at the speed whose conical height is `height`: it leaves the vertical
-/// where height < length, and then hangs at that depth, cos(inclination) = height/length, tension length/height. §1
-/// (1), §6 (1). For a compound link `length` is its pendulum length, and the tension's part is not that of the pin.
+/// The plummet on a thread of `length` at the speed with conical height `height`: cos(inclination) = height / length.
+/// It hangs straight down where height >= length. For a compound link, `length` is its pendulum length, and `tension`
+/// is not the force at its pin (`swung_link`). §1 (1), §6 (1). Accuracy: 3 ulp (tests/cpp/paper/section_1.cpp).
 template <Real T>
 InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
-    using std::asin;
-    using std::sqrt;
-    detail::require_positive("inclined_pendulum", "length", length);
-    detail::require_positive("inclined_pendulum", "height", height);
+    using std::asin, std::sqrt;
+    detail::require_positive("inclined_pendulum", "length", length, "height", height);
     if (!(height < length)) return {T(0), T(0), length, T(1)};
     // Half angles: the arc cosine of a ratio near 1 would lose half the digits.
     const T ratio = height / length, half_sine = sqrt((length - height) / length / T(2));
@@ -123,40 +140,36 @@ InclinedPendulum<T> inclined_pendulum(const T& length, const T& height) {
             length / height};
 }
 
-/// A plummet on two threads tied to the axis, which holds it from flying out as far as it would.
+/// A plummet on two threads tied to the axis. Tensions are over the weight.
 template <Real T>
 struct HeldPlummet {
     T radius, depth;  ///< of the plummet: from the axis, and below the upper point
     T upper_tension, lower_tension;
     bool upper_taut,
-        lower_taut;  ///< tensions not negative: else that thread is slack, and the plummet swings on the other
+        lower_taut;  ///< tension >= 0; otherwise that thread is slack and the other one carries the plummet
 };
 
-/// `upper_thread` and `lower_thread` from two points of the axis, the lower `distance` below the upper; the equations
-/// of the polygon KN, NP, PC', C'K of §1. The lower thread is taut where depth > height. Accuracy: 3 ulp; where a depth
-/// or a tension nearly vanishes, 1e-29 of the larger of the two terms whose difference it is.
-/// Throws InvalidArgument unless the three lengths make a triangle.
+/// The plummet held by threads from two points of the axis, the lower one `distance` below the upper one; equations of
+/// the polygon KN, NP, PC', C'K of §1. The lower thread is taut where depth > height.
+/// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of 1e-29 of the larger one.
+/// Also throws InvalidArgument unless the three lengths form a triangle.
 template <Real T>
 HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const T& distance, const T& height) {
-    using std::sqrt;
+    using std::frexp, std::ldexp, std::sqrt;
     constexpr std::string_view place = "held_plummet";
-    detail::require_positive(place, "upper thread", upper_thread);
-    detail::require_positive(place, "lower thread", lower_thread);
-    detail::require_positive(place, "distance", distance);
-    detail::require_positive(place, "height", height);
-    // Kahan's order of the sides for the area of a thin triangle.
+    detail::require_positive(place, "upper thread", upper_thread, "lower thread", lower_thread, "distance", distance,
+                             "height", height);
+    // Kahan's order of the sides, for the area of a thin triangle.
     T a = upper_thread, b = lower_thread, c = distance;
     if (a < b) std::swap(a, b);
     if (b < c) std::swap(b, c);
     if (a < b) std::swap(a, b);
     const T slack = c - (a - b);
     if (!(slack >= T(0))) detail::throw_invalid(place, "distance must make a triangle with the two threads", distance);
-    // No product of two lengths, which may leave the range.
+    // Roots first: a product of two lengths may leave the range.
     const T radius = sqrt(a + (b + c)) * sqrt(a + (b - c)) / T(2) * (sqrt(slack) * sqrt(c + (a - b)) / distance);
-    // In two words, of lengths near 1: of a thin triangle depth and depth - distance are differences.
+    // In two words, with lengths scaled to about 1: in a thin triangle depth and depth - distance are differences.
     using S = Wide<T>;
-    using std::frexp;
-    using std::ldexp;
     int unit = 0, short_unit = 0;
     frexp(a, &unit), frexp(distance, &short_unit);
     const auto wide = [](const T& x, int power) { return S(static_cast<Narrow<S>>(ldexp(x, power))); };
@@ -169,66 +182,52 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     return {radius, static_cast<T>(depth), upper, lower, upper >= T(0), lower >= T(0)};
 }
 
-/// The whirling machine: a plummet whose thread hangs from an arm `arm` long, its length adjusted until the arm stands
-/// at right angles to the vertical plane through axis and plummet. Resistance of the air over the weight, CA / CN. §1
-/// (8)
+/// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the plummet's thread hangs from
+/// an arm of length `arm` and is adjusted until the arm is perpendicular to the vertical plane through the axis and the
+/// plummet. §1 (8). Accuracy: 0.5 ulp.
 template <Real T>
 T air_resistance(const T& arm, const T& height) {
-    detail::require_positive("air_resistance", "arm", arm);
-    detail::require_positive("air_resistance", "height", height);
+    detail::require_positive("air_resistance", "arm", arm, "height", height);
     return arm / height;
 }
 
-/// The thread that the machine then needs for the plummet to run in a circle of `radius`: sqrt(arm^2 + height^2 +
-/// radius^2).
+/// Length of thread that the whirling machine needs for a circle of `radius`: sqrt(arm^2 + height^2 + radius^2).
+/// Accuracy: 2 ulp.
 template <Real T>
 T whirling_thread(const T& arm, const T& height, const T& radius) {
     using std::hypot;
-    detail::require_positive("whirling_thread", "arm", arm);
-    detail::require_positive("whirling_thread", "height", height);
-    detail::require_positive("whirling_thread", "radius", radius);
+    detail::require_positive("whirling_thread", "arm", arm, "height", height, "radius", radius);
     return hypot(hypot(arm, height), radius);
 }
 
-}  // namespace revchain
-
-/// A plummet whose support is carried round a circle (or to and fro) at the speed of conical height lambda.
-/// Greenhill (1908) §1 (9).
-namespace revchain {
-
-/// Offset of the plummet over that of its support while the thread is nearly vertical: lambda / (lambda - l), of one
-/// sign with it where lambda > l and against it where lambda < l; infinite at resonance. Accuracy: 1.1 ulp, in lambda
-/// and l as given. Throws InvalidArgument unless both are positive and finite.
+/// Offset of a plummet over the offset of its support, which is carried round a circle or to and fro, while the thread
+/// is nearly vertical: lambda / (lambda - l). Negative where lambda < l, infinite at resonance. §1 (9).
+/// Accuracy: 1.1 ulp for lambda and l as given.
 template <Real T>
 T carried_response(const T& length, const T& height) {
-    detail::require_positive("carried_response", "length", length);
-    detail::require_positive("carried_response", "height", height);
+    detail::require_positive("carried_response", "length", length, "height", height);
     return height / (height - length);
 }
 
-/// Steady inclinations of the thread, ascending, outwards positive: `count` of the three places hold one.
+/// Steady inclinations of the thread, ascending, positive outwards. The first `count` entries are used.
 template <Real T>
 struct CarriedInclinations {
     std::array<T, 3> inclination{};
     int count = 0;
 };
 
-/// All steady inclinations between -pi/2 and pi/2 of a plummet whose support runs in a circle of `radius` (b > 0):
-/// lambda tan d = b + l sin d. One always, outwards; two more, inwards, where lambda < l and
-/// b^(2/3) <= l^(2/3) - lambda^(2/3), of which one is the resonance curve's unstable part.
-/// Accuracy: 4 ulp, times 1/(1 - (cos of where the inner two meet / cos d)^3) next to that place. Cost: a microsecond.
-/// Throws InvalidArgument unless all three are positive and finite, or where the tangent would not be.
+/// All steady inclinations d between -pi/2 and pi/2 of a plummet whose support runs in a circle of radius b:
+/// lambda tan d = b + l sin d, §1 (9). There is always one outwards. There are two more inwards where lambda < l and
+/// b^(2/3) <= l^(2/3) - lambda^(2/3); one of these two is unstable.
+/// Accuracy: 4 ulp, times 1 / (1 - (cos d_meet / cos d)^3) near the inclination d_meet at which the inner two meet.
+/// Cost: a microsecond. Also throws InvalidArgument where the tangent of an inclination overflows.
 template <Real T>
 CarriedInclinations<T> carried_inclinations(const T& length, const T& height, const T& radius) {
-    using std::atan;
-    using std::cbrt;
-    using std::sqrt;
+    using std::atan, std::cbrt, std::sqrt;
     constexpr std::string_view place = "carried_inclinations";
-    detail::require_positive(place, "length", length);
-    detail::require_positive(place, "height", height);
-    detail::require_positive(place, "radius", radius);
-    // In t = tan d, over l:  t (lambda - cos d) - b, convex for t > 0, its slope lambda - cos^3 d; next to resonance
-    // lambda - cos d = gap + 1 - cos d,  gap = lambda - l, keeps its digits.
+    detail::require_positive(place, "length", length, "height", height, "radius", radius);
+    // The zeros in t = tan d of  t (lambda - cos d) - b  in units of l. It is convex for t > 0 with the slope
+    // lambda - cos^3 d. Near resonance lambda - cos d = gap + (1 - cos d),  gap = lambda - l, keeps its digits.
     const T gap = (height - length) / length, lacking = (length - radius) / length;
     const T c = height / length, r = radius / length;
     const T farthest = (T(1) + r) / c;  // |c t| <= r + 1
@@ -237,12 +236,12 @@ CarriedInclinations<T> carried_inclinations(const T& length, const T& height, co
     const auto function = [&](const T& t) {
         const T secant = sqrt(T(1) + t * t), cosine = T(1) / secant, versed = t / (secant + T(1)) * (t / secant);
         const T slope = c - cosine * cosine * cosine;
-        // inwards and flown out, l sin d all but as long as l: what both lack of it
+        // far inwards l sin d is nearly l: the difference of the two is added instead
         if (t < T(-1)) return std::pair<T, T>(c * t + lacking - cosine / (secant - t), slope);
         if (T(2) * c < T(1)) return std::pair<T, T>(t * (c - cosine) - r, slope);
         return std::pair<T, T>(t * (gap + versed) - r, gap + versed * (T(1) + cosine + cosine * cosine));
     };
-    const auto negative = [&](const T& t) {  // decreasing there: turned round
+    const auto negative = [&](const T& t) {  // where the function falls
         const auto [value, slope] = function(t);
         return std::pair<T, T>(-value, -slope);
     };

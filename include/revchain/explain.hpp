@@ -1,65 +1,42 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <ios>
-#include <sstream>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "revchain/models/select.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/rig.hpp"
 
+/// Which method `modes` takes for a tolerance, and what the others would cost.
+///
+///     const auto rods = revchain::Chain<double>::uniform_rods(100'000, 0.36);
+///     const auto e = revchain::explain(rods, {.count = 3, .rtol = 1e-2});
+///     e.methods[e.chosen].name;    // "continuous chain"
+///     e.text();                    // a table: every method with its error bound and its time, or why it cannot serve
 namespace revchain {
 
-namespace detail {
+/// The methods for some modes, each with what is known of it before it is used, and the one chosen.
+struct Explanation {
+    std::vector<Estimate> methods;  ///< name, whether it applies, error bound (relative), cost (seconds)
+    std::size_t chosen = 0;         ///< index into `methods`
+    bool meets_tolerance = false;   ///< false: no method keeps the tolerance, and `chosen` is the most accurate
 
-inline std::string bound_text(double bound) {
-    std::ostringstream text;
-    text.precision(1);
-    text << std::scientific << bound;
-    return text.str();
-}
+    /// A table for people, with a mark at the method chosen. Each line ends with a newline.
+    std::string text() const;
+};
 
-/// Seconds with the unit that suits them.
-inline std::string time_text(double seconds) {
-    constexpr std::array<std::pair<const char*, double>, 4> units{{{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
-    std::size_t i = 0;
-    while (i + 1 < units.size() && !(seconds >= units[i].second)) ++i;
-    std::ostringstream text;
-    text.precision(3);
-    text << seconds / units[i].second << ' ' << units[i].first;
-    return text.str();
-}
+/// The choice that `modes(chain, options)` makes, from `first`, `count` and `rtol`. Nothing is solved.
+/// Accuracy: error bounds are those that each method is sure to keep, times were within a factor of 3 of measured times
+/// (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does, and for windows.
+Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options = {});
 
-}  // namespace detail
-
-/// What `select` chose and why, as a table for people: a line for each model, with a mark at the one chosen, the bound
-/// of its relative error and the time it is expected to take, or the reason why it does not apply. Nothing is solved
-/// for it. The first line says where none keeps the tolerance. Each line ends with a newline. Cost: some microseconds.
-template <std::size_t N>
-std::string explain(const Choice<N>& choice) {
-    using Line = std::array<std::string, 5>;
-    std::array<Line, N + 1> lines{Line{"", "model", "error bound", "expected to take", ""}};
-    for (std::size_t i = 0; i < N; ++i) {
-        const Estimate& model = choice.estimates[i];
-        Line& line = lines[i + 1] = {i == choice.model ? "->" : "", std::string(model.name), "-", "-", ""};
-        if (model.fit.applies)
-            line[2] = detail::bound_text(model.error_bound), line[3] = detail::time_text(model.cost);
-        else
-            line[4] = model.fit.reason;
-    }
-    std::array<std::size_t, 4> width{};
-    for (const Line& line : lines)
-        for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], line[i].size());
-    std::string text = choice.meets_tolerance ? "" : "no model keeps the tolerance\n";
-    for (const Line& line : lines) {
-        const auto space = [&](std::size_t i) { return std::string(width[i] - line[i].size(), ' '); };
-        std::string row = line[0] + space(0) + ' ' + line[1] + space(1) + "  " + space(2) + line[2] + "  " + space(3) +
-                          line[3] + "  " + line[4];
-        row.erase(row.find_last_not_of(' ') + 1);
-        text += row + '\n';
-    }
-    return text;
-}
+/// Throws InvalidArgument: a rig has one method for each kind, which `RigModes::method` names.
+Explanation explain(const Rig& rig, const ModesOptions<double>& options = {});
 
 }  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/questions/explain.hpp"
+#endif

@@ -6,31 +6,42 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/numeric/product.hpp"
 
+/// Circular and plane waves along a stretched row of links with flywheels: Thomson's gyrostatic string.
+///
+///     const revchain::GyrostaticString<double> string{
+///         .weight = 1.0, .length = 0.1, .tension = 50.0, .momentum = 0.01, .centroid = 0.05};
+///     revchain::link_phase(string, 20.0).phase;  // 0.278261 rad from link to link at 20 rad/s
+///     revchain::wave_speeds(string, 0.3)[0];     // 21.6189 rad/s forward
+///     revchain::plane_rotation(string, 20.0);    // 0.00560363 rad from link to link
+///
+/// Links are jointed in a row under one tension; their weight counts in their inertia only; offsets are small. It is a
+/// model of light in a magnetised body. Units: any consistent set, angles in rad.
+///
+/// In a circular wave every pin runs round the line with speed n, positive in the sense of a positive momentum, each by
+/// an angle theta behind its neighbour:
+///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),   X = W (h (a - h) - rho^2)/a^2.
+/// All functions are O(1). They throw InvalidArgument unless weight, length, tension and gravity are positive and all
+/// numbers finite, and for a negative radius of gyration.
 namespace revchain {
 
-/// Thomson's gyrostatic string: equal links jointed in a row under one pull, each with a flywheel about its own axis;
-/// the model of light in a magnetised body. Small offsets; the weight of the links tells in their inertia alone.
-///
-/// In a circular wave every pin runs round the line with speed n, positive in the sense of a positive momentum, each a
-/// phase theta behind its neighbour:
-///     (T/a + n H/a^2) 4 sin^2(theta/2) = (n^2/g) (W - 4 X sin^2(theta/2)),   X = W (h (a - h) - rho^2)/a^2.
+/// A row of equal links.
 template <Real T>
 struct GyrostaticString {
     T weight;                ///< W > 0, of a link with its wheel
     T length;                ///< a > 0, from pin to pin
     T tension;               ///< T > 0
-    T momentum;              ///< H, kept by the wheels, force times length times time; any sign
+    T momentum;              ///< H, angular momentum of a wheel about its link: force x length x time, of any sign
     T centroid;              ///< h, from one of the pins
-    T radius_of_gyration{};  ///< rho >= 0, across the line, about the centre of gravity
-    T gravity = T(conical_pendulum::standard_gravity);  ///< what `weight` is under
+    T radius_of_gyration{};  ///< rho >= 0, across the link, about the centre of gravity
+    T gravity = T(conical_pendulum::standard_gravity);  ///< turns weight into mass
 };
 
-/// How a circular wave goes along: exp(i m phase) exp(-m attenuation) from link to link. One of both is 0, but for
-/// speeds at which neighbours move against each other (phase pi) and less and less.
+/// Propagation of a circular wave: exp(i m phase) exp(-m attenuation) at link m. A wave that passes has no attenuation;
+/// one that does not has phase 0, or phase pi if neighbours move against each other.
 template <Real T>
 struct LinkPhase {
-    T phase{};        ///< rad, 0 ... pi
-    T attenuation{};  ///< >= 0; 0 where the wave passes
+    T phase{};        ///< 0 ... pi
+    T attenuation{};  ///< >= 0
 };
 
 namespace detail {
@@ -45,8 +56,7 @@ T share_across(const GyrostaticString<T>& s) {
 template <Real T>
 void check(std::string_view place, const GyrostaticString<T>& s) {
     using std::isfinite;
-    require_positive(place, "weight", s.weight), require_positive(place, "length", s.length);
-    require_positive(place, "tension", s.tension), require_positive(place, "gravity", s.gravity);
+    require_positive(place, "weight", s.weight, "length", s.length, "tension", s.tension, "gravity", s.gravity);
     if (!isfinite(s.momentum)) throw_invalid(place, "momentum must be finite", s.momentum);
     if (!isfinite(s.centroid)) throw_invalid(place, "centroid must be finite", s.centroid);
     if (!isfinite(s.radius_of_gyration) || s.radius_of_gyration < T(0))
@@ -63,7 +73,7 @@ Product<T> spin_ratio(const GyrostaticString<T>& s, const T& n) {
     return Product<T>::of(s.momentum).over(s.length).over(s.length).over(s.weight).times(s.gravity).over(n);
 }
 
-/// sin^2 and cos^2 of half the phase; of any sign where the wave does not pass.
+/// sin^2 and cos^2 of half the phase; one of them is negative if the wave does not pass.
 template <Real T>
 std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
     using P = Product<T>;
@@ -75,15 +85,12 @@ std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
 
 }  // namespace detail
 
-/// The circular wave at speed n, of either sign. Accuracy: 4 ulp, over cos(phase/2) where that is small, and where
-/// T/a, n H/a^2 and (n^2/g) X cancel as many times more (measured: tests/cpp/gyrostatic_string.cpp).
-/// Throws InvalidArgument unless weight, length, tension and gravity are positive and all numbers finite, for a
-/// negative radius of gyration, and for a speed that is not finite.
+/// The circular wave at the speed n, of either sign. Accuracy: 4 ulp, divided by cos(phase/2) where that is small, and
+/// multiplied by the cancellation of T/a, n H/a^2 and (n^2/g) X (tests/cpp/gyrostatic_string.cpp).
+/// Also throws InvalidArgument for a speed that is not finite.
 template <Real T>
 LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_speed) {
-    using std::asinh;
-    using std::atan2;
-    using std::isfinite;
+    using std::asinh, std::atan2, std::isfinite;
     detail::check("link_phase", string);
     if (!isfinite(angular_speed)) detail::throw_invalid("link_phase", "angular speed must be finite", angular_speed);
     const auto [sine, cosine] = detail::half_phase(string, angular_speed);
@@ -92,18 +99,18 @@ LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_spee
     return {T(2) * atan2(sine.root().value(), cosine.root().value()), T(0)};
 }
 
-/// The two speeds of a circular wave with a phase: forward (positive) and backward. Accuracy: 4 ulp, with one more for
-/// each bit that 1 - 4 X sin^2/W cancels. Throws InvalidArgument as link_phase does, and unless 0 < phase <= pi.
+/// The two speeds of a circular wave with a given phase from link to link: forward (positive) and backward. Accuracy:
+/// 4 ulp, and 1 ulp more for each bit that cancels in 1 - 4 X sin^2/W. Also throws InvalidArgument unless
+/// 0 < phase <= pi.
 template <Real T>
 std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) {
-    using std::abs;
-    using std::sin;
+    using std::abs, std::sin;
     detail::check("wave_speeds", string);
     if (!(phase > T(0)) || !(phase <= detail::pi<T>))
         detail::throw_invalid("wave_speeds", "phase must lie above 0 and not above pi", phase);
     using P = detail::Product<T>;
     const T chord = phase < epsilon<T>() ? phase : T(2) * sin(phase / T(2));
-    // A n^2 - B n - C = 0, over chord^2 but for A
+    // A n^2 - B n - C = 0, where B and C are over chord^2
     const P A = P::of(string.weight).over(string.gravity).times(T(1) - chord * chord * detail::share_across(string));
     const P B = P::of(abs(string.momentum)).over(string.length).over(string.length).times(chord);
     const P C = P::of(string.tension).over(string.length);
@@ -113,10 +120,11 @@ std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) 
     return string.momentum < T(0) ? std::array<T, 2>{slower, -faster} : std::array<T, 2>{faster, -slower};
 }
 
-/// By how much the plane of a to-and-fro vibration turns from link to link, rad, in the sense of a positive momentum:
-/// half of what the phases of its two circular parts differ. The same for waves running either way: one that comes back
-/// is turned twice. NaN where one of both does not pass. Accuracy: 8 ulp however small the momentum, over the cosine of
-/// half the larger phase where that is small. Throws InvalidArgument as link_phase does, and for a speed not positive.
+/// Angle by which the plane of a vibration to and fro turns from link to link, in the sense of a positive momentum:
+/// half the difference of the phases of its two circular parts. It is the same for waves in both directions, so a wave
+/// that comes back is turned twice. NaN if one of the parts does not pass. Accuracy: 8 ulp, also for a tiny momentum,
+/// divided by the cosine of half the larger phase where that is small. Also throws InvalidArgument for a speed that is
+/// not positive.
 template <Real T>
 T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
     using std::asin;
@@ -127,7 +135,7 @@ T plane_rotation(const GyrostaticString<T>& string, const T& angular_speed) {
     for (const auto& square : {ahead, ahead_rest, back, back_rest})
         if (square.fraction < T(0)) return std::numeric_limits<T>::quiet_NaN();
     if (string.momentum == T(0)) return T(0);
-    // sin^2 - sin^2 of the halves, in which the tension cancels
+    // the difference of sin^2 of both halves, in which the tension cancels
     const auto difference = detail::spin_ratio(string, angular_speed).times(T(8)).times(ahead).times(back);
     const auto sum = back.times(ahead_rest).root().plus(ahead.times(back_rest).root());
     return asin(difference.over(sum).value());

@@ -1,219 +1,147 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/held/proof.hpp"
-#include "revchain/finite/held/shape.hpp"
-#include "revchain/finite/held/taut.hpp"
-#include "revchain/finite/shapes/described.hpp"
+#include <optional>
+#include <type_traits>
+#include <utility>
 
+#include "revchain/count.hpp"
+#include "revchain/explain.hpp"
+#include "revchain/finite/held/cord.hpp"
+#include "revchain/finite/held/held.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/system/cord.hpp"
+#include "revchain/tune.hpp"
+
+/// A chain or a cord whose two ends are held on the axis: the blade of a wind turbine (troposkien), a skipping rope, a
+/// string of weights.
+///
+///     const auto rods = revchain::Chain<double>::uniform_rods(40, 1.0);
+///     const auto shapes = revchain::steady_shapes(revchain::Held(rods, {.span = 0.5}), {.angular_speed = 10.0});
+///     shapes.shapes[0].offset.maxCoeff();   // 0.391553 m: the sag
+///     shapes.shapes[0].error_bound;         // of every inclination, rad: proved
+///     const auto m = revchain::modes(revchain::Held(rods, {.tension = 11.0}), {.count = 2});
+///     m.angular_speed()[0];                 // 31.8773 rad/s: here the straight chain begins to whirl
+///
+/// Links and arrays begin at the lower end, which is the free end of the chain or cord. Speeds of a chain held straight
+/// are questions of `modes`, shapes at finite amplitude of `steady_shapes`, and their stability of `stability`.
 namespace revchain {
 
-struct HeldOptions {
-    int most_half_waves = 1;  ///< shapes of 1 ... so many half waves are looked for
-    bool prove = true;        ///< whether error bounds are proved
+/// How the two ends are held: give either `span` or `tension`.
+struct HeldBy {
+    std::optional<double> span{};     ///< distance of the two ends, less than the length
+    std::optional<double> tension{};  ///< at the upper end, in the unit of the weights; without gravity, newtons
+    bool weightless = false;          ///< without gravity; weights are masses then, and shapes depend on no speed
 };
 
-/// Shapes of a chain held at both ends, one at the most for each number of half waves.
-struct HeldShapes {
-    std::vector<HeldShape> shapes;  ///< by the half waves of the branch they were found on
-    std::vector<int> missing;       ///< half waves whose branch does not reach the span and height asked
-    bool complete = false;          ///< never claimed: there may be others, on branches that are apart
-};
+/// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here.
+///
+/// Throws InvalidArgument unless exactly one of span and tension is given, for one that is not positive and finite, a
+/// span that is not less than the length, and a cord that is not uniform or has a tip weight.
+template <class System>
+class Held {
+    static_assert(std::is_same_v<System, Chain<double>> || std::is_same_v<System, Cord>);
 
-namespace finite {
-
-/// Shapes of one chain held at both ends, one after the other.
-class HeldChain {
    public:
-    using S = Wide<double>;
-
-    explicit HeldChain(const Chain<double>& chain) : wide_(links_of(chain)), links_(rounded<double>(wide_.links)) {
-        for (const Link<S>& link : wide_.links)
-            length_ = length_ + link.length, weight_ = weight_ + link.moment + link.rest;
-        straighten();
-    }
-    HeldChain(const HeldChain&) = delete;
-    HeldChain& operator=(const HeldChain&) = delete;
-
-    const Links<S>& links() const { return wide_; }
-    const S& length() const { return length_; }
-
-    /// The end's place for forces, each link from where it was in the state kept last.
-    HeldEnd<double> operator()(const HeldForces<double>& forces, bool keep) {
-        trial_ = kept_;
-        const HeldEnd<double> end = held_sweep(links_, forces, trial_);
-        if (end.known && keep) kept_ = trial_;
-        return end;
+    Held(System system, const HeldBy& by) : system_(std::move(system)), by_(by) {
+        if (by.span.has_value() == by.tension.has_value()) detail::throw_invalid("Held", "give either span or tension");
+        if (by.tension) detail::require_positive("Held", "tension", *by.tension);
+        if (by.span) detail::require_positive("Held", "span", *by.span);
+        if (by.span && !(*by.span < length()))
+            detail::throw_invalid("Held", "span must be less than the length " + detail::in_digits(length()), *by.span);
+        if constexpr (std::is_same_v<System, Cord>)
+            if (!system_.is_uniform() || system_.tip_weight() != 0)
+                detail::throw_invalid("Held",
+                                      "a held cord must be uniform and without tip weight; for others cut it "
+                                      "into links, as Chain::tapered does");
     }
 
-    /// Directions in the state kept last.
-    const std::vector<Direction<double>>& kept() const { return kept_; }
-    void keep(std::vector<Direction<double>> directions) { kept_ = std::move(directions); }
-
-    HeldCurve<HeldChain> curve() { return {*this, static_cast<double>(length_), static_cast<double>(weight_)}; }
-
-    /// Without gravity and with `half_waves` half waves, `span` apart: from the nearly straight chain on.
-    std::optional<HeldState> weightless(int half_waves, const S& span) {
-        const TautLinks<double> taut(links_);
-        if (half_waves > taut.pins()) return {};
-        const double along = taut_number([&](double x) { return taut.count(0.0, x); }, half_waves - 1,
-                                         static_cast<double>(weight_ * length_));
-        if (along == 0) return {};
-        const std::vector<double> y = taut.shape(0.0, along);
-        double short_of = 0;  // by how much the shape of unit pull is shorter than the chain
-        for (std::size_t m = 0; m < links_.size(); ++m)
-            short_of += (y[m] - y[m + 1]) * (y[m] - y[m + 1]) / (2 * links_[m].length);
-        const double whole = static_cast<double>(length_), slack = static_cast<double>(length_ - span),
-                     first = std::min(slack, 1e-3 * whole);
-        straighten();
-        HeldState start{{-std::sqrt(first / short_of), along, 0}, whole - first};
-        auto state = curve().corrected(start);
-        if (state && slack > first) state = curve().to_span(*state, static_cast<double>(span));
-        return state;
-    }
-
-    /// Newton's method in two words at span and height, from a state in double; the shape there.
-    std::optional<HeldShape> finished(const HeldState& state, const S& span, const S& height, bool prove) const {
-        HeldForces<S> forces{S(state.forces.across), S(state.forces.along), height};
-        std::vector<Direction<S>> direction;
-        for (const Direction<double>& d : kept_) direction.push_back({S(d.sine), S(d.cosine)});
-        for (Direction<S>& d : direction) {  // of unit length, to two words
-            using std::sqrt;
-            const S size = sqrt(d.sine * d.sine + d.cosine * d.cosine);
-            d.sine = d.sine / size, d.cosine = d.cosine / size;
-        }
-        double last = std::numeric_limits<double>::infinity();
-        for (int round = 0; round < 30; ++round) {
-            const HeldEnd<S> end = held_sweep(wide_.links, forces, direction);
-            if (!end.known) return {};
-            const auto& [a, b, unused] = end.offset_change;
-            const auto& [c, d, unused_too] = end.rise_change;
-            const S y = end.offset, z = end.rise - span, determinant = a * d - b * c;
-            const S across = -(d * y - b * z) / determinant, along = -(a * z - c * y) / determinant;
-            forces.across = forces.across + across, forces.along = forces.along + along;
-            const double size = std::abs(static_cast<double>(across / forces.across)) +
-                                std::abs(static_cast<double>(along / forces.across));
-            if (!(size < 1)) return {};
-            if (size < 1e-29 || (size < 1e-18 && size > 0.25 * last)) break;
-            if (round == 29) return {};
-            last = size;
-        }
-        HeldShape shape = described(wide_, forces, span, direction);
-        if (prove) {
-            std::vector<Direction<DoubleDouble>> found;
-            for (const Direction<S>& d : direction) found.push_back({DoubleDouble(d.sine), DoubleDouble(d.cosine)});
-            const double error = held_error(enclosed<DoubleDouble>(wide_.links), enclosed<DoubleDouble>(height),
-                                            enclosed<DoubleDouble>(span),
-                                            {DoubleDouble(forces.across), DoubleDouble(forces.along)}, found);
-            shape.proved = error < 1e-3;
-            // and an inclination rounded once
-            if (shape.proved) shape.error_bound = error + 1.001 * 0x1p-53 * shape.inclination.cwiseAbs().maxCoeff();
-        }
-        return shape;
+    const System& system() const { return system_; }
+    const HeldBy& by() const { return by_; }
+    double length() const {
+        if constexpr (std::is_same_v<System, Cord>)
+            return system_.length();
+        else
+            return system_.total_length();
     }
 
    private:
-    void straighten() { kept_.assign(links_.size(), {0.0, 1.0}); }
-
-    Links<S> wide_;
-    std::vector<Link<double>> links_;
-    S length_{0}, weight_{0};
-    std::vector<Direction<double>> kept_, trial_;
+    System system_;
+    HeldBy by_;
 };
 
-/// Error bounds of inclinations beyond which a shape is none: the chain hangs folded along the axis.
-constexpr double furthest = 1e-3;
+/// The speed, and how many half waves to look for. Give either `conical_height` or `angular_speed`; without gravity
+/// only `angular_speed`, and with a span neither is needed.
+struct HeldShapesOptions {
+    std::optional<double> conical_height{};
+    std::optional<double> angular_speed{};                ///< rad/s
+    double gravity = conical_pendulum::standard_gravity;  ///< along the axis, with `angular_speed`
+    int max_half_waves = 1;                               ///< shapes of 1 to so many half waves are looked for
+    bool prove = true;                                    ///< whether error bounds of chains are proved
+};
 
-inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wide<double>& height,
-                              const HeldOptions& options) {
-    constexpr std::string_view place = "held_shapes";
-    revchain::detail::require_positive(place, "span", span);
-    if (options.most_half_waves < 1)
-        revchain::detail::throw_invalid(place, "most half waves must be at least 1", options.most_half_waves);
-    HeldChain held(chain);
-    const int exponent = held.links().units.length_exponent;
-    const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
-    if (!(apart < held.length()))
-        revchain::detail::throw_invalid(place, "span must be less than the length of the chain", span);
-    HeldShapes result;
-    for (int k = 1; k <= options.most_half_waves; ++k) {
-        std::optional<HeldState> state = held.weightless(k, apart);
-        if (state && lambda > Wide<double>(0)) state = held.curve().to_height(*state, static_cast<double>(lambda));
-        std::optional<HeldShape> shape;
-        if (state) shape = held.finished(*state, apart, lambda, options.prove);
-        if (shape && shape->error_bound < furthest)
-            result.shapes.push_back(std::move(*shape));
-        else
-            result.missing.push_back(k);
-    }
-    return result;
-}
-
-}  // namespace finite
-
-/// Steady shapes of a chain whose lower end too is held on the axis, `span` below its upper end, at a conical height:
-/// the blade of a wind turbine (troposkien), a skipping rope with gravity along its axis. 0 stands for no gravity: then
-/// shapes do not depend on the speed. For each number of half waves up to `options.most_half_waves`, the shape that is
-/// reached from the nearly straight chain without gravity by drawing the ends together, then letting gravity grow. In
-/// all of them every link is in tension, as threads must be.
+/// Steady shapes at finite amplitude (troposkien). For a span: for each number of half waves the shape that is reached
+/// from the nearly straight chain without gravity by drawing the ends together, then letting gravity grow. For a
+/// tension: every shape on that branch with this tension at the upper end. In all of them every link is in tension, as
+/// threads must be. `missing` lists the half waves for which none was found. `complete` is always false: completeness
+/// has not been proved.
 ///
-/// Method: two forces at the lower end as unknowns, exact derivatives of the upward sweep of Greenhill (1908) §8 (21),
-/// a curve followed by its arc in double, Newton's method in two words, Krawczyk's test in intervals of two words.
-/// Accuracy: the inclinations correctly rounded but for 1e-20 (tests/cpp/paper/section_5_held_chain.cpp), the bound
-/// proved mostly. That there are no others is not shown. Cost: some 100 sweeps of 0.1 microseconds a link.
-/// Throws InvalidArgument for a span that is not positive and less than the length, a height that is negative or not
-/// finite, and weights more than 1e123 apart.
-inline HeldShapes held_shapes(const Chain<double>& chain, double span, double conical_height,
-                              const HeldOptions& options = {}) {
-    if (!(conical_height >= 0 && std::isfinite(conical_height)))
-        detail::throw_invalid("held_shapes", "conical height must not be negative, and finite", conical_height);
-    return finite::held_shapes(chain, span, Wide<double>(conical_height), options);
+/// `HeldShape` (finite/held/shape.hpp) and `HeldCordShape` (finite/held/cord.hpp) give forces times the conical height.
+/// Divide by `conical_height` for the unit of the weights; without gravity multiply by the square of the speed for
+/// newtons. A branch has a narrow range of tensions: those of the skipping rope lie between 1/(pi k)^2 and 1/(8 k^2) of
+/// mass times length times the speed squared, k the half waves. With gravity the tension is largest inside the branch,
+/// so that two spans have the same tension.
+/// Method for chains: the two forces at the lower end are the unknowns of the upward sweep of Greenhill (1908) section
+/// 8 (21), with exact derivatives. A curve is followed by its arc in double, Newton's method takes over in
+/// double-double, and Krawczyk's test in intervals of double-double proves the bound. For cords: power series of degree
+/// 24; without gravity the shape is that of section 5, y = b sn(K x/a).
+/// Accuracy: inclinations of chains are correctly rounded but for 1e-20, the bound mostly proved (tests/cpp/held.cpp);
+/// places of cords are within 1e-13 of the length, the bound an estimate. A tension is met to 1e-15 of it.
+/// Cost: about 100 sweeps of 0.1 microseconds a link, or 100 paths of 20 microseconds for a cord; for a tension the
+/// whole branch, some thousand sweeps.
+/// Throws InvalidArgument where the speed is not given as above or is not positive and finite, where g/n^2 leaves the
+/// range of double, for `max_half_waves` below 1, and for weights more than 1e123 apart.
+HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options = {});
+HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options = {});
+
+/// Whirl modes of small amplitude of the straight chain under a tension, slowest first; `first`, `count` and windows
+/// choose them as they do for a hanging chain. In `shapes` both ends are 0, the largest offset is 1, and that of the
+/// lowest free pin is positive; nodes are distances from the lower end. Shapes of finite amplitude begin at these
+/// heights, where the span is all but the length.
+///
+/// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
+/// doubles enclose the height. Accuracy: 1 ulp, which is the error bound; shapes 1e-13 over the relative gap to the
+/// next height. Cost: 60 sweeps for each height, one for each shape. `method` and `other` of the options have no
+/// effect.
+/// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), without gravity (the
+/// result holds conical heights), for a tension that does not exceed the weight (the chain would not be straight), for
+/// `certify`, and for wrong numbers and windows as `modes` of a chain does. N links have N - 1 modes, less one for each
+/// free pin without mass.
+Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options = {});
+
+/// The number of modes of the straight chain under tension that are slower than a speed, counted in double-double: a
+/// height that agrees with one of the chain's to 1e-24 may be counted on either side. Cost: 0.1 microseconds a link.
+/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and as `modes` does.
+Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options);
+
+/// Throws InvalidArgument: modes of a cord under tension are not available; cut the cord into links.
+Modes<double> modes(const Held<Cord>& held, const ModesOptions<double>& options = {});
+Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
+
+/// Throws InvalidArgument: a held chain or cord cannot be tuned yet.
+template <class System>
+Tuned tune(const Held<System>&, const TuneOptions&) {
+    detail::throw_invalid("tune", "a Held cannot be tuned yet; change its system and ask modes or steady_shapes again");
 }
 
-/// The same at a speed in rad/s; `gravity` may be 0.
-inline HeldShapes held_shapes_at_speed(const Chain<double>& chain, double span, double angular_speed, double gravity,
-                                       const HeldOptions& options = {}) {
-    detail::require_positive("held_shapes_at_speed", "angular speed", angular_speed);
-    if (gravity == 0) return finite::held_shapes(chain, span, Wide<double>(0), options);
-    detail::require_positive("held_shapes_at_speed", "gravity", gravity);
-    return finite::held_shapes(chain, span, finite::height_at_speed(angular_speed, gravity), options);
-}
-
-/// Shapes for a given tension at the upper end instead of the span: `height_times_tension` is conical height times
-/// tension, of weights; without gravity, of masses, tension over the square of the speed. A branch has a narrow range
-/// of these: of the skipping rope, from 1/(pi k)^2 to 1/(8 k^2) of weight times length; with gravity it is largest in
-/// between, so that two spans go with one tension. The tension is met to 1e-15 of it, the span as well as that tells
-/// it.
-/// Cost: the whole branch, some thousand sweeps.
-inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double height_times_tension,
-                                            double conical_height, const HeldOptions& options = {}) {
-    using S = Wide<double>;
-    constexpr std::string_view place = "held_shapes_under_tension";
-    detail::require_positive(place, "height times tension", height_times_tension);
-    if (!(conical_height >= 0 && std::isfinite(conical_height)))
-        detail::throw_invalid(place, "conical height must not be negative, and finite", conical_height);
-    if (options.most_half_waves < 1)
-        detail::throw_invalid(place, "most half waves must be at least 1", options.most_half_waves);
-    finite::HeldChain held(chain);
-    const ChainUnits units = held.links().units;
-    const double wanted = std::ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
-                 lambda = std::ldexp(conical_height, -units.length_exponent);
-    HeldShapes result;
-    for (int k = 1; k <= options.most_half_waves; ++k) {
-        const std::size_t before = result.shapes.size();
-        for (const double share : {0.9, 0.5, 0.99, 0.1}) {
-            auto state = held.weightless(k, held.length() * S(share));
-            if (state && lambda > 0) state = held.curve().to_height(*state, lambda);
-            if (!state) continue;
-            held.curve().under(*state, wanted, [&](const finite::HeldState& found) {
-                auto shape = held.finished(found, S(found.span), S(lambda), options.prove);
-                if (shape && shape->error_bound < finite::furthest) result.shapes.push_back(std::move(*shape));
-            });
-            break;
-        }
-        if (result.shapes.size() == before) result.missing.push_back(k);
-    }
-    return result;
+/// Throws InvalidArgument: there is one method for each question about a held chain or cord.
+template <class System>
+Explanation explain(const Held<System>&, const ModesOptions<double>& = {}) {
+    detail::throw_invalid("explain", "modes of a Held have one method, bisection; there is no choice to explain");
 }
 
 }  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/questions/held.hpp"
+#endif

@@ -3,43 +3,47 @@
 
 #include "revchain/conical_pendulum.hpp"
 
-/// An endless chain that runs round in a circle, the rim of a wheel, a tyre; and the straight string of small whirl.
-/// Greenhill (1908) §5 (3)-(6). Tensions as lengths h of chain that weigh as much. Accuracy: 3 ulp. All throw
-/// InvalidArgument unless every argument is positive and finite.
+/// A closed chain that runs round in a circle, such as the rim of a wheel, and a nearly straight vibrating string.
+///
+///     revchain::hoop::tension(20.0);          // 40.7886 m of rim weigh as much as the tension at 20 m/s
+///     revchain::hoop::speed(10000.0);         // 313.156 m/s: a rim with a breaking length of 10 km bursts
+///
+/// Greenhill (1908) §5 (3)-(6). A tension is given as the length h of chain that weighs as much. Units: any consistent
+/// set. Accuracy: 3 ulp. All functions are O(1) and throw InvalidArgument unless every argument is positive and finite.
 namespace revchain::hoop {
 
-/// h = v^2 / g, of the speed along the rim; the circle may have any radius. §5 (6)
+/// h = v^2 / g of a rim that runs with speed v; the same for every radius. §5 (6)
 template <Real T>
 T tension(const T& speed, const T& gravity = T(conical_pendulum::standard_gravity)) {
-    detail::require_positive("hoop::tension", "speed", speed);
-    detail::require_positive("hoop::tension", "gravity", gravity);
+    detail::require_positive("hoop::tension", "speed", speed, "gravity", gravity);
     return speed / gravity * speed;
 }
 
-/// v = sqrt(g h): of the rim where the tension is h; with h the breaking length, at which it bursts; and of transverse
-/// waves along a string so stretched, relative to it. §5 (3), (6)
+/// v = sqrt(g h): the speed of a rim whose tension is h, and the speed of transverse waves relative to a string with
+/// that tension. With the breaking length for h it is the speed at which the rim bursts. §5 (3), (6)
 template <Real T>
 T speed(const T& tension, const T& gravity = T(conical_pendulum::standard_gravity)) {
     using std::sqrt;
-    detail::require_positive("hoop::speed", "tension", tension);
-    detail::require_positive("hoop::speed", "gravity", gravity);
+    detail::require_positive("hoop::speed", "tension", tension, "gravity", gravity);
     return sqrt(tension) * sqrt(gravity);
 }
 
-/// In space, of the waves on a rim that runs with `speed`: those against it stand still and are seen, those with it run
-/// twice as fast. §5, after (6)
+/// Speeds in space of the two waves on a rim.
 template <Real T>
 struct WaveSpeeds {
-    T standing, running;
+    T standing;  ///< of the wave that runs against the rim: 0, so that it can be seen
+    T running;   ///< of the wave that runs with the rim: twice its speed
 };
+
+/// Speeds of the waves on a rim that runs with `speed`. §5, after (6)
 template <Real T>
 WaveSpeeds<T> wave_speeds(const T& speed) {
     detail::require_positive("hoop::wave_speeds", "speed", speed);
     return {T(0), T(2) * speed};
 }
 
-/// Revolutions (or double vibrations) per second of a nearly straight string in one half wave: v / (2 span) with
-/// v = sqrt(g h); the paper's R = sqrt(g h / a^2) / 4 with span 2 a. §5 (3)
+/// Revolutions (or complete vibrations) per second of a nearly straight string in one half wave: sqrt(g h) / (2 span).
+/// With span 2a this is the paper's R = sqrt(g h / a^2) / 4. §5 (3)
 template <Real T>
 T string_revolutions_per_second(const T& span, const T& tension,
                                 const T& gravity = T(conical_pendulum::standard_gravity)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/count.hpp"
+#include "revchain/linear/lazy_mode_shapes.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/status.hpp"
 
@@ -19,32 +21,36 @@
 ///     m.angular_speed(9.80665)[0];   // 3.80868 rad/s, the slowest mode
 ///     m.conical_height[0];           // 0.67604 = g/n^2, in the unit of the lengths
 ///     m.error_bound[0];              // its relative error is at most 4.4e-16: proved
-///     m.shape.row(0);                // offsets of the pins, free end first
+///     m.shape(0);                    // offsets of the pins, free end first; computed now
 ///
 /// Greenhill (1908) section 8 (21) with sec delta = 1. The whirl speed of small amplitude of a chain hung from a fixed
 /// point is the natural angular frequency of its plane swing.
 namespace revchain {
 
-/// How conical heights are found. Every method proves its bounds.
+/// How conical heights are found.
 enum class ModesMethod {
-    automatic,  ///< the cheapest method below that keeps the tolerance
-    bisection,  ///< bisection on counts of modes: any chain, any modes, any tolerance
-    blocks,     ///< the chain is condensed first: a few of the slowest modes of a long chain, to 2 ulp
-    together,   ///< all modes of a small chain at once (Ehrlich and Aberth), to some 20 ulp
-    spectrum,   ///< the characteristic polynomial is interpolated: many modes
+    automatic,     ///< the cheapest method that keeps the tolerance (explain.hpp lists them with their costs)
+    bisection,     ///< bisection on counts of modes: any chain, any modes, any tolerance
+    condensed,     ///< the chain is condensed to blocks first: a few of the slowest modes of a long chain, to 2 ulp
+    aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth), to some 20 ulp
+    interpolated,  ///< the characteristic polynomial is interpolated: many modes
 };
+
+/// As `ModesOptions::count`: every mode there is.
+inline constexpr Index all_modes = std::numeric_limits<Index>::max();
 
 /// Which modes, and how accurately. Modes are chosen by number (`first`, `count`) or by one window, not both.
 template <Real T>
 struct ModesOptions {
     Index first = 1;                                  ///< number of the first mode, from 1 for the slowest
-    std::optional<Index> count{};                     ///< number of modes from `first` on; absent: all
+    std::optional<Index> count{};                     ///< number of modes from `first` on; absent: 10, or all if fewer
     std::optional<HeightWindow<T>> conical_height{};  ///< window low < conical height <= high
     std::optional<SpeedWindow<T>> angular_speed{};    ///< window low <= whirl speed < high
-    std::optional<T> rtol{};       ///< relative tolerance of the conical heights; absent: as accurate as T allows
-    bool shapes = true;            ///< also find shapes, residuals and nodes
-    bool certify = false;          ///< also return `Certificate`: intervals that hold the heights, with the counts
-    Progress* progress = nullptr;  ///< read and cancelled from another thread
+    std::optional<T> rtol{};  ///< relative tolerance of the conical heights; absent: as accurate as T allows
+    bool certify = false;     ///< also return `Certificate`: intervals that hold the heights, with the counts
+    T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed and for rigs with flywheels
+    bool other = true;                                  ///< rigs: also list what is no steady motion
+    Progress* progress = nullptr;                       ///< read and cancelled from another thread
     /// A method that cannot serve the chain is replaced by bisection; `Modes::method` says which one was used.
     ModesMethod method = ModesMethod::automatic;
 };
@@ -60,23 +66,33 @@ struct Certificate {
     Vector<Index> above_upper;
 };
 
+/// Shapes of k modes of a chain of N links.
+template <Real T>
+struct ModeShapes {
+    Table<T> offset;     ///< (k, N+1) of the pins, free end first, support last (0); largest |offset| = 1, free end
+                         ///< positive
+    Vector<T> residual;  ///< (k,) force left unbalanced at a pin, relative to the forces that meet there
+    std::vector<Vector<T>> nodes;  ///< k lists: distances from the free end where the mode crosses the axis
+};
+
 /// Whirl modes of a chain, slowest first. The k-th slowest mode is at index k - first. A window may hold no mode;
 /// `first` is then the number of the next faster mode.
 template <Real T>
 struct Modes {
-    Index first = 1;           ///< number of the slowest mode here
-    Vector<T> conical_height;  ///< (k,) lambda, descending, in the chain's unit of length
-    Vector<T> error_bound;     ///< (k,) relative to the exact conical height of the stored numbers; proved by counts
-    Table<T> shape;      ///< (k, N+1) offsets of the pins, free end first, support last (0); largest |offset| = 1,
-                         ///< free end positive; empty without shapes
-    Vector<T> residual;  ///< (k,) force left unbalanced at a pin, relative to the forces that meet there
-    std::vector<Vector<T>> nodes;  ///< k lists: distances from the free end where the mode crosses the axis
-    Certificate<T> certificate;    ///< empty unless asked for
-    std::string method;
+    Index first = 1;               ///< number of the slowest mode here
+    Vector<T> conical_height{};    ///< (k,) lambda, descending, in the chain's unit of length
+    Vector<T> error_bound{};       ///< (k,) relative to the exact conical height of the stored numbers
+    Certificate<T> certificate{};  ///< empty unless asked for
+    std::string method{};          ///< that found the heights
     Status status = Status::success;
+    detail::LazyModeShapes<T> lazy_shapes{};  ///< behind `shapes` and `shape`
 
     Index size() const { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
+    /// All shapes, computed when first asked for and kept. Threads may share the result.
+    const ModeShapes<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes.all(size(), progress); }
+    /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
+    Vector<T> shape(Index j) const { return lazy_shapes.one(size(), j); }
     /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.
     Vector<T> angular_speed(const T& gravity = T(conical_pendulum::standard_gravity)) const {
         return each(gravity, &conical_pendulum::angular_speed<T>);
@@ -97,17 +113,21 @@ struct Modes {
     }
 };
 
-/// The modes chosen by `options`, with shapes and bounds.
+/// The modes chosen by `options`; their shapes are computed when they are asked for.
 ///
+/// `rtol` decides the cost: the cheapest method is taken whose bound keeps it, from closed forms, zeros of Bessel
+/// functions and coarse chains to the numerical methods of `ModesMethod`; `method` in the result names it.
 /// Windows are decided by proved counts (`ModeCounter::within`), not by the rounded heights that are returned.
-/// Accuracy: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up to 1e5, ten kinds
-/// of chain: tests/cpp/modes.cpp); the bound is 2 ulp and proved. A looser `rtol` is kept by the bound. Shapes are
-/// within 3.5e-16 of the largest offset, and with a looser `rtol` within rtol / (gap to the next height). Where
-/// `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
-/// Method: `ModesMethod`. Bisection counts modes in T at eight shifts in one pass; then come a twisted vector, its
-/// Rayleigh quotient in `Wide<T>`, two proved counts and the shape in `Wide<T>`. A chain of floats is solved in double.
-/// Cost in double: 0.55 microseconds a link and mode with shapes, 0.3 without; 0.25 and 0.005 for many modes. Memory
-/// O(N k).
+/// Accuracy without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up
+/// to 1e5, ten kinds of chain: tests/cpp/modes.cpp), the bound at most 2 ulp and proved by counts. With `rtol` the
+/// bound keeps it. It is proved by counts for the methods of `ModesMethod` and for coarse chains, and derived and
+/// measured to hold for closed forms, continuous chains and asymptotic formulas; `certify` proves it for all.
+/// Shapes are within 3.5e-16 of the largest offset, and with a looser `rtol` within rtol / (gap to the next height).
+/// Where `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
+/// Numerical methods count modes in T at eight shifts in one pass; then come a twisted vector, its Rayleigh quotient in
+/// `Wide<T>` and two proved counts. A chain of floats is solved in double. In long double and wider scalars, heights
+/// come from bisection.
+/// Cost in double: 0.3 microseconds a link and mode, 0.005 for many modes; shapes 0.25. Memory O(N k) with shapes.
 /// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window that is empty by its ends,
 /// numbers together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
 /// status is `Status::tolerance_not_met` and the bounds are those reached.
@@ -123,5 +143,5 @@ extern template Modes<double> modes(const Chain<double>&, const ModesOptions<dou
 extern template Modes<long double> modes(const Chain<long double>&, const ModesOptions<long double>&);
 }  // namespace revchain
 #else
-#include "revchain/linear/modes.hpp"
+#include "revchain/questions/modes.hpp"
 #endif

@@ -3,19 +3,27 @@
 
 #include "revchain/chain.hpp"
 
+/// The general recurring relation of the paper as a dense pencil of matrices.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::plummet(1.0, 0.5)});
+///     const auto pencil = revchain::recurrence_matrices(chain);
+///     pencil.A(1, 0);  // 1: the weight below the upper pin
+///
+/// Greenhill (1908) §8 (21) with sec delta = 1. The library solves element pencils (`modes`); this one is coded
+/// separately as an independent check.
 namespace revchain {
 
-/// Greenhill's general recurring relation as a dense pencil A y = lambda B y in the pin offsets y_0 ... y_{N-1}.
+/// A y = lambda B y in the offsets y_0 ... y_{N-1} of the pins, free end first.
 template <Real T>
 struct RecurrencePencil {
     Matrix<T> A;  ///< (N, N), weights
     Matrix<T> B;  ///< (N, N), weight / length
 };
 
-/// Greenhill (1908) §8 (21) for sec delta = 1, as printed but for two corrections: h_{m-2}/a_{m-1} reads
-/// h_{m-2}/a_{m-2}, and y_0 is kept as an unknown instead of 1 + h_1/(lambda - l_1), which makes the relation linear in
-/// lambda. Row m - 1 is the moment about pin m of everything below it (m = 1: (10), m = 2: (12), m = 3: (19)).
-/// A row summation of the element pencil, coded apart from it as an independent check. Cost and memory O(N^2).
+/// The pencil of a chain. Row m - 1 is the moment about pin m of everything below it; m = 1 is (10), m = 2 is (12),
+/// m = 3 is (19). Two things differ from the printed relation: h_{m-2}/a_{m-1} is corrected to h_{m-2}/a_{m-2}, and
+/// y_0 stays an unknown in place of 1 + h_1/(lambda - l_1), which makes the relation linear in lambda.
+/// Cost and memory O(N^2).
 template <Real T>
 RecurrencePencil<T> recurrence_matrices(const Chain<T>& chain) {
     const Index n = chain.size();

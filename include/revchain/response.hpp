@@ -1,26 +1,35 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
-#include <numeric>
 #include <optional>
 #include <vector>
 
+#include "revchain/chain.hpp"
 #include "revchain/conical_pendulum.hpp"
-#include "revchain/linear/driven_chain.hpp"
 #include "revchain/numeric/progress.hpp"
+#include "revchain/rig.hpp"
 
+/// Forced motion of small amplitude of a chain whose support moves on a circle, or to and fro (base excitation).
+///
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
+///     const auto r = revchain::response(chain, {.angular_speed = {2.0, 5.0}, .support_radius = 0.01});
+///     r.offset(0, 0);       // 0.0145272 m: the free end at 2 rad/s, on the side of the support
+///     r.reversed[1];        // 1: at 5 rad/s it is opposite to the support
+///     r.modes_below[1];     // 1 mode is slower than 5 rad/s
 namespace revchain {
 
+/// The speeds of the support, how far it moves, and which pins are wanted.
 struct ResponseOptions {
+    std::vector<double> conical_height{};      ///< of the speeds: give these or `angular_speed`
+    std::vector<double> angular_speed{};       ///< rad/s; with a flywheel, negative ones turn the other way
     double support_radius = 1;                 ///< of the circle, or the amplitude to and fro
     std::optional<std::vector<Index>> pins{};  ///< only of these, in any order, 0 the free end; absent: of all
-    double gravity = conical_pendulum::standard_gravity;
-    Progress* progress = nullptr;  ///< watched and stopped from another thread
+    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+    Progress* progress = nullptr;                         ///< read and cancelled from another thread
 };
 
-/// Steady motion of small amplitude of a chain whose support is carried round a circle; one row for each speed.
-/// To and fro along a line the numbers are the same, as amplitudes: offsets and forces then go with cos(n t).
+/// Steady forced motion of small amplitude; one row for each speed. To and fro along a line the numbers are the same,
+/// as amplitudes: offsets and forces then go with cos(n t).
 struct Response {
     std::vector<Index> pins;
     Table<double> offset;          ///< (speeds, pins) towards where the support is; NaN at resonance
@@ -32,182 +41,27 @@ struct Response {
     Vector<double> support_force_error;  ///< bound, in the unit of the weights
 };
 
-namespace detail {
-
-inline void require_height(std::string_view place, const Wide<double>& scaled, double given, std::string_view name) {
-    if (!(scaled.high > 0x1p-250 && scaled.high < 0x1p250))
-        throw_invalid(place, std::string(name) + " must not be that far from the chain's own", given);
-}
-
-/// Heights and speeds in the units of a chain.
-template <class Carried>
-std::vector<Driving> drives(const Carried& carried, const std::vector<double>& given, bool speeds, double gravity) {
-    using S = Wide<double>;
-    constexpr std::string_view place = "response";
-    const char* name = speeds ? "angular speed" : "conical height";
-    const bool either_sense = speeds && tells_senses_apart(carried);
-    require_positive(place, "gravity", gravity);
-    const int down = -base_chain(carried).units().length_exponent;
-    std::vector<Driving> result;
-    result.reserve(given.size());
-    for (const double x : given) {
-        if (either_sense && x < 0)
-            require_positive(place, name, -x);
-        else
-            require_positive(place, name, x);
-        const S height = speeds ? S(gravity) / S(x) / S(x) : S(x);
-        const S swing = speeds ? S(gravity) / S(x) : sqrt(S(gravity) * height);
-        result.push_back({ldexp(height, down), ldexp(swing, down)});
-        require_height(place, result.back().height, x, name);
-    }
-    return result;
-}
-
-/// Where the offsets asked for come from.
-struct PinsAsked {
-    std::vector<Index> asked;
-    pencil::DrivenPins wanted;
-    std::vector<std::vector<Index>> columns;  ///< of each pin wanted
-    std::vector<Index> carried_columns;       ///< of the moved end itself
-};
-
-/// Of a chain with so many `links`: pins of links left out as idle are where the lowest of those left is.
-inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
-    const std::size_t below = chain.elements.size();
-    const auto place = [&](Index pin) { return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle)); };
-    PinsAsked result;
-    if (options.pins) {
-        result.asked = *options.pins;
-    } else {
-        result.asked.resize(static_cast<std::size_t>(links) + 1);
-        std::iota(result.asked.begin(), result.asked.end(), Index(0));
-    }
-    for (const Index pin : result.asked) {
-        if (pin < 0 || pin > links)
-            throw_invalid("response", "pins must be numbers from 0 to " + std::to_string(links), pin);
-        if (place(pin) < below) result.wanted.pins.push_back(place(pin));
-    }
-    auto& pins = result.wanted.pins;
-    std::sort(pins.begin(), pins.end());
-    pins.erase(std::unique(pins.begin(), pins.end()), pins.end());
-    result.columns.resize(pins.size());
-    for (std::size_t column = 0; column < result.asked.size(); ++column) {
-        const std::size_t pin = place(result.asked[column]);
-        if (pin >= below) {
-            result.carried_columns.push_back(static_cast<Index>(column));
-        } else {
-            const auto at = std::lower_bound(pins.begin(), pins.end(), pin) - pins.begin();
-            result.columns[static_cast<std::size_t>(at)].push_back(static_cast<Index>(column));
-        }
-    }
-    return result;
-}
-
-/// Stores what was found of one speed.
-inline void store(Response& result, Index row, const pencil::Driven& found, const Driving& at, const DrivenChain& chain,
-                  double radius) {
-    constexpr double infinity = std::numeric_limits<double>::infinity(),
-                     unknown = std::numeric_limits<double>::quiet_NaN();
-    const bool finite = found.decided && result.offset.row(row).allFinite();
-    result.resonant[static_cast<std::size_t>(row)] = found.decided ? 0 : 1;
-    result.modes_below[row] = found.negative - chain.standing;
-    result.reversed[static_cast<std::size_t>(row)] = found.decided && found.reversed ? 1 : 0;
-    if (!finite) {
-        result.offset.row(row).setConstant(unknown);
-        result.error_bound[row] = infinity;
-        result.support_force[row] = unknown, result.support_force_error[row] = infinity;
-        return;
-    }
-    const double rounding = 0x1.00001p-53 + std::numeric_limits<double>::denorm_min() / radius;
-    result.error_bound[row] = found.error_bound * (1 + 0x1p-50) + rounding;
-    const double over = std::ldexp(radius / at.height.high, chain.units.weight_exponent - chain.units.length_exponent);
-    result.support_force[row] = -found.stiffness * over;
-    result.support_force_error[row] = found.stiffness_error * over * (1 + 0x1p-40) +
-                                      0x1p-50 * std::abs(result.support_force[row]) +
-                                      std::numeric_limits<double>::denorm_min();
-}
-
-template <class Carried>
-Response responses(const Carried& carried, const std::vector<double>& given, bool speeds,
-                   const ResponseOptions& options) {
-    require_positive("response", "support radius", options.support_radius);
-    const double radius = options.support_radius;
-    const std::vector<Driving> at = drives(carried, given, speeds, options.gravity);
-    const DrivenChain chain = driven_chain(carried);
-    PinsAsked pins = pins_asked(options, base_chain(carried).size(), chain);
-
-    const auto rows = static_cast<Index>(at.size()), columns = static_cast<Index>(pins.asked.size());
-    Response result{pins.asked,           Table<double>(rows, columns), Vector<double>(rows),
-                    Vector<Index>(rows),  std::vector<char>(at.size()), std::vector<char>(at.size()),
-                    Vector<double>(rows), Vector<double>(rows)};
-    for (const Index column : pins.carried_columns) result.offset.col(column).setConstant(radius);
-    const auto put = [&](Index row, std::size_t which, const Wide<double>& y) {
-        const double offset = (y * radius).high;
-        for (const Index column : pins.columns[which]) result.offset(row, column) = offset;
-    };
-    std::vector<Index> left;
-    const auto take = [&](Index row, const pencil::Driven& found) {
-        store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
-        if (!found.decided) left.push_back(row);
-    };
-    if (chain.one_unit) {
-        driven_by_lanes(chain, at, pins.wanted, put, take, options.progress);
-    } else {
-        left.resize(at.size());
-        std::iota(left.begin(), left.end(), Index(0));
-    }
-    for (const Index row : left) {
-        std::size_t which = pins.wanted.pins.size();
-        const auto found = pencil::driven(chain.elements, at[static_cast<std::size_t>(row)],
-                                          [&](std::size_t pin, const Wide<double>& y) {
-                                              if (which == 0 || pins.wanted.pins[which - 1] != pin) return;
-                                              put(row, --which, y);
-                                          });
-        for (const Index column : pins.carried_columns) result.offset(row, column) = radius;
-        store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
-        for (const Index column : pins.carried_columns) result.offset(row, column) = radius;
-        advance(options.progress, 1.0);
-    }
-    return result;
-}
-
-}  // namespace detail
-
-/// What a chain does whose support is carried round a circle of radius b (or to and fro) at given conical heights, once
-/// free motions have died away: small amplitudes, K y = M y / lambda with y = b at the support. A `Rig` as well as a
-/// `Chain`: on a spring it is the spring's place of rest that is carried round. Lowest links that weigh nothing in a
-/// fluid that turns with them hang along with the link above; where that is so of all, straight below what carries
-/// them.
+/// Forced motion of a chain whose support is carried round a circle of radius b, once free motions have died away:
+/// K y = M y / lambda with y = b at the support. Greenhill (1908) §1 (9), for one plummet: b lambda / (lambda - l).
 ///
-/// Method: the dynamic stiffness of what hangs below a pin is carried up in words of two doubles, several speeds to a
-/// pass, and with it a bound of its error; ratios of neighbouring offsets lead down again. What that leaves in doubt,
-/// next to a resonance or where a pin is all but a node, is done once more by intervals.
-/// Accuracy: offsets half an ulp of themselves until within 1e-12 or so of a resonance, `error_bound` proved whatever
-/// the chain. Counts of modes are proved with them: below every resonance a chain goes with its support, and each one
+/// The dynamic stiffness of all that hangs below a pin is carried up in double-double, several speeds to a pass, with a
+/// bound of its error; ratios of neighbouring offsets lead down again. Speeds left in doubt, next to a resonance or
+/// where a pin is nearly a node, are done once more in interval arithmetic.
+/// Accuracy: half an ulp of each offset until within about 1e-12 of a resonance; `error_bound` is proved for every
+/// chain. Counts of modes are proved with them: below every resonance a chain goes with its support, and each resonance
 /// passed turns it round.
-/// Cost: 10 to 40 ns for each link and speed where registers hold eight doubles, twice that where two
-/// (bench/response.cpp: the more where all pins are kept, and where a long chain asks for the sharper bound); memory
-/// the result, less where `pins` asks for a few.
-/// Throws InvalidArgument for heights, radius or gravity that are not positive and finite or out of all proportion to
-/// the chain (2^250), and for pins there are not. Greenhill (1908) §1 (9), for one plummet: b lambda / (lambda - l).
-inline Response response(const Chain<double>& chain, const std::vector<double>& conical_height,
-                         const ResponseOptions& options = {}) {
-    return detail::responses(chain, conical_height, false, options);
-}
-inline Response response(const Rig& rig, const std::vector<double>& conical_height,
-                         const ResponseOptions& options = {}) {
-    return detail::responses(rig, conical_height, false, options);
-}
+/// Cost: 10 to 40 ns for each link and speed with SIMD registers of eight doubles, twice that with two
+/// (bench/response.cpp); memory that of the result, less where `pins` asks for a few.
+/// Throws InvalidArgument where heights and speeds are both given, for heights, radius or gravity that
+/// are not positive and finite or beyond 2^250 times the chain's own, and for pins the chain does not have.
+Response response(const Chain<double>& chain, const ResponseOptions& options);
 
-/// The same at given angular speeds: a flywheel tells one sense from the other, speeds of a rig that has one may be
-/// negative.
-inline Response response_at_speed(const Chain<double>& chain, const std::vector<double>& angular_speed,
-                                  const ResponseOptions& options = {}) {
-    return detail::responses(chain, angular_speed, true, options);
-}
-inline Response response_at_speed(const Rig& rig, const std::vector<double>& angular_speed,
-                                  const ResponseOptions& options = {}) {
-    return detail::responses(rig, angular_speed, true, options);
-}
+/// The same for a rig. On a spring it is the spring's place of rest that is carried round. Lowest links that weigh
+/// nothing in a fluid that turns with them hang along with the link above.
+Response response(const Rig& rig, const ResponseOptions& options);
 
 }  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/questions/response.hpp"
+#endif

@@ -2,7 +2,7 @@
 #pragma once
 
 // Everything that needs Eigen alone, except what solves dense eigenproblems, which costs seconds of compile time:
-// linear/dense_reference.hpp, linear/rig_modes.hpp, finite/stability/*.hpp, models/with_dense.hpp. What needs GSL is in
+// questions/dense_reference.hpp, rig_modes.hpp, finite/stability/*.hpp, models/with_dense.hpp. What needs GSL is in
 // revchain/analytic.hpp.
 
 #include "revchain/bell.hpp"                           // IWYU pragma: export
@@ -14,16 +14,12 @@
 #include "revchain/explain.hpp"                        // IWYU pragma: export
 #include "revchain/finite/branch/shape_on_branch.hpp"  // IWYU pragma: export
 #include "revchain/finite/cord/continuous_chain.hpp"   // IWYU pragma: export
-#include "revchain/finite/held/cord.hpp"               // IWYU pragma: export
 #include "revchain/held.hpp"                           // IWYU pragma: export
 #include "revchain/hoop.hpp"                           // IWYU pragma: export
-#include "revchain/linear/rig_sensitivity.hpp"         // IWYU pragma: export
-#include "revchain/linear/sensitivity.hpp"             // IWYU pragma: export
-#include "revchain/linear/uncertainty.hpp"             // IWYU pragma: export
+#include "revchain/sensitivity.hpp"         // IWYU pragma: export
 #include "revchain/models/heights.hpp"                 // IWYU pragma: export
 #include "revchain/modes.hpp"                          // IWYU pragma: export
 #include "revchain/numeric/double_double.hpp"          // IWYU pragma: export
-#include "revchain/paper/two_links_shapes.hpp"         // IWYU pragma: export
 #include "revchain/recurrence.hpp"                     // IWYU pragma: export
 #include "revchain/response.hpp"                       // IWYU pragma: export
 #include "revchain/rig.hpp"                            // IWYU pragma: export

@@ -1,251 +1,97 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <cmath>
-
-#include "revchain/finite/shapes/described.hpp"
 #include "revchain/modes.hpp"
-#include "revchain/numeric/double_word.hpp"
-#include "revchain/numeric/scalar.hpp"
-#include "revchain/numeric/status.hpp"
 #include "revchain/steady_shapes.hpp"
-#include "revchain/two_links.hpp"
 
+/// Force diagrams of steady shapes, and weights on a thread between two supports, at rest and oscillating.
+///
+///     Eigen::VectorXd weight(2), place(4);
+///     weight << 1, 2;
+///     place << 0, 1, 2, 3;  // the first support, both weights, the last support
+///     const auto polygon = revchain::funicular_polygon<double>(weight, place, 4.0);  // horizontal tension 4
+///     polygon.height[1];                                                             // -0.333333
+///     const auto m = revchain::transverse_modes<double>(weight, place, 4.0);
+///     m.conical_height[0];                                                           // 0.394338
+///
+/// Greenhill (1908) §3. Lengths and weights in any units.
 namespace revchain {
 
-/// The graphical construction of a steady shape, Greenhill (1908) §3, Figs. 3 and 5, as data. Links lowest first, pins
-/// free end first; points as rows (x from the axis, z upwards).
+/// The graphical construction of a steady shape, Figs. 3 and 5, as data. Links are listed lowest first, pins free end
+/// first; each row is a point (x from the axis, z upwards).
 ///
-/// Funicular polygon: its vertices are the pins, its sides the links, its loads `load`. Diagram of force: from the pole
-/// O the line of load goes vertically upwards, one segment for each load; rays OQ_m end at the level of the segment's
-/// end. OQ_m is parallel to link m and as long as what pulls along it. Plummets have their weights on the pins and Q_m
-/// is the reaction, too; a link of another kind shares weight and centrifugal force between its pins as balance about
-/// them asks, and the reaction at a pin lies between the rays of the two links that meet there.
+/// The vertices of the funicular polygon are the pins, its sides the links, its loads `load`. In the diagram of force,
+/// the line of load goes vertically upwards from the pole O, with one segment for each load. The ray OQ_m ends at the
+/// level of its segment's end; it is parallel to link m, and its length is the tension along the link. The weight of a
+/// plummet is on its pin, and Q_m is also the reaction. A link of another kind divides its weight and centrifugal force
+/// between its pins by balance about them, and the reaction at a pin lies between the rays of the links that meet
+/// there.
 struct ForceDiagram {
-    Table<double> pin;  ///< (N + 1, 2) vertices of the funicular polygon; the support's 0, 0 last
-    Table<double>
-        load;  ///< (N, 2) on every pin but the support: centrifugal force outwards, weight downwards (negative)
+    Table<double> pin;       ///< (N + 1, 2) vertices; the support (0, 0) last
+    Table<double> load;      ///< (N, 2) on every pin but the support: centrifugal force outwards, weight (negative)
     Table<double> ray;       ///< (N, 2) Q_m from O
-    Table<double> reaction;  ///< (N, 2) at each link's upper pin, on what hangs below it, from O
-    Vector<double> lifted;   ///< (N) x at which each load's line from O meets the horizontal line ON = lambda below O:
-                             ///< of a plummet its own, P lifted vertically onto that line. Infinite where a load has no
-                             ///< weight, the pin's own x where there is no load
-    Table<double>
-        centre_of_gravity;    ///< (N, 2) G_m of link m and all below; H_m level with it on the axis, and K_m lambda
-                              ///< above: G_m K_m is parallel to the reaction, and to the link above a plummet
-    Vector<double> crossing;  ///< (N) z of C_m, where the line of link m meets the axis; infinite where it never does
+    Table<double> reaction;  ///< (N, 2) from O: force at each link's upper pin on all that hangs below it
+    Vector<double> lifted;   ///< (N) x where the line of each load from O meets the horizontal line lambda below O: the
+                             ///< x of a plummet; infinite for a load without weight, the x of the pin without load
+    Table<double> centre_of_gravity;  ///< (N, 2) G_m of link m and all below it. With K_m on the axis lambda above the
+                                      ///< level of G_m, G_m K_m is parallel to the reaction
+    Vector<double> crossing;  ///< (N) z of C_m, where the line of link m meets the axis; infinite if it never does
     double conical_height = 0;
 };
 
-/// The diagram of a shape of this chain. Rays are sums of the loads from below, not taken from the inclinations: that
-/// they are parallel to the links is the proof of the figure, and holds to rounding: to 5 ulp of the sum of all loads'
-/// sizes, measured (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument if the shape has other links than the
-/// chain.
-inline ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape) {
-    const Index n = chain.size();
-    if (shape.inclination.size() != n)
-        detail::throw_invalid("force_diagram", "the shape must be one of the chain's; its number of links is",
-                              shape.inclination.size());
-    const auto exact = finite::links_of(chain);
-    const auto links = finite::rounded<double>(exact.links);
-    const auto weight = [&](double x) { return std::ldexp(x, exact.units.weight_exponent); };
-    ForceDiagram d;
-    d.conical_height = shape.conical_height;
-    d.pin.resize(n + 1, 2), d.load.resize(n, 2), d.ray.resize(n, 2), d.reaction.resize(n, 2);
-    d.lifted.resize(n), d.centre_of_gravity.resize(n, 2), d.crossing.resize(n);
-    d.pin.col(0) = shape.offset, d.pin.col(1) = shape.height;
-    const double lambda = shape.conical_height;
-    double outwards = 0, hung = 0;       // of all loads so far
-    double from_above = 0, carried = 0;  // what the link below puts on the pin
-    double moment_x = 0, moment_z = 0;   // weights times places of the centroids
-    for (Index m = 0; m < n; ++m) {
-        const auto& link = links[static_cast<std::size_t>(m)];
-        const double lower = shape.offset[m], upper = shape.offset[m + 1], across = lower - upper;
-        const double low = shape.height[m], high = shape.height[m + 1];
-        const double at_lower = link.moment * (lower / lambda) - link.cross * (across / lambda);
-        const double at_upper = link.rest * (upper / lambda) + link.cross * (across / lambda);
-        const double force = from_above + at_lower, load = carried + link.moment;
-        d.load.row(m) << weight(force), -weight(load);
-        d.lifted[m] = force == 0 && load == 0 ? lower : lambda * (force / load);
-        outwards += force, hung += load;
-        d.ray.row(m) << -weight(outwards), weight(hung);
-        from_above = at_upper, carried = link.rest;
-        d.reaction.row(m) << -weight(outwards + at_upper), weight(hung + link.rest);
-        moment_x += link.moment * lower + link.rest * upper, moment_z += link.moment * low + link.rest * high;
-        d.centre_of_gravity.row(m) << moment_x / (hung + link.rest), moment_z / (hung + link.rest);
-        d.crossing[m] = upper == 0 ? high : high + upper / across * (high - low);
-    }
-    return d;
-}
+/// The diagram of a steady shape of this chain. Rays are sums of loads and are not computed from inclinations; that
+/// they are parallel to the links proves the figure. It holds to 5 ulp of the sum of all loads' magnitudes
+/// (tests/cpp/statics.cpp). Cost O(N). Throws InvalidArgument unless the shape has as many links as the chain.
+ForceDiagram force_diagram(const Chain<double>& chain, const SteadyShape& shape);
 
-/// The chain's links, each as long only as it reaches down, hung along the axis: its weights transferred to the axis,
-/// level with where they were. Small whirling of that straight chain obeys the very equations of the shape: the shape's
-/// conical height is one of its heights and the shape's offsets are that mode, at any inclination and for links of any
-/// kind. Perpendicular to the turning plane, too, weights and tensions of the shape are as stiff as this chain.
+/// The straight chain whose links are as long as the shape's links are high: all weights moved to the axis, at their
+/// levels. Its mode at the shape's conical height is the shape: offsets agree at any inclination and for links of any
+/// kind. Its stiffness is also the shape's stiffness perpendicular to the turning plane.
 /// Accuracy: lengths to 2 ulp of the shape's heights. Throws InvalidArgument as `force_diagram`.
-inline Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape) {
-    if (shape.inclination.size() != chain.size())
-        detail::throw_invalid("transferred_to_axis", "the shape must be one of the chain's; its number of links is",
-                              shape.inclination.size());
-    std::vector<Link<double>> links;
-    links.reserve(static_cast<std::size_t>(chain.size()));
-    for (Index m = 0; m < chain.size(); ++m) {
-        Link<double> link = chain.link(m);
-        const double cosine = std::cos(shape.inclination[m]);
-        link.length *= cosine, link.centroid *= cosine;  // the ratio of gyration stays
-        links.push_back(link);
-    }
-    return Chain<double>(links);
-}
+Chain<double> transferred_to_axis(const Chain<double>& chain, const SteadyShape& shape);
 
-}  // namespace revchain
-
-namespace revchain::detail {
-
-/// Refuses weights on a string that are not positive, and places, both supports among them, that do not increase.
-template <Real T>
-void check_string(std::string_view where, const Vector<T>& weight, const Vector<T>& place) {
-    using std::isfinite;
-    if (place.size() != weight.size() + 2)
-        throw_invalid(where, "places must be two more than weights: both supports and every weight", place.size());
-    for (Index j = 0; j < weight.size(); ++j) require_positive(where, "weight", weight[j]);
-    for (Index j = 0; j < place.size(); ++j)
-        if (!isfinite(place[j]) || (j > 0 && !(place[j - 1] < place[j])))
-            throw_invalid(where, "places must be finite and increase, place " + std::to_string(j) + " too", place[j]);
-}
-
-}  // namespace revchain::detail
-
-namespace revchain {
-
-/// Weights on a thread between two supports, at rest in a vertical plane: a funicular polygon, from the first support
-/// to the last.
+/// Weights on a thread between two supports, at rest in a vertical plane, from the first support to the last.
 template <Real T>
 struct FunicularPolygon {
-    Vector<T> place;   ///< (n + 2) x of supports and weights
-    Vector<T> height;  ///< (n + 2) z
-    Vector<T>
-        rise;  ///< (n + 1) vertical component of each side's tension: the ray from the pole (0, 0) of the diagram of
-               ///< force ends at (horizontal_tension, rise)
-    Vector<T> tension;       ///< (n + 1) of each side, as long as its ray
+    Vector<T> place;    ///< (n + 2) x of supports and weights
+    Vector<T> height;   ///< (n + 2) z
+    Vector<T> rise;     ///< (n + 1) vertical component of each side's tension; in the diagram of force the ray from
+                        ///< the pole (0, 0) ends at (horizontal_tension, rise)
+    Vector<T> tension;  ///< (n + 1) of each side, the length of its ray
     T horizontal_tension{};  ///< the same in all sides
 };
 
-/// The polygon of given horizontal component of tension, the pole's distance from the line of load: rays from the pole
-/// to the line of load, sides parallel to them. Weights (n) and places (n + 2), supports among them, in any units.
-/// Accuracy: heights to half an ulp and 1e-28 of the drop below the chord. Cost O(n). Throws InvalidArgument unless
-/// weights are positive, places increase and all is finite, heights and tensions too.
+/// The polygon with a given horizontal component of tension: sides are parallel to the rays from the pole to the line
+/// of load. `weight` (n), `place` (n + 2) with both supports.
+/// Accuracy: heights half an ulp and 1e-28 of the drop below the chord. Cost O(n). Throws InvalidArgument unless
+/// weights are positive, places increase, and all numbers, also the results, are finite.
 template <Real T>
 FunicularPolygon<T> funicular_polygon(const Vector<T>& weight, const Vector<T>& place, const T& horizontal_tension,
-                                      const T& first_height = T(0), const T& last_height = T(0)) {
-    using std::hypot;
-    using std::isfinite;
-    constexpr std::string_view where = "funicular_polygon";
-    const Index n = weight.size();
-    detail::check_string(where, weight, place);
-    detail::require_positive(where, "horizontal tension", horizontal_tension);
-    if (!(place.cwiseAbs().maxCoeff() <= std::numeric_limits<T>::max() * epsilon<T>()))
-        detail::throw_invalid(where, "places must not be so near the end of the range of numbers", place[n + 1]);
-    for (const T& height : {first_height, last_height})
-        if (!isfinite(height)) detail::throw_invalid(where, "heights of the supports must be finite", height);
-    FunicularPolygon<T> polygon{place, Vector<T>(n + 2), Vector<T>(n + 1), Vector<T>(n + 1), horizontal_tension};
-    // Moments about the last support: what the first one carries, then weights as they come.
-    const Vector<T>& at = place;
-    using S = Wide<T>;
-    const auto wide = [](const T& x) { return S(static_cast<Narrow<S>>(x)); };
-    const S span = wide(at[n + 1]) - wide(at[0]), pull = wide(horizontal_tension);
-    S lifts = pull * (wide(first_height) - wide(last_height)) / span;
-    for (Index j = 0; j < n; ++j) lifts = lifts + wide(weight[j]) * (wide(at[n + 1]) - wide(at[j + 1])) / span;
-    S rise = -lifts, height = wide(first_height);
-    polygon.height[0] = first_height;
-    for (Index j = 0; j <= n; ++j) {
-        if (j > 0) rise = rise + wide(weight[j - 1]);
-        polygon.rise[j] = static_cast<T>(rise);
-        polygon.tension[j] = hypot(horizontal_tension, polygon.rise[j]);
-        height = height + rise / pull * (wide(at[j + 1]) - wide(at[j]));
-        polygon.height[j + 1] = static_cast<T>(height);
-    }
-    polygon.height[n + 1] = last_height;
-    if (!polygon.height.allFinite() || !polygon.tension.allFinite())
-        detail::throw_invalid(where, "the polygon leaves the range of numbers, with a horizontal tension of",
-                              horizontal_tension);
-    return polygon;
-}
+                                      const T& first_height = T(0), const T& last_height = T(0));
 
-}  // namespace revchain
-
-/// Transverse oscillation of a string of weights held at both ends, and of a funicular polygon perpendicular to its
-/// plane.
-namespace revchain {
-
-/// A string of weights as a chain that hangs: its weights and spacings, the last support above, and at the other end
-/// instead of the first support a weight 2^(digits + 47) times all others together, which stretches it evenly and does
-/// not move, both to less than a rounding of a rounding. Its modes from the second on, heights times `factor`, are
-/// those of the string.
-template <Real T>
-struct StringOfWeights {
-    Chain<T> chain;
-    T factor{};
-};
-
-/// Weights (n) at places (n + 2, both supports among them) on a thread of uniform tension.
-///
-/// Greenhill (1908) §3: the weights of a funicular polygon between two supports, transferred vertically to one
-/// horizontal line and held there on a thread of uniform tension, the horizontal component in the polygon, oscillate as
-/// the weights of the polygon do perpendicular to its plane. Exactly so while oscillations are small: a side of length
-/// a and tension T resists with T/a, which is the horizontal component over the horizontal length.
-/// Throws InvalidArgument unless there are weights, all positive, places increase and all is finite.
-template <Real T>
-StringOfWeights<T> string_of_weights(const Vector<T>& weight, const Vector<T>& place, const T& tension,
-                                     std::string_view where = "string_of_weights") {
-    using std::ldexp;
-    const Index n = weight.size();
-    if (n == 0) detail::throw_invalid(where, "there must be a weight; their number is", n);
-    detail::check_string(where, weight, place);
-    detail::require_positive(where, "tension", tension);
-    const T unit = detail::inverse_power_near(weight.maxCoeff());
-    T total(0);
-    for (Index j = 0; j < n; ++j) total += weight[j] * unit;
-    const T heavy = ldexp(T(1) / detail::inverse_power_near(total), std::numeric_limits<T>::digits + 47);
-    std::vector<Link<T>> links{plummet<T>(heavy, place[1] - place[0])};
-    for (Index j = 0; j < n; ++j) links.push_back(plummet<T>(weight[j] * unit, place[j + 2] - place[j + 1]));
-    return {Chain<T>(links), heavy / (tension * unit)};
-}
-
-/// Small transverse oscillations of a string of weights, slowest first.
+/// Small transverse oscillations of weights on a string, slowest first.
 template <Real T>
 struct TransverseModes {
-    Vector<T> conical_height;  ///< (n) of the pendulum that keeps time with it: period 2 pi sqrt(height/g)
+    Vector<T> conical_height;  ///< (n) of the conical pendulum with the same period
     Vector<T> error_bound;     ///< (n) relative
-    Table<T> shape;            ///< (n, n + 2) of supports and weights; largest 1, the first weight to the positive side
+    Table<T> shape;            ///< (n, n + 2) offsets of supports and weights; largest 1, that of the first weight >= 0
 
+    /// Seconds, 2 pi sqrt(conical_height / g).
     Vector<T> period(const T& gravity = T(conical_pendulum::standard_gravity)) const {
-        Vector<T> seconds(conical_height.size());
-        for (Index k = 0; k < seconds.size(); ++k) seconds[k] = conical_pendulum::period(conical_height[k], gravity);
-        return seconds;
+        return conical_height.unaryExpr([&](const T& height) { return conical_pendulum::period(height, gravity); });
     }
 };
 
-/// All of them, by `modes` of the equivalent chain. Accuracy: heights to 2 ulp (measured;
-/// tests/cpp/finite/funicular_polygon.cpp), within `error_bound`, which adds to the proved bound of `modes` the
-/// roundings of spacings and factor. Throws as string_of_weights does, and where a height is out of range.
+/// All transverse modes of weights on a thread of uniform tension, held at both ends. They are also the modes of a
+/// funicular polygon with this horizontal tension, perpendicular to its plane: a side of length a and tension T resists
+/// with T/a, which is the horizontal component over the horizontal length. `weight` (n), `place` (n + 2) with both
+/// supports. The modes are those of an equivalent hanging chain (`modes`).
+/// Accuracy: heights 2 ulp (tests/cpp/statics.cpp), within `error_bound`, which is the proved bound of
+/// `modes` plus the roundings of spacings and unit. Throws InvalidArgument unless there are weights, all positive,
+/// places increase, and all numbers, also the heights, are finite.
 template <Real T>
-TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& place, const T& tension) {
-    using std::isfinite;
-    constexpr std::string_view where = "transverse_modes";
-    const StringOfWeights<T> string = string_of_weights(weight, place, tension, where);
-    const Modes<T> found = modes(string.chain, {.first = 2});
-    TransverseModes<T> result{found.conical_height, found.error_bound, found.shape};
-    for (Index k = 0; k < found.size(); ++k) {
-        result.conical_height[k] = found.conical_height[k] * string.factor;
-        if (!isfinite(result.conical_height[k]) || result.conical_height[k] == T(0))
-            detail::throw_invalid(where, "the conical heights leave the range of numbers, with a tension of", tension);
-        result.error_bound[k] += T(3) * epsilon<T>();
-        if (result.shape(k, 1) < T(0)) result.shape.row(k) = -result.shape.row(k);
-        result.shape(k, 0) = T(0);  // the heavy weight: less than 2^-digits
-        result.shape(k, result.shape.cols() - 1) = T(0);
-    }
-    return result;
-}
+TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& place, const T& tension);
 
 }  // namespace revchain
+
+#include "revchain/questions/statics.hpp"

@@ -1,28 +1,36 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <algorithm>
+#include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
-#include "revchain/linear/sensitivity.hpp"
-#include "revchain/linear/tune_candidates.hpp"
-#include "revchain/modes.hpp"
-#include "revchain/numeric/progress.hpp"
+#include "revchain/chain.hpp"
+#include "revchain/conical_pendulum.hpp"
+#include "revchain/rig.hpp"
+#include "revchain/sensitivity.hpp"
 
+/// The value of one datum of a chain that gives one of its modes a wanted speed.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
+///     const auto t = revchain::tune(chain, {.mode = 1, .link = 1, .datum = revchain::Datum::length_in_proportion,
+///                                           .angular_speed = 3.0});
+///     t.value;        // the length of the lowest link, m; t.error_bound is proved
+///     t.chain;        // the chain with that length
 namespace revchain {
 
-/// What is asked of `tune`: mode `mode` (from 1) is to have this conical height, or this whirl speed, by one datum of
-/// link number `link` (from 1 for the lowest), between `low` and `high`. Left out, they are a thousandth and a thousand
-/// times the present value of a weight or length (of the whole chain's weight for a massless link); of a centroid and a
-/// radius of gyration 0 and the link's length, or as far as the present value.
+/// Mode `mode` is to have this conical height or this whirl speed, by one datum of one link, between `low` and `high`.
 struct TuneOptions {
-    Index mode = 1;
-    Index link = 1;
-    Datum datum = Datum::weight;
-    std::optional<double> conical_height{};
-    std::optional<double> angular_speed{};
-    double gravity = conical_pendulum::standard_gravity;
+    Index mode = 1;                                       ///< from 1 for the slowest
+    Index link = 1;                                       ///< from 1 for the lowest
+    Datum datum = Datum::weight;                          ///< of that link
+    std::optional<double> conical_height{};               ///< give this or `angular_speed`
+    std::optional<double> angular_speed{};                ///< rad/s
+    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
+    /// The range searched. Absent: a thousandth and a thousand times the present value of a weight or length (of the
+    /// whole chain's weight for a massless link); of a centroid and a radius of gyration 0 and the link's length, or as
+    /// far as the present value.
     std::optional<double> low{}, high{};
 };
 
@@ -52,237 +60,24 @@ struct Tuned {
     std::optional<Chain<double>> chain{};  ///< with `value` in place
 };
 
-namespace detail {
-
-/// One question of `tune`: the chain with any value of the datum, and on which side of the height wanted its mode is.
-class Tuning {
-   public:
-    Tuning(const Chain<double>& chain, const TuneOptions& options, const Wide<double>& wanted)
-        : chain_(chain), links_(links_of_chain(chain)), asked_(options), wanted_(wanted) {}
-
-    Chain<double> with(double x) const {
-        std::vector<Link<double>> links = links_;
-        Link<double>& link = links[static_cast<std::size_t>(asked_.link) - 1];
-        link = with_datum(link, asked_.datum, x);
-        return Chain<double>(links);
-    }
-    /// How many heights exceed the one wanted; absent where that is not proved.
-    std::optional<Index> above(double x) const {
-        const Pencils<double> pencils(with(x));
-        const auto count = pencils.certified_count<1>({pencils.scaled(wanted_)});
-        return count[0].proved ? std::optional<Index>(count[0].above) : std::nullopt;
-    }
-    /// 1 where the mode's height exceeds the one wanted, -1 where not, 0 where that is not proved.
-    int side(double x) const {
-        const auto count = above(x);
-        return !count ? 0 : *count >= asked_.mode ? 1 : -1;
-    }
-    /// The mode's height; 0 where the chain has no such mode.
-    double height(double x) const {
-        const Chain<double> chain = with(x);
-        if (chain.mode_count() < asked_.mode) return 0;
-        return modes(chain, {.first = asked_.mode, .count = 1, .shapes = false}).conical_height[0];
-    }
-    /// d ln(height)/d ln(datum).
-    double slope(double x, double at) const {
-        const Chain<double> chain = with(x);
-        Modes<double> one;
-        one.first = asked_.mode;
-        one.conical_height = Vector<double>::Constant(1, at);
-        return sensitivity(chain, one).of(asked_.datum).value(0, asked_.link - 1) * (x / at);
-    }
-    double wanted() const { return static_cast<double>(wanted_); }
-    const Wide<double>& wanted_in_full() const { return wanted_; }
-    const Chain<double>& chain() const { return chain_; }
-    const TuneOptions& asked() const { return asked_; }
-
-   private:
-    static std::vector<Link<double>> links_of_chain(const Chain<double>& chain) {
-        std::vector<Link<double>> links;
-        for (Index m = 0; m < chain.size(); ++m) links.push_back(chain.link(m));
-        return links;
-    }
-
-    const Chain<double>& chain_;
-    std::vector<Link<double>> links_;
-    TuneOptions asked_;
-    Wide<double> wanted_;
-};
-
-/// A value between whose neighbours the mode passes the height wanted.
-struct Enclosed {
-    double value, error_bound;
-};
-
-/// Bisects by proved counts between two values on different sides; at most 200 counts.
-inline Enclosed enclosed(const Tuning& tuning, double low, double high, int low_side) {
-    for (int round = 0; round < 200; ++round) {
-        const double middle = low > 0 && high > 4 * low ? std::sqrt(low) * std::sqrt(high) : low + (high - low) / 2;
-        if (!(middle > low && middle < high)) break;
-        const int side = tuning.side(middle);
-        if (side == 0) break;
-        (side == low_side ? low : high) = middle;
-    }
-    const double value = low + (high - low) / 2;
-    return {value, std::max(value - low, high - value)};
-}
-
-/// What a candidate is: where some mode passes the height wanted, whichever it is, found by proved counts on either
-/// side that differ by one, within a millionth of the candidate.
-struct Candidate {
-    bool explained = false;
-    std::optional<Enclosed> crossing{};  ///< of the mode asked for
-};
-
-inline Candidate looked_at(const Tuning& tuning, double x, double low, double high) {
-    const double size = std::max(std::abs(x), (high - low) * 0x1p-60);
-    for (double margin = 0x1p-52; margin < 2e-6; margin *= 8) {
-        const double left = std::max(low, x - margin * size), right = std::min(high, x + margin * size);
-        const auto before = tuning.above(left), after = tuning.above(right);
-        if (!before || !after || *before == *after) continue;
-        if (std::abs(*before - *after) != 1) return {};
-        if (std::max(*before, *after) != tuning.asked().mode) return {true, {}};
-        return {true, enclosed(tuning, left, right, *before > *after ? 1 : -1)};
-    }
-    return {};
-}
-
-/// The first value from `from` towards `to` at which a weight does it. With c the bound of `weight_influence`, no
-/// height wanted is passed within a logarithmic step of |ln(height/wanted)|/c; where Newton's step is 5 per cent at
-/// most, what lies just beyond is looked at, and between the two bisected. `proved`: whether the search went all the
-/// way.
-struct Search {
-    std::optional<Enclosed> found{};
-    bool proved = false;
-};
-
-inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) {
-    const int longest = 400 + static_cast<int>(20000 / tuning.chain().size());
-    const double direction = to > from ? 1 : -1;
-    double at = from;
-    for (int round = 0; round < longest; ++round) {
-        look();
-        const double height = tuning.height(at), away = std::log(height / tuning.wanted());
-        seen.lowest_height = std::min(seen.lowest_height, height);
-        seen.highest_height = std::max(seen.highest_height, height);
-        if (height > 0 && std::abs(away) < 0.2) {  // Newton's step and a quarter beyond: is the other side there?
-            const double slope = tuning.slope(at, height), newton = -away / slope;
-            if (newton * direction >= 0 && std::abs(newton) < (round < 60 ? 0.05 : 1.0)) {
-                const double beyond = at * std::exp(1.25 * newton + direction * 0x1p-48);
-                const double end = direction > 0 ? std::min(beyond, to) : std::max(beyond, to);
-                const int here = tuning.side(at), there = tuning.side(end);
-                if (here != 0 && there != 0 && here != there) {
-                    const double low = std::min(at, end), high = std::max(at, end);
-                    return {enclosed(tuning, low, high, direction > 0 ? here : there), true};
-                }
-            }
-        }
-        if (at == to) return {std::nullopt, true};
-        if (!(std::abs(away) > 1e-12)) return {};
-        const double least = std::min(height, tuning.wanted());
-        double next = to;
-        if (height > 0) {
-            const double whole = std::abs(std::log(to / at));
-            for (double step = whole;; step *= 0.75) {
-                if (!(whole < std::numeric_limits<double>::infinity()) || (step < whole && !(step > 1e-15))) return {};
-                next = step < whole ? at * std::exp(direction * step) : to;
-                const double c = weight_influence(tuning.chain(), tuning.asked().link, std::min(at, next),
-                                                  std::max(at, next), least);
-                if (step * c <= std::abs(away) * (1 - 1e-6)) break;
-            }
-        } else {
-            next = at * (direction > 0 ? 2 : 0.5);  // no such mode: from here on until there is weight
-            if ((next - to) * direction >= 0) next = to;
-        }
-        at = next;
-    }
-    return {};
-}
-
-}  // namespace detail
-
 /// Which value of a datum gives a mode a conical height or whirl speed.
 ///
-/// Method: at a given height the chain below and above a link is a spring at each of its pins, so that for a length, a
-/// centroid or a radius of gyration the values asked for are roots of a quadratic at most, of any mode; which of them
-/// is this mode's, and how near the exact one, proved counts on either side say. A weight bears on all links above:
-/// there the nearest value on each side is approached in steps that provably pass none.
+/// At a given height the chain below and above a link is a spring at each of its pins. For a length, a centroid or a
+/// radius of gyration the values wanted are therefore roots of a quadratic at most, of any mode; proved counts on each
+/// side tell which of them is this mode's, and how near the exact one. A weight bears on all links above: there the
+/// nearest value on each side is approached in steps that provably pass none.
 /// Accuracy: `error_bound`, proved; 1 to 4 ulp of the value where its logarithmic derivative is not small, measured
-/// (tests/cpp/tune.cpp). Where no value does, the extremes of the heights reached are said as seen at 33 places.
+/// (tests/cpp/tune.cpp). Where no value is found, the extremes of the heights are those seen at 33 places.
 /// Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
 /// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is given, for a range in
 /// which the link would stand, and where weights are more than 1e123 apart.
-inline Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
-    constexpr std::string_view place = "tune";
-    if (options.conical_height.has_value() == options.angular_speed.has_value())
-        detail::throw_invalid(place, "give either conical_height or angular_speed (not both)");
-    if (options.mode < 1 || options.mode > chain.size())
-        detail::throw_invalid(place, "mode must be from 1 to " + std::to_string(chain.size()), options.mode);
-    if (options.link < 1 || options.link > chain.size())
-        detail::throw_invalid(place, "link must be from 1, the lowest, to " + std::to_string(chain.size()),
-                              options.link);
-    if (!chain.has_one_weight_unit())
-        detail::throw_invalid(place, "weights must not be more than 1e123 apart", chain.total_weight());
-    using S = Wide<double>;
-    S wanted;
-    if (options.conical_height) {
-        detail::require_positive(place, "conical height", *options.conical_height);
-        wanted = S(*options.conical_height);
-    } else {
-        detail::require_positive(place, "angular speed", *options.angular_speed);
-        detail::require_positive(place, "gravity", options.gravity);
-        wanted = S(options.gravity) / S(*options.angular_speed) / S(*options.angular_speed);
-        detail::require_positive(place, "conical height", static_cast<double>(wanted));
-    }
-    Tuned result;
-    const auto range = detail::tune_range(place, chain, options.link, options.datum, options.low, options.high);
-    result.present = range.present, result.low = range.low, result.high = range.high;
-    const detail::Tuning tuning(chain, options, wanted);
-    std::vector<detail::Enclosed> found;
-    const auto distance = [&](double x) {
-        return options.datum == Datum::weight ? std::abs(std::log(x / range.start)) : std::abs(x - range.start);
-    };
-    bool proved = true;
-    if (options.datum == Datum::weight) {
-        for (const double end : {range.high, range.low}) {
-            const auto one = detail::search(tuning, range.start, end, result);
-            if (one.found) found.push_back(*one.found);
-            proved = proved && one.proved;
-        }
-    } else {
-        for (const double x : detail::tune_candidates(chain, options.link, options.datum, wanted)) {
-            if (!(x >= range.low && x <= range.high)) continue;
-            const auto candidate = detail::looked_at(tuning, x, range.low, range.high);
-            if (candidate.crossing) found.push_back(*candidate.crossing);
-            proved = proved && candidate.explained;
-        }
-        const int low_side = tuning.side(range.low), high_side = tuning.side(range.high);
-        proved = proved && low_side != 0 && high_side != 0 && (low_side != high_side) == (found.size() % 2 == 1);
-        result.complete = proved;
-    }
-    if (!found.empty()) {
-        std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) { return x.value < y.value; });
-        for (const auto& one : found) result.values.push_back(one.value);
-        const auto nearest = std::min_element(found.begin(), found.end(), [&](const auto& x, const auto& y) {
-            return distance(x.value) < distance(y.value);
-        });
-        result.status = TuneStatus::found;
-        result.value = nearest->value, result.error_bound = nearest->error_bound;
-        result.chain = tuning.with(nearest->value);
-        return result;
-    }
-    result.status = proved ? TuneStatus::no_value : TuneStatus::undecided;
-    constexpr int places = 32;
-    for (int i = 0; i <= places; ++i) {
-        const double share = static_cast<double>(i) / places;
-        const double x = range.low > 0 && range.high > 10 * range.low
-                             ? std::exp(std::log(range.low) * (1 - share) + std::log(range.high) * share)
-                             : range.low * (1 - share) + range.high * share;
-        const double height = tuning.height(std::clamp(x, range.low, range.high));
-        result.lowest_height = std::min(result.lowest_height, height);
-        result.highest_height = std::max(result.highest_height, height);
-    }
-    return result;
-}
+Tuned tune(const Chain<double>& chain, const TuneOptions& options);
+
+/// Throws InvalidArgument: a rig cannot be tuned yet.
+Tuned tune(const Rig& rig, const TuneOptions& options);
 
 }  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/questions/tune.hpp"
+#endif

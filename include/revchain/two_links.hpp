@@ -2,110 +2,55 @@
 #pragma once
 
 #include <array>
-#include <cmath>
+#include <optional>
+#include <vector>
 
 #include "revchain/compound_link.hpp"
-#include "revchain/numeric/double_word.hpp"
-#include "revchain/system/link.hpp"
+#include "revchain/paper/two_links.hpp"
+#include "revchain/paper/two_links_shapes.hpp"
 
-/// Two links, or one with something that yields: every case is a quadratic  lambda^2 - sum lambda + product = 0  in the
-/// conical height, its roots taken without a difference of like numbers. Greenhill (1908) §2 and §6. No product leaves
-/// the range: a height is 0 only where it is below the range itself. Accuracy: 3 ulp for every root, measured
-/// (tests/cpp/paper/section_2.cpp). All throw InvalidArgument for lengths and weights that are not positive and finite,
-/// unless said otherwise.
+/// Two links, or one link on something that yields: whirl speeds and steady shapes in closed form.
+///
+///     // two equal plummets on threads of 0.5 m; the lower one comes first
+///     const auto lambda = revchain::two_plummets(1.0, 0.5, 1.0, 0.5);
+///     lambda[0];                 // 0.853553 m, conical height of the slower mode
+///     lambda[1];                 // 0.146447 m
+///     const auto shapes = revchain::two_plummets_shapes(1.0, 0.5, 1.0, 0.5, 0.4);
+///     shapes.size();             // 1 steady shape at the speed with a conical height of 0.4 m
+///     shapes[0].inclination[0];  // 1.145 rad: the lower thread
+///     // a boat hung from its davits by 3 m of tackle
+///     revchain::link_on_thread(3.0, revchain::CompoundLink<double>{1.0, 0.8})[0];  // 4.18075 m
+///
+/// Greenhill (1908) §2, §6 and §8 (13)-(17). Lengths and weights in any units, angles in rad. Every pair of conical
+/// heights consists of the roots of lambda^2 - sum lambda + product = 0, computed without a difference of nearly equal
+/// numbers; no product leaves the range of T. All heights are O(1). Functions throw InvalidArgument for lengths and
+/// weights that are not positive and finite.
 namespace revchain {
 
-/// Two conical heights, the larger (slower) first.
+/// Two conical heights, the larger one (the slower mode) first.
 template <Real T>
 using HeightPair = std::array<T, 2>;
 
-namespace detail {
-
-/// 2^-e with 2^e near x: what lengths are multiplied by before they are squared.
-template <Real T>
-T inverse_power_near(const T& x) {
-    using std::frexp;
-    using std::ldexp;
-    int exponent = 0;
-    frexp(x, &exponent);
-    return ldexp(T(1), std::min(-exponent, std::numeric_limits<T>::max_exponent - 1));
-}
-
-/// Roots of (lambda - p)(lambda - q) = coupling, p, q, coupling > 0 and coupling < p q given as  rest = p q - coupling.
-template <Real T>
-HeightPair<T> coupled_roots(const T& p, const T& q, const T& coupling, const T& rest) {
-    using std::sqrt;
-    const T half_difference = (p - q) / T(2), half_sum = (p + q) / T(2);
-    const T larger = half_sum + sqrt(half_difference * half_difference + coupling);
-    return {larger, rest / larger};
-}
-
-/// Roots of (lambda - p)(lambda - q) = coupling for numbers whose products may overflow or underflow.
-template <Real T>
-HeightPair<T> coupled_roots(std::string_view place, const T& p, const T& q, const Product<Wide<T>>& coupling,
-                            const Product<Wide<T>>& rest) {
-    using std::abs;
-    using std::hypot;
-    using std::max;
-    const T half_difference = abs(p - q) / T(2), root = static_cast<T>(coupling.root().value());
-    const T divisor = half_difference + hypot(half_difference, root);  // 0 where all is next to nothing
-    const T larger = max(p, q) + (divisor > T(0) ? static_cast<T>(coupling.over(divisor).value()) : root);
-    require_positive(place, "the larger height", larger);
-    return {larger, static_cast<T>(rest.over(larger).value())};
-}
-
-/// The positive root of (p + lambda)(q - lambda) = coupling,  rest = p q - coupling > 0.
-template <Real T>
-T standing_root(const T& p_less_q, const Product<Wide<T>>& rest) {
-    using std::hypot;
-    const T b = p_less_q / T(2), root = hypot(b, static_cast<T>(rest.root().value()));
-    return b > T(0) ? static_cast<T>(rest.over(b + root).value()) : root - b;
-}
-
-/// The upper one's share of both weights, times both threads.
-template <Real T>
-Product<Wide<T>> upper_share(const T& lower_weight, const T& lower_thread, const T& upper_weight,
-                             const T& upper_thread) {
-    using S = Wide<T>;
-    using P = Product<S>;
-    const P both = P::of(S(lower_weight)).plus(upper_weight);
-    return P::of(S(upper_weight)).times(lower_thread).times(upper_thread).over(both);
-}
-
-/// Refuses two plummets as they are asked with: `names` are of the lower weight and thread, then the upper ones.
-template <Real T>
-void check_plummets(std::string_view place, const std::array<std::string_view, 4>& names, const T& lower_weight,
-                    const T& lower_thread, const T& upper_weight, const T& upper_thread) {
-    require_positive(place, names[0], lower_weight);
-    require_positive(place, names[1], lower_thread);
-    require_positive(place, names[2], upper_weight);
-    require_positive(place, names[3], upper_thread);
-}
-inline constexpr std::array<std::string_view, 4> plummet_names{"lower weight", "lower thread", "upper weight",
-                                                               "upper thread"};
-inline constexpr std::array<std::string_view, 4> standing_names{"standing weight", "rod", "hung weight", "thread"};
-
-}  // namespace detail
-
-/// Both heights of two plummets, the lower of weight `lower_weight` on `lower_thread`. (lambda - l1)(lambda - l2) =
-/// W1 l1 l2 / (W1 + W2), §2 (5).
+/// Both heights of two plummets on threads: (lambda - l1)(lambda - l2) = W1 l1 l2 / (W1 + W2), §2 (5); 1 is the lower
+/// plummet. Accuracy: 3 ulp (tests/cpp/paper/section_2.cpp).
 template <Real T>
 HeightPair<T> two_plummets(const T& lower_weight, const T& lower_thread, const T& upper_weight, const T& upper_thread) {
     constexpr std::string_view place = "two_plummets";
-    detail::check_plummets(place, detail::plummet_names, lower_weight, lower_thread, upper_weight, upper_thread);
-    const auto coupling = detail::upper_share(upper_weight, upper_thread, lower_weight, lower_thread);
-    return detail::coupled_roots(place, lower_thread, upper_thread, coupling,
+    detail::require_positive(place, "lower weight", lower_weight, "lower thread", lower_thread, "upper weight",
+                             upper_weight, "upper thread", upper_thread);
+    return detail::coupled_roots(place, lower_thread, upper_thread,
+                                 detail::upper_share(upper_weight, upper_thread, lower_weight, lower_thread),
                                  detail::upper_share(lower_weight, lower_thread, upper_weight, upper_thread));
 }
 
-/// The same from the total length of thread 2 a, the distance x of the upper plummet from its middle (either side) and
-/// mu = W1/W2. (lambda - a)^2 = (mu a^2 + x^2) / (1 + mu), §2 (6). mu < 0 is a float below, lighter than what it
-/// displaces, in a fluid that turns with it: then motion exists where |x| >= a sqrt(-mu) alone (Stokes). Throws
-/// InvalidArgument where it does not, for |x| >= a and for mu <= -1.
+/// Both heights of two plummets on a thread of total length 2a: (lambda - a)^2 = (mu a^2 + x^2) / (1 + mu), §2 (6).
+/// `half_length` is a, `x` the distance of the upper plummet from the middle on either side, `weight_ratio` mu = W1/W2.
+/// A negative mu describes a float below, lighter than the fluid it displaces, in a fluid that turns with it; heights
+/// are then real only where |x| >= a sqrt(-mu) (Stokes). Accuracy: 4 ulp.
+/// Throws InvalidArgument where the heights are complex, for |x| >= a, and for mu <= -1.
 template <Real T>
 HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, const T& weight_ratio) {
-    using std::abs;
-    using std::sqrt;
+    using std::abs, std::sqrt;
     constexpr std::string_view place = "two_plummets_from_the_middle";
     detail::require_positive(place, "half length", half_length);
     if (!(abs(x) < half_length)) detail::throw_invalid(place, "x must lie within the half length on either side", x);
@@ -127,26 +72,48 @@ HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, con
     return {half_length * larger, (half_length - x) / whole / larger * ((half_length + x) / half_length)};
 }
 
-namespace detail {
-/// Of a link on a thread, or on what yields as one, by `name`.
-template <Real T>
-HeightPair<T> hung_link(std::string_view place, std::string_view name, const T& thread, const CompoundLink<T>& link) {
-    require_positive(place, name, thread);
-    check(place, link);
-    const auto coupling = Product<Wide<T>>{}.times(thread).times(link.centroid);
-    return coupled_roots(place, link.pendulum_length(), thread, coupling, link.squares_over_centroid().times(thread));
-}
-}  // namespace detail
-
-/// Both heights of a compound link hung by a thread: a boat from its davits, a bag in the hand.
-/// (lambda - l)(lambda - a) = a h, §6 (11).
+/// Both heights of a compound link hung by a thread: (lambda - l)(lambda - a) = a h, §6 (11). Accuracy: 4 ulp.
 template <Real T>
 HeightPair<T> link_on_thread(const T& thread, const CompoundLink<T>& link) {
     return detail::hung_link("link_on_thread", "thread", thread, link);
 }
 
-/// Height of the motion in which a link stands on its lowest point, balanced above a thread or a moving hand; h and l
-/// upwards from that point. (l + lambda)(a - lambda) = a h, §6 (12).
+/// Both heights of a compound link whose support yields sideways on a spring: those on a thread as long as the
+/// deflection of the spring. The paper's lambda = l + c is the first order for a plummet. Accuracy: 4 ulp.
+template <Real T>
+HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
+    return detail::hung_link("link_on_spring", "deflection", deflection, link);
+}
+
+/// Deflection W/E of a spring with stiffness E under the weight W hung from it. The spring moves as a thread of that
+/// length does, §2 (7).
+template <Real T>
+T spring_deflection(const T& weight, const T& stiffness) {
+    detail::require_positive("spring_deflection", "weight", weight, "stiffness", stiffness);
+    return weight / stiffness;
+}
+
+/// Seconds a day that a clock loses because the support of its pendulum yields by `deflection` to its weight:
+/// 86400 (1 - sqrt(l / lambda)) for a clock that is right on a firm support. Accuracy: 8 ulp, also for tiny deflections
+/// and where deflection and pendulum length nearly agree.
+template <Real T>
+T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
+    using std::max, std::sqrt;
+    detail::require_positive("seconds_lost_per_day", "deflection", deflection);
+    detail::check("seconds_lost_per_day", link);
+    const T unit = detail::inverse_power_near(max(deflection, link.pendulum_length()));
+    const T l = link.pendulum_length() * unit, c = deflection * unit;
+    const T half = detail::pendulum_difference(CompoundLink<T>{deflection, T(0)}, link) * unit / T(2);
+    const T coupling = c * (link.centroid * unit), root = sqrt(half * half + coupling);
+    const T height = l + (half < T(0) ? coupling / (root - half) : half + root), whole = sqrt(height);
+    const T over = whole * (whole + sqrt(l));
+    // 86400 (lambda - l) / over, times 86400 first: the other factors may underflow
+    return half < T(0) ? T(86400) * c * (link.centroid * unit / (root - half)) / over
+                       : T(86400) * ((half + root) / over);
+}
+
+/// Height of the motion in which a link stands on its lowest point, balanced above a thread or a moving hand:
+/// (l + lambda)(a - lambda) = a h, §6 (12), with h and l measured upwards from that point. Accuracy: 5 ulp.
 template <Real T>
 T standing_link(const T& thread, const CompoundLink<T>& link) {
     detail::require_positive("standing_link", "thread", thread);
@@ -155,7 +122,8 @@ T standing_link(const T& thread, const CompoundLink<T>& link) {
                                  link.squares_over_centroid().times(thread));
 }
 
-/// The thread on which a link stands at a given height lambda: a = lambda (l + lambda) / (l + lambda - h), §6 (13).
+/// Thread on which a link stands at a given height: a = lambda (l + lambda) / (l + lambda - h), §6 (13).
+/// Accuracy: 3 ulp.
 template <Real T>
 T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
     detail::require_positive("thread_of_standing_link", "height", height);
@@ -165,57 +133,74 @@ T thread_of_standing_link(const T& height, const CompoundLink<T>& link) {
     return static_cast<T>(P::of(rest + Wide<T>(link.centroid)).over(rest).times(height).value());
 }
 
-/// Height of a plummet that stands above another on a stiff weightless rod, the lower one hung by a thread:
-/// (l1 + lambda)(l2 - lambda) = W1 l1 l2 / (W1 + W2), §2 (8). For small inclinations there always is one.
+/// Height of a plummet that stands on a stiff massless rod above another plummet, which hangs by a thread:
+/// (l1 + lambda)(l2 - lambda) = W1 l1 l2 / (W1 + W2), §2 (8). At small inclinations it always exists. Accuracy: 4 ulp.
 template <Real T>
 T standing_plummet(const T& standing_weight, const T& rod, const T& hung_weight, const T& thread) {
-    detail::check_plummets("standing_plummet", detail::standing_names, standing_weight, rod, hung_weight, thread);
+    detail::require_positive("standing_plummet", "standing weight", standing_weight, "rod", rod, "hung weight",
+                             hung_weight, "thread", thread);
     return detail::standing_root(T(rod - thread), detail::upper_share(standing_weight, rod, hung_weight, thread));
 }
 
-/// What a spring of stiffness E yields to the weight hung from it, W/E: it moves as a thread of that length does, §2
-/// (7).
+/// A steady shape of two links, lowest link first. Of two mirror images it is the one whose free end (or lowest centre
+/// of oscillation) has a positive offset.
 template <Real T>
-T spring_deflection(const T& weight, const T& stiffness) {
-    detail::require_positive("spring_deflection", "weight", weight);
-    detail::require_positive("spring_deflection", "stiffness", stiffness);
-    return weight / stiffness;
+struct PairShape {
+    std::array<T, 2> inclination;  ///< to the vertical
+    std::array<T, 2> offset;       ///< from the axis: of the lower plummet (or centre of oscillation) and of the joint
+    std::array<T, 2> tension;      ///< of each thread over the whole weight; of a compound link both are the thread's
+
+    /// One more than the number of sign changes of the offsets.
+    int half_waves() const { return offset[1] < T(0) ? 2 : 1; }
+};
+
+/// All shapes in which two plummets hang at the speed with conical height `height`, §2 (4); at most four. Sorted by
+/// half waves, then by the inclination of the lower thread. Empty where `height` is at least the first of
+/// `two_plummets`. The list is complete: the proof is in paper/two_links_shapes.hpp. Cost: 10 microseconds a shape.
+/// Accuracy: inclinations 4 ulp for the data as given, also near a fold and near the vertical. Rounding of the data
+/// changes tangents by up to height_k / (height_k - height) times as much where a shape leaves the vertical at
+/// height_k, and by the square root of the rounding where two shapes meet.
+/// Also throws InvalidArgument where a length is more than a third of the range above the height.
+template <Real T>
+std::vector<PairShape<T>> two_plummets_shapes(const T& lower_weight, const T& lower_thread, const T& upper_weight,
+                                              const T& upper_thread, const T& height) {
+    constexpr std::string_view place = "two_plummets_shapes";
+    detail::require_positive(place, "lower weight", lower_weight, "lower thread", lower_thread, "upper weight",
+                             upper_weight, "upper thread", upper_thread, "height", height);
+    return detail::hanging_shapes(
+        detail::plummet_pair(place, lower_weight, lower_thread, upper_weight, upper_thread, height));
 }
 
-/// Both heights of a link whose support yields sideways: exactly those of a thread as long as the spring's deflection.
-/// The paper's lambda = l + c is the first order, and that for a plummet.
+/// All shapes in which a compound link hangs on a thread, §6 (10); otherwise as `two_plummets_shapes`.
 template <Real T>
-HeightPair<T> link_on_spring(const T& deflection, const CompoundLink<T>& link) {
-    return detail::hung_link("link_on_spring", "deflection", deflection, link);
+std::vector<PairShape<T>> link_on_thread_shapes(const T& thread, const CompoundLink<T>& link, const T& height) {
+    auto shapes = detail::hanging_shapes(detail::link_pair("link_on_thread_shapes", thread, link, height));
+    for (PairShape<T>& shape : shapes) shape.tension[0] = shape.tension[1];
+    return shapes;
 }
 
-/// By how much a clock is slow, seconds a day, whose pendulum hangs from a support that yields by `deflection` to its
-/// weight: 86400 (1 - sqrt(l / lambda)) for a clock right on a firm one. Accuracy: 8 ulp however small, and however
-/// near deflection and pendulum length l are.
+/// The shape in which a plummet stands above another one on a stiff massless rod, §2 (8). inclination[0] is the rod's
+/// to the upward vertical, tension[0] its thrust, negative. There is one where `height` is below `standing_plummet`,
+/// else none. Accuracy, cost and errors as `two_plummets_shapes`.
 template <Real T>
-T seconds_lost_per_day(const T& deflection, const CompoundLink<T>& link) {
-    using std::max;
-    using std::sqrt;
-    detail::require_positive("seconds_lost_per_day", "deflection", deflection);
-    detail::check("seconds_lost_per_day", link);
-    const T unit = detail::inverse_power_near(max(deflection, link.pendulum_length()));
-    const T l = link.pendulum_length() * unit, c = deflection * unit;
-    const T half = detail::pendulum_difference(CompoundLink<T>{deflection, T(0)}, link) * unit / T(2);
-    const T coupling = c * (link.centroid * unit), root = sqrt(half * half + coupling);
-    const T whole_square = l + (half < T(0) ? coupling / (root - half) : half + root),
-            whole = sqrt(whole_square);  // lambda
-    const T over = whole * (whole + sqrt(l));
-    // 86400 (lambda - l) / over, the day first: what the rest is may be below the range
-    return half < T(0) ? T(86400) * c * (link.centroid * unit / (root - half)) / over
-                       : T(86400) * ((half + root) / over);
+std::optional<PairShape<T>> standing_plummet_shape(const T& standing_weight, const T& rod, const T& hung_weight,
+                                                   const T& thread, const T& height) {
+    constexpr std::string_view place = "standing_plummet_shape";
+    detail::require_positive(place, "standing weight", standing_weight, "rod", rod, "hung weight", hung_weight,
+                             "thread", thread, "height", height);
+    return detail::standing_shape(detail::plummet_pair(place, standing_weight, rod, hung_weight, thread, height));
 }
 
-}  // namespace revchain
+/// The shape in which a compound link stands on its lowest point, §6 (12) with the secants of (10). Both tensions are
+/// that of the thread, or of the hand that moves as the thread's end does. Otherwise as `standing_plummet_shape`.
+template <Real T>
+std::optional<PairShape<T>> standing_link_shape(const T& thread, const CompoundLink<T>& link, const T& height) {
+    auto shape = detail::standing_shape(detail::link_pair("standing_link_shape", thread, link, height));
+    if (shape) shape->tension[0] = shape->tension[1];
+    return shape;
+}
 
-/// Any two links jointed together, a bell and its clapper among them. Greenhill (1908) §8 (13)-(17).
-namespace revchain {
-
-/// Two jointed links; weights and lengths in any units. Suffix 1 of the paper is `lower`, 2 `upper`.
+/// Any two links jointed together, such as a bell and its clapper. Suffix 1 of the paper is `lower`, 2 `upper`.
 template <Real T>
 struct JointedLinks {
     T lower_weight;              ///< W1 > 0
@@ -226,65 +211,11 @@ struct JointedLinks {
     T upper_radius_of_gyration;  ///< k2 >= 0, about the centroid
 };
 
-namespace detail {
-
-/// With m = W2 h2/(W1 a2), (14) is  (lambda sec d1 - l1)(lambda sec d2 - p) = c,  p = (m l2 + a2)/(m + 1),
-/// c = a2 h1/(m + 1). Lengths times `unit`, a power of two. In two words.
-template <Real T>
-struct JointedNumbers {
-    T unit;
-    Wide<T> l1, p;
-    Wide<T> share, other;  ///< c/(l1 p) and 1 - c/(l1 p), without a difference
-};
-
-template <Real T>
-JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>& links) {
-    using std::abs;
-    using std::isfinite;
-    using std::max;
-    require_positive(place, "lower weight", links.lower_weight);
-    check(place, links.lower);
-    require_positive(place, "upper weight", links.upper_weight);
-    require_positive(place, "upper length", links.upper_length);
-    if (!isfinite(links.upper_centroid)) throw_invalid(place, "upper centroid must be finite", links.upper_centroid);
-    if (!(links.upper_radius_of_gyration >= T(0)) || !isfinite(links.upper_radius_of_gyration))
-        throw_invalid(place, "upper radius of gyration must be finite and not negative",
-                      links.upper_radius_of_gyration);
-    const T largest = max(max(links.lower.pendulum_length(), links.upper_length),
-                          max(abs(links.upper_centroid), links.upper_radius_of_gyration));
-    const T unit = inverse_power_near(largest);
-    if (links.upper_length * unit * length_span<T>() < T(1) || links.lower.centroid * unit * length_span<T>() < T(1))
-        throw_invalid(
-            place,
-            "lengths, the lower link's pendulum length among them, must not be more than 1e77 apart; upper length",
-            links.upper_length);
-    const T by = inverse_power_near(max(links.lower_weight, links.upper_weight));
-    if (links.lower_weight * by * length_span<T>() < T(1) || links.upper_weight * by * length_span<T>() < T(1))
-        throw_invalid(place, "weights must not be more than 1e77 apart; lower weight", links.lower_weight);
-    using S = Wide<T>;  // of a bell hung below its centroid the moment is a difference
-    const S w1(links.lower_weight * by), w2(links.upper_weight * by);
-    const S a2(links.upper_length * unit), h2(links.upper_centroid * unit), k2(links.upper_radius_of_gyration * unit);
-    const S hung = w1 * a2 + w2 * h2;  // W1 a2 (m + 1)
-    if (!(hung > S(T(0))))
-        throw_invalid(
-            place,
-            "the upper link would stand, not hang: upper weight x upper centroid + upper length x lower weight "
-            "must be positive, with an upper centroid of",
-            links.upper_centroid);
-    const CompoundLink<S> lower{S(links.lower.centroid * unit), S(links.lower.radius_of_gyration * unit)};
-    const S l1 = lower.pendulum_length(), turn = w2 * (h2 * h2 + k2 * k2), pull = w1 * a2 * a2;
-    return {unit, l1, (turn + pull) / hung, pull / (turn + pull) * lower.share_at_centre_of_oscillation(),
-            (turn + pull * (lower.square_over_centroid() / l1)) / (turn + pull)};
-}
-
-}  // namespace detail
-
-/// Both conical heights of two jointed links: of a2 h1/(lambda - l1) = (m + 1)(lambda - l2) + l2 - a2, §8 (14), and
-/// where l2 = a2, of (lambda - l1)(lambda - l2) = l2 h1/(m + 1), (15). The lower is 0 where neither link has a radius
-/// of gyration and the upper one's centroid is at its support. Accuracy: 3 ulp for every root, measured
-/// (tests/cpp/two_links.cpp).
-/// Throws InvalidArgument for numbers out of range, lengths or weights more than 1e77 apart (in double), and where
-/// W2 h2 + W1 a2 is not positive.
+/// Both heights of two jointed links: the roots of a2 h1/(lambda - l1) = (m + 1)(lambda - l2) + l2 - a2, §8 (14), with
+/// m = W2 h2/(W1 a2). Where l2 = a2 this is (lambda - l1)(lambda - l2) = l2 h1/(m + 1), (15). The second height is 0
+/// where both radii of gyration are 0 and the upper centroid is at the support.
+/// Accuracy: 3 ulp (tests/cpp/two_links.cpp). Also throws InvalidArgument for lengths or weights more than 1e77 apart
+/// (in double), and unless W2 h2 + W1 a2 is positive, that is, unless the upper link hangs.
 template <Real T>
 HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     const auto n = detail::jointed_numbers("jointed_links", links);
@@ -293,12 +224,41 @@ HeightPair<T> jointed_links(const JointedLinks<T>& links) {
     return {static_cast<T>(roots[0]) / n.unit, static_cast<T>(roots[1]) / n.unit};
 }
 
-/// How far below its support a bell must carry its clapper's pin so that both swing, or whirl at any inclination, in
-/// one line as if clamped, and the bell never rings:  h1 = (m + 1) l1 + m (a2 - l2), §8 (16), is a2 = w (l2 - l1)/(w +
-/// l1 - h1),  w = W2 h2/W1. The height of that motion is l1 + a2.
-/// Accuracy: 4 ulp, for the data as given, however near l1 and l2 are; the pin changes by up to
-/// 3 (l1 + l2)/(l2 - l1) + 6 times as much as the data, in ratio. Throws InvalidArgument for numbers out of range, and
-/// where the clapper's pendulum length is not the shorter: then every pin lets it ring.
+/// All shapes in which two jointed links hang: (lambda sec d1 - l1)(lambda sec d2 - p) = a2 h1/(m + 1) with
+/// p = (m l2 + a2)/(m + 1), and (lambda sec d1 - l1) sin d1 = a2 sin d2, §8 (14). Order, number and method as
+/// `two_plummets_shapes`. offset[0] is that of the lower link's centre of oscillation; tensions are the magnitudes of
+/// the forces at each link's upper pin over the whole weight.
+/// Accuracy: inclinations 8 ulp where no shapes are about to meet (tests/cpp/two_links.cpp).
+/// Throws InvalidArgument as `jointed_links` and `two_plummets_shapes` do.
+template <Real T>
+std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, const T& height) {
+    using std::hypot, std::sin;
+    using S = Wide<T>;
+    constexpr std::string_view place = "jointed_links_shapes";
+    const auto n = detail::jointed_numbers(place, links);
+    detail::require_positive(place, "height", height);
+    const S scale(T(1) / n.unit);
+    auto pair = detail::pair_of<T>(place, n.l1 * scale, n.p * scale, n.share, n.other, height);
+    pair.upper = detail::over_height(S(links.upper_length), height);
+    auto shapes = detail::hanging_shapes(pair);
+    const T whole = links.lower_weight + links.upper_weight;
+    const T w1 = links.lower_weight / whole, w2 = links.upper_weight / whole;
+    for (PairShape<T>& shape : shapes) {
+        // offsets of both centroids over the height
+        const T first =
+            shape.offset[0] / height - links.lower.square_over_centroid() / height * sin(shape.inclination[0]);
+        const T second = links.upper_centroid / height * sin(shape.inclination[1]);
+        shape.tension = {w1 * hypot(T(1), first), hypot(T(1), w1 * first + w2 * second)};
+    }
+    return shapes;
+}
+
+/// Distance of the clapper's pin below the support of its bell with which both swing, or whirl at any inclination, as
+/// one piece, so that the bell is silent: a2 = w (l2 - l1)/(w + l1 - h1) with w = W2 h2/W1, §8 (16). The height of that
+/// motion is l1 + a2. Accuracy: 4 ulp for the data as given, also where l1 and l2 nearly agree; rounding of the data
+/// changes the distance by up to 3 (l1 + l2)/(l2 - l1) + 6 times as much.
+/// Also throws InvalidArgument unless the clapper has the shorter pendulum length: otherwise the bell rings with any
+/// pin.
 template <Real T>
 T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const T& clapper_weight,
                         const CompoundLink<T>& clapper) {
@@ -316,10 +276,10 @@ T pin_of_silent_clapper(const T& bell_weight, const CompoundLink<T>& bell, const
     return w2 * bell.centroid / (w2 * bell.centroid + w1 * clapper.square_over_centroid()) * longer;
 }
 
-/// How far below its pin C a uniform rod, hung at C off its middle G, may be jointed at D and still swing, or whirl, as
-/// one straight rod: CG.CD = CA^2, A the end above C, §8 (17). `pin` is CG. At D the rod does not bend.
-/// Accuracy: 2.5 ulp for pins up to 0.49 length. Throws InvalidArgument unless length/6 < pin < length/2: with C
-/// within the middle third, D would lie beyond the rod.
+/// Distance CD from the pin C of a uniform rod, at the distance `pin` = CG from its middle G, to the point D where the
+/// rod does not bend, so that a joint there leaves it straight: CG.CD = CA^2, A the end above C, §8 (17).
+/// Accuracy: 2.5 ulp for pins up to 0.49 length. Also throws InvalidArgument unless length/6 < pin < length/2: with C
+/// within the middle third D would lie beyond the rod.
 template <Real T>
 T joint_without_bending(const T& length, const T& pin) {
     constexpr std::string_view place = "joint_without_bending";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/batch.hpp"
+#include "revchain/questions/batch.hpp"
 
 namespace revchain {
 template Table<float> conical_heights(const ChainBatch<float>&, const BatchOptions&);

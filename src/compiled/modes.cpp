@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/modes.hpp"
+#include "revchain/questions/modes.hpp"
 
 namespace revchain {
 template Modes<float> modes(const Chain<float>&, const ModesOptions<float>&);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/modes.hpp"
+#include "revchain/questions/modes.hpp"
 
 namespace revchain {
 template Modes<long double> modes(const Chain<long double>&, const ModesOptions<long double>&);

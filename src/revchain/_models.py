@@ -242,7 +242,7 @@ def solve(
     >>> rc.solve(rods, 3, rtol=0.01)
     Solution: 3 heights by continuous chain, error below 9.0e-16, success
     >>> rc.solve(rods, 3).model
-    'compressed blocks'
+    'condensed'
     >>> [rc.solve(rc.Chain.uniform_rods(9), rtol=r, inclination=0.2).model for r in (0.1, 1e-3)]
     ['continuous chain', 'finite amplitude']
     """
@@ -298,7 +298,7 @@ def explain(
     --------
     >>> import revchain as rc
     >>> rc.explain(rc.Chain(weight=[1.0, 3.0, 2.0], length=1.0), rtol=1e-3).chosen.name
-    'all together'
+    'aberth'
     """
     place = "revchain.explain"
     hung, k, n, tolerance, lean, budget, _ = _asked(place, what, count, first, rtol, inclination, time_budget, None)

@@ -147,7 +147,7 @@ class Ask(Table, frozen=True):
         Literal["single", "double", "extended", "double-double"], Meta(description="The arithmetic of the result.")
     ] = "double"
     method: Annotated[
-        Literal["auto", "bisection", "blocks", "together", "spectrum", "dense", "recurrence"],
+        Literal["auto", "bisection", "condensed", "aberth", "interpolated", "dense", "recurrence"],
         Meta(description="How to compute."),
     ] = "auto"
     shapes: Annotated[AskShapes | UnsetType, Meta(description="Steady shapes at any inclination.")] = UNSET

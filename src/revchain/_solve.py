@@ -89,10 +89,10 @@ def modes(
         has 64 bits on x86-64 and on some platforms is no more than double. ``"double-double"``: twice
         the digits of double; ``conical_height + conical_height_low``, two float64 arrays, is the height that
         `error_bound` is of (3e-29 for one link, 1e-24 for 2000), and shapes are float64.
-    method : {"auto", "bisection", "blocks", "together", "spectrum", "dense", "recurrence"}
+    method : {"auto", "bisection", "condensed", "aberth", "interpolated", "dense", "recurrence"}
         ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain,
-        to 2 ulp. ``"blocks"`` condenses a long chain first: some of its slowest modes, to 2 ulp.
-        ``"together"`` finds all modes of a small chain at once, to some 20 ulp. ``"spectrum"``
+        to 2 ulp. ``"condensed"`` condenses a long chain first: some of its slowest modes, to 2 ulp.
+        ``"aberth"`` finds all modes of a small chain at once, to some 20 ulp. ``"interpolated"``
         interpolates the characteristic polynomial: many modes, to the last digit some 60 times faster
         than one by one, 100 times with ``rtol=1e-14``. Where they cannot, bisection is used; the
         result's ``method`` says so. ``"dense"`` solves the assembled pencil and ``"recurrence"``

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 // Batches against quadruple precision, against `modes`, and against themselves in other company.
-#include "revchain/linear/batch.hpp"
-#include "revchain/modes.hpp"
+#include "revchain/questions/batch.hpp"
 #include "revchain/batch.hpp"
+#include "revchain/modes.hpp"
 
 #include <cstring>
 #include <random>
@@ -144,7 +144,8 @@ TEST_CASE("batch: a pendulum length is as good as a radius of gyration; numbers 
     const auto heights = revchain::conical_heights(batch, {.count = 2});
     REQUIRE(heights.rows() == 4);
     REQUIRE(heights.cols() == 2);
-    const auto one = revchain::modes(revchain::detail::chain_of(batch, 0), {.shapes = false}).conical_height;
+    const auto one =
+        revchain::modes(revchain::detail::chain_of(batch, 0), {.count = revchain::all_modes}).conical_height;
     for (Index c = 0; c < 4; ++c)
         for (Index j = 0; j < 2; ++j) CHECK(support::error_in_ulp(heights(c, j), one[j]) <= 3);
     batch.chains = 0;
@@ -226,7 +227,8 @@ TEST_CASE("batch: chains that lanes cannot do are done alone, and their neighbou
     const ChainBatch<double> batch{chains, 3, {weight.data(), 3, 1}, {length.data(), 3, 1}};
     const auto heights = revchain::conical_heights(batch);
     for (Index c = 0; c < chains; ++c) {
-        const auto sure = revchain::modes(revchain::detail::chain_of(batch, c), {.shapes = false}).conical_height;
+        const auto sure =
+            revchain::modes(revchain::detail::chain_of(batch, c), {.count = revchain::all_modes}).conical_height;
         for (Index j = 0; j < 3; ++j) CHECK(support::error_in_ulp(heights(c, j), sure[j]) <= 4);
     }
     CHECK(same_bits(heights.row(0), heights.row(7)));
@@ -239,7 +241,7 @@ TEST_CASE("batch: float is double rounded; other scalars one by one") {
     const auto heights = revchain::conical_heights(wide.batch());
     for (Index c = 0; c < 3; ++c)
         for (Index j = 0; j < 4; ++j)
-            CHECK(heights(c, j) == revchain::modes(wide.chain(c), {.shapes = false}).conical_height[j]);
+            CHECK(heights(c, j) == revchain::modes(wide.chain(c), {.count = revchain::all_modes}).conical_height[j]);
 }
 
 TEST_CASE("batch: wrong numbers are named with their chain and link, before anything is computed") {

@@ -19,7 +19,7 @@ Chain<double> plummets(Index n) { return Chain<double>::uniform_plummets(n, stat
 
 /// At heights of its own choice: each shape of the proved list is on one branch, once, and branches have no others.
 void check_at(const Chain<double>& chain, const Branches& found, double height) {
-    const auto list = revchain::steady_shapes(chain, height);
+    const auto list = revchain::steady_shapes(chain, {.conical_height = height});
     REQUIRE(list.complete);
     revchain::finite::Corrector corrector(revchain::finite::rounded<double>(revchain::finite::links_of(chain).links));
     std::vector<int> met(list.shapes.size(), 0);
@@ -52,8 +52,10 @@ TEST_CASE("three equal plummets: the third branch's companions are born at n = 3
     CHECK(std::abs(speed - 3.90376215692) <= 1e-11);
     // the proved lists say the same: three shapes below, five beyond
     for (const double off : {1e-11, 1e-9}) {
-        CHECK(revchain::steady_shapes(plummets(3), 1 / std::pow(speed * (1 - off), 2)).shapes.size() == 3);
-        CHECK(revchain::steady_shapes(plummets(3), 1 / std::pow(speed * (1 + off), 2)).shapes.size() == 5);
+        CHECK(revchain::steady_shapes(plummets(3), {.conical_height = 1 / std::pow(speed * (1 - off), 2)})
+                  .shapes.size() == 3);
+        CHECK(revchain::steady_shapes(plummets(3), {.conical_height = 1 / std::pow(speed * (1 + off), 2)})
+                  .shapes.size() == 5);
     }
 }
 
@@ -75,7 +77,7 @@ TEST_CASE("branches and proved lists agree, at heights that were not looked at b
         CAPTURE(i, n, lowest);
         CHECK(found.consistent);
         CHECK(found.complete);
-        const Index count = revchain::count_modes(chain, lowest);
+        const Index count = revchain::count_modes(chain, {.conical_height = lowest});
         REQUIRE(static_cast<Index>(found.branches.size()) >= count);
         isolated += static_cast<Index>(found.branches.size()) > count;
         for (const Branch& branch : found.branches)
@@ -109,7 +111,9 @@ TEST_CASE("a loop between the heights looked at: the proof finds it, lists do no
         CHECK(std::abs(ends[0] / chain.total_length() - 0.0418736) < 1e-7);
         CHECK(std::abs(ends[1] / chain.total_length() - 0.0488881) < 1e-7);
         // proved lists have two shapes more within it
-        const auto count = [&](double height) { return revchain::steady_shapes(chain, height).shapes.size(); };
+        const auto count = [&](double height) {
+            return revchain::steady_shapes(chain, {.conical_height = height}).shapes.size();
+        };
         CHECK(count(ends[0] * (1 + 1e-9)) == count(ends[0] * (1 - 1e-9)) + 2);
         CHECK(count(ends[1] * (1 - 1e-9)) == count(ends[1] * (1 + 1e-9)) + 2);
         for (const double share : {0.01, 0.3, 0.6, 0.99}) check_at(chain, found, ends[0] + share * (ends[1] - ends[0]));
@@ -198,4 +202,11 @@ TEST_CASE("no branch at all; errors", "[finite]") {
     for (const double bad : {0.0, -1.0, nan})
         CHECK_THROWS_AS(revchain::branches(plummets(3), bad), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::branches(plummets(3), 0.1, {.lists = 0}), revchain::InvalidArgument);
+}
+
+TEST_CASE("branches of a rig are refused with what to ask instead", "[finite]") {
+    const revchain::Rig rig(plummets(2), {});
+    using Catch::Matchers::ContainsSubstring;
+    CHECK_THROWS_WITH(revchain::branches(rig, 0.1), ContainsSubstring("ask steady_shapes(rig)"));
+    CHECK_THROWS_WITH(revchain::branch(rig, 1, 0.1), ContainsSubstring("ask steady_shapes(rig)"));
 }

@@ -20,8 +20,13 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 template <class Choice>
+Explanation explanation(const Choice& choice) {
+    return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
+}
+
+template <class Choice>
 std::vector<std::string> explained(const Choice& choice) {
-    const std::string text = explain(choice);
+    const std::string text = explanation(choice).text();
     REQUIRE(text.back() == '\n');
     const auto lines = lines_of(text);
     REQUIRE(lines.size() == choice.estimates.size() + (choice.meets_tolerance ? 1 : 2));
@@ -72,14 +77,31 @@ TEST_CASE("explain: to the letter") {
                             Estimate{"rather longer", {}, 0x1p-51, 0.25}},
                            0,
                            true};
-    CHECK(explain(choice) ==
+    CHECK(explanation(choice).text() ==
           "   model          error bound  expected to take\n"
           "-> short              1.5e-03            250 ns\n"
           "   no                       -                 -  more than two links\n"
           "   rather longer      4.4e-16            250 ms\n");
     const Choice<1> none{{Estimate{"only", {}, 0.5, 1e-12}}, 0, false};
-    CHECK(explain(none) ==
+    CHECK(explanation(none).text() ==
           "no model keeps the tolerance\n"
           "   model  error bound  expected to take\n"
           "-> only       5.0e-01          0.001 ns\n");
+}
+
+TEST_CASE("explain names the method that modes takes") {
+    for (const Index size : {1, 2, 5, 30, 1000, 100'000})
+        for (const double rtol : {0.1, 1e-4, 1e-9, 1e-13, 0.0}) {
+            const auto chain = Chain<double>::uniform_rods(size);
+            const ModesOptions<double> options{.count = std::min<Index>(3, size), .rtol = rtol};
+            const Explanation found = explain(chain, options);
+            CAPTURE(size, rtol, found.text());
+            REQUIRE(found.methods[found.chosen].name == modes(chain, options).method);
+            REQUIRE(found.methods[found.chosen].fit.applies);
+        }
+    const auto chain = Chain<double>::uniform_rods(3);
+    CHECK(explain(chain).meets_tolerance);
+    CHECK_THROWS_AS(explain(chain, {.count = 4}), InvalidArgument);
+    CHECK_THROWS_AS(explain(chain, {.conical_height = {{0.1, 1.0}}}), InvalidArgument);
+    CHECK_THROWS_WITH(explain(Rig(chain, {})), Catch::Matchers::ContainsSubstring("RigModes::method"));
 }

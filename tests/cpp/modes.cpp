@@ -34,7 +34,7 @@ TEST_CASE("every height of every chain is within its bound, and within 1 ulp", "
     for (const auto& family : support::families()) {
         for (const Index n : {1, 2, 3, 4, 7, 10, 31, 100, 316, 1000}) {
             const auto chain = family.make(n);
-            const auto m = revchain::modes(chain, {.shapes = false});
+            const auto m = revchain::modes(chain, {.count = revchain::all_modes});
             CAPTURE(family.name, n);
             REQUIRE(m.size() == chain.mode_count());
             CHECK(m.status == revchain::Status::success);
@@ -56,7 +56,7 @@ TEST_CASE("every height of every chain is within its bound, and within 1 ulp", "
 TEST_CASE("3000 links, every height", "[linear]") {
     for (const auto& family : support::families()) {
         const auto chain = family.make(3000);
-        const auto m = revchain::modes(chain, {.shapes = false});
+        const auto m = revchain::modes(chain, {.count = revchain::all_modes});
         CAPTURE(family.name);
         CHECK(m.error_bound.maxCoeff() <= 0x1.0001p-51);
         require_bounds(chain, m, 43);
@@ -81,7 +81,7 @@ TEST_CASE("the tolerance asked is the tolerance kept, from 1 to the last digit",
             const Index count = std::min(chain.mode_count(), Index(6));
             for (int eighth = 0; eighth <= 8 * 20; eighth += n > 1000 ? 8 : 1) {
                 const double rtol = std::pow(10.0, -eighth / 8.0);
-                const auto m = revchain::modes(chain, {.count = count, .rtol = rtol, .shapes = false});
+                const auto m = revchain::modes(chain, {.count = count, .rtol = rtol});
                 CAPTURE(family.name, n, rtol, m.error_bound.maxCoeff());
                 require_bounds(chain, m);
                 if (m.status == revchain::Status::success) {
@@ -115,7 +115,7 @@ TEMPLATE_TEST_CASE("laws", "[linear]", float, double, long double) {
                                                     .radius_of_gyration = a * static_cast<T>(random.between(0, 0.6))}));
             }
             const Chain<T> chain(links);
-            const auto m = revchain::modes(chain, {});
+            const auto m = revchain::modes(chain, {.count = revchain::all_modes});
             CAPTURE(unit, n);
             REQUIRE(m.status == revchain::Status::success);
 
@@ -126,9 +126,9 @@ TEMPLATE_TEST_CASE("laws", "[linear]", float, double, long double) {
                 link.length *= T(0.125);
                 link.centroid *= T(0.125);
             }
-            const auto s = revchain::modes(Chain<T>(scaled), {});
+            const auto s = revchain::modes(Chain<T>(scaled), {.count = revchain::all_modes});
             CHECK((s.conical_height * T(8)).isApprox(m.conical_height, T(0)));
-            CHECK(s.shape.isApprox(m.shape, T(0)));
+            CHECK(s.shapes().offset.isApprox(m.shapes().offset, T(0)));
 
             // the sum of the heights is the trace of K^-1 M: sum over links of what hangs from each, by hand
             long double trace = 0, below = 0;
@@ -154,7 +154,7 @@ TEMPLATE_TEST_CASE("laws", "[linear]", float, double, long double) {
             // interlacing: a link added at the top leaves what hangs below as it was, and frees its upper pin
             auto longer = links;
             longer.push_back(links.front());
-            const auto more = revchain::modes(Chain<T>(longer), {});
+            const auto more = revchain::modes(Chain<T>(longer), {.count = revchain::all_modes});
             for (Index j = 0; j < m.size(); ++j) {
                 CHECK(more.conical_height[j] >= m.conical_height[j]);
                 CHECK(more.conical_height[j + 1] <= m.conical_height[j]);  // equal when closer than an ulp
@@ -165,14 +165,14 @@ TEMPLATE_TEST_CASE("laws", "[linear]", float, double, long double) {
             for (const auto& link : links)
                 short_pendulums = short_pendulums && revchain::pendulum_length(link) <= link.length;
             for (Index j = 0; j < m.size() && short_pendulums; ++j) {
-                REQUIRE(m.nodes[static_cast<std::size_t>(j)].size() == j);
+                REQUIRE(m.shapes().nodes[static_cast<std::size_t>(j)].size() == j);
                 for (Index i = 0; i < j; ++i) {
-                    const T node = m.nodes[static_cast<std::size_t>(j)][i];
+                    const T node = m.shapes().nodes[static_cast<std::size_t>(j)][i];
                     CHECK(node > T(0));
                     CHECK(node < chain.total_length());
                 }
             }
-            CHECK(m.residual.maxCoeff() <= T(8) * eps);
+            CHECK(m.shapes().residual.maxCoeff() <= T(8) * eps);
         }
     }
 }
@@ -189,11 +189,11 @@ TEST_CASE("a stiffer-minded count: mode numbers by counting, for long pendulum l
                                                         .centroid = h,
                                                         .pendulum_length = h + a * random.between(1, 4)});
         });
-        const auto m = revchain::modes(chain, {});
+        const auto m = revchain::modes(chain, {.count = revchain::all_modes});
         const Truth truth(chain);
         for (Index j = 0; j < 4; ++j) {
             REQUIRE(truth.above(Quad(m.conical_height[j]) * (1 + Quad(1e-15))) == j);
-            if (m.nodes[static_cast<std::size_t>(j)].size() != j) ++odd;
+            if (m.shapes().nodes[static_cast<std::size_t>(j)].size() != j) ++odd;
         }
     }
     CHECK(odd > 0);
@@ -201,25 +201,32 @@ TEST_CASE("a stiffer-minded count: mode numbers by counting, for long pendulum l
 
 TEST_CASE("what was asked is what comes", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(7);
-    const auto all = revchain::modes(chain, {});
+    const auto all = revchain::modes(chain, {.count = revchain::all_modes});
     CHECK(all.size() == 7);
     CHECK(all.method == "bisection");
     const auto some = revchain::modes(chain, {.count = 3});
     CHECK(some.size() == 3);
     CHECK(some.conical_height == all.conical_height.head(3));
-    CHECK(some.shape == all.shape.topRows(3));
-    const auto bare = revchain::modes(chain, {.shapes = false});
-    CHECK(bare.conical_height == all.conical_height);
-    CHECK(bare.shape.size() == 0);
-    CHECK(bare.residual.size() == 0);
-    CHECK(bare.nodes.empty());
+    CHECK(some.shapes().offset == all.shapes().offset.topRows(3));
+    const auto alone = revchain::modes(chain, {.count = revchain::all_modes});
+    CHECK(alone.shape(2) == all.shapes().offset.row(2).transpose());  // one shape before the others are asked for
+    CHECK(alone.shapes().offset == all.shapes().offset);
+    CHECK(all.shape(2) == alone.shape(2));
+    CHECK_THROWS_AS(all.shape(7), revchain::InvalidArgument);
+    CHECK_THROWS_AS(all.shape(-1), revchain::InvalidArgument);
+    const auto copy = all;
+    CHECK(&copy.shapes() == &all.shapes());
+    CHECK_THROWS_AS(revchain::Modes<double>{}.shapes(), revchain::InvalidArgument);
+    CHECK(revchain::modes(chain).size() == 7);  // ten by default, or all where there are fewer
+    CHECK(revchain::modes(Chain<double>::uniform_rods(20)).size() == 10);
     CHECK(all.angular_speed(9.8)[2] == std::sqrt(9.8) / std::sqrt(all.conical_height[2]));
     CHECK(all.period(9.8)[2] == Approx(2 * M_PI / all.angular_speed(9.8)[2]).epsilon(1e-15));
     CHECK(all.revolutions_per_second(9.8)[2] == Approx(1 / all.period(9.8)[2]).epsilon(1e-15));
     CHECK_THROWS_AS(all.angular_speed(0.0), revchain::InvalidArgument);
-    CHECK(revchain::modes(chain, {.rtol = 0.0}).status == revchain::Status::tolerance_not_met);
-    CHECK(revchain::modes(chain, {.rtol = std::numeric_limits<double>::infinity()}).status ==
-          revchain::Status::success);
+    CHECK(revchain::modes(chain, {.count = revchain::all_modes, .rtol = 0.0}).status ==
+          revchain::Status::tolerance_not_met);
+    CHECK(revchain::modes(chain, {.count = revchain::all_modes, .rtol = std::numeric_limits<double>::infinity()})
+              .status == revchain::Status::success);
 }
 
 TEST_CASE("wrong calls", "[linear]") {
@@ -227,8 +234,9 @@ TEST_CASE("wrong calls", "[linear]") {
     CHECK_THROWS_AS(revchain::modes(chain, {.count = 0}), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::modes(chain, {.count = -1}), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::modes(chain, {.count = 4}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::modes(chain, {.rtol = -1e-3}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::modes(chain, {.rtol = std::nan("")}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(chain, {.count = revchain::all_modes, .rtol = -1e-3}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(chain, {.count = revchain::all_modes, .rtol = std::nan("")}),
+                    revchain::InvalidArgument);
     const Chain<double> threaded(std::vector{revchain::plummet(1.0, 1.0), revchain::plummet(0.0, 1.0)});
     CHECK_THROWS_WITH(revchain::modes(threaded, {.count = 2}), Catch::Matchers::ContainsSubstring("the 1 modes"));
 }
@@ -236,10 +244,10 @@ TEST_CASE("wrong calls", "[linear]") {
 TEST_CASE("a computation can be watched and stopped", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(100);
     revchain::Progress progress;
-    revchain::modes(chain, {.progress = &progress});
+    revchain::modes(chain, {.count = revchain::all_modes, .progress = &progress});
     CHECK(progress.fraction() == 1.0);
     progress.cancel();
-    CHECK_THROWS_AS(revchain::modes(chain, {.progress = &progress}), revchain::Cancelled);
+    CHECK_THROWS_AS(revchain::modes(chain, {.count = revchain::all_modes, .progress = &progress}), revchain::Cancelled);
 }
 
 TEST_CASE("no floating-point alarms, at extremes too", "[linear]") {
@@ -254,7 +262,7 @@ TEST_CASE("no floating-point alarms, at extremes too", "[linear]") {
             }
             const Chain<double> chain(links);
             std::feclearexcept(FE_ALL_EXCEPT);
-            const auto m = revchain::modes(chain, {});
+            const auto m = revchain::modes(chain, {.count = revchain::all_modes});
             CAPTURE(family.name, unit);
             CHECK(std::fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW) == 0);
             CHECK(m.status == revchain::Status::success);
@@ -268,7 +276,8 @@ TEST_CASE("two plummets at the limits of the scalar", "[linear]") {
     for (const auto& [w1, w2] : {std::pair(1e-60, 1e60), std::pair(1e60, 1e-60), std::pair(1.0, 3.0)}) {
         for (const auto& [a1, a2] : {std::pair(1e-38, 1e38), std::pair(1e38, 1e-38), std::pair(0.3, 0.7)}) {
             const auto m =
-                revchain::modes(Chain<double>(std::vector{revchain::plummet(w1, a1), revchain::plummet(w2, a2)}), {});
+                revchain::modes(Chain<double>(std::vector{revchain::plummet(w1, a1), revchain::plummet(w2, a2)}),
+                                {.count = revchain::all_modes});
             const Quad l1 = a1, l2 = a2, mu = Quad(w1) / (Quad(w1) + Quad(w2)), rest = Quad(w2) / (Quad(w1) + Quad(w2));
             const Quad first = (l1 + l2 + sqrtq((l1 - l2) * (l1 - l2) + 4 * mu * l1 * l2)) / 2;
             const Quad second = l1 * l2 * rest / first;
@@ -289,7 +298,7 @@ TEST_CASE("a link that hardly hangs, and one that hardly swings", "[linear]") {
     chains.emplace_back(std::vector{
         revchain::compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 1e-15, .radius_of_gyration = 1})});
     for (const auto& chain : chains) {
-        const auto m = revchain::modes(chain, {});
+        const auto m = revchain::modes(chain, {.count = revchain::all_modes});
         CHECK(m.error_bound.maxCoeff() <= 4e-14);  // the first: W h + a S keeps 1e-15 of its terms
         CHECK(m.status == revchain::Status::success);
         require_bounds(chain, m);
@@ -304,7 +313,7 @@ TEST_CASE("a tiny coupling of masses", "[linear]") {
          WideDouble(0xd.4caa40da0ebf8p-394, -0xe.43d943a343b8p-449) / WideDouble(0xb.918e68241ce9p-258) /
              WideDouble(0xb.918e68241ce9p-258)},
         {0x8.49c10ff790c6p-36, 0x8.527d19d678dfp-27, 0xd.72d47d36b021p-228, WideDouble(0)}});
-    const auto m = revchain::modes(chain, {});
+    const auto m = revchain::modes(chain, {.count = revchain::all_modes});
     CHECK(support::error_in_ulp(m.conical_height[0], strtoflt128("1.319699319837711969577697e-41", nullptr)) <= 0.501);
     CHECK(support::error_in_ulp(m.conical_height[1], strtoflt128("2.634016138520184008980816e-60", nullptr)) <= 0.501);
     CHECK(m.error_bound.maxCoeff() <= 0x1.0001p-51);
@@ -321,7 +330,7 @@ TEST_CASE("a chain at the edge of float comes to an end", "[linear]") {
                                          link(0xa.f5a4dp-4F, 0x8.2a0ffp-27F, 0x8.2a0ffp-27F, 0x0p+0),
                                          link(0x8.36cdp-30F, 0x8.c3a9cp-4F, 0xb.36ddp-32F, 0x0p+0),
                                          link(0x8.d3ddbp-51F, 0xd.a6e38p-30F, 0xd.a6e38p-31F, 0x1.f0ffbcp-57)});
-    CHECK(revchain::modes(chain, {}).size() == chain.mode_count());
+    CHECK(revchain::modes(chain, {.count = revchain::all_modes}).size() == chain.mode_count());
 }
 
 // Offsets below 1e-308 underflow; nodes and the free end's sign are taken from ratios, which do not.
@@ -332,10 +341,10 @@ TEST_CASE("every node of every mode, where offsets underflow too", "[linear]") {
         chains.push_back(support::chain_of(
             300, [&](Index) { return revchain::plummet<double>(random.log_between(1, ratio), 1.0); }));
     for (const auto& chain : chains) {
-        const auto m = revchain::modes(chain, {});
+        const auto m = revchain::modes(chain, {.count = revchain::all_modes});
         const Truth truth(chain);
         for (Index j = 0; j < m.size(); ++j) {
-            const auto& nodes = m.nodes[static_cast<std::size_t>(j)];
+            const auto& nodes = m.shapes().nodes[static_cast<std::size_t>(j)];
             REQUIRE(nodes.size() == j);
             for (Index i = 1; i < j; ++i) REQUIRE(nodes[i] > nodes[i - 1]);
             if (j % 50 != 49) continue;
@@ -343,8 +352,8 @@ TEST_CASE("every node of every mode, where offsets underflow too", "[linear]") {
             const auto shape = truth.shape(truth.height(j, h * (1 - Quad(1e-15)), h * (1 + Quad(1e-15)), 1e-28));
             for (Index i = 0; i <= chain.size();
                  ++i)  // quadruple precision reaches to 1e-4932: the true sign of the free end
-                if (std::abs(m.shape(j, i)) > 1e-3)
-                    REQUIRE((m.shape(j, i) > 0) == (shape[static_cast<std::size_t>(i)] > 0));
+                if (std::abs(m.shapes().offset(j, i)) > 1e-3)
+                    REQUIRE((m.shapes().offset(j, i) > 0) == (shape[static_cast<std::size_t>(i)] > 0));
         }
     }
 }
@@ -356,12 +365,12 @@ TEST_CASE("heights that coincide, and nearly", "[linear]") {
             {revchain::plummet(1.0, 3.0),
              revchain::Link<double>{1.0, 1.0, 0.5, revchain::Wide<double>(1.75) + revchain::Wide<double>(away)},
              revchain::plummet(0.0, 4.0)});
-        const auto m = revchain::modes(chain, {});
+        const auto m = revchain::modes(chain, {.count = revchain::all_modes});
         CAPTURE(away, m.conical_height[0], m.conical_height[1], m.conical_height[2], m.error_bound[1],
                 m.error_bound[2]);
         CHECK(m.conical_height[1] >= m.conical_height[2]);
         CHECK(m.error_bound.maxCoeff() <= 1e-13);
-        CHECK(m.residual.maxCoeff() <= 1e-15);
+        CHECK(m.shapes().residual.maxCoeff() <= 1e-15);
         const Truth truth(chain);
         for (Index j = 0; j < 3; ++j) {
             const Quad exact = away == 0 ? Quad(j == 0 ? 7 : 1) : truth.height(j, 0.5, 10, 1e-30);
@@ -371,8 +380,8 @@ TEST_CASE("heights that coincide, and nearly", "[linear]") {
 }
 
 TEST_CASE("what does not fit into the scalar is not promised", "[linear]") {
-    const auto m = revchain::modes(Chain<double>::uniform_plummets(1000, 1e-304), {.shapes = false});
-    const auto ordinary = revchain::modes(Chain<double>::uniform_plummets(1000, 1.0), {.shapes = false});
+    const auto m = revchain::modes(Chain<double>::uniform_plummets(1000, 1e-304), {.count = revchain::all_modes});
+    const auto ordinary = revchain::modes(Chain<double>::uniform_plummets(1000, 1.0), {.count = revchain::all_modes});
     for (Index j = 0; j < m.size(); ++j) {
         const Quad exact = Quad(ordinary.conical_height[j]) * Quad(1e-304);
         const double error = static_cast<double>(fabsq(Quad(m.conical_height[j]) / exact - 1));

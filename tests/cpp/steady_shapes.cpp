@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/shapes/list.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/finite/shapes/list.hpp"
 
 #include "revchain/modes.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
@@ -108,7 +108,9 @@ double worst_moment(const Chain<double>& chain, const SteadyShape& shape) {
 Chain<double> plummets(Index n) { return Chain<double>::uniform_plummets(n, static_cast<double>(n), 1.0); }
 
 /// Number of conical heights above one.
-Index above(const Chain<double>& chain, double height) { return revchain::count_modes(chain, height); }
+Index above(const Chain<double>& chain, double height) {
+    return revchain::count_modes(chain, {.conical_height = height});
+}
 
 /// Negative directions of the energy at a shape, its rotation about the axis left aside: negative pivots of the tangent
 /// stiffness k sec^3 [1 -1; -1 1] less M/lambda of the links, in quadruple precision.
@@ -183,21 +185,23 @@ TEST_CASE("shapes counted and proved before: 84, 412, 2969, 6466", "[finite]") {
               {8, 166, 272}, {10, 50, 412}, {10, 100, 1120}, {11, 166, 2969}, {12, 166, 6466}};
     for (const auto& [links, ratio, shapes] : known) {
         CAPTURE(links, ratio);
-        const auto found = revchain::steady_shapes(plummets(links), 1 / ratio);
+        const auto found = revchain::steady_shapes(plummets(links), {.conical_height = 1 / ratio});
         CHECK(found.complete);
         CHECK(found.shapes.size() == shapes);
         if (links <= 8) check_list(plummets(links), 1 / ratio, found);
     }
-    CHECK(revchain::steady_shapes(Chain<double>::uniform_rods(6, 6, 1), 1 / 166.0).shapes.size() == 42);
-    CHECK(revchain::steady_shapes(Chain<double>::uniform_rods(8, 8, 1), 1 / 166.0).shapes.size() == 124);
+    CHECK(revchain::steady_shapes(Chain<double>::uniform_rods(6, 6, 1), {.conical_height = 1 / 166.0}).shapes.size() ==
+          42);
+    CHECK(revchain::steady_shapes(Chain<double>::uniform_rods(8, 8, 1), {.conical_height = 1 / 166.0}).shapes.size() ==
+          124);
 }
 
 TEST_CASE("three equal plummets: two shapes are born at n = 3.90376215692 sqrt(g/a)", "[finite]") {
     const double fold = 3.90376215692;
     for (const double off : {1e-9, 1e-6, 1e-3}) {
         const double below = fold * (1 - off), beyond = fold * (1 + off);
-        CHECK(revchain::steady_shapes(plummets(3), 1 / (below * below)).shapes.size() == 3);
-        CHECK(revchain::steady_shapes(plummets(3), 1 / (beyond * beyond)).shapes.size() == 5);
+        CHECK(revchain::steady_shapes(plummets(3), {.conical_height = 1 / (below * below)}).shapes.size() == 3);
+        CHECK(revchain::steady_shapes(plummets(3), {.conical_height = 1 / (beyond * beyond)}).shapes.size() == 5);
     }
 }
 
@@ -205,7 +209,8 @@ TEST_CASE("one link and two: the closed forms", "[finite]") {
     support::Random random(91);
     for (int i = 0; i < 200; ++i) {
         const double l = random.log_between(1e-3, 1e3), height = l * random.log_between(1e-3, 1.5);
-        const auto one = revchain::steady_shapes(Chain<double>({revchain::plummet(2.0, l)}), height);
+        const auto one =
+            revchain::steady_shapes(Chain<double>({revchain::plummet(2.0, l)}), {.conical_height = height});
         CHECK(one.complete);
         REQUIRE(one.shapes.size() == (height < l ? 1U : 0U));
         if (height < l) CHECK(support::error_in_ulp(one.shapes[0].inclination[0], acosq(Quad(height) / l)) <= 2);
@@ -213,7 +218,7 @@ TEST_CASE("one link and two: the closed forms", "[finite]") {
         const double W1 = random.log_between(0.01, 100.0), W2 = random.log_between(0.01, 100.0);
         const double l2 = l * random.log_between(0.01, 100.0);
         const Chain<double> chain({revchain::plummet(W1, l), revchain::plummet(W2, l2)});
-        const auto two = revchain::steady_shapes(chain, height);
+        const auto two = revchain::steady_shapes(chain, {.conical_height = height});
         const auto closed = revchain::two_plummets_shapes(W1, l, W2, l2, height);
         CAPTURE(W1, l, W2, l2, height);
         CHECK(two.complete);
@@ -238,7 +243,7 @@ TEST_CASE("random chains: the proved list holds all that a scan finds", "[finite
             return rods ? revchain::uniform_rod<double>(weight, length) : revchain::plummet<double>(weight, length);
         });
         const double height = chain.total_length() * random.log_between(1e-3, 0.3);
-        const auto found = revchain::steady_shapes(chain, height);
+        const auto found = revchain::steady_shapes(chain, {.conical_height = height});
         CAPTURE(i, n, height);
         check_list(chain, height, found);
         const int scanned = Sweep(chain, height).changes(4000);
@@ -260,7 +265,7 @@ TEST_CASE("just below a critical speed, and long chains", "[finite]") {
                     if (n == 1000 && (k > 0 || (rods && off < 1e-3))) continue;  // seconds
                     const double height = modes.conical_height[k] * (1 - off);
                     CAPTURE(n, rods, k, off);
-                    const auto found = revchain::steady_shapes(chain, height);
+                    const auto found = revchain::steady_shapes(chain, {.conical_height = height});
                     CHECK(found.shapes.size() == static_cast<std::size_t>(k + 1));
                     check_list(chain, height, found);
                     check_inclinations(chain, height, found);
@@ -270,7 +275,7 @@ TEST_CASE("just below a critical speed, and long chains", "[finite]") {
     for (const Index n : {2, 3, 4, 6}) {
         const double height = static_cast<double>(n) * 1e-4;
         CAPTURE(n);
-        const auto found = revchain::steady_shapes(plummets(n), height);
+        const auto found = revchain::steady_shapes(plummets(n), {.conical_height = height});
         check_list(plummets(n), height, found);
         check_inclinations(plummets(n), height, found);
     }
@@ -278,7 +283,7 @@ TEST_CASE("just below a critical speed, and long chains", "[finite]") {
 
 TEST_CASE("where the proof ends, what a scan finds is there", "[finite]") {
     const auto chain = plummets(100);
-    const auto found = revchain::steady_shapes(chain, 0.2, {.budget = 100'000});
+    const auto found = revchain::steady_shapes(chain, {.conical_height = 0.2, .budget = 100'000});
     CHECK_FALSE(found.complete);
     REQUIRE(found.undecided.size() == 1);
     REQUIRE(found.shapes.size() == 14);
@@ -290,27 +295,27 @@ TEST_CASE("where the proof ends, what a scan finds is there", "[finite]") {
 
 TEST_CASE("a speed out of range, a budget of nothing: said so, soon", "[finite]") {
     for (const double height : {1e-100, 1e-200, 1e-300}) {
-        const auto found = revchain::steady_shapes(plummets(4), height);
+        const auto found = revchain::steady_shapes(plummets(4), {.conical_height = height});
         CHECK_FALSE(found.complete);
         CHECK(found.cells < 10'000);
         for (const SteadyShape& shape : found.shapes) CHECK(shape.error_bound == shape.error_bound);
     }
-    CHECK(revchain::steady_shapes(plummets(4), 1e300).complete);
+    CHECK(revchain::steady_shapes(plummets(4), {.conical_height = 1e300}).complete);
     for (const double height : {5e-324, 1e-310, 1e-308}) {  // tangents beyond any number
-        const auto found = revchain::steady_shapes(plummets(3), height);
+        const auto found = revchain::steady_shapes(plummets(3), {.conical_height = height});
         CHECK_FALSE(found.complete);
         REQUIRE(found.undecided.size() == 1);
         CHECK(found.undecided[0].high > 1.57);
     }
     for (const double speed : {1e-150, 1e-300}) {
-        const auto found = revchain::steady_shapes_at_speed(plummets(2), speed);
+        const auto found = revchain::steady_shapes(plummets(2), {.angular_speed = speed});
         CHECK(found.complete);
         CHECK(found.shapes.empty());
     }
     for (const double speed : {1e160, 1e300})
-        CHECK_FALSE(revchain::steady_shapes_at_speed(plummets(2), speed).complete);
+        CHECK_FALSE(revchain::steady_shapes(plummets(2), {.angular_speed = speed}).complete);
     for (const long budget : {0L, -1L}) {
-        const auto found = revchain::steady_shapes(plummets(4), 0.1, {.budget = budget});
+        const auto found = revchain::steady_shapes(plummets(4), {.conical_height = 0.1, .budget = budget});
         CHECK_FALSE(found.complete);
         REQUIRE(found.undecided.size() == 1);
         CHECK(found.undecided[0].low == 0);
@@ -334,8 +339,9 @@ TEST_CASE("what a cell is said to hold, it holds", "[finite]") {
         const double unit = std::ldexp(1.0, -links.units.length_exponent);
         const double low = static_cast<double>(sweep.farthest()) * random.log_between(1e-12, 1.0);
         const double high = low * (1 + random.log_between(1e-9, 0.3));
-        const auto jet = revchain::finite::support_offset(enclosed, revchain::Interval<double>(height * unit),
-                                                          revchain::finite::Cell<double>(low, high));
+        const auto jet =
+            revchain::finite::support_offset(enclosed, revchain::Interval<double>(height * unit),
+                                             revchain::finite::Cell<double, 1>(revchain::Interval<double>(low, high)));
         for (int j = 0; j < 8; ++j) {
             const Quad t = low + (Quad(high) - low) * random(), e = t * Quad(1e-9);
             const Quad y = sweep(t) * unit, before = sweep(t - e) * unit, after = sweep(t + e) * unit;
@@ -345,8 +351,8 @@ TEST_CASE("what a cell is said to hold, it holds", "[finite]") {
             };
             CAPTURE(n, low, high);
             CHECK(within(jet.value, y, 0));
-            CHECK(within(jet.slope, slope, 1e-12 * fabsq(slope) + 1e-12 * fabsq(y / t)));
-            CHECK(within(jet.bend, bend, 1e-9 * fabsq(bend) + 1e-9 * fabsq(slope / t) + 1e-9 * fabsq(y / (t * t))));
+            CHECK(within(jet.slope[0], slope, 1e-12 * fabsq(slope) + 1e-12 * fabsq(y / t)));
+            CHECK(within(jet.bend[0], bend, 1e-9 * fabsq(bend) + 1e-9 * fabsq(slope / t) + 1e-9 * fabsq(y / (t * t))));
         }
     }
 }
@@ -355,16 +361,16 @@ TEST_CASE("nothing leaves the vertical above the first critical height", "[finit
     for (const double ratio : {1.0000001, 1.5, 1e6}) {
         const auto rods = Chain<double>::uniform_rods(5, 1, 1);
         const double first = revchain::modes(rods, {.count = 1}).conical_height[0];
-        const auto found = revchain::steady_shapes(rods, first * ratio);
+        const auto found = revchain::steady_shapes(rods, {.conical_height = first * ratio});
         CHECK(found.complete);
         CHECK(found.shapes.empty());
-        CHECK(revchain::steady_shapes(rods, first * (1 - 1e-8)).shapes.size() == 1);
+        CHECK(revchain::steady_shapes(rods, {.conical_height = first * (1 - 1e-8)}).shapes.size() == 1);
     }
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double bad : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()})
-        CHECK_THROWS_AS(revchain::steady_shapes(plummets(3), bad), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shapes(plummets(3), {.conical_height = bad}), revchain::InvalidArgument);
     // a budget that does not do: what is known stands, the rest is named
-    const auto some = revchain::steady_shapes(plummets(8), 1 / 166.0, {.budget = 100});
+    const auto some = revchain::steady_shapes(plummets(8), {.conical_height = 1 / 166.0, .budget = 100});
     CHECK_FALSE(some.complete);
     CHECK_FALSE(some.undecided.empty());
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/swing.hpp"
 
+#include "revchain/modes.hpp"
+
 #include <quadmath.h>
 
 #include "support/catch.hpp"
@@ -97,11 +99,12 @@ TEST_CASE("small oscillations: the power series in quadruple precision", "[linea
             const auto chain = support::families()[kind].make(n);
             const double gravity = 2.5;
             const auto from = random_start(random, n, 0.1), speed = random_start(random, n, 0.3);
-            const double fastest =
-                std::sqrt(gravity / revchain::modes(chain, {.first = n, .shapes = false}).conical_height[0]);
+            const double fastest = std::sqrt(
+                gravity / revchain::modes(chain, {.first = n, .count = revchain::all_modes}).conical_height[0]);
             const std::vector<double> times{0, 1 / fastest, -8 / fastest,
                                             20 / fastest};  // the series' terms reach e^20
-            const auto found = revchain::small_oscillation(chain, from, speed, times, {.gravity = gravity});
+            const auto found =
+                revchain::swing(chain, {.offset = from, .velocity = speed, .time = times, .gravity = gravity});
             const Swing truth(chain, gravity);
             const double size = found.cosine.cwiseAbs().sum() + found.sine.cwiseAbs().sum();
             CHECK(!found.projected);
@@ -136,7 +139,7 @@ TEST_CASE("small oscillations: two plummets of unlike weights beat", "[linear]")
     const Chain<double> chain({revchain::plummet(light, 1.0), revchain::plummet(1.0, 1.0)});
     const Vector<double> from = Eigen::Vector3d(0.01, 0.01, 0), still = Vector<double>::Zero(3);
     const std::vector<double> times{0.0, 12.5, 1e4, 6.3e9, 1e12};
-    const auto found = revchain::small_oscillation(chain, from, still, times, {.gravity = 1});
+    const auto found = revchain::swing(chain, {.offset = from, .velocity = still, .time = times, .gravity = 1});
     const Quad mu = sqrtq(Quad(light) / (Quad(light) + 1));
     const Quad slow = sqrtq(1 / (1 + mu)), fast = sqrtq(1 / (1 - mu));
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -164,10 +167,11 @@ TEST_CASE("small oscillations: what modes left out may do is within the bound", 
         const auto from = random_start(random, 30, 0.1), speed = random_start(random, 30, 0.1);
         std::vector<double> times;
         for (int i = 0; i < 60; ++i) times.push_back(random.between(0, 10));
-        const auto all = revchain::small_oscillation(chain, from, speed, times);
+        const auto all = revchain::swing(chain, {.offset = from, .velocity = speed, .time = times});
         double before = HUGE_VAL;
         for (const Index count : {0, 1, 3, 10, 18}) {
-            const auto some = revchain::small_oscillation(chain, from, speed, times, {.modes = count});
+            const auto some =
+                revchain::swing(chain, {.offset = from, .velocity = speed, .time = times, .count = count});
             CAPTURE(kind, count);
             CHECK(some.energy_left_out <= before);
             before = some.energy_left_out;
@@ -194,7 +198,7 @@ TEST_CASE("small oscillations: pins without inertia snap into line", "[linear]")
     const Chain<double> chain({revchain::plummet(2.0, 1.0), revchain::plummet(0.0, 1.0)});
     const Vector<double> from = Eigen::Vector3d(0.02, 0.5, 0), speed = Eigen::Vector3d(0.03, -4, 0);
     const double n = std::sqrt(9.80665 / 2);
-    const auto found = revchain::small_oscillation(chain, from, speed, {0.0, 0.4});
+    const auto found = revchain::swing(chain, {.offset = from, .velocity = speed, .time = {0.0, 0.4}});
     CHECK(found.projected);
     CHECK(found.start[0] == 0.02);
     CHECK(found.start[1] == 0.01);
@@ -206,12 +210,13 @@ TEST_CASE("small oscillations: pins without inertia snap into line", "[linear]")
     CHECK(found.energy[0] == Approx(2 * 0.02 * 0.02 / 4 + 2 * 0.03 * 0.03 / 2 / 9.80665).epsilon(1e-14));
     CHECK(found.truncation_error.maxCoeff() <= 1e-20);
     const Vector<double> straight = Eigen::Vector3d(0.02, 0.01, 0);
-    CHECK(!revchain::small_oscillation(chain, straight, Vector<double>::Zero(3), {0.0}).projected);
+    CHECK(!revchain::swing(chain, {.offset = straight, .velocity = Vector<double>::Zero(3), .time = {0.0}}).projected);
     for (const Index size : {3, 10, 40}) {
         const auto mixed = support::families()[9].make(size);
         support::Random random(2);
         const auto start = random_start(random, size, 1);
-        const auto swings = revchain::small_oscillation(mixed, start, Vector<double>::Zero(size), {0.0});
+        const auto swings =
+            revchain::swing(mixed, {.offset = start, .velocity = Vector<double>::Zero(size), .time = {0.0}});
         CHECK(swings.projected);
         CHECK(swings.truncation_error.maxCoeff() <= 1e-19);
         for (Index m = 0; m < size; ++m) {
@@ -228,7 +233,8 @@ TEST_CASE("small oscillations: the start comes back, whatever the chain", "[line
             const auto chain = family.make(n);
             support::Random random(static_cast<std::uint64_t>(n));
             const auto from = random_start(random, n, 1);
-            const auto found = revchain::small_oscillation(chain, from, Vector<double>::Zero(n), {0.0, 1e3});
+            const auto found =
+                revchain::swing(chain, {.offset = from, .velocity = Vector<double>::Zero(n), .time = {0.0, 1e3}});
             CAPTURE(family.name, n, found.error_bound[0], found.error_bound[1], found.truncation_error.maxCoeff());
             double worst = 0;
             for (Index m = 0; m < n; ++m) worst = std::max(worst, std::abs(found.offset(0, m) - found.start[m]));
@@ -243,15 +249,18 @@ TEST_CASE("small oscillations: wrong calls", "[linear]") {
     const Vector<double> good = Vector<double>::Zero(3), moved = Eigen::Vector4d(0, 0, 0, 1);
     const Vector<double> wrong = Eigen::Vector3d(0, std::nan(""), 0);
     const auto call = [&](const Vector<double>& y, const Vector<double>& v, double t,
-                          const revchain::SmallOscillationOptions& options = {}) {
-        return revchain::small_oscillation(chain, y, v, {t}, options);
+                          revchain::SwingOptions options = {}) {
+        options.offset = y, options.velocity = v, options.time = {t};
+        return revchain::swing(chain, options);
     };
     CHECK_NOTHROW(call(good, good, 1));
     CHECK_THROWS_AS(call(moved, good, 1), revchain::InvalidArgument);
     CHECK_THROWS_AS(call(good, wrong, 1), revchain::InvalidArgument);
     CHECK_THROWS_AS(call(good, Vector<double>::Zero(2), 1), revchain::InvalidArgument);
     CHECK_THROWS_AS(call(good, good, HUGE_VAL), revchain::InvalidArgument);
-    CHECK_THROWS_AS(call(good, good, 1, {.modes = 4}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(call(good, good, 1, {.modes = -1}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(call(good, good, 1, {.count = 4}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(call(good, good, 1, {.count = -1}), revchain::InvalidArgument);
     CHECK_THROWS_AS(call(good, good, 1, {.gravity = 0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::swing(revchain::Rig(chain, {}), {.time = {1.0}}), revchain::InvalidArgument);
+    CHECK(revchain::swing(chain, {.time = {1.0}}).offset.isZero());  // nothing given: at rest on the axis
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/tune.hpp"
 
+#include "revchain/questions/tune_candidates.hpp"
+
 #include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -196,7 +198,7 @@ TEST_CASE("a long chain, and a bell above its pin", "[linear]") {
                                   {.weight = 18, .length = 0.65, .centroid = 0.52, .radius_of_gyration = 0.08}),
                               revchain::compound_pendulum<double>(
                                   {.weight = 20, .length = 0.15, .centroid = -0.05, .radius_of_gyration = 0.36})});
-    const double now = revchain::modes(bell).conical_height[0];
+    const double now = revchain::modes(bell, {.count = revchain::all_modes}).conical_height[0];
     require_height(revchain::tune(bell, {.mode = 1, .link = 2, .conical_height = now * 1.5}), 1, now * 1.5);
     require_height(revchain::tune(bell, {.mode = 1, .link = 2, .datum = Datum::centroid, .conical_height = now / 1.5}),
                    1, now / 1.5);
@@ -213,4 +215,10 @@ TEST_CASE("questions that are none are refused", "[linear]") {
     CHECK_THROWS_AS(revchain::tune(chain, {.conical_height = 1.0, .low = 2, .high = 1}), InvalidArgument);
     CHECK_THROWS_AS(revchain::tune(chain, {.conical_height = 1.0, .low = 0}), InvalidArgument);
     CHECK_THROWS_AS(revchain::tune(chain, {.angular_speed = 1.0, .gravity = 0}), InvalidArgument);
+}
+
+TEST_CASE("a rig cannot be tuned yet, and the message says what to do", "[linear]") {
+    const revchain::Rig rig(Chain<double>::uniform_rods(2), {});
+    CHECK_THROWS_WITH(revchain::tune(rig, {.angular_speed = 3.0}),
+                      Catch::Matchers::ContainsSubstring("momentum_for_speed"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/two_links.hpp"
 
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE("Jointed links: both heights", "[finite][jointed]", float, do
                                                                .length = links.upper_length,
                                                                .centroid = links.upper_centroid,
                                                                .radius_of_gyration = links.upper_radius_of_gyration});
-            const auto modes = revchain::modes(Chain<T>({lower, upper}));
+            const auto modes = revchain::modes(Chain<T>({lower, upper}), {.count = revchain::all_modes});
             for (std::size_t k = 0; k < 2; ++k)
                 worst_modes = std::max(
                     worst_modes, error_in_ulp(heights[k], Quad(modes.conical_height[static_cast<revchain::Index>(k)])));
@@ -163,7 +163,8 @@ TEST_CASE("Jointed links: every figure, and no other", "[finite][jointed]") {
         const Letters q = letters(links);
         const bool one_inclination = height * (q.W1 * q.a2 + q.W2 * q.h2) > q.m_l2 - q.W2 * q.h2 * q.a2;  // of link 2
         if (one_inclination) {
-            const auto found = revchain::steady_shapes(Chain<double>({lower, upper}), height, {.budget = 2000});
+            const auto found =
+                revchain::steady_shapes(Chain<double>({lower, upper}), {.conical_height = height, .budget = 2000});
             CHECK(found.complete);
             ++compared;
             REQUIRE(found.shapes.size() == shapes.size());

@@ -3,9 +3,9 @@
 #include "revchain/batch.hpp"
 #include "revchain/buffer.hpp"
 #include "revchain/count.hpp"
-#include "revchain/linear/sensitivity.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/response.hpp"
+#include "revchain/sensitivity.hpp"
 #include "revchain/swing.hpp"
 #include "revchain/tune.hpp"
 
@@ -16,10 +16,10 @@ void modes(fuzz::Random& random, const revchain::Chain<double>& chain) {
     if (chain.size() > 100 || random.one_in(2)) options.first = random.count(3), options.count = random.count(4);
     if (chain.size() <= 100 && random.one_in(4)) options = {.conical_height = {{random.number(), random.number()}}};
     if (random.one_in(4)) options.rtol = random.power(12) * 1e-8;
-    options.shapes = random.one_in(2), options.certify = random.one_in(3);
+    options.certify = random.one_in(3);
     using revchain::ModesMethod;
-    options.method = random.pick({ModesMethod::automatic, ModesMethod::bisection, ModesMethod::blocks,
-                                  ModesMethod::together, ModesMethod::spectrum});
+    options.method = random.pick({ModesMethod::automatic, ModesMethod::bisection, ModesMethod::condensed,
+                                  ModesMethod::aberth, ModesMethod::interpolated});
     const auto found = revchain::modes(chain, options);
     for (revchain::Index j = 0; j < found.size(); ++j)
         fuzz::expect_number(found.conical_height[j] + found.error_bound[j]);
@@ -41,7 +41,7 @@ void fuzz::linear(Random& random) {
         const revchain::ModeCounter<double> counter(hung);
         (void)counter.above_height(random.number()), (void)counter.below_speed(random.number(), random.number());
     } else if (kind == 2) {
-        (void)revchain::response(hung, random.numbers(5), {.support_radius = random.number()});
+        (void)revchain::response(hung, {.conical_height = random.numbers(5), .support_radius = random.number()});
     } else if (kind == 3) {
         const auto datum = static_cast<revchain::Datum>(random.below(revchain::datum_names.size()));
         (void)revchain::tune(hung, {.mode = random.count(3),
@@ -53,7 +53,7 @@ void fuzz::linear(Random& random) {
             const std::vector<double> x = random.numbers(std::size_t(hung.size()));
             return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(x.data(), hung.size()));
         };
-        (void)revchain::small_oscillation(hung, column(), column(), random.numbers(3), {});
+        (void)revchain::swing(hung, {.offset = column(), .velocity = column(), .time = random.numbers(3)});
     } else {
         modes(random, hung);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz.hpp"
-#include "revchain/finite/stability/stability.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
+#include "revchain/stability.hpp"
 #include "revchain/statics.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/two_links.hpp"
 
 void fuzz::shapes(Random& random) {
     if (random.one_in(6)) {
@@ -16,7 +16,8 @@ void fuzz::shapes(Random& random) {
     }
     const Chain<double> hung = random.chain(4);
     const double height = random.number() * hung.total_length();
-    const auto found = revchain::steady_shapes(hung, height, {.budget = 5000, .hanging_only = random.one_in(2)});
+    const auto found =
+        revchain::steady_shapes(hung, {.conical_height = height, .budget = 5000, .hanging_only = random.one_in(2)});
     for (const revchain::SteadyShape& shape : found.shapes) {
         expect_number(shape.inclination.sum());
         expect_number(shape.error_bound);

@@ -37,12 +37,12 @@ NAMES = [
     "tapered chain",
     "coarse chain",
     "single precision",
-    "all together",
-    "interpolated spectrum",
-    "compressed blocks",
+    "aberth",
+    "interpolated",
+    "condensed",
     "double-double",
     "finite amplitude",
-    "element bisection",
+    "bisection",
     "dense",
 ]
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -494,7 +494,7 @@ def test_modes_that_are_not_there():
 
 def test_words_and_things_that_mean_nothing():
     chain = rc.Chain(weight=[1.0, 2.0], length=1.0)
-    for model in ("", "Closed Forms", "bisection", "nonsense", 3):
+    for model in ("", "Closed Forms", "halving", "nonsense", 3):
         with pytest.raises((ValueError, TypeError), match="model"):
             rc.solve(chain, model=model)
     for what in (None, 3, "scene.toml", [1, 2], np.ones(3)):
@@ -671,7 +671,7 @@ def test_inclined_shapes_of_equal_plummets():
             for inclination in (0.02, 0.1, 0.3, 0.7) if mode > 1 else (0.02, 0.1, 0.3, 0.7, 1.3):
                 exact = [Decimal(mp.nstr(inclined_chain(links, mode, inclination), 25))]
                 for rtol in (5.0, 1.0, 0.3, 0.1, 1e-2, 1e-3, 1e-4, 1e-8):
-                    for model in (None, "continuous chain", "Laguerre asymptotics", "element bisection"):
+                    for model in (None, "continuous chain", "Laguerre asymptotics", "bisection"):
                         solution = rc.solve(chain, 1, first=mode, rtol=rtol, inclination=inclination, model=model)
                         linear += len(solution) and solution.model != "finite amplitude"
                         what = keeps_its_word(solution, exact, 1, rtol)

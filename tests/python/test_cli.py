@@ -157,7 +157,7 @@ def test_a_tolerance_that_is_not_met(run):
         (["--modes", "many"], "--modes"),
         (["--rtol", "-1"], "-1"),
         (["--rtol", "nan"], "nan"),
-        (["--method", "qr"], "auto, bisection, blocks, together, spectrum, dense, recurrence"),
+        (["--method", "qr"], "auto, bisection, condensed, aberth, interpolated, dense, recurrence"),
         (["--plot", "a.jpg"], ".png, .svg, .pdf"),
         (["--json", "-", "--csv", "-"], "cannot share stdout"),
         (["--json", "a.txt", "--csv", "a.txt"], "same name"),

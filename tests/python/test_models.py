@@ -44,8 +44,8 @@ def test_every_model_by_its_name():
         "continuous chain",
         "coarse chain",
         "single precision",
-        "compressed blocks",
-        "element bisection",
+        "condensed",
+        "bisection",
     }
     with pytest.raises(ValueError, match="model must be one of closed forms, .*, got 'magic'"):
         rc.solve(PLUMMETS, model="magic")

@@ -198,8 +198,8 @@ BAD = {
     "rtol negative": ({"rtol": -1e-3}, "(rtol|tolerance).*-0.001"),
     "rtol text": ({"rtol": "tight"}, "rtol must be a real number"),
     "rtol array": ({"rtol": [1e-3]}, "rtol must be a single number"),
-    "method unknown": ({"method": "qr"}, "auto, bisection, blocks, together, spectrum, dense, recurrence.*qr"),
-    "method no text": ({"method": None}, "auto, bisection, blocks, together, spectrum, dense, recurrence.*None"),
+    "method unknown": ({"method": "qr"}, "auto, bisection, condensed, aberth, interpolated, dense, recurrence.*qr"),
+    "method no text": ({"method": None}, "auto, bisection, condensed, aberth, interpolated, dense, recurrence.*None"),
 }
 
 

@@ -126,7 +126,7 @@ BAD = {
     "unknown key at the top": ({"links": [ONE], "gravitty": 1}, "gravitty: unknown key; did you mean gravity?"),
     "unknown key in ask": ({"links": [ONE], "ask": {"mode": 1}}, "ask.mode: unknown key; did you mean modes?"),
     "unknown kind": ({"links": [{**ONE, "kind": "rodd"}]}, "links[0].kind: must be one of plummet, rod, got 'rodd'; did you mean rod?"),
-    "unknown method": ({"links": [ONE], "ask": {"method": "qr"}}, "ask.method: must be one of auto, bisection, blocks, together, spectrum, dense, recurrence"),
+    "unknown method": ({"links": [ONE], "ask": {"method": "qr"}}, "ask.method: must be one of auto, bisection, condensed, aberth, interpolated, dense, recurrence"),
     "a list for a number": ({"links": [{**ONE, "length": [1]}]}, "links[0].length: must be a number, or a number and its unit"),
     "a boolean for a number": ({"links": [{**ONE, "length": True}]}, "links[0].length: must be a number"),
     "huge integer": ({"links": [{**ONE, "length": 10**400}]}, "links[0].length: must be a number"),

@@ -9,18 +9,11 @@
 
 namespace revchain::detail {
 
-/// A chain as lumped pins and springs in double, with bounds on what rounding did to them.
-struct LumpedChain {
-    pencil::small::LumpedLinks links;
-    pencil::SmallRoundings roundings;
-};
-
-/// Heights in units of `chain.units()`. With p = h/a, q = 1 - p the lumped masses are W p and W q, X = W (p q - r).
-/// False for chains not served: all have to be plummets, or all to have 0 <= h <= a and 0 < (rho/a)^2 < p q (l < a).
-/// Roundings: of S one (compensated); of p one, of q two; of k two with plummets, else four, of 1/k the same; the
-/// others in docs/accuracy.md, "All modes of small chains", 1.
-inline bool pin(LumpedChain& small, const Chain<double>& chain) {
-    auto& links = small.links;
+/// A chain as lumped pins and springs in double. Heights in units of `chain.units()`. With p = h/a, q = 1 - p the
+/// lumped masses are W p and W q, X = W (p q - r). False for chains not served: all have to be plummets, or all to have
+/// 0 <= h <= a and 0 < (rho/a)^2 < p q (l < a). Roundings: of S one (compensated); of p one, of q two; of k two with
+/// plummets, else four, of 1/k the same; the others in docs/accuracy.md, "All modes of small chains", 1.
+inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain) {
     const std::size_t n = static_cast<std::size_t>(chain.size());
     const ChainUnits units = chain.units();
     const double per_weight = std::ldexp(1.0, -units.weight_exponent);
@@ -52,7 +45,7 @@ inline bool pin(LumpedChain& small, const Chain<double>& chain) {
             mass_above = weight * q;
             fit = fit && p >= 0 && q >= 0 && r > 0 && even > r;
             worst_cross = std::max(worst_cross, (even + r) / (even - r));
-            links.swing[m] = weight * (even - r) * (a / share);
+            links.cross_ratio[m] = weight * (even - r) * (a / share);
             links.quarter_weight[m] = weight / 4;
             links.skew[m] = p - q;
             links.turn[m] = weight * r;
@@ -68,36 +61,28 @@ inline bool pin(LumpedChain& small, const Chain<double>& chain) {
     }
     links.least_shift = (1 - 0x1p-30) / trace;
     links.greatest_shift = (1 + 0x1p-30) * greatest;
-    small.roundings = links.rigid ? pencil::SmallRoundings{6, 4, 5 * worst_cross + 15, worst_skew}
-                                  : pencil::SmallRoundings{2, 0, 6, 0};
+    links.roundings = {2, 0, 6, 0};
+    if (links.rigid) links.roundings = {6, 4, 5 * worst_cross + 15, worst_skew};
     return fit && worst_cross < 0x1p20;
 }
 
-/// Where finding all modes at once pays, few of them asked for or not: up to 40 times (10 links, all modes), never less
-/// than 0.9 times (measured with plummets and rods, N = 2 ... 100). Tighter tolerances would often be refused.
-inline bool all_together_pays(const Chain<double>& chain, const ModeRange& range,
-                              const HeightsOptions<double>& options) {
-    const Index n = chain.size(), count = range.count;
-    return options.rtol.value_or(0.0) >= 1e-14 && (n <= 32 || (n <= 64 && count >= 3) || (n <= 100 && 2 * count >= n));
-}
-
 /// Stage 1 of `modes` for small chains where the tolerance leaves room for bounds of some 20 ulp; nothing where it does
-/// not, or for chains that `pencil::small_spectrum` does not serve. Cost: as there, and 10 ns a link.
-inline std::optional<Heights<double>> heights_all_together(const Chain<double>& chain, const ModeRange& range,
-                                                           const HeightsOptions<double>& options) {
+/// not, or for chains that `pencil::aberth_spectrum` does not serve. Cost: as there, and 10 ns a link.
+inline std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, const ModeRange& range,
+                                                        const HeightsOptions<double>& options) {
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);
-    if (goal < 16 * epsilon<double>() || chain.size() > static_cast<Index>(pencil::small::most_links) ||
+    if (goal < 16 * epsilon<double>() || chain.size() > static_cast<Index>(pencil::aberth::most_links) ||
         chain.mode_count() != chain.size() || !chain.has_one_weight_unit())
         return std::nullopt;
-    LumpedChain small;
-    if (!pin(small, chain)) return std::nullopt;
-    pencil::SmallSpectrum all;
-    if (!pencil::small_spectrum(small.links, small.roundings, goal, all)) return std::nullopt;
-    Heights<double> result{{}, "together"};
-    result.height.reserve(static_cast<std::size_t>(range.count));
+    pencil::aberth::LumpedLinks links;
+    if (!lump(links, chain)) return std::nullopt;
+    pencil::AberthSpectrum all;
+    if (!pencil::aberth_spectrum(links, goal, all)) return std::nullopt;
+    Heights<double> result;
+    result.reserve(static_cast<std::size_t>(range.count));
     for (Index j = range.first - 1; j < range.first - 1 + range.count; ++j) {
         const std::size_t i = static_cast<std::size_t>(j);
-        result.height.push_back({all.eigenvalue[i], all.bound[i], all.eigenvalue[i]});
+        result.push_back({all.eigenvalue[i], all.bound[i], all.eigenvalue[i]});
     }
     return result;
 }

@@ -120,7 +120,7 @@ struct BatchPlan {
 
 /// Throws InvalidArgument for the first chain that has something wrong.
 template <Real T>
-BatchPlan look_at_each(const ChainBatch<T>& batch, const std::optional<Index>& count) {
+BatchPlan classify(const ChainBatch<T>& batch, const std::optional<Index>& count) {
     BatchPlan plan{count.value_or(batch.size), {}};
     constexpr Index together = 64;
     Index fewest = batch.size, which = 0;

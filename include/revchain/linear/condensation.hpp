@@ -19,7 +19,7 @@ inline constexpr std::size_t leaf_degree = 4;     ///< of their polynomials
 constexpr Index leaf_links(Index length) { return std::min(length, std::clamp<Index>(length / 16, 4, 64)); }
 
 /// Leaves of up to 4 links have all of their 4 terms; those of longer runs are so short that 3 nearly always do (what
-/// they leave out is asked: `compress`).
+/// they leave out is asked: `condensed_chain`).
 constexpr std::size_t leaf_terms(Index length) { return length < 64 ? leaf_degree : leaf_degree - 1; }
 
 /// Bounds on the roundings (half units, relative) behind the moment a1 of a leaf of so many links and behind its other

@@ -16,7 +16,7 @@ namespace detail {
 
 /// Link number `index` as a run, from the chain's numbers in `Wide<T>`. Alone where the polynomials do not hold.
 template <Real T>
-pencil::CondensedRun<T> single_link(const pencil::BlockBuilder<T>& builder, const Link<T>& link, Index index,
+pencil::CondensedRun<T> single_link(const pencil::CondensedPencilBuilder<T>& builder, const Link<T>& link, Index index,
                                     const T& unit_length, const Wide<T>& below) {
     using std::abs;
     using S = Wide<T>;
@@ -101,8 +101,8 @@ LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, co
 /// A chain condensed into blocks that hold for every conical height above `least_height`, in units of
 /// `unit_length` as all heights of the pencil are.
 template <Real T>
-struct CompressedChain {
-    pencil::BlockPencil<T> pencil;
+struct CondensedChain {
+    pencil::CondensedPencil<T> pencil;
     T unit_length{};
 };
 
@@ -110,12 +110,12 @@ struct CompressedChain {
 /// wavelength, halved where they are not; links that fit no run stay alone.
 /// Cost O(N): see `condense`; memory O(blocks).
 template <std::floating_point T>
-CompressedChain<T> compress(const Chain<T>& chain, const T& least_height) {
+CondensedChain<T> condensed_chain(const Chain<T>& chain, const T& least_height) {
     using namespace detail;
     using V = Pack<T>;
     const LinkColumns<T> links(chain);
     const T unit_length = links.unit_length;
-    pencil::BlockBuilder<T> builder(least_height);
+    pencil::CondensedPencilBuilder<T> builder(least_height);
     // The phase up to which degree 4 is complete for a uniform run; less for the shortest, whose roundings move more
     // mass (bounds then stay below 2 ulp).
     const auto reach = [](Index length) { return length < 16 ? T(4e-4) : T(1.6e-3); };

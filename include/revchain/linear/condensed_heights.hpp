@@ -7,10 +7,10 @@
 
 namespace revchain::detail {
 
-/// Where compressed chains pay: long ones of which few modes are wanted. Below, one mode by bisection costs less than
+/// Where condensed chains pay: long ones of which few modes are wanted. Below, one mode by bisection costs less than
 /// the blocks of all (flat: within 20 % from 150 to 400 links).
 template <Real T>
-bool compression_pays(const Chain<T>& chain, const ModeRange& range) {
+bool condensation_pays(const Chain<T>& chain, const ModeRange& range) {
     return chain.size() >= 256 && range.first - 1 + range.count <= chain.size() / 8;
 }
 
@@ -38,7 +38,7 @@ T estimated_height(const Chain<T>& chain, Index number) {
         below = above;
     }
     if (slow) {
-        const auto bracket = pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces), [](Index) {}).front();
+        const auto bracket = pencil::bisect(rods, number - 1, 1, T(0.02), length * T(pieces)).front();
         return pencil::between(bracket.lower, bracket.upper);
     }
     const T per_phase = phase / (T(number) - T(0.25));
@@ -48,7 +48,7 @@ T estimated_height(const Chain<T>& chain, Index number) {
 /// Eigenvalues of up to four neighbouring brackets, number `first` on (from 0), proved by two counts each to within
 /// `margin` of what is returned; nothing where a proof fails.
 template <class T>
-std::optional<DoubleWord<Pack<T>>> refined(const pencil::BlockPencil<T>& pencil, Index first,
+std::optional<DoubleWord<Pack<T>>> refined(const pencil::CondensedPencil<T>& pencil, Index first,
                                            const std::vector<pencil::Bracket<T>>& brackets, std::size_t from,
                                            const T& margin) {
     using V = Pack<T>;
@@ -76,20 +76,20 @@ std::optional<DoubleWord<Pack<T>>> refined(const pencil::BlockPencil<T>& pencil,
 }
 
 template <Real T>
-struct CompressedHeights {
+struct CondensedHeights {
     Heights<T> found;
-    CompressedChain<T> compressed;
+    CondensedChain<T> condensed;
 };
 
-/// Stage 1 of `modes` for `compression_pays`; nothing where the bound would miss the tolerance asked or a mode could
-/// not be proved, so that the sure way is left.
+/// Stage 1 of `modes` for a few of the slowest modes of a long chain; nothing where the bound would miss the tolerance
+/// or a mode could not be proved: bisection is then left.
 ///
 /// Blocks, their modes bracketed by counts in T, two Newton steps (the last in `Wide<T>`), two proved counts on the
 /// blocks. The bound adds what condensing has changed, 1.8 ulp: docs/accuracy.md, "Blocks".
-/// Cost: `compress`, and 20 microseconds a mode.
+/// Cost: `condensed_chain`, and 20 microseconds a mode.
 template <std::floating_point T>
-std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain, const ModeRange& range,
-                                                           const HeightsOptions<T>& options, double share) {
+std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain, const ModeRange& range,
+                                                           const HeightsOptions<T>& options) {
     using std::ldexp;
     using S = Wide<T>;
     if (options.rtol && *options.rtol < T(2) * epsilon<T>()) return std::nullopt;
@@ -100,26 +100,26 @@ std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain
 
     const Index first = range.first - 1, last = first + range.count;
     T least = T(0.95) * estimated_height(chain, last);
-    CompressedChain<T> compressed;
+    CondensedChain<T> condensed;
     for (int attempt = 0;; ++attempt) {
-        compressed = compress(chain, least);
-        if (pencil::count_above(compressed.pencil, std::array<T, 1>{least})[0] >= last) break;
+        condensed = condensed_chain(chain, least);
+        if (pencil::count_above(condensed.pencil, std::array<T, 1>{least})[0] >= last) break;
         if (attempt == 20) return std::nullopt;
         least = least * (attempt < 2 ? T(0.7) : T(0.25));
     }
-    const pencil::BlockPencil<T>& pencil = compressed.pencil;
+    const pencil::CondensedPencil<T>& pencil = condensed.pencil;
     const T margin = epsilon<T>() / T(8);
     const T bound = pencil::bound_of_margin<S>(margin + pencil.error) + T(0.51) * epsilon<T>();
     if (!(bound <= options.rtol.value_or(T(2) * epsilon<T>()))) return std::nullopt;
 
     const auto brackets = [&](Index number, Index count, const T& tolerance) {
-        return pencil::bisect(pencil, number, count, tolerance, pencil.least_shift, [](Index) {});
+        return pencil::bisect(pencil, number, count, tolerance, pencil.least_shift);
     };
     const auto rough = brackets(first, range.count, T(1e-3));
-    Heights<T> result{{}, "blocks"};
-    result.height.reserve(rough.size());
-    while (result.height.size() < rough.size()) {
-        const std::size_t done = result.height.size();
+    Heights<T> result;
+    result.reserve(rough.size());
+    while (result.size() < rough.size()) {
+        const std::size_t done = result.size();
         const std::size_t count = std::min(pack_size, rough.size() - done);
         auto found = refined(pencil, first, rough, done, margin);
         if (!found) {  // neighbours so close that a step from 1e-3 may end at the wrong one
@@ -128,14 +128,14 @@ std::optional<CompressedHeights<T>> heights_by_compression(const Chain<T>& chain
         }
         if (!found) return std::nullopt;
         for (std::size_t lane = 0; lane < count; ++lane) {
-            const S height = S(found->high[lane], found->low[lane]) * S(compressed.unit_length);
+            const S height = S(found->high[lane], found->low[lane]) * S(condensed.unit_length);
             const S scaled = ldexp(height, -units.length_exponent);
-            result.height.push_back({static_cast<T>(scaled), bound, scaled});
+            result.push_back({static_cast<T>(scaled), bound, scaled});
         }
-        advance(options.progress, share * static_cast<double>(done + count) / static_cast<double>(rough.size()));
+        advance(options.progress, static_cast<double>(done + count) / static_cast<double>(rough.size()));
     }
-    restore_order(result.height);
-    return CompressedHeights<T>{std::move(result), std::move(compressed)};
+    restore_order<T>(result);
+    return CondensedHeights<T>{std::move(result), std::move(condensed)};
 }
 
 }  // namespace revchain::detail

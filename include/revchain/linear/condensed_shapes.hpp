@@ -2,12 +2,30 @@
 #pragma once
 
 #include "revchain/linear/condensed_heights.hpp"
-#include "revchain/linear/mode_table.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
+namespace revchain {
+template <Real T>
+struct ModeShapes;  // revchain/modes.hpp
+}
+
 namespace revchain::detail {
+
+/// Distances of the crossings from the free end, along the chain.
+template <Real T>
+Vector<T> nodes(const Chain<T>& chain, const std::vector<pencil::Crossing<T>>& crossings) {
+    Vector<T> found(static_cast<Index>(crossings.size()));
+    Wide<T> below(T(0));  // distance of the lower pin of link `m` from the free end
+    Index m = 0, i = 0;
+    for (const pencil::Crossing<T>& crossing : crossings) {
+        for (; m < crossing.element; ++m) below = below + Wide<T>(chain.length()[m]);
+        found[i++] = static_cast<T>(below + Wide<T>(crossing.share * chain.length()[m]));
+    }
+    return found;
+}
 
 /// Some neighbouring links as mass, spring, mass: lambda stiffness + cross between at_lower and at_upper.
 template <class T>
@@ -90,22 +108,50 @@ void weigh(const LinkChunk<T>& links, const Pack<T>& lambda, const Pack<T>& top,
 template <class T>
 struct ShapePack {
     using V = Pack<T>;
-    DoubleWord<V> height;
-    std::vector<DoubleWord<V>> between;  ///< offsets between blocks
-    V scale{T(1)};                       ///< makes the largest offset 1 and the free end's positive
-    V largest{};                         ///< offset seen, unscaled
+    using P = DoubleWord<V>;
+    P height;
+    std::vector<pencil::LumpedElement<P>> elements;  ///< of the blocks
+    std::vector<P> between;                          ///< offsets between them
+    V largest{};                                     ///< offset seen
     PinState<V> state;
-    V top;  ///< offset of the pin reached, scaled
+    V top;  ///< offset of the pin reached
     Balance<V> balance;
     std::array<std::vector<pencil::Crossing<T>>, pack_size> crossing;
+
+    /// Finds offsets between blocks; false where they leave the range of T in one of the first `lanes` lanes.
+    bool start(const pencil::CondensedPencil<T>& pencil, std::size_t lanes) {
+        elements = pencil::elements_at<P>(pencil, height);
+        between = pencil::offsets_between(elements);
+        V least(std::numeric_limits<T>::max()), most{};
+        for (std::size_t b = 0; b < elements.size(); ++b) {
+            most = max(most, abs(between[b].high));
+            least = if_less(abs(between[b].high), least, abs(between[b].high), least);
+        }
+        const P tip = between[0], by = P(V(T(1))) / tip;
+        bool at_tip = true;
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            if (!(least[lane] > std::numeric_limits<T>::min() / epsilon<T>()) || !(most[lane] < T(1e100))) return false;
+            at_tip = at_tip && abs(tip.high)[lane] >= most[lane];
+        }
+        if (at_tip)  // mostly; the rows need no scaling in the end
+            for (P& y : between) y = y * by;
+        return true;
+    }
+    /// To the upper pin of block b.
+    void enter(std::size_t b) {
+        const P& upper = between[b + 1];
+        const P force = (between[b] - upper) * elements[b].spring + elements[b].upper * upper;
+        state = {{upper.high, upper.low}, {force.high, force.low}};
+        top = upper.high;
+    }
 };
 
 /// Stores offsets of a chunk's lower pins in the rows of `shape`, and where they change sign.
 template <class T>
-void store(Modes<T>& modes, ShapePack<T>& pack, std::size_t first, std::size_t lanes, Index link, Index count,
+void store(ModeShapes<T>& shapes, ShapePack<T>& pack, std::size_t first, std::size_t lanes, Index link, Index count,
            const std::vector<Pack<T>>& offset) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-        T* row = &modes.shape(static_cast<Index>(first + lane), link);
+        T* row = &shapes.offset(static_cast<Index>(first + lane), link);
         T upper = pack.top[lane];
         for (Index i = count; i-- > 0;) {
             const T y = offset[static_cast<std::size_t>(i)][lane];
@@ -117,94 +163,64 @@ void store(Modes<T>& modes, ShapePack<T>& pack, std::size_t first, std::size_t l
     }
 }
 
-/// Stage 2 of `modes` after `heights_by_compression`: shapes, residuals and nodes of all its modes. Offsets between
+/// Stage 2 of `modes` for a condensed chain: shapes, residuals and nodes of all its modes. Offsets between
 /// blocks by twisted recursions in double words; from each block's upper pin down, link by link, with compensated sums.
 /// False where offsets leave the range of T; sure shapes are then still to be found.
 /// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the
 /// top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
 template <std::floating_point T>
-bool shapes_by_compression(Modes<T>& modes, const Chain<T>& chain, const CompressedChain<T>& compressed,
-                           const std::vector<Height<T>>& heights, Progress* progress, double from) {
+bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const CondensedChain<T>& condensed,
+                            const Heights<T>& heights, Progress* progress) {
     using std::ldexp;
     using V = Pack<T>;
-    using P = DoubleWord<V>;
     using S = Wide<T>;
-    const auto& blocks = compressed.pencil.blocks;
+    const auto& blocks = condensed.pencil.blocks;
     const Index size = chain.size();
     const auto lanes_from = [&](std::size_t first) { return std::min(pack_size, heights.size() - first); };
     std::vector<ShapePack<T>> packs((heights.size() + pack_size - 1) / pack_size);
-    bool scaled = true;
     for (std::size_t k = 0; k < packs.size(); ++k) {
-        ShapePack<T>& pack = packs[k];
         const std::size_t first = k * pack_size, lanes = lanes_from(first);
         for (std::size_t lane = 0; lane < pack_size; ++lane) {
             const S unrounded = heights[first + std::min(lane, lanes - 1)].unrounded;
-            const S height = ldexp(unrounded, chain.units().length_exponent) / S(compressed.unit_length);
-            pack.height.high.set(lane, height.high);
-            pack.height.low.set(lane, height.low);
+            const S height = ldexp(unrounded, chain.units().length_exponent) / S(condensed.unit_length);
+            packs[k].height.high.set(lane, height.high);
+            packs[k].height.low.set(lane, height.low);
         }
-        pack.between = pencil::offsets_between<P>(compressed.pencil, pack.height);
-        V least(std::numeric_limits<T>::max()), largest{};
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-            largest = max(largest, abs(pack.between[b].high));
-            least = if_less(abs(pack.between[b].high), least, abs(pack.between[b].high), least);
-        }
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-            if (!(least[lane] > std::numeric_limits<T>::min() / epsilon<T>()) || !(largest[lane] < T(1e100)))
-                return false;
-            scaled = scaled && abs(pack.between[0].high)[lane] >= largest[lane];
-        }
-        if (scaled) pack.scale = V(T(1)) / pack.between[0].high;  // the largest offset is plainly the free end's
+        if (!packs[k].start(condensed.pencil, lanes)) return false;
     }
     std::vector<V> offset(LinkChunk<T>::most);
-    const int rounds = scaled ? 1 : 2;  // first for the largest offset, then to store
-    for (int round = 0; round < rounds; ++round) {
-        const bool storing = round + 1 == rounds;
-        Index above = size;
-        for (std::size_t b = blocks.size(); b-- > 0;) {
-            for (ShapePack<T>& pack : packs) {
-                const auto e = pencil::element_at<P>(blocks[b], pack.height);
-                const P& upper = pack.between[b + 1];
-                const P force = (pack.between[b] - upper) * e.spring + e.upper * upper;
-                pack.state = {{upper.high, upper.low}, {force.high, force.low}};
-                pack.top = upper.high * pack.scale;
+    Index above = size;
+    for (std::size_t b = blocks.size(); b-- > 0;) {
+        for (ShapePack<T>& pack : packs) pack.enter(b);
+        const Index bottom = above - blocks[b].links;
+        while (above > bottom) {
+            const Index count = std::min(above - bottom, LinkChunk<T>::most);
+            above -= count;
+            const LinkChunk<T> chunk(chain, above, count, condensed.unit_length);
+            for (std::size_t k = 0; k < packs.size(); ++k) {
+                ShapePack<T>& pack = packs[k];
+                descend(chunk, pack.height.high, pack.state, offset.data());
+                if (above == bottom) offset[0] = pack.between[b].high + pack.between[b].low;
+                for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+                    pack.largest = max(pack.largest, abs(offset[i]));
+                weigh(chunk, pack.height.high, pack.top, above + count == size, offset.data(), pack.balance);
+                store(shapes, pack, k * pack_size, lanes_from(k * pack_size), above, count, offset);
+                pack.top = offset[0];
             }
-            const Index bottom = above - blocks[b].links;
-            while (above > bottom) {
-                const Index count = std::min(above - bottom, LinkChunk<T>::most);
-                above -= count;
-                const LinkChunk<T> chunk(chain, above, count, compressed.unit_length);
-                for (std::size_t k = 0; k < packs.size(); ++k) {
-                    ShapePack<T>& pack = packs[k];
-                    descend(chunk, pack.height.high, pack.state, offset.data());
-                    if (above == bottom) offset[0] = pack.between[b].high + pack.between[b].low;
-                    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-                        pack.largest = max(pack.largest, abs(offset[i]));
-                        offset[i] = offset[i] * pack.scale;
-                    }
-                    if (storing) {
-                        weigh(chunk, pack.height.high, pack.top, above + count == size, offset.data(), pack.balance);
-                        store(modes, pack, k * pack_size, lanes_from(k * pack_size), above, count, offset);
-                    }
-                    pack.top = offset[0];
-                }
-            }
-            advance(progress, 1 - (1 - from) *
-                                      (static_cast<double>(above) / static_cast<double>(size) + (rounds - 1 - round)) /
-                                      rounds);
         }
-        for (ShapePack<T>& pack : packs)
-            if (!storing) pack.scale = if_less(pack.between[0].high, V{}, V(T(-1)), V(T(1))) / pack.largest;
+        advance(progress, 1 - static_cast<double>(above) / static_cast<double>(size));
     }
     for (std::size_t k = 0; k < packs.size(); ++k)
         for (std::size_t lane = 0; lane < lanes_from(k * pack_size); ++lane) {
             const auto j = static_cast<Index>(k * pack_size + lane);
             auto& crossing = packs[k].crossing[lane];
-            modes.shape(j, size) = T(0);
-            modes.residual[j] =
+            shapes.offset(j, size) = T(0);
+            const T scale = (shapes.offset(j, 0) < T(0) ? T(-1) : T(1)) / packs[k].largest[lane];
+            if (scale != T(1)) shapes.offset.row(j) *= scale;
+            shapes.residual[j] =
                 max(packs[k].balance.worst, abs(packs[k].balance.force))[lane] / packs[k].balance.largest[lane];
             std::reverse(crossing.begin(), crossing.end());
-            modes.nodes[static_cast<std::size_t>(j)] = nodes(chain, crossing);
+            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, crossing);
         }
     return true;
 }

@@ -33,24 +33,17 @@ inline DrivenChain driven_chain(const Chain<double>& chain) {
     result.elements.reserve(pencil.elements.size());
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const auto& e = pencil.elements[m];
-        pencil::DrivenElement element{e.stiffness, 0.0, e.lower, e.upper, e.cross};
-        element.stiffness_error = e.stiffness.high * pencil.entry_error + pencil.stiffness_underflow;
-        element.lower_error = pencil.entry_error * e.lower.high;
-        element.upper_error = pencil.entry_error * e.upper.high;
-        element.cross_error = pencil.entry_error * (std::abs(e.cross.high) + 2 * e.turning.high);
-        element.step = pencil.step_down(m);
-        result.elements.push_back(element);
+        const double part = pencil.entry_error;
+        const pencil::ElementError<double> error{e.stiffness.high * part + pencil.stiffness_underflow, 0,
+                                                 part * e.lower.high, part * e.upper.high,
+                                                 part * (std::abs(e.cross.high) + 2 * e.turning.high)};
+        result.elements.push_back({{e.stiffness, 0.0, e.lower, e.upper, e.cross, error}, pencil.step_down(m)});
     }
     return result;
 }
 
 inline DrivenChain driven_chain(const Rig& rig) {
     DrivenChain result{{}, rig.chain().units(), true, rig.has_momentum()};
-    const auto add = [&](const RigElement& of) {
-        const auto& [e, off] = of;
-        result.elements.push_back(
-            {e.stiffness, e.spin, e.lower, e.upper, e.cross, off.stiffness, off.lower, off.upper, off.cross});
-    };
     Index m = 0;
     for (const RigLink& link : rig_links(rig)) {
         const bool stands = rig.stands(m++);
@@ -59,10 +52,10 @@ inline DrivenChain driven_chain(const Rig& rig) {
             ++result.idle;
             continue;
         }
-        add(element);
+        result.elements.push_back({element});
         if (stands) ++result.standing;
     }
-    if (const auto support = support_element(rig)) add(*support);
+    if (const auto support = support_element(rig)) result.elements.push_back({*support});
     return result;
 }
 

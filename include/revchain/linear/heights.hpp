@@ -14,26 +14,18 @@
 /// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
 namespace revchain::detail {
 
-/// A height in the units of the chain's pencils.
+/// A height in the units of the chain's pencils; the bound is relative to the exact height, and proved.
 template <Real T>
-struct Height {
-    T value{};
-    T error_bound{};      ///< of `value`, relative to the exact height; proved
-    Wide<T> unrounded{};  ///< what the shape is computed at
-};
+using Height = pencil::Certified<T>;
 
-/// What the first stage of `modes` gives: the heights of a range of modes, descending.
+/// Heights of a range of modes, descending.
 template <Real T>
-struct Heights {
-    std::vector<Height<T>> height;
-    const char* method = "";
-};
+using Heights = std::vector<Height<T>>;
 
 /// Accuracy and progress of the first stage; the range of modes is passed beside them.
 template <Real T>
 struct HeightsOptions {
     std::optional<T> rtol{};  ///< absent: as accurate as T allows
-    bool shapes = false;      ///< whether shapes are wanted afterwards
     Progress* progress = nullptr;
 };
 
@@ -44,37 +36,12 @@ bool is_loose(const Chain<T>& chain, const HeightsOptions<T>& options) {
     return std::min(options.rtol.value_or(T(0)), T(0.5)) > T(64) * epsilon<T>() * T(chain.size());
 }
 
-/// Height number `j` (from 0) to `goal`, from its bracket: the cheapest certificate first.
-template <Real T>
-Height<T> refined(const Pencils<T>& pencils, Index j, const pencil::Bracket<T>& bracket, const T& goal, bool loose) {
-    using S = Wide<T>;
-    using M = Narrow<S>;
-    const T start = pencil::between(bracket.lower, bracket.upper);
-    if (loose && pencil::lies_within<T>(pencils.rounded(), j, start, goal / T(2)))
-        return {start, pencil::bound_of_margin<T>(goal / T(2)), S(start)};
-    // One round nearly always, two at most: the quotient's error is the square of the vector's. Where no arithmetic is
-    // wider than T, rounding in T limits what two counts can prove: then as many ulp as it takes, within a factor of 2.
-    T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // with what goes with it 2 ulp at most
-    T height = start;
-    S fine(start);
-    for (int round = 0; round < (std::is_same_v<S, T> ? 24 : 2); ++round) {
-        if (round < 2)
-            fine = pencil::rayleigh_quotient<S>(pencils.wide(), pencil::eigenvector(pencils.rounded(), height).offset);
-        height = static_cast<T>(fine);
-        if (pencil::lies_within<S>(pencils.wide(), j, height, static_cast<M>(margin)))
-            return {height, pencil::bound_of_margin<S>(margin), fine};
-        if constexpr (std::is_same_v<S, T>) margin = margin * T(2);
-    }
-    const auto sure = pencil::bisect_certified<S>(pencils.wide(), j, start);
-    return {sure.eigenvalue, sure.error_bound, S(static_cast<M>(sure.eigenvalue))};
-}
-
 /// Heights closer together than their bounds may come out in the wrong order; exchanged, the larger bound holds for
 /// both.
 template <Real T>
-void restore_order(std::vector<Height<T>>& heights) {
+void restore_order(Heights<T>& heights) {
     for (std::size_t j = 1; j < heights.size(); ++j)
-        for (std::size_t i = j; i > 0 && heights[i - 1].value < heights[i].value; --i) {
+        for (std::size_t i = j; i > 0 && heights[i - 1].eigenvalue < heights[i].eigenvalue; --i) {
             std::swap(heights[i - 1], heights[i]);
             heights[i].error_bound = heights[i - 1].error_bound =
                 std::max(heights[i - 1].error_bound, heights[i].error_bound);
@@ -85,38 +52,36 @@ void restore_order(std::vector<Height<T>>& heights) {
 /// proved by two counts there, in double. Nothing where there is no such pencil or rounding leaves one in doubt: about
 /// where `goal` is below 8 ulp of P for each link.
 /// Cost for each link: 5 ns, 7 ns for each three bits and 8 modes (float: 5), and 24 ns a mode for the proof.
-template <std::floating_point P, class Finished>
+template <std::floating_point P>
 std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const ModeRange& range, double goal,
-                                             Finished finished) {
+                                             const std::function<void(Index)>& finished = {}) {
     const auto pencil = plain_pencil(chain);
     if (!pencil) return std::nullopt;
     // Brackets leave a quarter of the goal on either side to the counts' roundings.
     const auto brackets =
         pencil::bisect(pencil::rounded<P>(*pencil), range.first - 1, range.count, static_cast<P>(0.5 * goal),
                        static_cast<P>(std::ldexp(chain.total_length(), -chain.units().length_exponent)), finished);
-    Heights<double> result{{}, "bisection"};
-    result.height.reserve(brackets.size());
+    Heights<double> result;
+    result.reserve(brackets.size());
     for (const auto& bracket : brackets) {
         const double start = pencil::between<double>(bracket.lower, bracket.upper);
-        const Index j = range.first - 1 + static_cast<Index>(result.height.size());
+        const Index j = range.first - 1 + static_cast<Index>(result.size());
         if (!pencil::lies_within<double>(*pencil, j, start, goal / 2)) return std::nullopt;
-        result.height.push_back({start, pencil::bound_of_margin<double>(goal / 2), start});
+        result.push_back({start, pencil::bound_of_margin<double>(goal / 2), start});
     }
-    restore_order(result.height);
+    restore_order<double>(result);
     return result;
 }
 
-/// Stage 1 of `modes`: the heights of `range`, which is not empty, to `options.rtol`. Reports progress up to `share`.
+/// Stage 1 of `modes`: the heights of `range`, which is not empty, to `options.rtol`.
 /// This one serves every valid chain; cost as said there.
 template <Real T>
 Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled, const ModeRange& range,
-                                const HeightsOptions<T>& options, double share) {
+                                const HeightsOptions<T>& options) {
     const T goal = std::min(options.rtol.value_or(T(0)), T(0.5));
     const bool loose = is_loose(chain, options);
     const double count = static_cast<double>(range.count);
-    const auto half_way = [&](Index done) {
-        advance(options.progress, share * 0.5 * static_cast<double>(done) / count);
-    };
+    const auto half_way = [&](Index done) { advance(options.progress, 0.5 * static_cast<double>(done) / count); };
     if constexpr (std::is_same_v<T, double>)
         if (loose)
             if (auto found = loose_heights<double>(chain, range, goal, half_way)) return std::move(*found);
@@ -124,14 +89,18 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
     const auto brackets =
         pencil::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
                        pencils.scaled(chain.total_length()), half_way);
-    Heights<T> result{{}, "bisection"};
-    result.height.reserve(brackets.size());
+    Heights<T> result;
+    result.reserve(brackets.size());
     for (const auto& bracket : brackets) {
-        const Index j = static_cast<Index>(result.height.size());
-        result.height.push_back(refined(pencils, range.first - 1 + j, bracket, goal, loose));
-        advance(options.progress, share * (0.5 + 0.5 * static_cast<double>(j + 1) / count));
+        const Index j = static_cast<Index>(result.size());
+        const T start = pencil::between(bracket.lower, bracket.upper);
+        const bool near = loose && pencil::lies_within<T>(pencils.rounded(), range.first - 1 + j, start, goal / T(2));
+        result.push_back(near ? Height<T>{start, pencil::bound_of_margin<T>(goal / T(2)), Wide<T>(start)}
+                              : pencil::certified_eigenvalue<Wide<T>, T>(pencils.wide(), pencils.rounded(),
+                                                                         range.first - 1 + j, start));
+        advance(options.progress, 0.5 + 0.5 * static_cast<double>(j + 1) / count);
     }
-    restore_order(result.height);
+    restore_order<T>(result);
     return result;
 }
 

@@ -9,41 +9,27 @@
 
 namespace revchain::detail {
 
-/// Whether quotients in double are not enough.
-inline bool is_fine(const HeightsOptions<double>& options) {
-    return options.rtol.value_or(0.0) < pencil::spectrum::loosest_fine;
-}
-
-/// Where interpolating the characteristic polynomial pays: several modes, and more of them than blocks do well with,
-/// who are also faster with shapes to the last digit (measured with plummets and rods, N = 4 ... 10,000; flat within a
-/// factor of 2 in the last number).
-inline bool spectrum_pays(const Chain<double>& chain, const ModeRange& range, const HeightsOptions<double>& options) {
-    const Index last = range.first - 1 + range.count;
-    const bool blocks_pay = compression_pays(chain, range) && options.shapes && is_fine(options);
-    return range.count >= 8 && chain.size() >= 12 && last >= chain.size() / (blocks_pay ? 16 : 256);
-}
-
-/// Stage 1 of `modes` for many modes; nothing for chains that `pencil::all_eigenvalues` has no fast way for. Reports
-/// progress up to `share`. Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
-inline std::optional<Heights<double>> heights_by_spectrum(LazyCounter<double>& assembled, const ModeRange& range,
-                                                          Index mode_count, const HeightsOptions<double>& options,
-                                                          double share) {
+/// Stage 1 of `modes` for many modes; nothing for chains that `pencil::all_eigenvalues` has no fast way for.
+/// Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
+inline std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& assembled, const ModeRange& range,
+                                                               Index mode_count,
+                                                               const HeightsOptions<double>& options) {
     const double goal = std::clamp(options.rtol.value_or(0.0), 2 * epsilon<double>(), 0.5);
     const auto& wide = assembled.pencils().wide();
     if (wide.size() < 2) return std::nullopt;
     const FloatingPointStateGuard quiet;
-    const auto pinned = pencil::spectrum::pinned(wide);
-    if (!pinned.fit) return std::nullopt;
-    Heights<double> result{{}, "spectrum"};
+    const auto lumped = pencil::spectrum::lumped(wide);
+    if (!lumped.fit) return std::nullopt;
+    Heights<double> result;
     constexpr Index together = 2048;  // modes between two reports
     for (Index done = 0; done < range.count;) {
         const Index first = range.first - 1 + done, count = std::min(range.count - done, together);
-        for (const auto& sure : pencil::all_eigenvalues(wide, pinned, first, first + count, mode_count, goal))
-            result.height.push_back({sure.eigenvalue, sure.error_bound, sure.unrounded});
+        const auto found = pencil::all_eigenvalues(wide, lumped, first, first + count, mode_count, goal);
+        result.insert(result.end(), found.begin(), found.end());
         done += count;
-        advance(options.progress, share * static_cast<double>(done) / static_cast<double>(range.count));
+        advance(options.progress, static_cast<double>(done) / static_cast<double>(range.count));
     }
-    restore_order(result.height);
+    restore_order<double>(result);
     return result;
 }
 

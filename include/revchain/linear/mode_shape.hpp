@@ -91,11 +91,8 @@ WideMode<T> wide_mode(const Pencils<T>& pencils, Index number, const T& near,
         if (sine < M(0.5)) mode.tangent = sine / sqrt(M(1) - sine * sine), mode.off = size / (M(1) - size);
         if (!(mode.tangent > M(0x1p-70)) || round == 2) return mode;
         S inertia(M(0));
-        for (std::size_t m = 0; m < pencils.wide().elements.size(); ++m) {
-            const pencil::Element<S>& e = pencils.wide().elements[m];
-            const S lower = mode.offset[m], upper = mode.offset[m + 1], cross = e.cross * upper;
-            inertia = inertia + (lower * (e.lower * lower + cross + cross) + e.upper * upper * upper);
-        }
+        for (std::size_t m = 0; m < pencils.wide().elements.size(); ++m)
+            inertia = inertia + pencil::mass_form(pencils.wide().elements[m], mode.offset[m], mode.offset[m + 1]);
         mode.height = inertia / mode.stiffness;
     }
     return mode;

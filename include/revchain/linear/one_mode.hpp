@@ -33,8 +33,8 @@ template <Real T>
 OneMode<T> one_mode(const Chain<T>& chain, Index mode, bool with_shape = true) {
     using std::ldexp;
     LazyCounter<T> assembled(chain);
-    const Height<T> height = heights_by_bisection(chain, assembled, {mode, 1}, HeightsOptions<T>{}, 1.0).height.front();
-    OneMode<T> result{ldexp(height.value, chain.units().length_exponent), {}};
+    const Height<T> height = heights_by_bisection(chain, assembled, {mode, 1}, HeightsOptions<T>{}).front();
+    OneMode<T> result{ldexp(height.eigenvalue, chain.units().length_exponent), {}};
     if (with_shape) result.shape = fine_shape<T>(assembled.pencils().wide(), height.unrounded).offset;
     return result;
 }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linear/mode_table.hpp"
-#include "revchain/linear/rig_mode_table.hpp"
+#include "revchain/count.hpp"
 #include "revchain/linear/rig_pencil.hpp"
-#include "revchain/pencil/bisection.hpp"
+#include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/signed_twisted.hpp"
 
 /// The part of `rig_modes` that counts: for rigs whose roots are all real and one count numbers.
@@ -48,8 +47,8 @@ class CountedRoots {
     }
 
     /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
-    template <class Finished>
-    std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start, Finished finished) const {
+    std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
+                                                  const std::function<void(Index)>& finished) const {
         return pencil::bisect(counter_, first, count, 2 * epsilon<double>(), start, finished);
     }
 
@@ -64,8 +63,7 @@ class CountedRoots {
             if (!(root > RigWord(0.0)) || !isfinite(root)) break;
             x = root;
             const RigWord out = given_out(x), reach = out * RigWord(margin);
-            const auto count = counted<2>({out - reach, out + reach});
-            if (count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j) return {x, margin};
+            if (pencil::bracketed(counted<2>({out - reach, out + reach}), j)) return {x, margin};
         }
         return bisected(j, pencil::between(bracket.lower, bracket.upper));
     }
@@ -91,30 +89,11 @@ class CountedRoots {
 
     /// By proved counts alone, as far as they go.
     FoundRoot bisected(Index j, double guess) const {
-        const RigWord centre(guess);
-        RigWord lower = centre, upper = centre;
-        bool has_lower = false, has_upper = false;
-        for (double margin = 8 * epsilon<double>(); !(has_lower && has_upper); margin *= 16) {
-            if (margin > 1e6) return {centre};
-            const RigWord stretch(1 + margin);
-            const auto count = counted<2>({centre / stretch, centre * stretch});
-            if (!has_lower && count[0].proved && count[0].above > j) lower = centre / stretch, has_lower = true;
-            if (!has_upper && count[1].proved && count[1].above <= j) upper = centre * stretch, has_upper = true;
-        }
-        for (int round = 0; round < 200; ++round) {
-            if (static_cast<double>(upper - lower) < epsilon<double>() / 4 * static_cast<double>(lower)) break;
-            const RigWord third = (upper - lower) / RigWord(3.0);
-            const std::array<RigWord, 2> shifts{lower + third, upper - third};
-            const auto count = counted<2>(shifts);
-            bool moved = false;
-            for (std::size_t i = 0; i < 2; ++i) {
-                if (!count[i].proved) continue;
-                if (count[i].above > j && shifts[i] > lower) lower = shifts[i], moved = true;
-                if (count[i].above <= j && shifts[i] < upper) upper = shifts[i], moved = true;
-            }
-            if (!moved) break;
-        }
-        const RigWord x = lower + (upper - lower) / RigWord(2.0), out = given_out(x);
+        const auto count = [&](const std::array<RigWord, 2>& shifts) { return counted<2>(shifts); };
+        const auto found = pencil::proved_interval(count, j, RigWord(guess), epsilon<double>() / 4);
+        if (!found) return {RigWord(guess)};
+        const auto& [lower, upper] = *found;
+        const RigWord x = found->middle(), out = given_out(x);
         const double worst = std::max(static_cast<double>(out - lower), static_cast<double>(upper - out));
         return {x, worst / static_cast<double>(lower) * (1 + 8 * epsilon<double>())};
     }
@@ -125,69 +104,5 @@ class CountedRoots {
     Index base_, sign_;
     int side_;
 };
-
-/// The range of mode numbers asked for of so many; fewer, or none, where there are not as many. How many there are of
-/// a sense is told by the result.
-inline ModeRange chosen(const RigModesOptions& options, Index available) {
-    if (options.first < 1) throw_invalid("rig_modes", "first must be at least 1", options.first);
-    if (options.count && *options.count < 1) throw_invalid("rig_modes", "count must be at least 1", *options.count);
-    const Index left = std::max<Index>(0, available - options.first + 1);
-    return {options.first, std::min(left, options.count.value_or(left))};
-}
-
-inline void make_room(WhirlModes& modes, const ModeRange& range, Index available, Index links, bool shapes) {
-    modes.first = range.first, modes.available = available;
-    for (Vector<double>* column :
-         {&modes.conical_height, &modes.error_bound, &modes.angular_speed, &modes.speed_error_bound})
-        column->resize(range.count);
-    if (!shapes) return;
-    modes.residual.resize(range.count);
-    modes.shape.resize(range.count, links + 1);
-}
-
-/// Stores mode number j (from 0) of those found; false where nothing was proved of it.
-inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pencil::SignedPencil<RigWord>& pencil,
-                     const FoundRoot& root, bool shapes) {
-    const RigWord height = pencil.quadratic ? root.x * root.x : root.x;
-    const RigWord speed = rig.pace / (pencil.quadratic ? root.x : sqrt(root.x));
-    modes.conical_height[j] = std::ldexp(static_cast<double>(height), rig.units.length_exponent);
-    modes.angular_speed[j] = static_cast<double>(speed);
-    // The margin is about what is given out; the other takes in half an ulp for each of the two roundings.
-    const double ulp = epsilon<double>(), few = 32 * operation_error<RigWord>();
-    const double margin = root.margin * (1 + 4 * root.margin) + few;
-    double of_height = margin, of_speed = (margin / 2 + 0.76 * ulp) * (1 + margin);
-    if (pencil.quadratic) of_speed = margin, of_height = (2 * margin + 1.51 * ulp) * (1 + 4 * margin);
-    const bool proved = of_height < 1;
-    modes.error_bound[j] = proved ? of_height : std::numeric_limits<double>::infinity();
-    modes.speed_error_bound[j] = proved ? of_speed : std::numeric_limits<double>::infinity();
-    if (!shapes) return proved;
-    const auto offset = pencil::twisted_vector(pencil, root.x);
-    Vector<double> rounded(pencil.size() + 1);
-    for (Index i = 0; i <= pencil.size(); ++i) rounded[i] = static_cast<double>(offset[static_cast<std::size_t>(i)]);
-    modes.shape.row(j).head(rig.idle).setConstant(rounded[0]);
-    modes.shape.row(j).tail(modes.shape.cols() - rig.idle) = rounded.head(modes.shape.cols() - rig.idle).transpose();
-    modes.residual[j] = pencil::relative_residual(pencil, root.x, rounded);
-    return proved;
-}
-
-/// Finds the modes of one sense; reports progress from one share to another.
-inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& pencil, const CountedRoots& roots,
-                           Index available, const RigModesOptions& options, double from, double to) {
-    const ModeRange range = chosen(options, available);
-    make_room(modes, range, available, rig.size(), options.shapes);
-    if (range.count == 0) return true;
-    const double all = static_cast<double>(range.count);
-    const double height = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
-    const auto brackets = roots.brackets(
-        range.first - 1, range.count, roots.pencil().quadratic ? std::sqrt(height) : height,
-        [&](Index done) { advance(options.progress, from + (to - from) * 0.4 * static_cast<double>(done) / all); });
-    bool proved = true;
-    for (Index j = 0; j < range.count; ++j) {
-        const FoundRoot root = roots.refined(range.first - 1 + j, brackets[static_cast<std::size_t>(j)]);
-        proved = set_mode(modes, j, pencil, roots.pencil(), root, options.shapes) && proved;
-        advance(options.progress, from + (to - from) * (0.4 + 0.6 * static_cast<double>(j + 1) / all));
-    }
-    return proved;
-}
 
 }  // namespace revchain::detail

@@ -8,21 +8,17 @@
 
 namespace revchain {
 
-/// A link of a rig, or what yields at its support, as an element between two pins, and how far its numbers may be off.
-/// Stiffness at rest, and momentum over the square of the length as `spin`: times a speed it is stiffness.
-struct RigElement {
-    using S = Wide<double>;
-    pencil::SignedElement<S> numbers;
-    pencil::SignedElementError<double> off;
-};
+/// A link of a rig, or what yields at its support: stiffness at rest, and momentum over the square of the length as
+/// `spin`: times a speed it is stiffness.
+using RigElement = pencil::SignedElement<Wide<double>>;
 
 /// One link: stiffness and spin negative where it stands.
 inline RigElement rig_element(const RigLink& link, bool stands) {
     constexpr double part = RigLink::error_part;
-    RigElement e{{link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross}, {}};
-    if (stands) e.numbers.stiffness = -e.numbers.stiffness, e.numbers.spin = -e.numbers.spin;
-    e.off = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.numbers.spin.high),
-             part * link.size.lower, part * link.size.upper, part * link.size.cross};
+    RigElement e{link.tension / link.length, link.spin / link.length, link.lower, link.upper, link.cross};
+    if (stands) e.stiffness = -e.stiffness, e.spin = -e.spin;
+    e.error = {1.01 * part * link.size.tension / link.length.high, part * std::abs(e.spin.high), part * link.size.lower,
+               part * link.size.upper, part * link.size.cross};
     return e;
 }
 
@@ -32,9 +28,9 @@ namespace detail {
 /// along with the rest: no equation holds them.
 inline bool is_nothing(const RigElement& e) {
     const Wide<double> none(0.0);
-    const auto& [k, s, lower, upper, cross] = e.numbers;
+    const auto& [k, s, lower, upper, cross, error] = e;
     return k == none && s == none && lower == none && upper == none && cross == none &&
-           e.off.stiffness + e.off.spin + e.off.lower + e.off.upper + e.off.cross == 0;
+           error.stiffness + error.spin + error.lower + error.upper + error.cross == 0;
 }
 
 }  // namespace detail
@@ -42,15 +38,14 @@ inline bool is_nothing(const RigElement& e) {
 /// A support that yields: its spring, massless, with the carriage at its lower pin. None where it is firm.
 /// Throws InvalidArgument where its stiffness is beyond the range of weights over lengths.
 inline std::optional<RigElement> support_element(const Rig& rig) {
-    using S = RigElement::S;
+    using S = Wide<double>;
     const Support& support = rig.support();
     if (support.is_firm()) return std::nullopt;
     const ChainUnits units = rig.chain().units();
     const double stiffness = std::ldexp(support.stiffness, units.length_exponent - units.weight_exponent);
     if (!(std::isfinite(stiffness) && stiffness > 0))
         detail::throw_invalid("Rig", "the support's stiffness is too far from weight over length", support.stiffness);
-    return RigElement{
-        {S(stiffness), S(0.0), S(std::ldexp(support.carriage_weight, -units.weight_exponent)), S(0.0), S(0.0)}, {}};
+    return RigElement{S(stiffness), S(0.0), S(std::ldexp(support.carriage_weight, -units.weight_exponent))};
 }
 
 }  // namespace revchain

@@ -81,7 +81,7 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
     bool free = true;  // whether this pin moves unnoticed
     for (std::size_t m = 0; m < held.size(); ++m) {
         const auto& e = pencil.elements[m];
-        const auto& off = pencil.errors[m];
+        const auto& off = e.error;
         const I c = pencil.quadratic ? around(e.spin, off.spin) : around(e.stiffness, off.stiffness);
         if (held[m] == Held::one) {  // lower pin = -cross/lower times the upper pin
             const I ratio = -around(e.cross, off.cross) / around(e.lower, off.lower);
@@ -102,8 +102,8 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
 }
 
 /// Whether a mass whose numbers have these errors is positive or 0 for certain.
-inline bool is_not_negative(const pencil::SignedElement<Wide<double>>& e,
-                            const pencil::SignedElementError<double>& off) {
+inline bool is_not_negative(const RigElement& e) {
+    const pencil::ElementError<double>& off = e.error;
     const auto high = [](const Wide<double>& x) { return static_cast<double>(x); };
     const auto vanish = [](const Wide<double>& x, double error) { return x == Wide<double>(0.0) && error == 0; };
     if (vanish(e.cross, off.cross) && vanish(e.upper, off.upper)) return high(e.lower) >= off.lower;
@@ -129,9 +129,8 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
     result.not_positive = 0;
     std::vector<detail::Held> held;
     const auto add = [&](const RigElement& e, bool mass_not_negative) {
-        result.pencil.elements.push_back(e.numbers);
-        result.pencil.errors.push_back(e.off);
-        const double k = static_cast<double>(e.numbers.stiffness), off = e.off.stiffness;
+        result.pencil.elements.push_back(e);
+        const double k = static_cast<double>(e.stiffness), off = e.error.stiffness;
         const bool neutral = k == 0 && off == 0;
         result.stiffness_positive = result.stiffness_positive && k > off;
         result.stiffness_certain = result.stiffness_certain && (neutral || std::abs(k) > off);
@@ -144,10 +143,10 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
             ++result.idle;
             continue;
         }
-        e.numbers.spin = e.numbers.spin * result.pace, e.off.spin *= result.pace.high;
+        e.spin = e.spin * result.pace, e.error.spin *= result.pace.high;
         const bool plain =
             rig.flywheel(m).axial_moment == 0 && (rig.fluid() == Fluid::still || rig.displaced(m).weight == 0);
-        add(e, plain || detail::is_not_negative(e.numbers, e.off));
+        add(e, plain || detail::is_not_negative(e));
         held.push_back(detail::held_by(rig, m));
     }
     if (const auto support = support_element(rig)) {

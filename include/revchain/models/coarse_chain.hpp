@@ -48,8 +48,8 @@ struct CoarseChain {
                 last /= 4;
                 continue;
             }
-            const auto brackets = pencil::bisect(coarse.pencil, question.first - 1, question.count,
-                                                 0.2 * detail::goal(question), last, [](Index) {});
+            const auto brackets =
+                pencil::bisect(coarse.pencil, question.first - 1, question.count, 0.2 * detail::goal(question), last);
             Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
             for (Index i = 0; i < question.count && answer.found; ++i) {
                 const auto& bracket = brackets[static_cast<std::size_t>(i)];

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/linear/modes.hpp"
+#include "revchain/linear/heights.hpp"
 #include "revchain/models/model.hpp"
-#include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"
 #include "revchain/system/converted.hpp"
 
 namespace revchain::models {
 
-/// Bisection in two doubles, for tolerances below what one can hold: `Answer::conical_height_low` is what the heights
+/// Bisection in double-double, for tolerances below what one can hold: `Answer::conical_height_low` is what the heights
 /// rounded to double leave. Bounds are proved, 1e-28 and more: they grow with N.
-struct TwoWords {
+struct DoubleDoubleBisection {
     static constexpr std::string_view name = "double-double";
 
     Fit applies(const ChainKind&, const Question& question) const {
@@ -29,15 +28,19 @@ struct TwoWords {
         return 2e-5 + static_cast<double>(kind.size) * (2e-6 + 1.2e-5 * static_cast<double>(question.count));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        ModesOptions<DoubleDouble> options{.first = question.first, .count = question.count};
-        options.shapes = false;
-        const Modes<DoubleDouble> found = modes(converted<DoubleDouble>(chain), options);
+        const auto wide = converted<DoubleDouble>(chain);
+        revchain::detail::LazyCounter<DoubleDouble> assembled(wide);
+        const auto found = revchain::detail::heights_by_bisection(wide, assembled, {question.first, question.count},
+                                                                  {.progress = question.progress});
+        const int exponent = chain.units().length_exponent;
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
         answer.conical_height_low.resize(question.count);
         for (Index j = 0; j < question.count; ++j) {
-            const auto word = found.conical_height[j].word();
-            answer.conical_height[j] = word.high, answer.conical_height_low[j] = word.low;
-            answer.error_bound[j] = static_cast<double>(found.error_bound[j]) * (1 + 1e-15);
+            const auto& height = found[static_cast<std::size_t>(j)];
+            const auto word = height.eigenvalue.word();
+            answer.conical_height[j] = std::ldexp(word.high, exponent);
+            answer.conical_height_low[j] = std::ldexp(word.low, exponent);
+            answer.error_bound[j] = static_cast<double>(height.error_bound) * (1 + 1e-15);
         }
         return answer;
     }

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/models/closed_forms.hpp"
-#include "revchain/models/coarse_chain.hpp"
-#include "revchain/models/continuous_chain.hpp"
 #include "revchain/models/double_double.hpp"
-#include "revchain/models/equal_plummets.hpp"
 #include "revchain/models/finite_amplitude.hpp"
-#include "revchain/models/numerical.hpp"
-#include "revchain/models/select.hpp"
-#include "revchain/models/tapered_chain.hpp"
+#include "revchain/models/for_modes.hpp"
 
 namespace revchain {
 
-/// All models for conical heights, in the order in which they are listed. The last always answers.
-inline constexpr std::tuple<models::ClosedForms, models::ConicalPendulum, models::EqualPlummets,
-                            models::ContinuousChain, models::TaperedChain, models::CoarseChain, models::SinglePrecision,
-                            models::AllTogether, models::Spectrum, models::Blocks, models::TwoWords,
-                            models::FiniteAmplitude, models::ElementBisection>
-    height_models{};
+/// All models for conical heights, in the order in which they are listed: those of `modes`, and those for inclinations
+/// that are not small and for tolerances below what a double holds. The last always answers.
+inline constexpr auto height_models =
+    std::tuple_cat(std::tuple<models::ConicalPendulum, models::DoubleDoubleBisection, models::FiniteAmplitude>{},
+                   models::for_tolerance);
 
 /// `select` and `solve` among all of them.
 inline auto select(const Chain<double>& chain, const Question& question,

@@ -8,8 +8,10 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "revchain/chain.hpp"
+#include "revchain/numeric/progress.hpp"
 
 namespace revchain {
 
@@ -20,6 +22,7 @@ struct Question {
     Index count = 1;
     double rtol = 0;
     double inclination = 0;  ///< of the lowest link, rad, below a right angle: of the shape that grows out of the mode
+    Progress* progress = nullptr;
 
     Index last() const { return first - 1 + count; }
 };
@@ -31,6 +34,8 @@ struct Answer {
     /// Whether the model had an answer after all.
     bool found = true;
     Vector<double> conical_height_low{};  ///< what a double cannot hold of the heights; empty where it is not known
+    /// The heights before they were rounded, in units of 2^length_exponent of the chain: for shapes; may be empty.
+    std::vector<Wide<double>> unrounded{};
 
     static Answer none() { return {{}, {}, false}; }
     double worst_bound() const {

@@ -5,27 +5,30 @@
 #include "revchain/linear/condensed_heights.hpp"
 #include "revchain/linear/interpolated_heights.hpp"
 #include "revchain/models/model.hpp"
-#include "revchain/modes.hpp"
 
-/// The four ways of `modes` to the heights of any chain (docs/design.md), each as a model. All bounds are proved.
+/// The four numerical methods of `modes` (docs/design.md), each as a model. All bounds are proved.
 /// Costs: fitted to `bench_models` (x86-64, AVX2, 2 cores, GCC 12), flat within a factor of 2.
 namespace revchain::models {
 
 namespace detail {
 inline revchain::detail::HeightsOptions<double> options_for(const Question& question) {
-    if (question.rtol > 2 * std::numeric_limits<double>::epsilon()) return {.rtol = question.rtol};
-    return {};
+    revchain::detail::HeightsOptions<double> options{.progress = question.progress};
+    if (question.rtol > 2 * std::numeric_limits<double>::epsilon()) options.rtol = question.rtol;
+    return options;
 }
 inline ModeRange range_of(const Question& question) { return {question.first, question.count}; }
 
 /// A way is asked alone, not through `modes`: where it has no heights, no other does the work.
 inline Answer answered(const Chain<double>& chain, const revchain::detail::Heights<double>& found) {
-    const Index count = static_cast<Index>(found.height.size());
+    const Index count = static_cast<Index>(found.size());
+    const int exponent = chain.units().length_exponent;
     Answer answer{Vector<double>(count), Vector<double>(count)};
+    answer.unrounded.reserve(found.size());
     for (Index j = 0; j < count; ++j) {
-        const auto& height = found.height[static_cast<std::size_t>(j)];
-        answer.conical_height[j] = std::ldexp(height.value, chain.units().length_exponent);
+        const auto& height = found[static_cast<std::size_t>(j)];
+        answer.conical_height[j] = std::ldexp(height.eigenvalue, exponent);
         answer.error_bound[j] = height.error_bound;
+        answer.unrounded.push_back(height.unrounded);
     }
     return answer;
 }
@@ -63,15 +66,15 @@ struct SinglePrecision {
                detail::real(kind.size) * detail::loose_cost(error_bound(kind, question), question.count, 5.7e-9);
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
-        const auto found = revchain::detail::loose_heights<float>(
-            chain, detail::range_of(question), error_bound(kind, question) * (1 - 1e-6), [](Index) {});
+        const auto found = revchain::detail::loose_heights<float>(chain, detail::range_of(question),
+                                                                  error_bound(kind, question) * (1 - 1e-6));
         return detail::answered(chain, found);
     }
 };
 
 /// Halving between counts, one mode after the other: any chain, any modes, to the tolerance or 2 ulp.
-struct ElementBisection {
-    static constexpr std::string_view name = "element bisection";
+struct Bisection {
+    static constexpr std::string_view name = "bisection";
     static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind&, const Question&) const { return {}; }
@@ -86,11 +89,10 @@ struct ElementBisection {
         return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        ModesOptions<double> options{.first = question.first, .count = question.count};
-        options.rtol = detail::options_for(question).rtol, options.shapes = false;
-        options.method = ModesMethod::bisection;
-        const Modes<double> found = modes(chain, options);
-        return {found.conical_height, found.error_bound};
+        revchain::detail::LazyCounter<double> assembled(chain);
+        return detail::answered(chain,
+                                revchain::detail::heights_by_bisection(chain, assembled, detail::range_of(question),
+                                                                       detail::options_for(question)));
     }
 
    private:
@@ -102,8 +104,8 @@ struct ElementBisection {
 
 /// The chain condensed to blocks first: some of the slowest modes of a long chain, 2 ulp. Links that weigh next
 /// to nothing beside what hangs below them join one by one.
-struct Blocks {
-    static constexpr std::string_view name = "compressed blocks";
+struct Condensed {
+    static constexpr std::string_view name = "condensed";
     static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind& kind, const Question& question) const {
@@ -124,8 +126,8 @@ struct Blocks {
                    (5e-5 * count * (1 + count / 20) + 7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
-        const auto found = revchain::detail::heights_by_compression(chain, detail::range_of(question),
-                                                                    detail::options_for(question), 1.0);
+        const auto found =
+            revchain::detail::heights_by_condensation(chain, detail::range_of(question), detail::options_for(question));
         return found ? detail::answered(chain, found->found) : Answer::none();
     }
 };
@@ -133,8 +135,8 @@ struct Blocks {
 /// All modes of a small chain at once in SIMD lanes. Plummets, or links whose pendulum length is less than their
 /// length: others are found out at once, as those of whom 1e-14 or the tolerance cannot be proved. Bound foreseen: that
 /// of most chains; of looser tolerances up to 3e-11 was found to be proved of links far apart.
-struct AllTogether {
-    static constexpr std::string_view name = "all together";
+struct Aberth {
+    static constexpr std::string_view name = "aberth";
     static constexpr double bound = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question&) const {
@@ -156,15 +158,15 @@ struct AllTogether {
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         Question loose = question;
         loose.rtol = std::max(question.rtol, bound);
-        return detail::answered(chain, revchain::detail::heights_all_together(chain, detail::range_of(question),
-                                                                              detail::options_for(loose)));
+        return detail::answered(
+            chain, revchain::detail::heights_by_aberth(chain, detail::range_of(question), detail::options_for(loose)));
     }
 };
 
 /// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. Foreseen as that of
-/// `AllTogether`.
-struct Spectrum {
-    static constexpr std::string_view name = "interpolated spectrum";
+/// `Aberth`.
+struct Interpolated {
+    static constexpr std::string_view name = "interpolated";
     static constexpr double fine = 2.001 * std::numeric_limits<double>::epsilon(), loose = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question& question) const {
@@ -183,8 +185,8 @@ struct Spectrum {
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         revchain::detail::LazyCounter<double> assembled(chain);
         return detail::answered(
-            chain, revchain::detail::heights_by_spectrum(assembled, detail::range_of(question), kind.mode_count,
-                                                         detail::options_for(question), 1.0));
+            chain, revchain::detail::heights_by_interpolation(assembled, detail::range_of(question), kind.mode_count,
+                                                              detail::options_for(question)));
     }
 };
 

@@ -108,6 +108,8 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
         for (Index j = 0; j < answer.conical_height.size(); ++j)  // what a number below the normal ones cannot hold
             if (!(answer.conical_height[j] >= std::numeric_limits<double>::min()))
                 answer.error_bound[j] += 4 * least / std::max(0.0, answer.conical_height[j]);
+            else if (!std::isfinite(answer.conical_height[j]))
+                answer.error_bound[j] = std::numeric_limits<double>::infinity();
         if (!is_linear<M>() || !(question.inclination > 0)) return;
         const double off = error_of_small_inclinations(kind, question);
         for (double& bound : answer.error_bound) bound += off * (1 + bound);

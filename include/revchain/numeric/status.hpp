@@ -61,12 +61,13 @@ template <class T>
     throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence));
 }
 
-/// Refuses everything but a finite positive number (NaN too).
-template <Real T>
-void require_positive(std::string_view function, std::string_view name, const T& value) {
+/// Throws InvalidArgument unless the value is positive and finite; then the same for further pairs of name and value.
+template <Real T, class... Rest>
+void require_positive(std::string_view function, std::string_view name, const T& value, const Rest&... rest) {
     using std::isfinite;
     if (!isfinite(value) || !(value > T(0)))
         throw_invalid(function, std::string(name) + " must be positive and finite", value);
+    if constexpr (sizeof...(rest) > 0) require_positive(function, rest...);
 }
 
 }  // namespace detail

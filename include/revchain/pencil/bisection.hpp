@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 
 #include "revchain/numeric/progress.hpp"
 #include "revchain/pencil/sturm.hpp"
@@ -102,9 +103,9 @@ void split(const Segment<T>& segment, const T* shifts, const Index* above, std::
 /// Cost: about log2(1/tolerance) passes for every `lanes` eigenvalues asked for, whatever `first`. Accuracy: that of
 /// `count_above`. `finished(done)` is called after every pass with the number of eigenvalues bracketed so far, and may
 /// throw.
-template <class Pencil, Real T, class Finished>
+template <class Pencil, Real T>
 std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T tolerance, T guess,
-                               Finished finished) {
+                               const std::function<void(Index)>& finished = {}) {
     const T finest = T(4) * epsilon<T>();
     std::vector<Bracket<T>> brackets(static_cast<std::size_t>(count));
     std::vector<detail::Segment<T>> work{detail::enclose(pencil, first, first + count, guess)}, now;
@@ -134,7 +135,7 @@ std::vector<Bracket<T>> bisect(const Pencil& pencil, Index first, Index count, T
         for (std::size_t i = 0; i < taken; ++i) detail::subdivide(&shifts[i * cuts], cuts, now[i].lower, now[i].upper);
         const auto above = count_above(pencil, shifts);
         for (std::size_t i = 0; i < taken; ++i) detail::split(now[i], &shifts[i * cuts], &above[i * cuts], cuts, keep);
-        finished(done);
+        if (finished) finished(done);
     }
     return brackets;
 }

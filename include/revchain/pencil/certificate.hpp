@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <optional>
+
 #include "revchain/pencil/bisection.hpp"
+#include "revchain/pencil/twisted.hpp"
 
 namespace revchain::pencil {
 
@@ -10,7 +13,13 @@ template <Real T>
 struct Certified {
     T eigenvalue{};
     T error_bound = std::numeric_limits<T>::infinity();
+    Wide<T> unrounded{};  ///< what the eigenvector is computed at
 };
+
+/// Whether counts at the lower and the upper end of an interval prove that eigenvalue number `j` lies between them.
+inline bool bracketed(const std::array<CertifiedCount, 2>& count, Index j) {
+    return count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j;
+}
 
 /// Whether the eigenvalue number `j` (from 0, descending) of the exact pencil lies within a relative `margin` of
 /// `eigenvalue`: proved counts at both ends of the interval. Cost: one pass of two shifts in S.
@@ -18,8 +27,7 @@ template <Real S, Real T>
 bool lies_within(const ElementPencil<S>& pencil, Index j, const T& eigenvalue, const Narrow<S>& margin) {
     const S centre(static_cast<Narrow<S>>(eigenvalue));
     const S reach = centre * S(margin);
-    const auto count = certified_count<S, 2>(pencil, {centre - reach, centre + reach});
-    return count[0].proved && count[1].proved && count[0].above > j && count[1].above <= j;
+    return bracketed(certified_count<S, 2>(pencil, {centre - reach, centre + reach}), j);
 }
 
 /// The error bound that goes with `lies_within`: relative to the exact eigenvalue, and with the roundings of the two
@@ -29,41 +37,78 @@ T bound_of_margin(const T& margin) {
     return margin * (T(1) + T(2) * margin + T(4) * epsilon<T>()) + T(4) * static_cast<T>(operation_error<S>());
 }
 
-/// Bisection by proved counts alone, from a first guess; stops where rounding in S leaves a count in doubt. The bound
-/// is infinite where not even 1/2 can be proved (seen only where weights span 1e37 and lengths 1e23 together). Used
-/// where the fast path's certificate is refused. Cost: about 60 passes in S.
+template <Real S>
+struct ProvedInterval {
+    S lower, upper;
+    S middle() const { return lower + (upper - lower) / S(Narrow<S>(2)); }
+};
+
+/// An interval that holds eigenvalue number `j` by proved counts, `finest` wide (relative) or as narrow as rounding in
+/// S leaves no count in doubt. Nothing where no interval could be proved. `count(two shifts)` returns certified counts.
+/// Cost: about 60 calls.
+template <Real S, class Count>
+std::optional<ProvedInterval<S>> proved_interval(const Count& count, Index j, const S& guess, const Narrow<S>& finest) {
+    using M = Narrow<S>;
+    S lower = guess, upper = guess;
+    bool has_lower = false, has_upper = false;
+    for (M margin = M(32) * finest; !(has_lower && has_upper); margin = margin * M(16)) {
+        if (margin > M(1e6)) return std::nullopt;
+        const S stretch = S(M(1)) + S(margin);
+        const std::array<CertifiedCount, 2> ends = count({guess / stretch, guess * stretch});
+        if (!has_lower && ends[0].proved && ends[0].above > j) lower = guess / stretch, has_lower = true;
+        if (!has_upper && ends[1].proved && ends[1].above <= j) upper = guess * stretch, has_upper = true;
+    }
+    for (bool moved = true; moved && static_cast<M>(upper - lower) > finest * static_cast<M>(lower);) {
+        const S third = (upper - lower) / S(M(3));
+        const std::array<S, 2> shifts{lower + third, upper - third};
+        const std::array<CertifiedCount, 2> inner = count(shifts);
+        moved = false;
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (!inner[i].proved) continue;
+            if (inner[i].above > j && shifts[i] > lower) lower = shifts[i], moved = true;
+            if (inner[i].above <= j && shifts[i] < upper) upper = shifts[i], moved = true;
+        }
+    }
+    return ProvedInterval<S>{lower, upper};
+}
+
+/// Bisection by proved counts alone, from a first guess. The bound is infinite where not even 1/2 can be proved (seen
+/// only where weights span 1e37 and lengths 1e23 together). Used where the fast path's certificate is refused.
 template <Real S, Real T>
 Certified<T> bisect_certified(const ElementPencil<S>& pencil, Index j, const T& guess) {
     using M = Narrow<S>;
-    const S centre(static_cast<M>(guess));
-    S lower = centre, upper = centre;
-    bool has_lower = false, has_upper = false;
-    for (M margin = M(8) * static_cast<M>(epsilon<T>()); !(has_lower && has_upper); margin = margin * M(16)) {
-        if (margin > M(1e6)) return {guess};
-        const S stretch = S(M(1)) + S(margin);
-        const auto count = certified_count<S, 2>(pencil, {centre / stretch, centre * stretch});
-        if (!has_lower && count[0].proved && count[0].above > j) lower = centre / stretch, has_lower = true;
-        if (!has_upper && count[1].proved && count[1].above <= j) upper = centre * stretch, has_upper = true;
+    const auto certified = [](const T& eigenvalue, const T& bound) {
+        return Certified<T>{eigenvalue, bound, Wide<T>(static_cast<Narrow<Wide<T>>>(eigenvalue))};
+    };
+    const auto count = [&](const std::array<S, 2>& shifts) { return certified_count<S, 2>(pencil, shifts); };
+    const auto found = proved_interval(count, j, S(static_cast<M>(guess)), static_cast<M>(epsilon<T>()) / M(4));
+    if (!found) return certified(guess, std::numeric_limits<T>::infinity());
+    const T eigenvalue = static_cast<T>(found->middle());
+    const M below = static_cast<M>(S(static_cast<M>(eigenvalue)) - found->lower);
+    const M above = static_cast<M>(found->upper - S(static_cast<M>(eigenvalue)));
+    const M worst = (below > above ? below : above) / static_cast<M>(found->lower);
+    if (!(worst <= M(0.5))) return certified(eigenvalue, std::numeric_limits<T>::infinity());
+    return certified(eigenvalue, bound_of_margin<S>(static_cast<T>(worst * (M(1) + M(4) * epsilon<M>()))));
+}
+
+/// Eigenvalue number `j` (from 0, descending) to 2 ulp, from a `start` that is nearer to it than to any other: the
+/// Rayleigh quotient in S of the vector in T, proved by two counts; where that fails, by counts alone.
+template <Real S, Real T>
+Certified<T> certified_eigenvalue(const ElementPencil<S>& wide, const ElementPencil<T>& rounded, Index j,
+                                  const T& start) {
+    // One round nearly always, two at most: the quotient's error is the square of the vector's. Where no arithmetic is
+    // wider than T, rounding in T limits what two counts can prove: then as many ulp as it takes, within a factor of 2.
+    T margin = T(2) * epsilon<T>() * (T(1) - T(32) * epsilon<T>());  // with what goes with it 2 ulp at most
+    T eigenvalue = start;
+    S fine(static_cast<Narrow<S>>(start));
+    for (int round = 0; round < (std::is_same_v<S, T> ? 24 : 2); ++round) {
+        if (round < 2) fine = rayleigh_quotient<S>(wide, eigenvector(rounded, eigenvalue).offset);
+        eigenvalue = static_cast<T>(fine);
+        if (lies_within<S>(wide, j, eigenvalue, static_cast<Narrow<S>>(margin)))
+            return {eigenvalue, bound_of_margin<S>(margin), fine};
+        if constexpr (std::is_same_v<S, T>) margin = margin * T(2);
     }
-    const M finest = static_cast<M>(epsilon<T>()) / M(4);
-    while (static_cast<M>(upper - lower) > finest * static_cast<M>(lower)) {
-        const S third = (upper - lower) / S(M(3));
-        const std::array<S, 2> shifts{lower + third, upper - third};
-        const auto count = certified_count<S, 2>(pencil, shifts);
-        bool moved = false;
-        for (std::size_t i = 0; i < 2; ++i) {
-            if (!count[i].proved) continue;
-            if (count[i].above > j && shifts[i] > lower) lower = shifts[i], moved = true;
-            if (count[i].above <= j && shifts[i] < upper) upper = shifts[i], moved = true;
-        }
-        if (!moved) break;
-    }
-    const T eigenvalue = static_cast<T>(lower + (upper - lower) / S(M(2)));
-    const M below = static_cast<M>(S(static_cast<M>(eigenvalue)) - lower);
-    const M above = static_cast<M>(upper - S(static_cast<M>(eigenvalue)));
-    const M worst = (below > above ? below : above) / static_cast<M>(lower);
-    if (!(worst <= M(0.5))) return {eigenvalue};
-    return {eigenvalue, bound_of_margin<S>(static_cast<T>(worst * (M(1) + M(4) * epsilon<M>())))};
+    return bisect_certified<S>(wide, j, start);
 }
 
 }  // namespace revchain::pencil

@@ -26,19 +26,19 @@ struct Element {
 /// Dynamic stiffness carried across an element, equation (1) of docs/accuracy.md: from `near` at the pin where it is
 /// known to the other, whose own mass is `far`; `stiffness` is L = lambda k, `inverse` one over the pivot.
 template <Real S>
-S carried(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& inverse) {
+S propagate(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& inverse) {
     return (stiffness - far) * (near * inverse) - (stiffness - e.turning) * (S(e.weight) * inverse);
 }
 
 /// The same with one operation in the division's wake less: for pencils in one unit, whose products stay in range.
 template <Real S>
-S carried_in_one_unit(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& pivot) {
+S propagate_in_one_unit(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& pivot) {
     return ((stiffness - far) * near - (stiffness - e.turning) * S(e.weight)) / pivot;
 }
 
 /// The same by equation (2), from what couples the two pins, L + X: accurate where that is small and the pivot, too.
 template <Real S>
-S carried_by_coupling(const S& stiffness, const S& far, const S& coupling, const S& inverse) {
+S propagate_by_coupling(const S& stiffness, const S& far, const S& coupling, const S& inverse) {
     return (stiffness - far) - coupling * (coupling * inverse);
 }
 

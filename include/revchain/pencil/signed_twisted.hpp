@@ -15,56 +15,27 @@ template <Real S>
 std::vector<S> twisted_vector(const SignedPencil<S>& pencil, const S& x) {
     using std::abs;
     using T = Narrow<S>;
-    struct Pin {
-        S below, down, up;  // dynamic stiffness below; offset over that of the pin above; the other way round
-    };
     const Factors<S> f = pencil.factors(x);
-    const std::size_t n = pencil.elements.size();
-    const auto stiffness = [&](std::size_t m) {
-        return f.stiffness * pencil.elements[m].stiffness + f.spin * pencil.elements[m].spin;
+    const auto& elements = pencil.elements;
+    const auto stiffness = [&](const SignedElement<S>& e) { return f.stiffness * e.stiffness + f.spin * e.spin; };
+    const auto across = [&](const SignedElement<S>& e, const S& below) {
+        const S L = stiffness(e), p = below + (L - e.lower);
+        const T least = static_cast<T>(abs(L)) * static_cast<T>(epsilon<S>()) * T(1e-10) + least_pivot<T>();
+        const S pivot = abs(p) < S(least) ? S(least) : p;
+        return detail::Across<S>{e.above(L, below, e.weight(), e.determinant(), pivot), (L + e.cross) / pivot};
     };
-    const auto pivot = [](const S& p, const S& scale) {
-        const T least = static_cast<T>(abs(scale)) * static_cast<T>(epsilon<S>()) * T(1e-10) + least_pivot<T>();
-        return abs(p) < S(least) ? S(least) : p;
+    const auto rise = [&](std::size_t m, const S& below) { return across(elements[m], below); };
+    const auto sink = [&](std::size_t m, const S& above) {
+        const SignedElement<S>& e = elements[m];
+        if (m + 1 == elements.size()) return detail::Across<S>{stiffness(e) - e.lower, S(T(0))};
+        return across({e.stiffness, e.spin, e.upper, e.lower, e.cross}, above);  // upside down
     };
-    std::vector<Pin> pins(n);
-    S below(T(0)), above(T(0));
-    for (std::size_t m = 0; m < n; ++m) {
-        const SignedElement<S>& e = pencil.elements[m];
-        const S L = stiffness(m), C = L + e.cross;
-        pins[m].below = below;
-        const S p = pivot(below + (L - e.lower), L);
-        pins[m].down = C / p;
-        below = e.above(L, below, e.weight(), e.determinant(), p);
-    }
-    std::size_t twist = n - 1;
-    T least = std::numeric_limits<T>::infinity();
     const auto size_of = [](const S& value) { return static_cast<T>(abs(value)); };
-    for (std::size_t m = n; m-- > 0;) {
-        const SignedElement<S>& e = pencil.elements[m];
-        const S L = stiffness(m), C = L + e.cross;
-        if (m + 1 == n) {
-            pins[m].up = S(T(0)), above = L - e.lower;
-        } else {  // the same element upside down
-            const SignedElement<S> turned{e.stiffness, e.spin, e.upper, e.lower, e.cross};
-            const S p = pivot(above + (L - e.upper), L);
-            pins[m].up = C / p;
-            above = turned.above(L, above, e.weight(), e.determinant(), p);
-        }
-        T forces = size_of(L) + size_of(e.lower);
-        if (m > 0) forces = forces + size_of(stiffness(m - 1)) + size_of(pencil.elements[m - 1].upper);
-        const T balance = size_of(pins[m].below + above) / forces;
-        if (balance < least) least = balance, twist = m;
-    }
-    std::vector<S> offset(n + 1);
-    offset[twist] = S(T(1));
-    for (std::size_t m = twist; m-- > 0;) offset[m] = pins[m].down * offset[m + 1];
-    for (std::size_t m = twist; m < n; ++m) offset[m + 1] = pins[m].up * offset[m];
-    S largest(T(0));
-    for (const S& y : offset)
-        if (abs(y) > largest) largest = abs(y);
-    for (std::size_t m = 0; m < twist; ++m)
-        if (pins[m].down < S(T(0))) largest = -largest;
+    const auto forces = [&](std::size_t m) {
+        const T own = size_of(stiffness(elements[m])) + size_of(elements[m].lower);
+        return m == 0 ? own : own + size_of(stiffness(elements[m - 1])) + size_of(elements[m - 1].upper);
+    };
+    auto [offset, largest, crossings] = detail::twisted<S>(elements.size(), rise, sink, forces);
     for (S& y : offset) y = y / largest + S(T(0));
     return offset;
 }
@@ -77,10 +48,10 @@ S rayleigh_root(const SignedPencil<S>& pencil, const std::vector<S>& y, const S&
     S stiffness = zero, spin = zero, mass = zero;
     for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
         const SignedElement<S>& e = pencil.elements[m];
-        const S difference = y[m] - y[m + 1], square = difference * difference, cross = e.cross * y[m + 1];
+        const S difference = y[m] - y[m + 1], square = difference * difference;
         stiffness = stiffness + e.stiffness * square;
         spin = spin + e.spin * square;
-        mass = mass + (y[m] * (e.lower * y[m] + cross + cross) + e.upper * y[m + 1] * y[m + 1]);
+        mass = mass + mass_form(e, y[m], y[m + 1]);
     }
     if (!pencil.quadratic) return mass / stiffness;
     S x = near;
@@ -97,23 +68,16 @@ template <Real S, Real T>
 T relative_residual(const SignedPencil<S>& pencil, const S& x, const Vector<T>& offset) {
     using std::abs;
     using M = Narrow<S>;
-    const auto size_of = [](const S& value) { return abs(static_cast<M>(value)); };
     const Factors<S> f = pencil.factors(x);
-    M largest(0), worst(0), size(0);
-    S force(M(0));  // carried over from the link below
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+    const auto link = [&](std::size_t m) {
         const SignedElement<S>& e = pencil.elements[m];
-        const S lower(static_cast<M>(offset[static_cast<Index>(m)])),
-            upper(static_cast<M>(offset[static_cast<Index>(m) + 1]));
-        const S spring = (f.stiffness * e.stiffness + f.spin * e.spin) * (lower - upper);
-        const M spring_size =
-            (size_of(f.stiffness * e.stiffness) + size_of(f.spin * e.spin)) * (size_of(lower) + size_of(upper));
-        worst = std::max(worst, size_of(force + (spring - (e.lower * lower + e.cross * upper))));
-        largest = std::max(largest, size + spring_size + size_of(e.lower * lower) + size_of(e.cross * upper));
-        force = -spring - (e.cross * lower + e.upper * upper);
-        size = spring_size + size_of(e.cross * lower) + size_of(e.upper * upper);
-    }
-    return largest > M(0) ? static_cast<T>(worst / largest) : T(0);
+        const S spring = f.stiffness * e.stiffness, spin = f.spin * e.spin;
+        const auto y = [&](std::size_t pin) { return S(static_cast<M>(offset[static_cast<Index>(pin)])); };
+        return detail::LoadedElement<S>{
+            spring + spin, abs(static_cast<M>(spring)) + abs(static_cast<M>(spin)), e.lower, e.cross, e.upper, y(m),
+            y(m + 1)};
+    };
+    return static_cast<T>(detail::relative_residual<S>(pencil.elements.size(), link));
 }
 
 }  // namespace revchain::pencil

@@ -32,7 +32,7 @@ std::array<Index, L> count_above_in_units(const ElementPencil<T>& pencil, const 
             const T stiffness = shifts[i] * e.stiffness;
             const T pivot = not_zero(hung + (stiffness - e.lower), stiffness);
             negative[i] += pivot < T(0) ? 1 : 0;
-            below[i] = carried(e, stiffness, hung, e.upper, T(1) / pivot);
+            below[i] = propagate(e, stiffness, hung, e.upper, T(1) / pivot);
         }
     }
     return negative;
@@ -83,7 +83,7 @@ std::array<Index, L> count_above(const ElementPencil<T>& pencil, const std::arra
             const T stiffness = shifts[i] * e.stiffness;
             const T pivot = not_zero(below[i] + (stiffness - e.lower), stiffness);
             negative[i] += pivot < T(0) ? 1 : 0;
-            below[i] = carried_in_one_unit(e, stiffness, below[i], e.upper, pivot);
+            below[i] = propagate_in_one_unit(e, stiffness, below[i], e.upper, pivot);
         }
     }
     return negative;
@@ -149,10 +149,10 @@ std::array<CertifiedCount, L> certified_count(const ElementPencil<S>& pencil, co
             const M by_weight = local * ((k + upper) * (size * inverse) + (k + turning) * (e.weight * inverse));
             const M by_coupling = local * (k + upper) + M(3) * (coupling_error * push) + (push * pivot_error) * push;
             const S one_over = S(M(1)) / not_zero(pivot, stiffness);
-            const S by_weight_value = carried(e, stiffness, below[i], e.upper, one_over);
+            const S by_weight_value = propagate(e, stiffness, below[i], e.upper, one_over);
             const M quotient = abs(static_cast<M>(by_weight_value));
             const bool coupled = by_coupling < by_weight + quotient * (pivot_error * inverse);
-            below[i] = coupled ? carried_by_coupling(stiffness, e.upper, coupling, one_over) : by_weight_value;
+            below[i] = coupled ? propagate_by_coupling(stiffness, e.upper, coupling, one_over) : by_weight_value;
             const M own = coupled ? by_coupling : by_weight + quotient * (pivot_error * inverse);
             const M rest = underflow[i] * (M(1) + (size + e.weight) * inverse) +
                            tiny * (k + upper + turning + gain + (k + turning) * inverse);

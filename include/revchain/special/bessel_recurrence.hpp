@@ -13,9 +13,9 @@ using revchain::detail::steps_above;
 using revchain::detail::two_word_pi;
 using revchain::detail::TwoDoubles;
 
-/// Gamma(order+1) (z/2)^-order J_order(z), 1 at z = 0; -1 < order <= 1e4, z >= 0. Miller's recurrence with Neumann's
-/// sum for (z/2)^order, power series where that is short, phase and modulus far out.
-/// Accuracy: absolute error 2e-16 (1 + z) of the largest value from there on. Cost: 3 ns a step of `bessel_ratio`.
+/// Gamma(order+1) (z/2)^-order J_order(z), which is 1 at z = 0, for -1 < order <= 1e4, z >= 0. Method: power series
+/// where it is short, phase and modulus for large z, Miller's recurrence with Neumann's sum for (z/2)^order between.
+/// Accuracy: absolute error 2e-16 (1 + z) times the largest value at z and beyond. Cost: 3 ns a step of `bessel_ratio`.
 class ScaledBessel {
    public:
     explicit ScaledBessel(double order) : order_(order), far_(order) {}
@@ -34,11 +34,11 @@ class ScaledBessel {
         return total;
     }
     double by_recurrence(double z) const {
-        // Neumann's sum cancels near order -1: it is taken one order higher there.
+        // Neumann's sum cancels near order -1, so it is taken one order higher there.
         const double base = order_ < 0 ? order_ + 1 : order_, step = 2 / z;
         const Index last = (steps_above(base, z) + static_cast<Index>(0.6 * std::min(base, z)) + 10) / 2 * 2;
-        double above = 0, here = 1e-100, weight = 1,
-               total = here;  // of J_{base+2m}: (base+2m) (base+1)_{m-1} / m!, scaled
+        // weight of J_{base+2m}: (base+2m) (base+1)_{m-1} / m!, scaled
+        double above = 0, here = 1e-100, weight = 1, total = here;
         for (Index n = last; n > 0; --n) {
             const double below = (base + static_cast<double>(n)) * step * here - above;
             above = here;

@@ -5,12 +5,13 @@
 
 namespace revchain::analytic::detail {
 
-/// What every continuous chain is asked with: a mode or count by `name`, and the chain's length.
+/// Throws InvalidArgument unless the mode or count called `name` is at least 1 and the length positive and finite.
 inline void check_number_and_length(std::string_view where, std::string_view name, Index number, double length) {
     if (number < 1) revchain::detail::throw_invalid(where, std::string(name) + " must be at least 1", number);
     revchain::detail::require_positive(where, "length", length);
 }
 
+/// Throws InvalidArgument unless 0 <= x <= length.
 inline void check_place(std::string_view where, double x, double length) {
     if (!(x >= 0 && x <= length))
         revchain::detail::throw_invalid(where, "x must lie between 0 (free end) and the length", x);

@@ -7,10 +7,15 @@
 
 #include "revchain/numeric/status.hpp"
 
-/// Elliptic integrals and functions of a modulus kappa and its complement kappa' = sqrt(1 - kappa^2), each known to its
-/// own last digit: near kappa = 1 everything depends on kappa', which cannot be had from kappa.
-/// GSL takes kappa^2 alone and is wrong by a factor there, without a word (bench/elliptic.cpp); hence these.
+/// Elliptic integrals and functions of a modulus kappa and its complement kappa' = sqrt(1 - kappa^2), each accurate to
+/// its last digit. Near kappa = 1 all results depend on kappa', which cannot be computed from kappa. GSL takes kappa^2
+/// only and silently loses all accuracy there (bench/elliptic.cpp).
 namespace revchain::analytic {
+
+namespace detail {
+using revchain::detail::require_positive;
+using revchain::detail::throw_invalid;
+}  // namespace detail
 
 /// kappa and kappa', both in [0, 1].
 class EllipticModulus {
@@ -23,11 +28,11 @@ class EllipticModulus {
         check("complementary modulus", complementary_modulus);
         return {std::sqrt((1 - complementary_modulus) * (1 + complementary_modulus)), complementary_modulus};
     }
-    /// kappa : kappa' as opposite : adjacent, the sides of a right angle; not both 0.
+    /// kappa : kappa' = opposite : adjacent, both at least 0 and not both 0.
     static EllipticModulus of_ratio(double opposite, double adjacent) {
         const double whole = std::hypot(opposite, adjacent);
         if (!(opposite >= 0 && adjacent >= 0 && whole > 0 && whole <= std::numeric_limits<double>::max()))
-            revchain::detail::throw_invalid(
+            detail::throw_invalid(
                 "analytic::EllipticModulus", "the sides must not be negative, infinite or both 0",
                 opposite >= 0 && opposite <= std::numeric_limits<double>::max() ? adjacent : opposite);
         return {opposite / whole, adjacent / whole};
@@ -38,23 +43,22 @@ class EllipticModulus {
 
    private:
     EllipticModulus(double modulus, double complement) : modulus_(modulus), complement_(complement) {}
-    static void check(std::string_view what, double value) {
+    static void check(std::string_view name, double value) {
         if (!(value >= 0 && value <= 1))
-            revchain::detail::throw_invalid("analytic::EllipticModulus",
-                                            std::string(what) + " must lie between 0 and 1", value);
+            detail::throw_invalid("analytic::EllipticModulus", std::string(name) + " must lie between 0 and 1", value);
     }
     double modulus_, complement_;
 };
 
 namespace detail {
 
-/// Bulirsch's complete integral: that of (a cos^2 + b sin^2) / ((cos^2 + p sin^2) sqrt(cos^2 + kappa'^2 sin^2)) over a
-/// quarter turn. doi:10.1007/BF02165405. Sums of one sign where a, b >= 0. p > 0, kappa' > 0.
+/// Bulirsch's complete integral of (a cos^2 + b sin^2) / ((cos^2 + p sin^2) sqrt(cos^2 + kappa'^2 sin^2)) over a
+/// quarter turn, p > 0, kappa' > 0. doi:10.1007/BF02165405. For a, b >= 0 all terms have one sign.
 inline double complete_integral(double complement, double p, double a, double b) {
     double e = complement, scale = 1;
     p = std::sqrt(p);
     b /= p;
-    for (int round = 0; round < 64; ++round) {  // each squares the error once kappa' is near 1: 14 for 1e-300
+    for (int round = 0; round < 64; ++round) {  // 14 rounds for kappa' = 1e-300
         const double before = a, mean = scale;
         a += b / p;
         const double ratio = e / p;
@@ -70,13 +74,13 @@ inline double complete_integral(double complement, double p, double a, double b)
 
 }  // namespace detail
 
-/// The complete integrals: K = int d phi / Delta, E = int Delta, D = int sin^2 / Delta = (K - E) / kappa^2 and
-/// B = int cos^2 / Delta = K - D, Delta = sqrt(cos^2 + kappa'^2 sin^2), over a quarter turn. DLMF 19.2.8.
+/// Complete integrals over a quarter turn with Delta = sqrt(cos^2 + kappa'^2 sin^2): K = int d phi / Delta, E = int
+/// Delta d phi, D = int sin^2 / Delta d phi = (K - E) / kappa^2, B = int cos^2 / Delta d phi = K - D. DLMF 19.2.8
 struct CompleteIntegrals {
     double K, E, D, B;
 };
 
-/// Accuracy: 1.5e-15 relative each. K and D are infinite for kappa' = 0. Cost: 0.1 microseconds.
+/// The four integrals. Accuracy: 1.5e-15 relative. K and D are infinite for kappa' = 0. Cost: 0.1 microseconds.
 inline CompleteIntegrals complete_integrals(const EllipticModulus& modulus) {
     const double c = modulus.complementary_modulus();
     if (c == 0) {

@@ -9,9 +9,9 @@
 
 namespace revchain::analytic::detail {
 
-/// Value of a GSL function of one argument, by its `_e` form. GSL's default handler ends the process, at domain errors
-/// and at underflow and overflow too, and is the program's, not ours: it is never touched here. So callers keep to
-/// arguments that GSL serves: Bessel functions of 1e-160 and more.
+/// Value of a GSL function of one argument, by its `_e` form. GSL's default error handler ends the process, also at
+/// underflow and overflow, and it belongs to the program, so it is not changed here. Callers must keep to arguments
+/// that cause no error: 1e-160 and more for Bessel functions.
 inline double gsl_value(int (*function)(double, gsl_sf_result*), double x) {
     gsl_sf_result result{};
     const int status = function(x, &result);

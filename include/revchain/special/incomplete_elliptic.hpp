@@ -11,10 +11,10 @@ namespace revchain::analytic {
 
 namespace detail {
 
-/// What duplication leaves of the differences, over the mean: the series stop before its sixth power.
+/// Duplication stops where the differences over the mean are at most this; the series omit its sixth power.
 inline constexpr double carlson_spread = 2e-3;
 
-/// Carlson's R_F(x, y, z) = 1/2 int_0^inf dt / sqrt((t + x)(t + y)(t + z)), one of x, y, z at most 0.
+/// Carlson's R_F(x, y, z) = 1/2 int_0^inf dt / sqrt((t + x)(t + y)(t + z)); at most one of x, y, z is 0.
 /// doi:10.1007/BF02198293; DLMF 19.36.1.
 inline double carlson_rf(double x, double y, double z) {
     double mean = (x + y + z) / 3, shrunk = 1;
@@ -30,7 +30,7 @@ inline double carlson_rf(double x, double y, double z) {
     return (1 + e2 * (e2 / 24 - 0.1 - 3 * e3 / 44) + e3 / 14) / std::sqrt(mean);
 }
 
-/// arctan(sqrt e) / sqrt e, continued to e > -1; `rest` is 1 + e, known to its own last digit.
+/// arctan(sqrt e) / sqrt e, continued to e > -1; `rest` is 1 + e, accurate to its last digit.
 inline double arctangent_ratio(double e, double rest) {
     if (std::abs(e) < 1e-5) return 1 + e * (e * (0.2 - e / 7) - 1.0 / 3);
     const double root = std::sqrt(std::abs(e));
@@ -38,8 +38,8 @@ inline double arctangent_ratio(double e, double rest) {
     return (e > 0 ? std::atan(root) : std::atanh(root)) / root;
 }
 
-/// Carlson's R_J(x, y, z, p) = 3/2 int_0^inf dt / ((t + p) sqrt((t + x)(t + y)(t + z))), p > 0, one of the others at
-/// most 0; R_D(x, y, z) = R_J(x, y, z, z). As above; DLMF 19.36.2.
+/// Carlson's R_J(x, y, z, p) = 3/2 int_0^inf dt / ((t + p) sqrt((t + x)(t + y)(t + z))), p > 0; at most one of x, y, z
+/// is 0. R_D(x, y, z) = R_J(x, y, z, z). Method as `carlson_rf`; DLMF 19.36.2.
 inline double carlson_rj(double x, double y, double z, double p) {
     double mean = (x + y + z + 2 * p) / 5, shrunk = 1, sum = 0;
     const double dx = mean - x, dy = mean - y, dz = mean - z;
@@ -62,13 +62,13 @@ inline double carlson_rj(double x, double y, double z, double p) {
                          (1 + e2 * (9 * e2 / 88 - 3.0 / 14 - 9 * e3 / 52) + e3 / 6 - 3 * e4 / 22 + 3 * e5 / 26);
 }
 
-/// An amplitude as so many half turns and an angle between -pi/2 and pi/2.
+/// An amplitude as a number of half turns and an angle between -pi/2 and pi/2.
 struct Amplitude {
     double sine, cosine, delta, half_turns;
 
     Amplitude(double angle, const EllipticModulus& modulus) : half_turns(std::nearbyint(angle / std::numbers::pi)) {
-        // In two words: next to an odd number of quarter turns the cosine is a difference of the two. Beside 2^60 half
-        // turns the rest is below the last digit.
+        // In two words: near an odd number of quarter turns the cosine is a difference. Beyond 2^60 half turns the rest
+        // is below the last digit of the amplitude.
         DoubleDouble within(0);
         if (std::abs(half_turns) < 0x1p60)
             within = DoubleDouble(angle) - DoubleDouble(half_turns) * std::numbers::pi_v<DoubleDouble>;
@@ -77,7 +77,7 @@ struct Amplitude {
         delta = std::hypot(cosine, modulus.complementary_modulus() * sine);
         keep_within();
     }
-    /// Next to a quarter turn the amplitude, rounded, does not say on which side of it: cn does.
+    /// Near a quarter turn the sign of cn tells the side; the rounded amplitude does not.
     explicit Amplitude(const JacobiValues& f)
         : delta(f.dn), half_turns(std::nearbyint(f.amplitude / std::numbers::pi)) {
         const bool odd = std::fmod(half_turns, 2.0) != 0;
@@ -100,17 +100,17 @@ struct IncompleteIntegrals {
     double F, E, D;
 };
 
-/// Accuracy: 2e-15 relative, in the amplitude as given. Cost: 0.5 microseconds. F and D are infinite at a quarter turn
-/// and beyond where kappa = 1. Throws InvalidArgument unless the amplitude is finite.
+/// The three integrals. Accuracy: 2e-15 relative for the amplitude as given. Cost: 0.5 microseconds. For kappa = 1, F
+/// and D are infinite at a quarter turn and beyond. Throws InvalidArgument unless the amplitude is finite.
 inline IncompleteIntegrals incomplete_integrals(double amplitude, const EllipticModulus& modulus) {
     if (!std::isfinite(amplitude))
-        revchain::detail::throw_invalid("analytic::incomplete_integrals", "amplitude must be finite", amplitude);
+        detail::throw_invalid("analytic::incomplete_integrals", "amplitude must be finite", amplitude);
     const detail::Amplitude a(amplitude, modulus);
     const double k2 = modulus.modulus() * modulus.modulus();
     const double c2 = modulus.complementary_modulus() * modulus.complementary_modulus();
     const double s = a.sine, x = a.cosine * a.cosine, y = a.delta * a.delta;
     IncompleteIntegrals result{s * detail::carlson_rf(x, y, 1), 0, s * s * s * detail::carlson_rj(x, y, 1, 1) / 3};
-    // E = F - kappa^2 D would lose what the two have in common.
+    // not F - kappa^2 D, which is a difference of nearly equal numbers
     result.E = c2 * (result.F + k2 * s * s * s * detail::carlson_rj(x, 1, y, y) / 3) + k2 * s * a.cosine / a.delta;
     if (a.half_turns != 0) {
         const CompleteIntegrals whole = complete_integrals(modulus);
@@ -123,17 +123,17 @@ inline IncompleteIntegrals incomplete_integrals(double amplitude, const Elliptic
 namespace detail {
 
 inline void check_characteristic(std::string_view place, double n) {
-    if (!(n < 1)) revchain::detail::throw_invalid(place, "the characteristic must be less than 1", n);
+    if (!(n < 1)) throw_invalid(place, "the characteristic must be less than 1", n);
 }
 
-/// Within a quarter turn. F: that of the amplitude.
+/// The integral within a quarter turn; F is the first kind's.
 inline double pi_within(double n, const Amplitude& a, const EllipticModulus& modulus, double F) {
     const double s = a.sine, x = a.cosine * a.cosine, y = a.delta * a.delta;
     const auto of_positive = [&](double characteristic, double rest) {
         return F + characteristic / 3 * (s * s * s) * carlson_rj(x, y, 1, x + rest * s * s);
     };
     if (n >= 0) return of_positive(n, 1 - n);
-    // DLMF 19.7.9: a characteristic N between kappa^2 and 1, and no differences.
+    // DLMF 19.7.9: a characteristic between kappa^2 and 1, and no differences.
     const double k2 = modulus.modulus() * modulus.modulus();
     const double c2 = modulus.complementary_modulus() * modulus.complementary_modulus();
     const double g = -n, share = g / (k2 + g), ratio = (k2 + g) / (1 + g);
@@ -149,20 +149,20 @@ inline double pi_of(double n, const Amplitude& a, const EllipticModulus& modulus
 
 }  // namespace detail
 
-/// Pi(n, kappa) = int d phi / ((1 - n sin^2) Delta) over a quarter turn, n < 1: the sign of n as in DLMF 19.2.7.
-/// Accuracy: 1.5e-15 relative, in n as given. Infinite for kappa = 1.
+/// Pi(n, kappa) = int d phi / ((1 - n sin^2) Delta) over a quarter turn, n < 1, with the sign of n as in DLMF 19.2.7.
+/// Accuracy: 1.5e-15 relative for n as given. Infinite for kappa = 1.
 inline double complete_pi(double n, const EllipticModulus& modulus) {
     detail::check_characteristic("analytic::complete_pi", n);
     const double c = modulus.complementary_modulus();
     return c == 0 ? std::numeric_limits<double>::infinity() : detail::complete_integral(c, 1 - n, 1, 1);
 }
 
-/// Incomplete integral of the third kind, up to an amplitude or up to an argument u. Accuracy: 3e-15 relative. Cost:
-/// 0.7 microseconds.
+/// The integral of the third kind up to an amplitude, or up to the amplitude of an argument u. Accuracy: 3e-15
+/// relative. Cost: 0.7 microseconds.
 inline double incomplete_pi(double n, double amplitude, const EllipticModulus& modulus) {
     detail::check_characteristic("analytic::incomplete_pi", n);
     if (!std::isfinite(amplitude))
-        revchain::detail::throw_invalid("analytic::incomplete_pi", "amplitude must be finite", amplitude);
+        detail::throw_invalid("analytic::incomplete_pi", "amplitude must be finite", amplitude);
     return detail::pi_of(n, detail::Amplitude(amplitude, modulus), modulus);
 }
 inline double incomplete_pi(double n, const JacobiValues& u, const EllipticModulus& modulus) {

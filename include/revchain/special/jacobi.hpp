@@ -5,20 +5,19 @@
 
 namespace revchain::analytic {
 
-/// What Jacobi's functions are at one argument u.
+/// Jacobi's functions at one argument u.
 struct JacobiValues {
     double amplitude;  ///< am u
     double sn, cn, dn;
     double epsilon;  ///< int_0^u dn^2 = E(am u)
 };
 
-/// Jacobi's elliptic functions of one modulus, for any number of arguments.
+/// Jacobi's elliptic functions of one modulus.
 ///
-/// Method: theta series of the nome or, for kappa > kappa', of the complementary one in hyperbolic functions, so that
-/// q <= exp(-pi) and four terms do; the argument brought within half a quarter period. DLMF 20.2, 20.7(viii), 22.2.
-/// Accuracy: 1e-15 (|f| + |u df/du|) each, kappa' from 1e-150 to 1: where |u| exceeds 1e15 no digit of sn, cn and dn is
-/// known, and they are those of some argument. Cost: 0.3 microseconds for the modulus and 0.1 for
-/// each argument.
+/// Method: theta series in the nome or, for kappa > kappa', in the complementary nome with hyperbolic functions, so
+/// that q <= exp(-pi) and four terms suffice; the argument is reduced to half a quarter period. DLMF 20.2, 20.7(viii),
+/// 22.2. Accuracy: 1e-15 (|f| + |u df/du|) for kappa' from 1e-150 to 1, so that no digit of sn, cn and dn is known for
+/// |u| > 1e15. Cost: 0.3 microseconds to construct, 0.1 for each argument.
 class JacobiFunctions {
    public:
     explicit JacobiFunctions(const EllipticModulus& modulus)
@@ -41,9 +40,9 @@ class JacobiFunctions {
 
     /// Throws InvalidArgument unless u is finite.
     JacobiValues operator()(double u) const {
-        if (!std::isfinite(u)) revchain::detail::throw_invalid("analytic::JacobiFunctions", "u must be finite", u);
+        if (!std::isfinite(u)) detail::throw_invalid("analytic::JacobiFunctions", "u must be finite", u);
         double within = u;
-        int half_periods = 0;  // to the last bits, however many there are
+        int half_periods = 0;  // its last bits are right
         if (std::abs(u) > complete_.K) within = std::remquo(u, 2 * complete_.K, &half_periods);
         const double half_turns = std::nearbyint((u - within) / (2 * complete_.K));
         JacobiValues f = hyperbolic_ ? hyperbolic(std::abs(within)) : circular(std::abs(within));
@@ -61,7 +60,7 @@ class JacobiFunctions {
         double first, second, third, fourth, w;
     };
 
-    /// In powers of q times 2 cos 2nz = q^-n w_n, which cannot overflow and do not matter where they underflow.
+    /// In powers of q times 2 cos 2nz = q^-n w_n. These cannot overflow, and underflow is harmless.
     Theta theta(double w) const {
         const double q = q_, q2 = q * q, q4 = q2 * q2, q9 = q4 * q4 * q;
         const double w2 = w * w - 2 * q2, w3 = w * (w2 - q2);

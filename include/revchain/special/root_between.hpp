@@ -13,8 +13,8 @@
 
 namespace revchain::analytic::detail {
 
-/// A zero of `f` between `low` and `high`, by Brent's method (GSL), to the last digit of the argument; nothing where f
-/// has the same sign at both ends or is not a number there. f must not throw.
+/// A zero of `f` between `low` and `high` to the last digit of the argument, by Brent's method (GSL); empty where f has
+/// the same sign at both ends or is NaN there. f must not throw.
 template <class F>
 std::optional<double> root_between(const F& f, double low, double high) {
     const double at_low = f(low), at_high = f(high);

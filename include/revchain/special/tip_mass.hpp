@@ -10,14 +10,16 @@
 #include "revchain/special/chain_arguments.hpp"
 
 /// The uniform chain of Greenhill (1908) §4 with a particle at its free end, at small amplitude. `tip` is the length of
-/// chain that weighs as much as the particle, x the distance from the free end, the tension that of tip + x of chain.
+/// chain that weighs as much as the particle; tip = 0 is the chain of `heavy_chain`. x is the distance from the free
+/// end.
+///
 /// With z = 2 sqrt((tip + x)/lambda), z_0 at the particle and z_L at the support, the offset is a cylinder function of
-/// order 0 of z, and the heights solve Y_2(z_0) J_0(z_L) = J_2(z_0) Y_0(z_L). With theta the phases of J + iY:
-///     theta_0(z_L) - theta_2(z_0) = mode pi;
-/// at a fixed z_0/z_L the left side rises from 0 to infinity, as M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2): one
-/// height to every mode, none left out.
+/// order 0 of z, and the heights solve Y_2(z_0) J_0(z_L) = J_2(z_0) Y_0(z_L). With theta the phase of J + iY this is
+///     theta_0(z_L) - theta_2(z_0) = mode pi.
+/// At a fixed z_0/z_L the left side rises from 0 to infinity, because M_0(z_L) < M_2(z_0) in theta' = 2/(pi z M^2). So
+/// every mode has exactly one height.
 /// Functions throw InvalidArgument for a mode or count below 1, a length that is not positive and finite, a tip that is
-/// negative or above 1e250 lengths, and x outside [0, length]. tip = 0 is the chain of `heavy_chain`.
+/// negative or above 1e250 lengths, and x outside [0, length].
 namespace revchain::analytic::tip_mass {
 
 namespace detail {
@@ -32,7 +34,7 @@ inline const PhaseSeries& series(int order) {
     return all[static_cast<std::size_t>(order)];
 }
 
-/// The particle's end: J_2 and Y_2 at z_0, and theta_2 to a tenth or so.
+/// The end with the particle: J_2 and Y_2 at z_0, and theta_2 to about a tenth.
 struct LowerEnd {
     static constexpr double series_from = 30, nothing_below = 1e-5;  // J_2/Y_2 < 1e-21
 
@@ -52,10 +54,25 @@ struct LowerEnd {
     bool is_far() const { return z >= series_from; }
 };
 
-/// theta_0 - theta_2(z_0) - i pi at z_0 + apart, and theta_0' there.
-struct Excess {
+/// A function and its derivative.
+struct ValueAndRate {
     double value, rate;
+};
 
+/// A zero of an increasing function between `low` and `high` (or infinity), by Newton's method from w.
+template <class F>
+TwoDoubles newton_between(double low, double high, double w, const F& value_and_rate) {
+    for (int round = 0;; ++round) {
+        const ValueAndRate e = value_and_rate(w);
+        (e.value < 0 ? low : high) = w;
+        const double step = e.value / e.rate;
+        if (std::abs(step) <= 1e-9 * w || round == 60) return TwoDoubles(w) - step;
+        w = w - step > low && w - step < high ? w - step : (high < 1e300 ? low + 0.5 * (high - low) : 2 * w);
+    }
+}
+
+/// theta_0 - theta_2(z_0) - i pi at z_0 + apart, and theta_0' there.
+struct Excess : ValueAndRate {
     Excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart, Index i) {
         const double z = place.high, turns = static_cast<double>(i);
         if (end.is_far()) {
@@ -88,7 +105,7 @@ inline void check(std::string_view place, std::string_view name, Index number, d
         revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
 }
 
-/// What all modes of one chain share, and z_L - z_0 of each.
+/// The numbers that all modes of a chain share, and z_L - z_0 of each mode.
 struct Ends {
     TwoDoubles share;  ///< length / (length + tip)
     TwoDoubles ratio;  ///< z_0 / z_L
@@ -107,26 +124,19 @@ struct Ends {
     /// z_L - z_0 by Newton's method on the phases, kept between bounds.
     TwoDoubles apart(Index mode) const {
         const double r = ratio.high, g = gap.high, k = static_cast<double>(mode);
-        double low = g * (k - 0.25) * std::numbers::pi, high = std::numeric_limits<double>::infinity();
+        const double low = g * (k - 0.25) * std::numbers::pi, high = std::numeric_limits<double>::infinity();
         const double strings = (k - 1) * std::numbers::pi, c = r > 0 ? 4 * g * (0.125 + 1.875 / r) : 0;
         double w = 0.5 * (strings + std::sqrt(strings * strings + c));  // both ends far out
         if (!(w * r > 2 * g)) w = low * (1 + 1e-3);
-        for (int round = 0;; ++round) {
-            const TwoDoubles place = TwoDoubles(w) / gap;
+        return newton_between(low, high, w, [&](double at) {
+            const TwoDoubles place = TwoDoubles(at) / gap;
             const LowerEnd end(place * ratio);
-            const Excess e(end, place, TwoDoubles(w), mode);
-            (e.value < 0 ? low : high) = w;
-            double rate = (e.rate - r * end.rate) / g;
-            if (end.is_far()) {  // the same without cancellation
-                const double d0 = 1 + series(0).density_above_one(place.high),
-                             d2 = 1 + series(2).density_above_one(end.z);
-                const double more = series(2).density_above_one(end.z) - series(0).density_above_one(place.high);
-                rate = more / (d0 * d2) / g + 1 / d2;
-            }
-            const double step = e.value / rate;
-            if (std::abs(step) <= 1e-9 * w || round == 60) return TwoDoubles(w) - step;
-            w = w - step > low && w - step < high ? w - step : (high < 1e300 ? low + 0.5 * (high - low) : 2 * w);
-        }
+            const Excess e(end, place, TwoDoubles(at), mode);
+            if (!end.is_far()) return ValueAndRate{e.value, (e.rate - r * end.rate) / g};
+            // the same without cancellation
+            const double a0 = series(0).density_above_one(place.high), a2 = series(2).density_above_one(end.z);
+            return ValueAndRate{e.value, (a2 - a0) / ((1 + a0) * (1 + a2)) / g + 1 / (1 + a2)};
+        });
     }
 
     double height(const TwoDoubles& apart, double length) const {
@@ -139,9 +149,10 @@ struct Ends {
 
 }  // namespace detail
 
-/// Conical heights of the `count` slowest modes, descending. A heavy tip leaves nearly a plummet, lambda_1 = length +
-/// ..., and the string of half waves between its ends, z_L - z_0 = (mode - 1) pi + ...
-/// Accuracy: 2 ulp (measured 1.04). Cost: 0.15 microseconds where z_0 > 30, else 3 to 5, 10 to 15 where z_L < 45.
+/// Conical heights of the `count` slowest modes, descending. With a heavy tip the first mode is nearly that of a
+/// plummet on a thread of this length, and the others are half waves of a string, z_L - z_0 = (mode - 1) pi nearly.
+/// Accuracy: 2 ulp (measured 1.04). Cost of each: 0.15 microseconds where z_0 > 30, 10 to 15 where z_L < 45, else 3 to
+/// 5.
 inline Vector<double> conical_heights(Index count, double length, double tip) {
     detail::check("conical_heights", "count", count, length, tip);
     const detail::Ends ends(length, tip);
@@ -153,7 +164,7 @@ inline Vector<double> conical_heights(Index count, double length, double tip) {
     return heights;
 }
 
-/// One mode. Cost: that of its height.
+/// One mode of the chain with a particle. Cost: that of its height.
 class Mode {
    public:
     Mode(Index mode, double length, double tip)
@@ -176,7 +187,7 @@ class Mode {
     double conical_height() const { return height_; }
 
     /// Offset at x, 1 at the free end: (pi z_0^2/4) (J_2(z_0) Y_0(z) - Y_2(z_0) J_0(z)).
-    /// Accuracy: absolute error 6e-16 (1 + z_L - z_0) of the largest offset, which is 1 for mode 1 and can reach
+    /// Accuracy: absolute error 6e-16 (1 + z_L - z_0) times the largest offset, which is 1 for mode 1 and up to
     /// sqrt(1 + tip/lambda) for others. Cost: 0.1 to 0.3 microseconds, 2 where z_0 > 1 and z < 45.
     double shape(double x) const {
         const double w = apart_at(x, "shape"), z = end_.z + w;
@@ -190,7 +201,7 @@ class Mode {
         return a_.high * value(gsl_sf_bessel_J0_e, z) + (b_.high != 0 ? b_.high * value(gsl_sf_bessel_Y0_e, z) : 0.0);
     }
 
-    /// dy/dx of that, -1/lambda at the free end. Accuracy: the same, of the largest slope.
+    /// dy/dx, -1/lambda at the free end. Accuracy: as `shape`, times the largest slope.
     double slope(double x) const {
         const double w = apart_at(x, "slope"), z = end_.z + w;
         if (end_.is_far())
@@ -205,24 +216,18 @@ class Mode {
         return -(a_.high * value(gsl_sf_bessel_J1_e, z) + second) / (0.5 * z) / height_;
     }
 
-    /// Where the chain crosses the axis, ascending, the support left out: theta_0(z) - theta_2(z_0) = i pi, i < mode.
+    /// (mode - 1) distances x where the chain crosses the axis, ascending: theta_0(z) - theta_2(z_0) = i pi, i < mode.
     /// Accuracy: 1e-15 length. Cost: 0.2 to 10 microseconds each.
     Vector<double> nodes() const {
         Vector<double> points(mode_ - 1);
         double high = apart_.high;
         for (Index i = mode_ - 1; i >= 1; --i) {
             revchain::detail::look();
-            double low = 0, w = std::max(high - std::numbers::pi, 0.5 * high);
-            if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // next to a heavy particle
-            for (int round = 0; round < 60; ++round) {
-                const detail::Excess e(end_, place_ + w, detail::TwoDoubles(w), i);
-                (e.value < 0 ? low : high) = w;
-                const double next = w - e.value / e.rate;
-                const bool done = std::abs(next - w) <= 1e-9 * w;
-                w = done || (next > low && next < high) ? next : 0.5 * (low + high);
-                if (done) break;
-            }
-            high = w;
+            double w = std::max(high - std::numbers::pi, 0.5 * high);
+            if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // near a heavy particle
+            w = high = detail::newton_between(0, high, w, [&](double at) {
+                           return detail::Excess(end_, place_ + at, detail::TwoDoubles(at), i);
+                       }).high;
             points[i - 1] = length_ * (w / apart_.high) * ((w + 2 * end_.z) / (apart_.high + 2 * end_.z));
         }
         return points;
@@ -235,10 +240,10 @@ class Mode {
     static double lag(int order, double z) { return detail::series(order).lag(z); }
     static double density(int order, double z) { return detail::series(order).density(z); }
 
-    /// Where the two terms of the offset are greater than it in double.
+    /// Whether the two terms of the offset nearly cancel in double.
     bool cancels(double z) const { return end_.z > 1 && z < 45; }
 
-    /// z - z_0 at x, without the difference.
+    /// z - z_0 at x, without a difference.
     double apart_at(double x, std::string_view place) const {
         analytic::detail::check_place("analytic::tip_mass::Mode::" + std::string(place), x, length_);
         const double r = ends_.ratio.high, share = x / length_;

@@ -16,19 +16,19 @@ constexpr double ulp = 0x1p-52;
 using Found = std::optional<revchain::detail::Heights<double>>;
 
 Found all_heights(const Chain<double>& chain, double rtol = 1e-14) {
-    return revchain::detail::heights_all_together(chain, {1, chain.mode_count()}, {.rtol = rtol});
+    return revchain::detail::heights_by_aberth(chain, {1, chain.mode_count()}, {.rtol = rtol});
 }
 
 double worst_error(const Chain<double>& chain, const Found& found, double rtol = 1e-14) {
-    REQUIRE(static_cast<Index>(found->height.size()) == chain.mode_count());
+    REQUIRE(static_cast<Index>(found->size()) == chain.mode_count());
     const support::Truth truth(chain);
     const Quad unit = std::ldexp(1.0, chain.units().length_exponent);
     double worst = 0;
     for (Index j = 0; j < chain.mode_count(); ++j) {
-        const auto& height = found->height[static_cast<std::size_t>(j)];
-        CAPTURE(j, height.value, height.error_bound);
+        const auto& height = (*found)[static_cast<std::size_t>(j)];
+        CAPTURE(j, height.eigenvalue, height.error_bound);
         REQUIRE(height.error_bound <= rtol);
-        const Quad value = Quad(height.value), reach = Quad(1e-12);
+        const Quad value = Quad(height.eigenvalue), reach = Quad(1e-12);
         const Quad exact = truth.height(j, value * (1 - reach) * unit, value * (1 + reach) * unit, 1e-21) / unit;
         const double error = static_cast<double>(fabsq((value - exact) / exact));
         REQUIRE(error <= height.error_bound);
@@ -132,8 +132,8 @@ TEST_CASE("heights all together: the unit does not matter", "[linear]") {
         const auto one = all_heights(chain), other = all_heights(Chain<double>(scaled));
         REQUIRE((one && other));
         for (std::size_t j = 0; j < 7; ++j) {
-            CHECK(one->height[j].value == other->height[j].value);
-            CHECK(one->height[j].error_bound == other->height[j].error_bound);
+            CHECK((*one)[j].eigenvalue == (*other)[j].eigenvalue);
+            CHECK((*one)[j].error_bound == (*other)[j].error_bound);
         }
     }
 }
@@ -142,12 +142,12 @@ TEST_CASE("heights all together: some of the modes, and tolerances out of reach"
     support::Random random(6);
     const Chain<double> chain = random_chain(random, 10, 0);
     const Found all = all_heights(chain);
-    const Found some = revchain::detail::heights_all_together(chain, {4, 3}, {.rtol = 1e-14});
+    const Found some = revchain::detail::heights_by_aberth(chain, {4, 3}, {.rtol = 1e-14});
     REQUIRE((all && some));
-    REQUIRE(some->height.size() == 3);
-    for (std::size_t j = 0; j < 3; ++j) CHECK(some->height[j].value == all->height[j + 3].value);
+    REQUIRE(some->size() == 3);
+    for (std::size_t j = 0; j < 3; ++j) CHECK((*some)[j].eigenvalue == (*all)[j + 3].eigenvalue);
     CHECK_FALSE(all_heights(chain, 1e-15));
-    CHECK_FALSE(revchain::detail::heights_all_together(chain, {1, 10}, {}));
+    CHECK_FALSE(revchain::detail::heights_by_aberth(chain, {1, 10}, {}));
     CHECK_FALSE(all_heights(Chain<double>::uniform_plummets(129)));
     // massless threads, l > a, and links of both kinds are left to others
     CHECK_FALSE(all_heights(support::families().back().make(5)));
@@ -159,19 +159,21 @@ TEST_CASE("modes() takes them all together and falls back", "[linear]") {
     support::Random random(9);
     for (const int kind : {0, 1}) {
         const Chain<double> chain = random_chain(random, 10, kind);
-        const auto fast = revchain::modes(chain, {.rtol = 1e-14, .method = revchain::ModesMethod::together});
-        const auto best = revchain::modes(chain);
-        CHECK(fast.method == "together");
-        CHECK(revchain::modes(chain, {.rtol = 1e-14}).method == "together");
-        CHECK(revchain::modes(chain, {.count = 1, .rtol = 1e-8}).method == "together");
+        const auto fast = revchain::modes(
+            chain, {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth});
+        const auto best = revchain::modes(chain, {.count = revchain::all_modes});
+        CHECK(fast.method == "aberth");
+        CHECK(revchain::modes(chain, {.count = revchain::all_modes, .rtol = 1e-14}).method == "aberth");
+        CHECK(revchain::modes(chain, {.count = 1, .rtol = 1e-8}).method == "aberth");
         CHECK(best.method == "bisection");
         for (Index j = 0; j < 10; ++j) {
             CHECK(std::abs(fast.conical_height[j] / best.conical_height[j] - 1) <= fast.error_bound[j]);
-            CHECK((fast.shape.row(j) - best.shape.row(j)).cwiseAbs().maxCoeff() < 1e-12);
+            CHECK((fast.shapes().offset.row(j) - best.shapes().offset.row(j)).cwiseAbs().maxCoeff() < 1e-12);
         }
     }
     const auto other =
-        revchain::modes(support::families().back().make(5), {.rtol = 1e-14, .method = revchain::ModesMethod::together});
-    CHECK(other.method != "together");
+        revchain::modes(support::families().back().make(5),
+                        {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth});
+    CHECK(other.method != "aberth");
     CHECK(other.status == revchain::Status::success);
 }

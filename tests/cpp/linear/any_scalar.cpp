@@ -16,7 +16,7 @@ TEST_CASE("a user's own scalar", "[linear]") {
     STATIC_REQUIRE_FALSE(revchain::Real<int>);
     STATIC_REQUIRE_FALSE(revchain::Real<std::string>);
     const auto chain = revchain::Chain<QuadScalar>::uniform_plummets(12);
-    const auto m = revchain::modes(chain, {});
+    const auto m = revchain::modes(chain, {.count = revchain::all_modes});
     CHECK(m.status == revchain::Status::success);
     // Laguerre: the product of the zeros of L_N is N!, their sum N^2; heights are 1 / (N x)
     Quad sum = 0, product = 1, factorial = 1;
@@ -26,7 +26,7 @@ TEST_CASE("a user's own scalar", "[linear]") {
         product *= zero;
         factorial *= static_cast<double>(j + 1);
         CHECK(static_cast<double>(m.error_bound[j]) <= 1e-30);
-        CHECK(revchain::count_modes(chain, m.conical_height[j] * QuadScalar(1 - 1e-15)) == j + 1);
+        CHECK(revchain::count_modes(chain, {.conical_height = m.conical_height[j] * QuadScalar(1 - 1e-15)}) == j + 1);
     }
     CHECK(static_cast<double>(fabsq(sum / 144 - 1)) <= 1e-31);
     CHECK(static_cast<double>(fabsq(product / factorial - 1)) <= 1e-30);
@@ -45,7 +45,7 @@ TEST_CASE("the same headers in every scalar", "[linear]") {
                                                             .length = T(0.5) * T(1 + m % 3),
                                                             .centroid = T(0.25) * T(1 + m % 2),
                                                             .radius_of_gyration = T(0.125) * T(m % 4)}));
-        const auto m = revchain::modes(revchain::Chain<T>(links), {});
+        const auto m = revchain::modes(revchain::Chain<T>(links), {.count = revchain::all_modes});
         std::vector<std::pair<Quad, double>> result;
         for (Index j = 0; j < m.size(); ++j) {
             if constexpr (std::is_same_v<T, QuadScalar>)

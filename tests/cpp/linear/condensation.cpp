@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// Runs of links condensed in double against the same runs in quadruple precision: what `compress` notes as rounded is
+// Runs of links condensed in double against the same runs in quadruple precision: what `condensed_chain` notes as rounded is
 // more than what is.
 #include "revchain/linear/condensation.hpp"
 
@@ -61,7 +61,7 @@ void compare(const Chain<double>& chain, Index length, Worst& worst) {
             const double moment = static_cast<double>(moment_roundings(leaf) + 2) * half;
             if (exact.a[0] > 0) worst.moment = std::max(worst.moment, error(quad(run.moment), exact.a[0]) / moment);
             if (leaf_terms(length) < leaf_degree) continue;  // others are cut off as well
-            // As `compress` notes them: those of a leaf relative to a quarter of its phase, those of merging to the term.
+            // As `condensed_chain` notes them: those of a leaf relative to a quarter of its phase, those of merging to the term.
             const double roundings = static_cast<double>(coefficient_roundings(leaf));
             const double merges = static_cast<double>(length / leaf);
             const auto compare_second = [&](const Quad& x, const Quad& y, const Quad& first_term) {

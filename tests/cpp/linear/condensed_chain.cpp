@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-// Chains made to break `compress`: each found a term that had not been counted, or was built from one that might not be.
+// Chains made to break `condensed_chain`: each found a term that had not been counted, or was built from one that might not be.
 #include "revchain/linear/condensed_chain.hpp"
 
 #include <numeric>
@@ -20,25 +20,25 @@ using Links = std::vector<Link<double>>;
 /// What heights are before they are rounded, against those of bisection (good to 1e-20), in units of the blocks' error
 /// and the margin.
 double error_of(const Chain<double>& chain, Index first, Index count) {
-    const auto fast = detail::heights_by_compression(chain, {first, count}, {}, 1.0);
+    const auto fast = detail::heights_by_condensation(chain, {first, count}, {});
     if (!fast) return -1;
     detail::LazyCounter<double> assembled(chain);
-    const auto sure = detail::heights_by_bisection(chain, assembled, {first, count}, {}, 1.0);
+    const auto sure = detail::heights_by_bisection(chain, assembled, {first, count}, {});
     double worst = 0;
-    for (std::size_t j = 0; j < sure.height.size(); ++j) {
-        CHECK(fast->found.height[j].error_bound <= 0x1p-51);
-        const auto difference = fast->found.height[j].unrounded - sure.height[j].unrounded;
-        worst = std::max(worst, std::abs(static_cast<double>(difference)) / sure.height[j].value);
+    for (std::size_t j = 0; j < sure.size(); ++j) {
+        CHECK(fast->found[j].error_bound <= 0x1p-51);
+        const auto difference = fast->found[j].unrounded - sure[j].unrounded;
+        worst = std::max(worst, std::abs(static_cast<double>(difference)) / sure[j].eigenvalue);
     }
-    return worst / (fast->compressed.pencil.error + 0x1p-55);
+    return worst / (fast->condensed.pencil.error + 0x1p-55);
 }
 
-/// Whether height number j (from 1) is what `heights_by_compression` says, by exact counts; true where it gives up.
+/// Whether height number j (from 1) is what `heights_by_condensation` says, by exact counts; true where it gives up.
 bool is_within(const Chain<double>& chain, Index j) {
-    const auto found = detail::heights_by_compression(chain, {j, 1}, {}, 1.0);
+    const auto found = detail::heights_by_condensation(chain, {j, 1}, {});
     if (!found) return true;
-    const auto& height = found->found.height[0];
-    const double value = std::ldexp(height.value, chain.units().length_exponent);
+    const auto& height = found->found[0];
+    const double value = std::ldexp(height.eigenvalue, chain.units().length_exponent);
     return support::count_in_big_floats(chain, value, height.error_bound) < j &&
            support::count_in_big_floats(chain, value, -height.error_bound) >= j;
 }
@@ -46,7 +46,7 @@ bool is_within(const Chain<double>& chain, Index j) {
 }  // namespace
 
 // A leaf of a long run has three terms. Where one leaf is nearly all of the run its fourth is missed: 3e-16 of the height.
-TEST_CASE("Runs in which one leaf outweighs all others", "[compression]") {
+TEST_CASE("Runs in which one leaf outweighs all others", "[condensation]") {
     double worst = 0;
     for (const double weight : {10.0, 1000.0})
         for (const double length : {10.0, 1000.0})
@@ -68,7 +68,7 @@ TEST_CASE("Runs in which one leaf outweighs all others", "[compression]") {
 }
 
 // S a + W h = 1 where both products have 30 digits: two words keep none of them.
-TEST_CASE("A stiffness that cancels to its last digit is not trusted", "[compression]") {
+TEST_CASE("A stiffness that cancels to its last digit is not trusted", "[condensation]") {
     Random random(5);
     int chains = 0;
     while (chains < 10) {
@@ -101,7 +101,7 @@ TEST_CASE("A stiffness that cancels to its last digit is not trusted", "[compres
 }
 
 // A weight over a long length underflows where the same weight over the length in its unit does not.
-TEST_CASE("Blocks do not know the unit of length", "[compression]") {
+TEST_CASE("Blocks do not know the unit of length", "[condensation]") {
     Random random(6);
     for (const double longest : {1.0, 1e10, 1e40})
         for (const int exponent : {-900, 0, 640}) {
@@ -119,7 +119,7 @@ TEST_CASE("Blocks do not know the unit of length", "[compression]") {
 }
 
 // 0/0 in a massless leaf would pass for the largest of all, and then for none.
-TEST_CASE("Massless stretches condense like others", "[compression]") {
+TEST_CASE("Massless stretches condense like others", "[condensation]") {
     Random random(7);
     for (int i = 0; i < 20; ++i) {
         bool massless = false;
@@ -131,13 +131,13 @@ TEST_CASE("Massless stretches condense like others", "[compression]") {
         CAPTURE(i);
         CHECK(error >= 0);
         CHECK(error <= 0.3);
-        const auto compressed = compress(chain, 0.9 * detail::estimated_height(chain, 5));
-        CHECK(compressed.pencil.blocks.size() < 200);
-        CHECK(compressed.pencil.error > 0x1p-54);  // a division at least
+        const auto condensed = condensed_chain(chain, 0.9 * detail::estimated_height(chain, 5));
+        CHECK(condensed.pencil.blocks.size() < 200);
+        CHECK(condensed.pencil.error > 0x1p-54);  // a division at least
     }
 }
 
-TEST_CASE("Every link is in a block, whatever the chain", "[compression]") {
+TEST_CASE("Every link is in a block, whatever the chain", "[condensation]") {
     Random random(8);
     for (const Index size : {1, 2, 3, 4, 5, 7, 8, 63, 64, 65, 255, 256, 1000, 4097})
         for (int kind = 0; kind < 5; ++kind) {
@@ -152,10 +152,10 @@ TEST_CASE("Every link is in a block, whatever the chain", "[compression]") {
             });
             for (const double share : {1.0, 1e-3}) {
                 const double least = share * chain.total_length() / detail::LinkColumns<double>(chain).unit_length;
-                const auto compressed = compress(chain, least);
+                const auto condensed = condensed_chain(chain, least);
                 Index links = 0;
                 Wide<double> weight(0.0);
-                for (const auto& block : compressed.pencil.blocks) {
+                for (const auto& block : condensed.pencil.blocks) {
                     links += block.links;
                     weight = weight + block.lower + block.upper;
                 }
@@ -163,7 +163,7 @@ TEST_CASE("Every link is in a block, whatever the chain", "[compression]") {
                 CHECK(links == size);
                 const auto total = chain.weight_below(size);
                 CHECK(std::abs(static_cast<double>(weight - total)) <= 0x1p-54 * static_cast<double>(total));
-                CHECK(compressed.pencil.error <= 1.5 * 0x1p-52);
+                CHECK(condensed.pencil.error <= 1.5 * 0x1p-52);
             }
         }
 }

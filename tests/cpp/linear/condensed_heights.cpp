@@ -10,7 +10,7 @@ using support::Random;
 
 namespace {
 
-/// Worst error in ulp, and in units of the bound, of the compressed heights of a range against those by bisection,
+/// Worst error in ulp, and in units of the bound, of the condensed heights of a range against those by bisection,
 /// whose `unrounded` is good to 1e-20.
 struct Comparison {
     double ulp = 0;
@@ -22,21 +22,21 @@ struct Comparison {
 Comparison compare(const Chain<double>& chain, Index first, Index count) {
     const detail::HeightsOptions<double> options;
     const ModeRange range{first, count};
-    const auto fast = detail::heights_by_compression(chain, range, options, 1.0);
+    const auto fast = detail::heights_by_condensation(chain, range, options);
     detail::LazyCounter<double> assembled(chain);
-    const auto sure = detail::heights_by_bisection(chain, assembled, range, options, 1.0);
+    const auto sure = detail::heights_by_bisection(chain, assembled, range, options);
     Comparison result;
     result.found = fast.has_value();
     if (!fast) return result;
-    for (std::size_t j = 0; j < sure.height.size(); ++j) {
-        const auto& truth = sure.height[j];
+    for (std::size_t j = 0; j < sure.size(); ++j) {
+        const auto& truth = sure[j];
         const double error =
-            std::abs(static_cast<double>(Wide<double>(fast->found.height[j].value) - truth.unrounded)) / truth.value;
+            std::abs(static_cast<double>(Wide<double>(fast->found[j].eigenvalue) - truth.unrounded)) / truth.eigenvalue;
         // A height that bisection itself is not sure of is compared within both bounds.
-        const double bound = fast->found.height[j].error_bound + (truth.error_bound > 1e-15 ? truth.error_bound : 0.0);
+        const double bound = fast->found[j].error_bound + (truth.error_bound > 1e-15 ? truth.error_bound : 0.0);
         result.ulp = std::max(result.ulp, truth.error_bound > 1e-15 ? 0.0 : error * 0x1p52);
         result.bounds = std::max(result.bounds, error / bound);
-        result.largest_bound = std::max(result.largest_bound, fast->found.height[j].error_bound);
+        result.largest_bound = std::max(result.largest_bound, fast->found[j].error_bound);
     }
     return result;
 }
@@ -59,7 +59,7 @@ Chain<double> any_chain(Random& random, Index size) {
 
 }  // namespace
 
-TEST_CASE("Compressed heights agree with those by bisection for every kind of chain", "[compression]") {
+TEST_CASE("Condensed heights agree with those by bisection for every kind of chain", "[condensation]") {
     const Index size = GENERATE(256, 1000, 4096, 10007);
     double worst = 0, bound = 0;
     for (const auto& family : support::families()) {
@@ -78,7 +78,7 @@ TEST_CASE("Compressed heights agree with those by bisection for every kind of ch
     WARN(size << " links: worst error " << worst << " ulp, largest bound " << bound * 0x1p52 << " ulp");
 }
 
-TEST_CASE("Compressed heights of random chains of mixed links are within their bounds", "[compression]") {
+TEST_CASE("Condensed heights of random chains of mixed links are within their bounds", "[condensation]") {
     Random random(20);
     double worst = 0;
     int found = 0;
@@ -101,7 +101,7 @@ TEST_CASE("Compressed heights of random chains of mixed links are within their b
     WARN("found " << found << " of " << chains << ", worst error " << worst << " ulp");
 }
 
-TEST_CASE("A million links: counts on the whole chain prove what the blocks say", "[compression]") {
+TEST_CASE("A million links: counts on the whole chain prove what the blocks say", "[condensation]") {
     const bool rods = GENERATE(false, true);
     Random random(21);
     const Index size = 1000000;
@@ -111,10 +111,9 @@ TEST_CASE("A million links: counts on the whole chain prove what the blocks say"
     const Chain<double> chain(size, weight, link.length, link.centroid, link.gyration_ratio);
     ModesOptions<double> options;
     options.count = 10;
-    options.shapes = false;
     options.certify = true;
     const auto found = modes(chain, options);
-    CHECK(found.method == "blocks");
+    CHECK(found.method == "condensed");
     CHECK(found.status == Status::success);
     for (Index j = 0; j < 10; ++j) {
         INFO("mode " << j + 1 << ", bound " << found.error_bound[j] * 0x1p52 << " ulp");
@@ -127,16 +126,15 @@ TEST_CASE("A million links: counts on the whole chain prove what the blocks say"
     }
 }
 
-TEST_CASE("Ten million plummets: Laguerre zeros by their asymptotics", "[compression]") {
+TEST_CASE("Ten million plummets: Laguerre zeros by their asymptotics", "[condensation]") {
     // x_k = j^2/v (1 + (j^2 - 2)/(3 v^2) + O(v^-4)), v = 4 N + 2 (Tricomi); lambda = a / x_k.
     const Index size = 10000000;
     const double j[] = {2.4048255576957727686, 5.5200781102863106496, 8.6537279129110122170};
     const auto chain = Chain<double>(size, 1.0, 1.0, 1.0, Wide<double>(0.0));
     ModesOptions<double> options;
     options.count = 3;
-    options.shapes = false;
     const auto found = modes(chain, options);
-    CHECK(found.method == "blocks");
+    CHECK(found.method == "condensed");
     for (Index k = 0; k < 3; ++k) {
         const long double zero = j[k], v = 4.0L * static_cast<long double>(size) + 2;
         const long double height = v / (zero * zero) / (1 + (zero * zero - 2) / (3 * v * v));
@@ -148,7 +146,7 @@ TEST_CASE("Ten million plummets: Laguerre zeros by their asymptotics", "[compres
     }
 }
 
-TEST_CASE("Compressed heights scale exactly with units that are powers of two", "[compression]") {
+TEST_CASE("Condensed heights scale exactly with units that are powers of two", "[condensation]") {
     Random random(22);
     const Index size = 3000;
     std::vector<Link<double>> links;
@@ -166,9 +164,8 @@ TEST_CASE("Compressed heights scale exactly with units that are powers of two", 
         }
         ModesOptions<double> options;
         options.count = 8;
-        options.shapes = false;
         const auto found = modes(Chain<double>(scaled), options);
-        CHECK(found.method == "blocks");
+        CHECK(found.method == "condensed");
         return Vector<double>(
             found.conical_height.unaryExpr([=](double x) { return std::ldexp(x, -length_exponent); }));
     };
@@ -179,28 +176,28 @@ TEST_CASE("Compressed heights scale exactly with units that are powers of two", 
     CHECK(heights(200, -300) == ordinary);
 }
 
-TEST_CASE("A tolerance that blocks cannot keep goes the sure way", "[compression]") {
+TEST_CASE("A tolerance below what double holds is not met, and the bounds say so", "[condensation]") {
     const auto chain = Chain<double>::uniform_plummets(1000);
     ModesOptions<double> options;
     options.count = 3;
     options.rtol = 1e-16;
     const auto found = modes(chain, options);
-    CHECK(found.method == "bisection");
     CHECK(found.status == Status::tolerance_not_met);
     CHECK((found.error_bound.array() <= 0x1.0001p-51).all());
 }
 
-TEST_CASE("Shapes of compressed chains are as good as their heights", "[compression]") {
+TEST_CASE("Shapes of condensed chains are as good as their heights", "[condensation]") {
     const Index size = GENERATE(256, 3001, 20000);
     for (const auto& family : support::families()) {
         const Chain<double> chain = family.make(size);
         ModesOptions<double> options;
         options.count = 9;  // not a multiple of a pack
+        options.method = revchain::ModesMethod::condensed;
         const auto fast = modes(chain, options);
-        options.rtol = 0;
+        options.method = revchain::ModesMethod::bisection;
         const auto sure = modes(chain, options);
         INFO(family.name << ", " << size << " links");
-        REQUIRE(fast.method == "blocks");
+        REQUIRE(fast.method == "condensed");
         REQUIRE(sure.method == "bisection");
         for (Index j = 0; j < fast.size(); ++j) {
             const auto gap_to = [&](Index i) {
@@ -210,15 +207,15 @@ TEST_CASE("Shapes of compressed chains are as good as their heights", "[compress
             };
             const double gap = std::min(gap_to(j - 1), gap_to(j + 1));
             INFO(family.name << ", " << size << " links, mode " << j + 1 << ", gap " << gap);
-            CHECK((fast.shape.row(j) - sure.shape.row(j)).cwiseAbs().maxCoeff() * gap <= 3e-16);
-            CHECK(std::abs(fast.shape(j, size - 1) / sure.shape(j, size - 1) - 1) * gap <= 4e-16);
-            CHECK(fast.shape.row(j).cwiseAbs().maxCoeff() <= 1 + 0x1p-52);
-            CHECK(fast.shape.row(j).cwiseAbs().maxCoeff() >= 1 - 0x1p-52);
-            CHECK(fast.shape(j, 0) > 0);
-            CHECK(fast.shape(j, size) == 0);
-            CHECK(fast.residual[j] <= 4e-16);
-            const auto& nodes = fast.nodes[static_cast<std::size_t>(j)];
-            const auto& sure_nodes = sure.nodes[static_cast<std::size_t>(j)];
+            CHECK((fast.shapes().offset.row(j) - sure.shapes().offset.row(j)).cwiseAbs().maxCoeff() * gap <= 3e-16);
+            CHECK(std::abs(fast.shapes().offset(j, size - 1) / sure.shapes().offset(j, size - 1) - 1) * gap <= 4e-16);
+            CHECK(fast.shapes().offset.row(j).cwiseAbs().maxCoeff() <= 1 + 0x1p-52);
+            CHECK(fast.shapes().offset.row(j).cwiseAbs().maxCoeff() >= 1 - 0x1p-52);
+            CHECK(fast.shapes().offset(j, 0) > 0);
+            CHECK(fast.shapes().offset(j, size) == 0);
+            CHECK(fast.shapes().residual[j] <= 4e-16);
+            const auto& nodes = fast.shapes().nodes[static_cast<std::size_t>(j)];
+            const auto& sure_nodes = sure.shapes().nodes[static_cast<std::size_t>(j)];
             REQUIRE(nodes.size() == sure_nodes.size());
             for (Index i = 0; i < nodes.size(); ++i)
                 CHECK(std::abs(nodes[i] - sure_nodes[i]) * gap <= 1e-14 * chain.total_length());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/dense_reference.hpp"
+#include "revchain/questions/dense_reference.hpp"
 
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -11,8 +11,9 @@ TEST_CASE("three formulations give the same modes, each within its own bound", "
     for (const auto& family : support::families()) {
         for (const Index n : {1, 2, 3, 5, 20}) {
             const auto chain = family.make(n);
-            const auto fast = revchain::modes(chain, {});
-            for (const auto& slow : {revchain::modes_dense(chain, {}), revchain::modes_recurrence(chain, {})}) {
+            const auto fast = revchain::modes(chain, {.count = revchain::all_modes});
+            for (const auto& slow : {revchain::modes_dense(chain, {.count = revchain::all_modes}),
+                                     revchain::modes_recurrence(chain, {.count = revchain::all_modes})}) {
                 REQUIRE(slow.size() == fast.size());
                 for (Index j = 0; j < fast.size(); ++j) {
                     CAPTURE(family.name, n, j, slow.method, slow.error_bound[j]);
@@ -37,31 +38,32 @@ TEST_CASE("ordinary chains: the dense solvers agree to their accuracy", "[linear
     for (Index j = 0; j < 3; ++j) {
         CHECK(dense.error_bound[j] <= 1e-12);
         CHECK(general.error_bound[j] <= 1e-12);
-        CHECK((dense.shape.row(j) - fast.shape.row(j)).cwiseAbs().maxCoeff() <= 1e-11);
-        CHECK((general.shape.row(j) - fast.shape.row(j)).cwiseAbs().maxCoeff() <= 1e-11);
-        CHECK(dense.nodes[static_cast<std::size_t>(j)].size() == j);
+        CHECK((dense.shapes().offset.row(j) - fast.shapes().offset.row(j)).cwiseAbs().maxCoeff() <= 1e-11);
+        CHECK((general.shapes().offset.row(j) - fast.shapes().offset.row(j)).cwiseAbs().maxCoeff() <= 1e-11);
+        CHECK(dense.shapes().nodes[static_cast<std::size_t>(j)].size() == j);
     }
 }
 
 TEST_CASE("a dense solver that cannot keep the tolerance says so", "[linear]") {
     const auto chain = support::chain_of(
         30, [](Index m) { return revchain::plummet<double>(support::graded(29 - m, 30, 1e12), 1.0); });
-    CHECK(revchain::modes(chain, {.rtol = 1e-14}).status == revchain::Status::success);
-    CHECK(revchain::modes_dense(chain, {.rtol = 1e-14}).status == revchain::Status::tolerance_not_met);
+    CHECK(revchain::modes(chain, {.count = revchain::all_modes, .rtol = 1e-14}).status == revchain::Status::success);
+    CHECK(revchain::modes_dense(chain, {.count = revchain::all_modes, .rtol = 1e-14}).status ==
+          revchain::Status::tolerance_not_met);
 }
 
 TEST_CASE("any modes by the dense solvers", "[linear]") {
     using Options = revchain::ModesOptions<double>;
     const auto chain = support::families()[3].make(9);
-    const auto all = revchain::modes(chain, {});
+    const auto all = revchain::modes(chain, {.count = revchain::all_modes});
     for (const auto solve : {&revchain::modes_dense<double>, &revchain::modes_recurrence<double>}) {
         const auto part = solve(chain, Options{.first = 3, .count = 4, .certify = true});
         CHECK(part.first == 3);
         REQUIRE(part.size() == 4);
         CHECK((part.conical_height - all.conical_height.segment(2, 4)).cwiseAbs().maxCoeff() <= 1e-12);
-        CHECK((part.shape - all.shape.middleRows(2, 4)).cwiseAbs().maxCoeff() <= 1e-10);
-        CHECK(part.nodes[3].size() == 5);
-        CHECK(part.residual.size() == 4);
+        CHECK((part.shapes().offset - all.shapes().offset.middleRows(2, 4)).cwiseAbs().maxCoeff() <= 1e-10);
+        CHECK(part.shapes().nodes[3].size() == 5);
+        CHECK(part.shapes().residual.size() == 4);
         for (Index j = 0; j < 4; ++j) {
             CHECK(part.certificate.lower[j] < part.conical_height[j]);
             CHECK(part.conical_height[j] < part.certificate.upper[j]);

@@ -29,40 +29,38 @@ TEST_CASE("many heights at once are those one by one", "[linear]") {
     for (const auto& family : support::families()) {
         for (const Index n : {12, 33, 150}) {
             const auto chain = family.make(n);
-            const auto all = modes(chain, {.shapes = false});
-            const auto sure = modes(chain, {.shapes = false, .method = ModesMethod::bisection});
+            const auto all = modes(chain, {.count = revchain::all_modes});
+            const auto sure = modes(chain, {.count = revchain::all_modes, .method = ModesMethod::bisection});
             CAPTURE(family.name, n, all.method);
             CHECK(all.status == revchain::Status::success);
             CHECK(all.error_bound.maxCoeff() <= 2.0001 * ulp);
             CHECK(all.conical_height == sure.conical_height);
-            if (all.method == "spectrum") CHECK(all.error_bound.maxCoeff() <= 0.51 * ulp);
+            if (all.method == "interpolated") CHECK(all.error_bound.maxCoeff() <= 0.51 * ulp);
         }
     }
 }
 
 TEST_CASE("what is taken where", "[linear]") {
-    const auto method = [](Index n, Index count, bool shapes, std::optional<double> rtol = {}) {
-        return modes(Chain<double>::uniform_rods(n), {.count = count, .rtol = rtol, .shapes = shapes}).method;
+    const auto method = [](Index n, Index count, std::optional<double> rtol = {}) {
+        return modes(Chain<double>::uniform_rods(n), {.count = count, .rtol = rtol}).method;
     };
-    CHECK(method(11, 11, false) == "bisection");
-    CHECK(method(12, 12, false) == "spectrum");
-    CHECK(method(12, 12, true) == "spectrum");
-    CHECK(method(100, 7, false) == "bisection");
-    CHECK(method(100, 8, false) == "spectrum");
-    CHECK(method(1000, 4, false) == "blocks");
-    CHECK(method(1000, 30, false) == "spectrum");
-    CHECK(method(1000, 30, true) == "blocks");
-    CHECK(method(1000, 30, true, 1e-13) == "spectrum");
-    CHECK(modes(support::families()[7].make(40), {.shapes = false}).method == "bisection");
+    CHECK(method(11, 11) == "bisection");
+    CHECK(method(12, 12) == "interpolated");
+    CHECK(method(100, 7) == "bisection");
+    CHECK(method(100, 20) == "interpolated");
+    CHECK(method(1000, 4) == "condensed");
+    CHECK(method(1000, 200) == "interpolated");
+    CHECK(method(1000, 600, 1e-13) == "interpolated");
+    CHECK(modes(support::families()[7].make(40), {.count = revchain::all_modes}).method == "bisection");
 }
 
 TEST_CASE("units do not matter to many heights", "[linear]") {
     for (const auto& family : support::families()) {
         const auto chain = family.make(40);
-        const auto one = modes(chain, {.shapes = false});
+        const auto one = modes(chain, {.count = revchain::all_modes});
         for (const double weight : {0x1p-80, 0x1p7, 0x1p300}) {
             for (const double length : {0x1p-60, 0x1p3, 0x1p200}) {
-                const auto other = modes(scaled(chain, weight, length), {.shapes = false});
+                const auto other = modes(scaled(chain, weight, length), {.count = revchain::all_modes});
                 CAPTURE(family.name, weight, length);
                 CHECK(other.conical_height == (one.conical_height * length).eval());
                 CHECK(other.error_bound == one.error_bound);
@@ -74,14 +72,15 @@ TEST_CASE("units do not matter to many heights", "[linear]") {
 TEST_CASE("shapes of many modes are as good as one by one", "[linear]") {
     for (const auto& family : support::families()) {
         const auto chain = family.make(60);
-        const auto all = modes(chain, {});
-        const auto sure = modes(chain, {.method = ModesMethod::bisection});
+        const auto all = modes(chain, {.count = revchain::all_modes});
+        const auto sure = modes(chain, {.count = revchain::all_modes, .method = ModesMethod::bisection});
         CAPTURE(family.name, all.method);
-        CHECK((all.shape - sure.shape).cwiseAbs().maxCoeff() <= 2.3e-16);
-        for (std::size_t j = 0; j < all.nodes.size(); ++j) {
-            REQUIRE(all.nodes[j].size() == sure.nodes[j].size());
-            for (Index i = 0; i < all.nodes[j].size(); ++i)
-                CHECK(std::abs(all.nodes[j][i] - sure.nodes[j][i]) <= 2 * ulp * all.nodes[j][i]);
+        CHECK((all.shapes().offset - sure.shapes().offset).cwiseAbs().maxCoeff() <= 2.3e-16);
+        for (std::size_t j = 0; j < all.shapes().nodes.size(); ++j) {
+            REQUIRE(all.shapes().nodes[j].size() == sure.shapes().nodes[j].size());
+            for (Index i = 0; i < all.shapes().nodes[j].size(); ++i)
+                CHECK(std::abs(all.shapes().nodes[j][i] - sure.shapes().nodes[j][i]) <=
+                      2 * ulp * all.shapes().nodes[j][i]);
         }
     }
 }
@@ -89,20 +88,20 @@ TEST_CASE("shapes of many modes are as good as one by one", "[linear]") {
 TEST_CASE("tolerances between those of double and of two words", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(200);
     for (double rtol = 2 * ulp; rtol < 1e-9; rtol *= 1.7) {
-        const auto m = modes(chain, {.rtol = rtol, .shapes = false});
+        const auto m = modes(chain, {.count = revchain::all_modes, .rtol = rtol});
         CAPTURE(rtol);
-        CHECK(m.method == "spectrum");
+        CHECK(m.method == "interpolated");
         CHECK(m.status == revchain::Status::success);
         CHECK(m.error_bound.maxCoeff() <= rtol);
     }
-    CHECK(modes(chain, {.rtol = 1e-17, .shapes = false}).status == revchain::Status::tolerance_not_met);
+    CHECK(modes(chain, {.count = revchain::all_modes, .rtol = 1e-17}).status == revchain::Status::tolerance_not_met);
 }
 
 TEST_CASE("many heights can be watched and stopped", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(100);
     revchain::Progress progress;
-    REQUIRE(modes(chain, {.shapes = false, .progress = &progress}).method == "spectrum");
+    REQUIRE(modes(chain, {.count = revchain::all_modes, .progress = &progress}).method == "interpolated");
     CHECK(progress.fraction() == 1.0);
     progress.cancel();
-    CHECK_THROWS_AS(modes(chain, {.shapes = false, .progress = &progress}), revchain::Cancelled);
+    CHECK_THROWS_AS(modes(chain, {.count = revchain::all_modes, .progress = &progress}), revchain::Cancelled);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/rig_sensitivity.hpp"
+#include "revchain/sensitivity.hpp"
 
-#include "revchain/linear/rig_modes.hpp"
+#include "revchain/rig_modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/rig_truth.hpp"
@@ -111,8 +111,8 @@ TEST_CASE("what links and rigging do to whirl speeds is what central differences
             rigged.turning = turning;
             const Quad speed = rigged.speed(start);
             if (!(fabsq(rigged.determinant(speed)) < 1e-20)) continue;
-            const auto found = revchain::rig_sensitivity(rigged.rig(), static_cast<double>(speed), rigged.shape(speed),
-                                                         static_cast<double>(rigged.g));
+            const auto found = revchain::sensitivity(rigged.rig(), static_cast<double>(speed), rigged.shape(speed),
+                                                     static_cast<double>(rigged.g));
             const auto difference = [&](Quad& x) {
                 const Quad was = x, step = 1e-10;
                 x = was + step;
@@ -211,12 +211,12 @@ TEST_CASE("10,000 random rigs: bounds of speeds, and derivatives against differe
         const std::size_t n = 1 + static_cast<std::size_t>(random() * 3);
         Data data(random, n);
         const revchain::Rig rig = data.rig(!data.fluid && random() < 0.5);
-        const auto modes = revchain::rig_modes(rig);
+        const auto modes = revchain::modes(rig, {.count = revchain::all_modes});
         const auto& some = modes.backward.size() > 0 && random() < 0.5 ? modes.backward : modes.forward;
         if (some.size() == 0) continue;
         const Index j = static_cast<Index>(random() * static_cast<double>(some.size()));
         const double speed = some.angular_speed[j] * (&some == &modes.backward ? -1 : 1);
-        const auto found = revchain::rig_sensitivity(rig, speed, some.shape.row(j).transpose());
+        const auto found = revchain::sensitivity(rig, speed, some.shape(j));
         // dn/dx = -(d det/dx) / (d det/dn) at the exact speed, by differences of the fourth order
         const auto fourth = [](const auto& f, Quad step) {
             return (8 * (f(step) - f(-step)) - (f(2 * step) - f(-2 * step))) / (12 * step);
@@ -276,12 +276,12 @@ TEST_CASE("a firm support has no stiffness to change, and units are units", "[li
     const revchain::Rig rig(one, {.flywheels = {{0.75, 0}}});
     // A n^2 - H n - W h = 0, A = W h l/g: dn/dH = n/(2 A n - H)
     const double A = 18 / 9.80665, n = (0.75 + std::sqrt(0.75 * 0.75 + 4 * A * 6)) / (2 * A);
-    const auto found = revchain::rig_sensitivity(rig, n, (revchain::Vector<double>(2) << 1, 0).finished());
+    const auto found = revchain::sensitivity(rig, n, (revchain::Vector<double>(2) << 1, 0).finished());
     CHECK(std::abs(found.momentum[0] / (n / (2 * A * n - 0.75)) - 1) < 1e-15);
     CHECK(found.stiffness == 0);
     CHECK(found.carriage_weight == 0);
-    CHECK_THROWS_AS(revchain::rig_sensitivity(rig, 0.0, revchain::Vector<double>::Ones(2)), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::rig_sensitivity(rig, 1.0, revchain::Vector<double>::Ones(3)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::sensitivity(rig, 0.0, revchain::Vector<double>::Ones(2)), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::sensitivity(rig, 1.0, revchain::Vector<double>::Ones(3)), revchain::InvalidArgument);
 }
 
 TEST_CASE("the momentum that a speed asks for makes it a whirl speed", "[linear]") {
@@ -309,7 +309,9 @@ TEST_CASE("the momentum that a speed asks for makes it a whirl speed", "[linear]
 TEST_CASE("what rig_modes finds: derivatives of its speeds, and the momentum that gives one back", "[linear]") {
     Rigged rigged;
     rigged.sign = {1, 1, 1};
-    const auto speeds = [&] { return revchain::rig_modes(rigged.rig(), {.gravity = 9.8125}); };
+    const auto speeds = [&] {
+        return revchain::modes(rigged.rig(), {.count = revchain::all_modes, .gravity = 9.8125});
+    };
     const auto modes = speeds();
     const double step = 0x1p-20;
     for (std::size_t m = 0; m < 3; ++m) {
@@ -326,7 +328,7 @@ TEST_CASE("what rig_modes finds: derivatives of its speeds, and the momentum tha
                 const double n = sense * some.angular_speed[j];
                 const double more = (sense > 0 ? up.forward : up.backward).angular_speed[j],
                              less = (sense > 0 ? down.forward : down.backward).angular_speed[j];
-                const auto found = revchain::rig_sensitivity(rigged.rig(), n, some.shape.row(j).transpose(), 9.8125);
+                const auto found = revchain::sensitivity(rigged.rig(), n, some.shape(j), 9.8125);
                 CAPTURE(m, sense, j, n);
                 // the step squared, and what is left of the speeds' digits
                 CHECK(std::abs(found.momentum[static_cast<Index>(m)] - sense * (more - less) / (2 * step)) <

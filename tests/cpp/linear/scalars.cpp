@@ -4,10 +4,10 @@
 #include <map>
 #include <sstream>
 
-#include "revchain/system/converted.hpp"
-#include "revchain/linear/modes.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/numeric/double_double.hpp"
+#include "revchain/questions/modes.hpp"
+#include "revchain/system/converted.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/quad_scalar.hpp"
@@ -65,7 +65,7 @@ TEMPLATE_TEST_CASE("heights, bounds and certificates in more than double", "[lin
     const double ulp = static_cast<double>(revchain::epsilon<T>());
     for (const auto& [name, heights] : expected()) {
         const auto links = chain<T>(name);
-        const auto m = revchain::modes(links, {.certify = true});
+        const auto m = revchain::modes(links, {.count = revchain::all_modes, .certify = true});
         REQUIRE(m.size() == static_cast<Index>(heights.size()));
         CHECK(m.status == revchain::Status::success);
         double worst = 0, worst_bound = 0;  // all in ulp
@@ -83,8 +83,8 @@ TEMPLATE_TEST_CASE("heights, bounds and certificates in more than double", "[lin
             CHECK(exact <= quad(c.upper[j]));
             CHECK(c.above_lower[j] > j);
             CHECK(c.above_upper[j] <= j);
-            CHECK(revchain::count_modes(links, c.lower[j]) == c.above_lower[j]);
-            CHECK(revchain::count_modes(links, c.upper[j]) == c.above_upper[j]);
+            CHECK(revchain::count_modes(links, {.conical_height = c.lower[j]}) == c.above_lower[j]);
+            CHECK(revchain::count_modes(links, {.conical_height = c.upper[j]}) == c.above_upper[j]);
             CHECK(width <= 2 * bound + 1);  // each end is rounded
         }
         CAPTURE(name, worst, worst_bound);
@@ -96,20 +96,22 @@ TEMPLATE_TEST_CASE("heights, bounds and certificates in more than double", "[lin
 TEMPLATE_TEST_CASE("speeds, shapes, windows and ranges in more than double", "[linear]", DoubleDouble, QuadScalar) {
     using T = TestType;
     const auto links = chain<T>("bodies");
-    const auto all = revchain::modes(links, {});
-    const auto narrow = revchain::modes(chain<double>("bodies"), {});
+    const auto all = revchain::modes(links, {.count = revchain::all_modes});
+    const auto narrow = revchain::modes(chain<double>("bodies"), {.count = revchain::all_modes});
     for (Index j = 0; j < all.size(); ++j) {
-        CHECK(static_cast<double>(all.residual[j]) <= 1e-30);
-        CHECK(all.nodes[static_cast<std::size_t>(j)].size() == narrow.nodes[static_cast<std::size_t>(j)].size());
+        CHECK(static_cast<double>(all.shapes().residual[j]) <= 1e-30);
+        CHECK(all.shapes().nodes[static_cast<std::size_t>(j)].size() ==
+              narrow.shapes().nodes[static_cast<std::size_t>(j)].size());
         for (Index m = 0; m <= links.size(); ++m)
-            REQUIRE(std::abs(static_cast<double>(all.shape(j, m) - T(narrow.shape(j, m)))) <= 4e-16);
+            REQUIRE(std::abs(static_cast<double>(all.shapes().offset(j, m) - T(narrow.shapes().offset(j, m)))) <=
+                    4e-16);
     }
     const auto some = revchain::modes(links, {.first = 11, .count = 5});
     CHECK(some.first == 11);
     for (Index j = 0; j < 5; ++j)
         CHECK(static_cast<double>(fabsq(quad(some.conical_height[j]) / quad(all.conical_height[10 + j]) - 1)) <= 4e-31);
     // g / n^2 with n = 2, g = 4: a height of exactly 1
-    const auto low = revchain::modes(links, {.angular_speed = revchain::SpeedWindow<T>{T(0), T(2), T(4)}});
+    const auto low = revchain::modes(links, {.angular_speed = revchain::SpeedWindow<T>{T(0), T(2)}, .gravity = T(4)});
     const auto high = revchain::modes(links, {.conical_height = revchain::HeightWindow<T>{T(0), T(1)}});
     CHECK(low.size() + high.size() == 40);
     CHECK(high.first == low.size() + 1);
@@ -121,8 +123,8 @@ TEMPLATE_TEST_CASE("speeds, shapes, windows and ranges in more than double", "[l
 
 TEST_CASE("a thousand links in two doubles", "[linear]") {
     const auto rods = [](auto one) { return revchain::Chain<decltype(one)>::uniform_rods(1000, one * 1024, one); };
-    const auto m = revchain::modes(rods(DoubleDouble(1)), {.count = 3, .shapes = false});
-    const auto wider = revchain::modes(rods(QuadScalar(1)), {.count = 3, .shapes = false});
+    const auto m = revchain::modes(rods(DoubleDouble(1)), {.count = 3});
+    const auto wider = revchain::modes(rods(QuadScalar(1)), {.count = 3});
     for (Index j = 0; j < 3; ++j) {
         CAPTURE(j, static_cast<double>(m.error_bound[j]));
         CHECK(static_cast<double>(m.error_bound[j]) <= 2e-24);
@@ -137,8 +139,8 @@ TEST_CASE("a million links in float: the nearest floats", "[linear]") {
     std::vector<float> weight(static_cast<std::size_t>(n));
     for (float& w : weight) w = static_cast<float>(random.between(0.5, 2));
     const revchain::Chain<float> chain(n, std::move(weight), 1.0F, 1.0F, 0.0);
-    const auto m = revchain::modes(chain, {.count = 5, .shapes = false});
-    const auto exact = revchain::modes(revchain::converted<double>(chain), {.count = 5, .shapes = false});
+    const auto m = revchain::modes(chain, {.count = 5});
+    const auto exact = revchain::modes(revchain::converted<double>(chain), {.count = 5});
     CHECK(m.status == revchain::Status::success);
     for (Index j = 0; j < 5; ++j) {
         CHECK(m.conical_height[j] == static_cast<float>(exact.conical_height[j]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/linear/uncertainty.hpp"
+#include "revchain/sensitivity.hpp"
 
 #include <numbers>
 
@@ -39,7 +39,7 @@ TEST_CASE("standard deviations are those of a sample of 20,000 chains", "[linear
             {.weight = 1.0 + static_cast<double>(m), .length = 1.0, .centroid = 0.4, .radius_of_gyration = 0.3});
     };
     const auto chain = support::chain_of(n, link);
-    const auto m = revchain::modes(chain);
+    const auto m = revchain::modes(chain, {.count = revchain::all_modes});
     revchain::Deviations<double> deviations;
     deviations[0] = {{},
                      revchain::Matrix<double>::Constant(n, n, common * common) +
@@ -59,7 +59,7 @@ TEST_CASE("standard deviations are those of a sample of 20,000 chains", "[linear
                 {.weight = w, .length = a, .centroid = h, .radius_of_gyration = rho});
         });
         const revchain::Vector<double> off =
-            revchain::modes(some, {.rtol = 1e-9, .shapes = false}).conical_height - m.conical_height;
+            revchain::modes(some, {.count = revchain::all_modes, .rtol = 1e-9}).conical_height - m.conical_height;
         sum += off, squares += off.cwiseProduct(off);
     }
     for (Index j = 0; j < n; ++j) {
@@ -75,7 +75,7 @@ TEST_CASE("standard deviations are those of a sample of 20,000 chains", "[linear
 
 TEST_CASE("one datum alone: its derivative times its deviation, and it contributes most", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(5);
-    const auto m = revchain::modes(chain);
+    const auto m = revchain::modes(chain, {.count = revchain::all_modes});
     const auto sensitivity = revchain::sensitivity(chain, m);
     revchain::Deviations<double> deviations;
     revchain::Vector<double> third = revchain::Vector<double>::Zero(5);
@@ -97,7 +97,7 @@ TEST_CASE("one datum alone: its derivative times its deviation, and it contribut
 
 TEST_CASE("deviations that are none are refused", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(3);
-    const auto m = revchain::modes(chain);
+    const auto m = revchain::modes(chain, {.count = revchain::all_modes});
     const auto sensitivity = revchain::sensitivity(chain, m);
     const auto with = [&](const revchain::Deviation<double>& deviation) {
         revchain::Deviations<double> deviations;

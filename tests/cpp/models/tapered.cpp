@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // Truth: `modes` of the chain itself to the last digit (0.5 ulp, itself tested against quadruple precision). Error: relative.
+#include "revchain/modes.hpp"
 #include "revchain/models/heights.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -22,7 +23,7 @@ void compare(const M& model, const Chain<double>& chain, double exponent, Shares
              Index count = 40) {
     const ChainKind kind(chain);
     const Index n = chain.size(), last = std::min<Index>(n / 2, first - 1 + count);
-    const Modes<double> truth = modes(chain, {.first = first, .count = last + 1 - first, .shapes = false});
+    const Modes<double> truth = modes(chain, {.first = first, .count = last + 1 - first});
     const ZerosOfJ zeros(exponent);
     for (Index k = first; k <= last; ++k) {
         const Question question{.first = k, .count = 1};

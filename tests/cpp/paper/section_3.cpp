@@ -16,7 +16,7 @@ TEST_CASE("§3: the thread above P_m is parallel to GK, G the centre of gravity 
             links.push_back(revchain::plummet<double>(weight, random.log_between(0.3, 3.0)));
         }
         const revchain::Chain<double> chain(links);
-        const auto modes = revchain::modes(chain);
+        const auto modes = revchain::modes(chain, {.count = revchain::all_modes});
         REQUIRE(modes.size() == size);
         for (Index k = 0; k < size; ++k) {
             const auto y = paper::offsets(modes, k);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Greenhill (1908) §5: the chain without gravity. a is half the distance between nodes, b the sag, h the tension-length.
 // Its differential equation, the variational remark and the inverse questions: tests/cpp/rope.cpp;
-// "a tortuous curve": tests/cpp/special/tortuous_rope.cpp.
+// "a tortuous curve": tests/cpp/rope.cpp.
 #include "paper.hpp"
 #include "revchain/hoop.hpp"
 #include "revchain/rope.hpp"
@@ -51,35 +51,6 @@ TEST_CASE("§5 (3)-(5): nearly straight, lambda h = (2a/pi)^2, R = sqrt(g h)/4a,
     CHECK(std::abs(h * half_pi * b / a / (a * b / (half_pi * rope.conical_height())) - 1) <= 3e-14);
     // The velocity of waves, sqrt(g h): up and down a half wave in the time of one revolution
     CHECK(std::abs(hoop::speed(h) / (2 * 2 * a * revolutions) - 1) <= 3e-14);
-}
-
-TEMPLATE_TEST_CASE("§5 (6): hoop, v^2 = g h; it bursts at the speed of a fall through half the breaking length",
-                   "[paper][section_5]", float, double, long double) {
-    using T = TestType;
-    paper::Random random(506);
-    double worst = 0;
-    for (int i = 0; i < 1000; ++i) {
-        const T v = static_cast<T>(random.log_between(1e-6, 1e6)), g = static_cast<T>(random.log_between(1e-3, 1e3));
-        const T h = hoop::tension(v, g);
-        worst = std::max({worst, error_in_ulp(h, Quad(v) * v / g), error_in_ulp(hoop::speed(h, g), sqrtq(Quad(g) * h)),
-                          error_in_ulp(hoop::speed(h, g), Quad(v))});
-        const auto waves = hoop::wave_speeds(v);
-        CHECK(waves.standing == 0);
-        CHECK(waves.running == 2 * v);
-    }
-    CAPTURE(worst);
-    CHECK(worst <= 3);
-    // a fall through h/2 ends with sqrt(2 g h/2)
-    CHECK(error_in_ulp(hoop::speed(T(5000), T(9.80665)), sqrtq(2 * Quad(T(9.80665)) * 2500)) <= 2);
-    // the ends of the range: no product of two numbers is formed
-    const T big = std::sqrt(std::numeric_limits<T>::max()) * T(4);
-    CHECK(error_in_ulp(hoop::speed(big, big), Quad(big)) <= 1);
-    for (const T bad : {T(0), T(-1), std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()}) {
-        CHECK_THROWS_AS(hoop::speed(bad), revchain::InvalidArgument);
-        CHECK_THROWS_AS(hoop::tension(bad), revchain::InvalidArgument);
-        CHECK_THROWS_AS(hoop::wave_speeds(bad), revchain::InvalidArgument);
-        CHECK_THROWS_AS(hoop::string_revolutions_per_second(T(1), bad), revchain::InvalidArgument);
-    }
 }
 
 TEST_CASE("§5 text: drawn out straight, the angular velocity as the moment of inertia falls", "[paper][section_5]") {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MPL-2.0
 // Cords held at both ends: against the closed form without gravity, integration in quadruple precision with it, and links.
-#include "revchain/finite/held/cord.hpp"
-
 #include "revchain/held.hpp"
+
 #include "revchain/rope.hpp"
 #include "support/catch.hpp"
+#include "support/held.hpp"
 #include "support/truth.hpp"
 
+using revchain::Cord;
+using revchain::Held;
 using revchain::HeldCordShape;
 using revchain::Index;
 using support::Quad;
@@ -15,7 +17,7 @@ TEST_CASE("cord held at both ends: the skipping rope without gravity") {
     double worst = 0, of_pull = 0;
     for (const double span : {0.999999, 0.9, 0.5, 0.1, 0.01, 0.001})
         for (const int waves : {1, 2, 3, 5}) {
-            const auto found = revchain::held_cord_shapes(1, span, 0, 1, {.most_half_waves = waves});
+            const auto found = support::held_shapes(Cord(1), span, 0, {.max_half_waves = waves});
             REQUIRE(found.shapes.size() == static_cast<std::size_t>(waves));
             CHECK_FALSE(found.complete);
             const HeldCordShape& shape = found.shapes.back();
@@ -48,7 +50,7 @@ TEST_CASE("cord held at both ends: forces lead to the upper end, in quadruple pr
     double worst = 0;
     for (const double span : {0.95, 0.6, 0.3})
         for (const double height : {0.005, 0.05, 0.15}) {
-            const auto found = revchain::held_cord_shapes(1, span, height, 1, {.most_half_waves = 2});
+            const auto found = support::held_shapes(Cord(1), span, height, {.max_half_waves = 2});
             for (const HeldCordShape& shape : found.shapes) {
                 INFO("span " << span << ", height " << height << ", " << shape.half_waves << " half waves");
                 // (y, z, u, V) by the arc, u and V the upward pull: classical Runge-Kutta steps, extrapolated to order 5
@@ -93,11 +95,11 @@ TEST_CASE("cord held at both ends: forces lead to the upper end, in quadruple pr
 
 TEST_CASE("cord held at both ends: links tend to it by order 2, with gravity") {
     for (const double height : {0.02, 0.2}) {
-        const HeldCordShape cord = revchain::held_cord_shapes(1, 0.5, height).shapes.at(0);
+        const HeldCordShape cord = support::held_shapes(Cord(1), 0.5, height).shapes.at(0);
         std::array<double, 3> off{};
         for (std::size_t i = 0; i < 3; ++i) {
             const Index size = 60 << i;
-            const auto rods = revchain::held_shapes(revchain::Chain<double>::uniform_rods(size), 0.5, height);
+            const auto rods = support::held_shapes(revchain::Chain<double>::uniform_rods(size), 0.5, height);
             for (Index m = 0; m <= size; ++m) {
                 const auto place = cord(static_cast<double>(m) / static_cast<double>(size));
                 off[i] = std::max(off[i], std::abs(place.offset - rods.shapes.at(0).offset[m]));
@@ -109,13 +111,14 @@ TEST_CASE("cord held at both ends: links tend to it by order 2, with gravity") {
 }
 
 TEST_CASE("cord held at both ends: slow speeds fold it along the axis, tensions, units, refusals") {
-    CHECK(revchain::held_cord_shapes(1, 0.5, 0.4).shapes.size() == 1);
-    const auto folded = revchain::held_cord_shapes(1, 0.5, 0.5);
+    CHECK(support::held_shapes(Cord(1), 0.5, 0.4).shapes.size() == 1);
+    const auto folded = support::held_shapes(Cord(1), 0.5, 0.5);
     CHECK(folded.shapes.empty());
     CHECK(folded.missing == std::vector<int>{1});
 
-    const HeldCordShape shape = revchain::held_cord_shapes(3, 1.5, 0.3, 7).shapes.at(0),
-                        unit = revchain::held_cord_shapes(1, 0.5, 0.1).shapes.at(0);
+    const Cord heavy(3, {.weight = 7});
+    const HeldCordShape shape = support::held_shapes(heavy, 1.5, 0.3).shapes.at(0),
+                        unit = support::held_shapes(Cord(1), 0.5, 0.1).shapes.at(0);
     CHECK(std::abs(shape.lower_pull[1] / unit.lower_pull[1] / 21 - 1) < 1e-14);
     CHECK(std::abs(shape.offset.maxCoeff() / unit.offset.maxCoeff() / 3 - 1) < 1e-14);
     CHECK(std::abs(shape.lower_pull[1] + shape.upper_pull[1] + 0.3 * 7) < 1e-15 * 10);
@@ -123,9 +126,10 @@ TEST_CASE("cord held at both ends: slow speeds fold it along the axis, tensions,
     // slower, the tension grows with the span; faster, it is largest between
     double wanted = 0;
     for (const auto& [height, count] : {std::pair{0.3, 1}, {0.15, 2}}) {
-        const HeldCordShape given = revchain::held_cord_shapes(3, 1.5, height, 7).shapes.at(0);
+        const HeldCordShape given = support::held_shapes(heavy, 1.5, height).shapes.at(0);
         wanted = given.height_times_tension[given.height_times_tension.size() - 1];
-        const auto under = revchain::held_cord_shapes_under_tension(3, wanted, height, 7);
+        const auto under =
+            revchain::steady_shapes(Held(heavy, {.tension = wanted / height}), {.conical_height = height});
         REQUIRE(under.shapes.size() == static_cast<std::size_t>(count));
         double nearest = 1;
         for (const auto& found : under.shapes) {
@@ -134,13 +138,10 @@ TEST_CASE("cord held at both ends: slow speeds fold it along the axis, tensions,
         }
         CHECK(nearest < 1e-12);
     }
-    CHECK(revchain::held_cord_shapes_under_tension(3, 100 * wanted, 0.3, 7).shapes.empty());
+    CHECK(
+        revchain::steady_shapes(Held(heavy, {.tension = 100 * wanted / 0.3}), {.conical_height = 0.3}).shapes.empty());
 
     using revchain::InvalidArgument;
-    CHECK_THROWS_AS(revchain::held_cord_shapes(1, 1, 0.1), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_cord_shapes(1, 0.5, -1), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_cord_shapes(0, 0.5, 1), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_cord_shapes(1, 0.5, 1, 0), InvalidArgument);
-    CHECK_THROWS_AS(revchain::held_cord_shapes(1, 0.5, 1, 1, {.most_half_waves = 0}), InvalidArgument);
+    CHECK_THROWS_AS(Held(Cord(1), {.span = 1.0}), InvalidArgument);
     CHECK_THROWS_AS(unit(1.5), InvalidArgument);
 }

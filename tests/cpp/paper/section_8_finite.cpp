@@ -4,8 +4,8 @@
 // inclinations and offsets that the library gives out.
 #include <functional>
 
-#include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "section_8.hpp"
 
 using paper::Index;
@@ -102,7 +102,7 @@ const std::vector<Shapes>& random_shapes() {
                     revchain::modes(chain, {.count = 1}).conical_height[0] * (i < 6    ? random.between(0.7, 0.99)
                                                                               : i < 12 ? random.log_between(0.1, 0.7)
                                                                                        : random.log_between(0.01, 0.1));
-                result.push_back({chain, revchain::steady_shapes(chain, height, {.budget = 5000})});
+                result.push_back({chain, revchain::steady_shapes(chain, {.conical_height = height, .budget = 5000})});
             }
         }
         return result;
@@ -312,7 +312,8 @@ void for_two_links(std::uint64_t seed, const std::function<Chain<double>(paper::
     for (int i = 0; i < 200; ++i) {
         const auto chain = make(random);
         const double height = revchain::modes(chain, {.count = 1}).conical_height[0] * random.log_between(0.02, 0.99);
-        for (const SteadyShape& shape : revchain::steady_shapes(chain, height, {.budget = 5000}).shapes)
+        for (const SteadyShape& shape :
+             revchain::steady_shapes(chain, {.conical_height = height, .budget = 5000}).shapes)
             check(Figure(chain, shape));
     }
 }
@@ -425,7 +426,8 @@ TEST_CASE("§8 (20) at any inclination: three links, both ratios and the cubic",
     for (int i = 0; i < 150; ++i) {
         const auto chain = random_chain(random, Kind::mixed, 3);
         const double height = revchain::modes(chain, {.count = 1}).conical_height[0] * random.log_between(0.05, 0.99);
-        for (const SteadyShape& shape : revchain::steady_shapes(chain, height, {.budget = 5000}).shapes) {
+        for (const SteadyShape& shape :
+             revchain::steady_shapes(chain, {.conical_height = height, .budget = 5000}).shapes) {
             const Figure figure(chain, shape);
             left.take(
                 [](const Figure& f) {
@@ -459,7 +461,7 @@ TEST_CASE("§8 (20) at any inclination: three links, both ratios and the cubic",
                 pressed.push_back(link);
             }
             worst_height = std::max(worst_height, paper::error_in_ulp(height, root(cubic, Quad(height))) / steep);
-            const auto modes = revchain::modes(Chain<double>(pressed));
+            const auto modes = revchain::modes(Chain<double>(pressed), {.count = revchain::all_modes});
             for (const double h : modes.conical_height)
                 worst_pencil = std::max(worst_pencil, paper::error_in_ulp(h, root(cubic, Quad(h))) / steep);
             ++figures;

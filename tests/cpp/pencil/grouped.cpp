@@ -35,7 +35,7 @@ TEST_CASE("grouped elements: coarse <= exact <= coarse + spread, every eigenvalu
     for (int i = 0; i < 200; ++i) {
         const Chain<double> chain = random_chain(random, static_cast<Index>(random.log_between(2, 200)),
                                                  random.between(0, 1) < 0.5 ? 0.5 : random.between(0, 12));
-        const Modes<double> truth = modes(chain, {.shapes = false});
+        const Modes<double> truth = modes(chain, {.count = revchain::all_modes});
         const double unit = std::ldexp(1.0, chain.units().length_exponent);
         const double spread = truth.conical_height[0] / unit * random.log_between(1e-4, 1);
         const auto plain = plain_pencil(chain);
@@ -81,7 +81,7 @@ TEST_CASE("grouped elements: short links whose radius of gyration is that of lon
                                                        .radius_of_gyration = 1.0}));
         }
         const Chain<double> chain(links);
-        const Modes<double> truth = modes(chain, {.count = 1, .shapes = false});
+        const Modes<double> truth = modes(chain, {.count = 1});
         const double unit = std::ldexp(1.0, chain.units().length_exponent), exact = truth.conical_height[0] / unit;
         const auto plain = plain_pencil(chain);
         REQUIRE(plain);

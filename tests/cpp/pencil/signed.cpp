@@ -41,7 +41,6 @@ SignedPencil<S> random_pencil(Random& random, Index n, bool quadratic, double st
         const S stiffness = any() * S(stiff > 0 ? std::pow(10.0, std::floor(stiff * random())) : 1.0);
         pencil.elements.push_back({stiffness, quadratic ? any() : S(0.0), any(), any(), any() * S(0.3)});
     }
-    pencil.errors.resize(pencil.elements.size());
     return pencil;
 }
 
@@ -79,11 +78,11 @@ TEST_CASE("a proved count is right, however close to an eigenvalue; and mostly p
 TEST_CASE("errors of the entries withdraw a proof where they could change the count", "[linalg]") {
     SignedPencil<S> pencil;
     pencil.elements = {{S(1.0), S(0.0), S(1.0), S(0.0), S(0.0)}};  // x - 1
-    pencil.errors = {{0, 0, 1e-10, 0, 0}};
+    pencil.elements[0].error = {0, 0, 1e-10, 0, 0};
     for (const auto& [x, sure] :
          {std::pair(1 + 2e-10, true), std::pair(1 + 0.9e-10, false), std::pair(1 - 2e-10, true)})
         CHECK(revchain::pencil::certified_count<S, 1>(pencil, {S(x)})[0].proved == sure);
-    pencil.errors[0].lower = std::nan("");
+    pencil.elements[0].error.lower = std::nan("");
     CHECK(!revchain::pencil::certified_count<S, 1>(pencil, {S(3.0)})[0].proved);
 }
 

@@ -35,7 +35,7 @@ TEST_CASE("mode shapes", "[linalg]") {
     for (const auto& family : support::families()) {
         for (const Index n : {1, 2, 3, 10, 100, 1000}) {
             const auto chain = family.make(n);
-            const auto m = revchain::modes(chain, {});
+            const auto m = revchain::modes(chain, {.count = revchain::all_modes});
             const Truth truth(chain);
             const auto assembled = revchain::assemble(chain);
             const auto pencil = revchain::pencil::rounded<double>(assembled.pencil);
@@ -46,12 +46,12 @@ TEST_CASE("mode shapes", "[linalg]") {
                 const double above = j == 0 ? 1.0 : m.conical_height[j - 1] / h - 1;
                 const double below = j + 1 == m.size() ? 1.0 : 1 - m.conical_height[j + 1] / h;
                 const double gap = std::min({above, below, 1.0});
-                const double error = difference(m.shape.row(j), truth.shape(exact));
-                const double residual = truth.residual(Quad(h), m.shape.row(j));
+                const double error = difference(m.shapes().offset.row(j), truth.shape(exact));
+                const double residual = truth.residual(Quad(h), m.shapes().offset.row(j));
                 CAPTURE(family.name, n, j, gap, error, residual);
-                CHECK(m.shape.row(j).cwiseAbs().maxCoeff() == 1.0);
-                CHECK(m.shape(j, n) == 0.0);
-                CHECK(m.shape(j, 0) >= 0.0);
+                CHECK(m.shapes().offset.row(j).cwiseAbs().maxCoeff() == 1.0);
+                CHECK(m.shapes().offset(j, n) == 0.0);
+                CHECK(m.shapes().offset(j, 0) >= 0.0);
                 CHECK(error <= 3.5e-16);  // measured 3.46e-16, N = 1000; a rounding costs 1.1e-16
                 worst = std::max(worst, error);
                 // The same in double alone, as a loose tolerance has it: the price of the gap to the next mode.
@@ -60,7 +60,7 @@ TEST_CASE("mode shapes", "[linalg]") {
                     worst_plain = std::max(worst_plain, difference(plain, truth.shape(exact)) * gap);
                 }
                 worst_residual = std::max(worst_residual, residual);
-                worst_report = std::max(worst_report, std::abs(residual - m.residual[j]));
+                worst_report = std::max(worst_report, std::abs(residual - m.shapes().residual[j]));
             }
         }
     }
@@ -90,23 +90,23 @@ TEST_CASE("a shape of 1e5 links is smooth to the last pin", "[linalg]") {
     const auto chain = revchain::Chain<double>::uniform_plummets(100'000);
     const auto m = revchain::modes(chain, {.count = 3, .method = revchain::ModesMethod::bisection});
     const auto from_blocks = revchain::modes(chain, {.count = 3});
-    CHECK(from_blocks.method == "blocks");
+    CHECK(from_blocks.method == "condensed");
     const Truth truth(chain);
     for (Index j = 0; j < 3; ++j) {
         const double h = m.conical_height[j];
         const auto exact =
             truth.shape(truth.height(j, Quad(h) * (1 - Quad(1e-15)), Quad(h) * (1 + Quad(1e-15)), 1e-28));
-        const double error = difference(m.shape.row(j), exact);
-        CHECK(difference(from_blocks.shape.row(j), exact) <= 2.2e-16);  // measured 2.14e-16
+        const double error = difference(m.shapes().offset.row(j), exact);
+        CHECK(difference(from_blocks.shapes().offset.row(j), exact) <= 2.2e-16);  // measured 2.14e-16
         const auto assembled = revchain::assemble(chain);
         const auto plain = revchain::pencil::eigenvector(revchain::pencil::rounded<double>(assembled.pencil),
                                                          std::ldexp(h, -assembled.units.length_exponent))
                                .offset;
-        const double plain_error = difference(plain, m.shape.row(j));
+        const double plain_error = difference(plain, m.shapes().offset.row(j));
         CAPTURE(j, error, plain_error);
         CHECK(plain_error <= 6e-13);
         CHECK(error <= 5.7e-17);  // measured 5.6e-17: half an ulp of the largest offset
-        CHECK(m.nodes[static_cast<std::size_t>(j)].size() == j);
+        CHECK(m.shapes().nodes[static_cast<std::size_t>(j)].size() == j);
     }
 }
 
@@ -118,8 +118,9 @@ TEST_CASE("two plummets of weight ratio 1e12", "[linalg]") {
     for (int i = 0; i < 3000; ++i) {
         const double w1 = random.log_between(1e-6, 1e6), w2 = random.log_between(1e-6, 1e6);
         const double a1 = random.between(0.1, 1), a2 = random.between(0.1, 1);
-        const auto m = revchain::modes(
-            revchain::Chain<double>(std::vector{revchain::plummet(w1, a1), revchain::plummet(w2, a2)}), {});
+        const auto m =
+            revchain::modes(revchain::Chain<double>(std::vector{revchain::plummet(w1, a1), revchain::plummet(w2, a2)}),
+                            {.count = revchain::all_modes});
         const Quad l1 = a1, l2 = a2, mu = Quad(w1) / (Quad(w1) + Quad(w2)), rest = Quad(w2) / (Quad(w1) + Quad(w2));
         const Quad first = (l1 + l2 + sqrtq((l1 - l2) * (l1 - l2) + 4 * mu * l1 * l2)) / 2;
         const Quad second = l1 * l2 * rest / first;
@@ -130,7 +131,7 @@ TEST_CASE("two plummets of weight ratio 1e12", "[linalg]") {
             std::vector<Quad> exact{height, away, 0};
             const Quad largest = fmaxq(fabsq(exact[0]), fabsq(exact[1]));
             for (Quad& y : exact) y /= largest;
-            worst = std::max(worst, difference(m.shape.row(j), exact));
+            worst = std::max(worst, difference(m.shapes().offset.row(j), exact));
         }
     }
     CAPTURE(worst);

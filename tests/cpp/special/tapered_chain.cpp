@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "revchain/cord.hpp"
+#include "revchain/special/tapered_chain.hpp"
 
+#include "revchain/special/heavy_chain.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"

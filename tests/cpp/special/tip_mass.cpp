@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "revchain/special/tip_mass.hpp"
 
-#include "revchain/cord.hpp"
+#include "revchain/special/heavy_chain.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"

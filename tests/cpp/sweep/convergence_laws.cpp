@@ -25,7 +25,7 @@ struct Differences {
 
 template <class T>
 Differences<T> differences(const Cutting<T>& cutting, Index size, Index count) {
-    const auto m = revchain::modes(cutting.make(size), {.count = count, .shapes = false});
+    const auto m = revchain::modes(cutting.make(size), {.count = count});
     Differences<T> result{Vector<T>(count), Vector<T>(count)};
     for (Index k = 0; k < count; ++k) {
         const T uncut =

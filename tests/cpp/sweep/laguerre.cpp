@@ -43,7 +43,8 @@ TEMPLATE_TEST_CASE("equal plummets: every height within its bound of Laguerre's 
     double worst = 0;
     for (const auto& [size, zero] : zeros) {
         REQUIRE(static_cast<Index>(zero.size()) == size);
-        const auto m = revchain::modes(revchain::Chain<T>::uniform_plummets(size, T(size)), {.shapes = false});
+        const auto m =
+            revchain::modes(revchain::Chain<T>::uniform_plummets(size, T(size)), {.count = revchain::all_modes});
         REQUIRE(m.size() == size);
         for (Index k = 0; k < size; ++k) {
             const Quad truth = 1 / zero[static_cast<std::size_t>(k)];
@@ -63,7 +64,8 @@ TEMPLATE_TEST_CASE("equal plummets: every height within its bound of Laguerre's 
 TEST_CASE("equal plummets: the offsets are L_j(x)", "[sweep][laguerre]") {
     double worst = 0;
     for (const auto& [size, zero] : laguerre_zeros()) {
-        const auto m = revchain::modes(revchain::Chain<double>::uniform_plummets(size, static_cast<double>(size)));
+        const auto m = revchain::modes(revchain::Chain<double>::uniform_plummets(size, static_cast<double>(size)),
+                                       {.count = revchain::all_modes});
         for (Index k = 0; k < size; ++k) {
             const Quad x = zero[static_cast<std::size_t>(k)];
             std::vector<Quad> y{1, 1 - x};  // pin 0 (free end), pin 1, ...
@@ -74,7 +76,7 @@ TEST_CASE("equal plummets: the offsets are L_j(x)", "[sweep][laguerre]") {
             Quad largest = 0;
             for (const Quad& offset : y) largest = fmaxq(largest, fabsq(offset));
             for (Index j = 0; j <= size; ++j) {
-                const Quad difference = m.shape(k, j) - y[static_cast<std::size_t>(j)] / largest;
+                const Quad difference = m.shapes().offset(k, j) - y[static_cast<std::size_t>(j)] / largest;
                 worst = std::max(worst, static_cast<double>(fabsq(difference) / revchain::epsilon<double>()));
             }
         }

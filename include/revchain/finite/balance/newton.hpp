@@ -70,7 +70,7 @@ class Tridiagonal {
 /// elements, in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N)
 /// a step.
 template <class S, class End = OnAxis>
-Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int most_steps = 60,
+Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int max_steps = 60,
                     std::vector<Posture> posture = {}, const End& support = {}) {
     using std::abs;
     const std::size_t n = links.size();
@@ -80,8 +80,8 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
     const std::size_t rows = n + (support.yields() ? 1 : 0);  // the topmost pin is unknown too
     std::vector<double> diagonal(rows), upper(rows), force(rows);
     double last = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < most_steps; ++step) {
-        S carried(0);  // lambda sigma tan d + a X sin d, minus what mass asks, of the link below
+    for (int step = 0; step < max_steps; ++step) {
+        S from_below(0);  // lambda sigma tan d + a X sin d, minus what mass asks, of the link below
         double below_stiffness = 0, below_mass = 0;
         for (std::size_t m = 0; m < n; ++m) {
             const Link<S>& link = links[m];
@@ -91,18 +91,18 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
             const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
                     at_upper = link.rest * y[m + 1];
             // Forces times lambda on the lower pin: pull - W h/a (its own offset) + X d ..., on the upper the opposite.
-            force[m] = -static_cast<double>(carried + (pull + turn - at_lower));
+            force[m] = -static_cast<double>(from_below + (pull + turn - at_lower));
             const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
             const double stiffness =
                 static_cast<double>(height * link.pull) / (a * c * c * c) + static_cast<double>(link.cross);
             diagonal[m] = below_stiffness - below_mass + stiffness - static_cast<double>(link.moment);
             upper[m] = -stiffness;
-            carried = -(pull + turn) - at_upper;
+            from_below = -(pull + turn) - at_upper;
             below_stiffness = stiffness, below_mass = static_cast<double>(link.rest);
         }
         if constexpr (is_held<End>) {
             if (support.yields()) {
-                force[n] = -static_cast<double>(carried + support.stiffness * (y[n] - support.radius) -
+                force[n] = -static_cast<double>(from_below + support.stiffness * (y[n] - support.radius) -
                                                 support.carriage * y[n]);
                 diagonal[n] = below_stiffness - below_mass + static_cast<double>(support.stiffness - support.carriage);
             }

@@ -17,11 +17,6 @@ struct OnAxis {
     const F& miss(const F& y, const F&) const {
         return y;
     }
-    /// The same of functions over a cell.
-    template <class Cell, class Jet>
-    const Jet& miss(const Cell&, const Jet& y, const Jet&) const {
-        return y;
-    }
     /// Puts the topmost pin, the last of `offset`, where it is held, if that does not depend on its load.
     template <class S>
     void place(std::vector<S>& offset) const {
@@ -48,12 +43,6 @@ struct Held {
     template <class F>
     F miss(const F& y, const F& sum) const {
         return firm ? y - radius : y - radius - compliance * (sum + carriage * y);
-    }
-    template <class Cell, class Jet>
-    Jet miss(const Cell& cell, const Jet& y, const Jet& sum) const {
-        Jet result = firm ? y : y - compliance * (sum + carriage * y);
-        result.value = result.value - radius, result.centre_value = result.centre_value - radius;
-        return cell.centred(result);
     }
     template <class V>
     void place(std::vector<V>& offset) const {

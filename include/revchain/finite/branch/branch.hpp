@@ -41,7 +41,7 @@ struct Branch {
     double angular_speed(std::size_t point, double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
-    /// The shape at a point, balanced in two words. Throws InvalidArgument for the straight chain and past the end.
+    /// The shape at a point, balanced in double-double. Throws InvalidArgument for the straight chain and past the end.
     SteadyShape shape(std::size_t point) const;
 
     std::shared_ptr<const finite::Links<Wide<double>>> links;
@@ -172,7 +172,8 @@ inline SteadyShape Branch::shape(std::size_t point) const {
     if (finite::largest_rise(points[point].state) == 0)
         detail::throw_invalid("Branch::shape", "this point is the straight chain", point);
     const auto found = finite::shape_at(*links, points[point].state, finite::GivenPlace<Wide<double>>(points[point]));
-    if (!found) detail::throw_invalid("Branch::shape", "the shape at this point did not balance in two words", point);
+    if (!found)
+        detail::throw_invalid("Branch::shape", "the shape at this point did not balance in double-double", point);
     return *found;
 }
 
@@ -185,11 +186,11 @@ struct BranchOptions {
 /// every fold until it first comes down to `conical_height`.
 ///
 /// Method: pseudo-arclength continuation from the mode, all pins at once by tridiagonal elements, in double. A step is
-/// checked: see finite::BranchWalk. Points are good to about 1e-12 (measured); `shape` gives them in two words; folds
-/// are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. Where all of the branch asked for is inclined
-/// by less than 1e-3 it is the vertical and its end, from the onset's law and balanced in two words; where no double
-/// can tell that end from the vertical it is the vertical alone, `stuck`. Cost: 4 to 7 O(N) Newton steps a point, some
-/// 0.1 microseconds a link each, and 3 N numbers of memory a point.
+/// checked: see finite::BranchWalk. Points are good to about 1e-12 (measured); `shape` gives them in double-double;
+/// folds are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. Where all of the branch asked for is
+/// inclined by less than 1e-3 it is the vertical and its end, from the onset's law and balanced in double-double; where
+/// no double can tell that end from the vertical it is the vertical alone, `stuck`. Cost: 4 to 7 O(N) Newton steps a
+/// point, some 0.1 microseconds a link each, and 3 N numbers of memory a point.
 /// Throws InvalidArgument for a mode that is none, and for a height that is not positive or not below that of the mode.
 inline Branch branch(const Chain<double>& chain, Index mode, double conical_height, const BranchOptions& options = {}) {
     detail::require_positive("branch", "conical height", conical_height);

@@ -28,14 +28,14 @@ class BranchWalk {
 
     const BranchPoint& before() const { return before_; }
     const BranchPoint& here() const { return here_; }
-    double longest = 0.5;        ///< along the arc
-    double longest_rise = 0.75;  ///< change of any link's tau in a step
+    double longest = 0.5;    ///< along the arc
+    double max_rise = 0.75;  ///< change of any link's tau in a step
 
     /// One step on; false if none down to 1e-9 of arc passes.
     bool advance() {
         revchain::detail::look();
         for (; step_ > least; step_ /= 2) {
-            const double reach = std::min({step_, longest, longest_rise / (largest_rise(here_.tangent) + 1e-300)});
+            const double reach = std::min({step_, longest, max_rise / (largest_rise(here_.tangent) + 1e-300)});
             step_ = reach;
             auto next = at(here_, reach);
             if (!next) continue;

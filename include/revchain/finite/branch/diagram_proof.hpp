@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "revchain/finite/balance/taylor_2d.hpp"
 #include "revchain/finite/branch/branch.hpp"
 #include "revchain/finite/shapes/isolation.hpp"
 #include "revchain/numeric/progress.hpp"
@@ -13,6 +12,14 @@ namespace revchain::finite {
 /// A point of the diagram: x = lambda times the tangent of the lowest link, and lambda.
 struct DiagramPoint {
     double x, height;
+};
+
+/// A cell of such points.
+struct Rectangle {
+    double low, high, height_low, height_high;
+
+    Interval<double> x() const { return {low, high}; }
+    Interval<double> height() const { return {height_low, height_high}; }
 };
 
 /// x of a point of a branch, lambda |sinh tau| of the lowest link.
@@ -62,7 +69,7 @@ class DiagramProver {
             stack_.push_back({0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)});
             while (!stack_.empty()) {
                 revchain::detail::look();
-                const Rectangle<double> part = stack_.back();
+                const Rectangle part = stack_.back();
                 stack_.pop_back();
                 if (proof.rectangles >= budget_) {
                     leave_open(proof, {0, 0, lowest, high});
@@ -75,7 +82,7 @@ class DiagramProver {
     }
 
    private:
-    static void leave_open(DiagramProof& proof, const Rectangle<double>& part) {
+    static void leave_open(DiagramProof& proof, const Rectangle& part) {
         proof.open_low = proof.complete ? part.height_low : std::min(proof.open_low, part.height_low);
         proof.open_high = proof.complete ? part.height_high : std::max(proof.open_high, part.height_high);
         proof.complete = false;
@@ -83,11 +90,11 @@ class DiagramProver {
 
     /// Whether nothing is left to show there but in the parts it was split into.
     template <class Known>
-    bool settled(const Rectangle<double>& part, DiagramProof& proof, Known&& known) {
+    bool settled(const Rectangle& part, DiagramProof& proof, Known&& known) {
         ++proof.rectangles;
-        const auto y = support_surface(links_, part);
+        const auto y = offset_over(part);
         const bool from_zero = part.low == 0;
-        if ((!from_zero && !y.value.may_vanish()) || !y.x.may_vanish()) return true;
+        if ((!from_zero && !y.value.may_vanish()) || !y.slope[0].may_vanish()) return true;
         if (const auto graph = graph_over(part, y, proof)) {
             if (from_zero) return true;
             const double middle = part.x().middle();
@@ -97,34 +104,36 @@ class DiagramProver {
         }
         return split(part, y);
     }
+    Taylor<double, 2> offset_over(const Rectangle& part) const {
+        return support_offset(links_, Cell<double, 2>(part.x(), part.height()));
+    }
     int sign(double x, double height) const {
         const Interval<double> lambda(height);
         return detail::support_offset(links_, lambda, Interval<double>(x) / lambda).sign();
     }
 
     /// The part with heights added above and below, if all zeros in it lie on one graph lambda(x) that stays in those.
-    std::optional<Rectangle<double>> graph_over(const Rectangle<double>& part, const Surface<double>& y,
-                                                DiagramProof& proof) const {
+    std::optional<Rectangle> graph_over(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof) const {
         const bool from_zero = part.low == 0;
-        const auto rise = [&](const Surface<double>& f) {
-            const Interval<double>& along = from_zero ? f.xh : f.h;
-            const Interval<double> most(from_zero ? f.xx.size() : f.x.size()), width(part.high - part.low);
+        const auto rise = [&](const Taylor<double, 2>& f) {
+            const Interval<double>& along = from_zero ? f.bend[1] : f.slope[1];
+            const Interval<double> most(from_zero ? f.bend[0].size() : f.slope[0].size()), width(part.high - part.low);
             if (along.may_vanish()) return std::numeric_limits<double>::infinity();
             const double least = std::min(std::abs(along.low), std::abs(along.high));
             return (width * most / Interval<double>(least)).high * (1 + 1e-12);
         };
         const double reach = 1.5 * rise(y);
         if (!(reach < std::min(part.height_low / 4, 3 * (part.height_high - part.height_low)))) return std::nullopt;
-        const Rectangle<double> beyond{part.low, part.high, part.height_low - reach, part.height_high + reach};
+        const Rectangle beyond{part.low, part.high, part.height_low - reach, part.height_high + reach};
         ++proof.rectangles;
-        if (!(rise(support_surface(links_, beyond)) <
+        if (!(rise(offset_over(beyond)) <
               std::min(part.height_low - beyond.height_low, beyond.height_high - part.height_high)))
             return std::nullopt;
         return beyond;
     }
 
     /// Where on the line through x the offset vanishes.
-    DiagramPoint zero_at(double x, const Rectangle<double>& within, int low_sign) const {
+    DiagramPoint zero_at(double x, const Rectangle& within, int low_sign) const {
         double low = within.height_low, high = within.height_high;
         for (int round = 0; round < 60; ++round) {
             const double middle = low + (high - low) / 2;
@@ -136,18 +145,18 @@ class DiagramProver {
     }
 
     /// Across the direction in which y_x varies the more; false where that would show no more.
-    bool split(const Rectangle<double>& part, const Surface<double>& y) {
+    bool split(const Rectangle& part, const Taylor<double, 2>& y) {
         const bool from_zero = part.low == 0;
         const double width = part.high - part.low, height = part.height_high - part.height_low;
-        double by_x = y.xx.size() * width, by_height = y.xh.size() * height;
+        double by_x = y.bend[0].size() * width, by_height = y.bend[1].size() * height;
         if (!(by_x < 1e300 && by_height < 1e300))
             by_x = from_zero ? 1 : std::log(part.high / part.low),
             by_height = std::log(part.height_high / part.height_low);
         const bool thin = !(width > 1e-13 * part.high), low = !(height > 1e-13 * part.height_high);
         if ((thin && low) || (from_zero && part.high < 1e-30) ||
-            detail::rounding_rules(from_zero ? y.x : y.value, from_zero ? y.centre_x : y.centre_value))
+            detail::rounding_rules(from_zero ? y.slope[0] : y.value, from_zero ? y.centre_slope[0] : y.centre_value))
             return false;
-        Rectangle<double> first = part, second = part;
+        Rectangle first = part, second = part;
         if (low || (!thin && by_x >= by_height))
             first.high = second.low = cutting_.between(part.low, part.high);
         else
@@ -159,14 +168,13 @@ class DiagramProver {
 
     std::vector<Link<Interval<double>>> links_;
     long budget_;
-    std::vector<Rectangle<double>> stack_;
+    std::vector<Rectangle> stack_;
     detail::Cutting<double> cutting_;
 };
 
 /// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a
 /// point of it is in the rectangle, or it crosses there the x of `at`.
-inline bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at,
-                         const Rectangle<double>& within) {
+inline bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within) {
     const auto inside = [&](const BranchState& state) {  // with what the points of a branch may be off, and more
         const double height = std::exp(state.log_height), x = height * std::abs(std::sinh(state.rise[0]));
         constexpr double off = 1e-10;

@@ -69,8 +69,8 @@ struct BranchOnset {
 };
 
 /// The amplitude at a conical height, to leading order; 0 where there is no such state. Next to that of the mode the
-/// difference of the two takes more than double: the mode's height is then told in two words, from a state inclined by
-/// 1e-6 balanced with the height free (to 1e-24 relative).
+/// difference of the two takes more than double: the mode's height is then told in double-double, from a state inclined
+/// by 1e-6 balanced with the height free (to 1e-24 relative).
 inline double amplitude_at(const Links<Wide<double>>& chain, const BranchOnset& onset, const Wide<double>& height) {
     using S = Wide<double>;
     const double narrow = static_cast<double>(height);
@@ -85,7 +85,7 @@ inline double amplitude_at(const Links<Wide<double>>& chain, const BranchOnset& 
 }
 
 /// The state at a height so near that of the mode that double tells it badly from the vertical: from the onset's law,
-/// balanced in two words. None where that does not lead to it.
+/// balanced in double-double. None where that does not lead to it.
 inline std::optional<BranchPoint> near_vertical(const Links<Wide<double>>& chain, const BranchOnset& onset,
                                                 const Wide<double>& height) {
     using S = Wide<double>;

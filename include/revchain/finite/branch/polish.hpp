@@ -6,8 +6,8 @@
 
 namespace revchain::finite {
 
-/// What is given beside the balance: one condition on the shape and the height, in two words, and its derivatives along
-/// the links' reaches a sin delta and along log lambda.
+/// What is given beside the balance: one condition on the shape and the height, in double-double, and its derivatives
+/// along the links' reaches a sin delta and along log lambda.
 template <class S>
 struct Condition {
     virtual ~Condition() = default;
@@ -125,6 +125,29 @@ struct Polished {
     double condition = 0;
 };
 
+/// `Polished::condition`, by the factors at a shape: forces of the sizes given in a few patterns of signs, and a
+/// relative change 1 of the number given, which leaves `given` of the condition. `growth`: 1/(a cos^2) of the links.
+template <class S>
+double condition_of(const std::vector<Link<S>>& links, BorderedChain& border, const std::vector<double>& size,
+                    const std::vector<double>& growth, double given) {
+    const std::size_t n = links.size();
+    std::vector<double> left(n), reach(n);
+    double worst = 0;
+    for (unsigned pattern = 0; pattern < 5; ++pattern) {
+        unsigned state = 2463534242U + pattern;
+        double total = 0;
+        for (std::size_t m = 0; m < n; ++m) {
+            state ^= state << 13, state ^= state >> 17, state ^= state << 5;
+            total += pattern > 0 && (state & 64U) ? -size[m] : size[m];
+            left[m] = pattern < 4 ? total : 0.0;
+        }
+        border.solve([&](std::size_t m) { return left[m]; }, pattern < 4 ? 0.0 : given, reach);
+        for (std::size_t m = 0; m < n; ++m)
+            worst = std::max(worst, std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links[m].length)));
+    }
+    return worst;
+}
+
 /// Newton's method on all pins and the height at once, the balance in S, its derivative in double: see `balance`,
 /// beside which the height is free and one condition given. Cost O(N) a step.
 template <class S>
@@ -177,7 +200,7 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
         // say. That goes by a factor of 1e-16 a step, and does no harm to the rest.
         double largest = std::abs(log_change), steepest = 0, farthest = 0, x = 0;
         for (std::size_t m = n; m-- > 0;) {
-            // of a link that is vertical by accident only what two words of its pins' offsets can tell
+            // of a link that is vertical by accident only what double-double offsets of its pins can tell
             const double lower = std::abs(static_cast<double>(y[m])), upper = std::abs(static_cast<double>(y[m + 1])),
                          there = std::abs(static_cast<double>(y[m] - y[m + 1])) * growth[m],
                          told = std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),
@@ -194,21 +217,7 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
         result.shape.converged = (round > 0 && next < 1e-18) || (largest < 1e-14 && largest > 0.25 * last);
         last = largest;
     }
-    if (!result.shape.converged) return result;
-    for (unsigned pattern = 0; pattern < 5; ++pattern) {
-        unsigned state = 2463534242U + pattern;
-        double total = 0;
-        for (std::size_t m = 0; m < n; ++m) {
-            state ^= state << 13, state ^= state >> 17, state ^= state << 5;
-            total += pattern > 0 && (state & 64U) ? -size[m] : size[m];
-            left[m] = pattern < 4 ? total : 0.0;
-        }
-        // forces in a few patterns of signs; and the number given
-        border.solve([&](std::size_t m) { return left[m]; }, pattern < 4 ? 0.0 : condition.size(height), reach);
-        for (std::size_t m = 0; m < n; ++m)
-            result.condition = std::max(
-                result.condition, std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links[m].length)));
-    }
+    if (result.shape.converged) result.condition = condition_of(links, border, size, growth, condition.size(height));
     return result;
 }
 

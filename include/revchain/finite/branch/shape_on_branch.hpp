@@ -71,12 +71,12 @@ class BranchSearch {
     }
 
    private:
-    static constexpr int most_steps = 100'000;
+    static constexpr int max_steps = 100'000;
 
     ShapesOnBranch walked_from(const BranchPoint& start, ShapesOnBranch result, double log_end, bool all) {
         BranchWalk walk(root_.corrector, start, start.arc);
         const HeightMeasure to_end{log_end};
-        for (int step = 0; step < most_steps; ++step) {
+        for (int step = 0; step < max_steps; ++step) {
             if (!walk.advance()) return stopped(result, walk, BranchEnd::stuck);
             const auto last = crossings_of(walk, to_end);
             for (const WithinStep& each : crossings_of(walk, measure_)) {
@@ -126,19 +126,13 @@ double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
     return small * wanted / std::abs(measure({state, state}).value + wanted);
 }
 
-template <class Measure>
-ShapesOnBranch searched(BranchRoot& root, const Measure& measure, const Condition<Wide<double>>& condition,
-                        double amplitude, double log_end, bool all) {
-    return BranchSearch<Measure>(root, measure, condition, amplitude).run(log_end, all);
-}
-
 }  // namespace finite
 
 /// States on the branch that leaves the vertical at mode `mode` (1 the slowest, as in `modes`) at which one number is
 /// as given: conical height, speed, tip inclination, tip radius or top tension; the first along the arc, or all.
 ///
-/// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the height in two words with
-/// what is given as a condition. Next to the vertical the onset of the branch serves as a start.
+/// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the height in double-double
+/// with what is given as a condition. Next to the vertical the onset of the branch serves as a start.
 /// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is proved (measured:
 /// 0.7 of it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed to a conical height of 1e-4 of the
 /// length: tests/cpp/finite/branch/branch.cpp). That the state is on this branch is checked step by step, not proved.
@@ -184,9 +178,9 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
                                       " and has no shape at one that is not less (it turns too slowly)",
                                   near);
         const double log_wanted = std::log(near * unit);
-        return finite::searched(root, finite::HeightMeasure{log_wanted}, finite::GivenHeight<S>(height * S(unit)),
-                                finite::amplitude_at(root.chain, root.onset, height * S(unit)),
-                                std::min(log_wanted, std::log(given.down_to.value_or(near / 2) * unit)), given.all);
+        return finite::BranchSearch(root, finite::HeightMeasure{log_wanted}, finite::GivenHeight<S>(height * S(unit)),
+                                    finite::amplitude_at(root.chain, root.onset, height * S(unit)))
+            .run(std::min(log_wanted, std::log(given.down_to.value_or(near / 2) * unit)), given.all);
     }
     const double log_end = std::log(lowest);
     if (given.tip_inclination) {
@@ -194,16 +188,18 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
             detail::throw_invalid(place, "tip inclination must lie between 0 and pi/2", *given.tip_inclination);
         const double rise = std::asinh(std::tan(*given.tip_inclination));
         const finite::TipInclinationMeasure measure{rise};
-        return finite::searched(root, measure, finite::GivenTipInclination<S>(*given.tip_inclination),
-                                finite::amplitude_of(root, measure, rise), log_end, given.all);
+        return finite::BranchSearch(root, measure, finite::GivenTipInclination<S>(*given.tip_inclination),
+                                    finite::amplitude_of(root, measure, rise))
+            .run(log_end, given.all);
     }
     if (given.tip_radius) {
         detail::require_positive(place, "tip radius", *given.tip_radius);
         if (!(*given.tip_radius < chain.total_length()))
             detail::throw_invalid(place, "tip radius must be less than the length of the chain", *given.tip_radius);
         const finite::TipRadiusMeasure measure{links, *given.tip_radius * unit};
-        return finite::searched(root, measure, finite::GivenTipRadius<S>(S(*given.tip_radius * unit)),
-                                finite::amplitude_of(root, measure, measure.wanted), log_end, given.all);
+        return finite::BranchSearch(root, measure, finite::GivenTipRadius<S>(S(*given.tip_radius * unit)),
+                                    finite::amplitude_of(root, measure, measure.wanted))
+            .run(log_end, given.all);
     }
     const double tension = *given.top_tension;
     const S weight = chain.weight_below(chain.size());
@@ -214,8 +210,9 @@ inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, c
     const double narrow = static_cast<double>(pull);
     const finite::TopPullMeasure measure{links, narrow};
     const double share = std::pow(std::ldexp(tension, -root.chain.units.weight_exponent) / narrow, 2);
-    return finite::searched(root, measure, finite::GivenTopTension<S>(pull, share),
-                            finite::amplitude_of(root, measure, narrow), log_end, given.all);
+    return finite::BranchSearch(root, measure, finite::GivenTopTension<S>(pull, share),
+                                finite::amplitude_of(root, measure, narrow))
+        .run(log_end, given.all);
 }
 
 /// The first of them along the arc. Throws InvalidArgument also where the number is not met.

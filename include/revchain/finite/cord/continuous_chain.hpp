@@ -5,6 +5,7 @@
 
 #include "revchain/finite/cord/continuous_shape.hpp"
 #include "revchain/finite/cord/tip_offset.hpp"
+#include "revchain/system/cord.hpp"
 
 /// Steady shapes of a whirling chain without links, of any density and with a weight at its free end or none, at any
 /// inclination: Greenhill (1908) §4 without its small angles. A path is followed up from the free end, whose offset
@@ -31,25 +32,33 @@ struct ContinuousShapes {
     bool complete = false;                ///< a theorem says that there are no others
 };
 
-struct ContinuousShapesOptions {
+/// The speed: give either `conical_height` or `angular_speed`.
+struct CordShapesOptions {
+    std::optional<double> conical_height{};
+    std::optional<double> angular_speed{};                ///< rad/s
+    double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
     int scanned = 200;  ///< offsets of the free end looked at where no theorem counts the shapes
 };
 
 namespace finite {
 
-inline void check(std::string_view place, const ContinuousChain& chain) {
-    revchain::detail::require_positive(place, "length", chain.length);
-    if (!(chain.tip_weight >= 0 && std::isfinite(chain.tip_weight)))
-        revchain::detail::throw_invalid(place, "tip weight must be finite and not negative", chain.tip_weight);
-    if (chain.density != nullptr && chain.density->length() != chain.length)
-        revchain::detail::throw_invalid(place, "the line density must be given over the length of the chain, not over",
-                                        chain.density->length());
-}
+/// A cord as paths take it.
+struct ContinuousChain {
+    double length, tip;                          ///< tip: the length of cord that weighs as much as the particle there
+    std::shared_ptr<const LineDensity> density;  ///< none: uniform
+    double line_weight;
+
+    explicit ContinuousChain(const Cord& cord)
+        : length(cord.length()),
+          tip(cord.tip_length()),
+          density(cord.line_density()),
+          line_weight(cord.line_weight()) {}
+};
 
 /// The chain over lengths of `height`; bend 0: at small amplitude.
 inline PathKind kind_of(const ContinuousChain& chain, double height, double bend) {
-    const double unit = chain.density == nullptr ? 1.0 : chain.density->total() / chain.length;
-    return {chain.tip_weight / unit / height, height, unit, chain.density, bend};
+    const double mean = chain.density == nullptr ? 1.0 : chain.density->mean();
+    return {chain.tip / height, height, mean, chain.density.get(), bend, chain.line_weight};
 }
 
 /// Places of the crossings of the chain at small amplitude up to `farthest`, over the conical height.
@@ -97,8 +106,7 @@ inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::siz
     return ranges;
 }
 
-inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height,
-                                          const ContinuousShapesOptions& options) {
+inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
     const double undecided = 32 * epsilon<double>();  // of a length: on which side of a critical height, nobody can say
     const double length = chain.length / height;
     const PathKind kind = kind_of(chain, height, 1);
@@ -107,32 +115,114 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
     std::size_t count = at_rest.size();
     while (count > 0 && !decided(at_rest[count - 1])) --count;
     ContinuousShapes result;
-    const bool theorem = (chain.density == nullptr && chain.tip_weight == 0) || at_rest.size() <= 1;
+    const bool theorem = (chain.density == nullptr && chain.tip == 0) || at_rest.size() <= 1;
     result.complete = theorem && count == at_rest.size();
     std::vector<std::vector<TipRange>> ranges(count, {{0, length, true}});
-    if (!theorem && count > 0) ranges = scanned(kind, count, length, options.scanned);
+    if (!theorem && count > 0) ranges = scanned(kind, count, length, most_scanned);
     CrossingLaw law = CrossingLaw::uniform(static_cast<int>(count));
     for (std::size_t j = count; j-- > 0;) {
         const int crossing = static_cast<int>(j) + 1;
         for (std::size_t i = ranges[j].size(); i-- > 0;) {
-            const TipOffset tip(kind, crossing, at_rest[j], length, ranges[j][i], law);
-            if (auto shape = finished(kind, tip.value(), crossing, chain.length, height)) {
+            const TipOffset tip = tip_offset(kind, crossing, at_rest[j], length, ranges[j][i], law);
+            if (auto shape = finished(kind, tip.value, crossing, chain.length, height)) {
                 result.shapes.push_back(std::move(*shape));
             } else {
                 result.complete = false;
             }
-            law = tip.law();
+            law = tip.law;
         }
         law = law.of_one_before(crossing);
     }
     std::reverse(result.shapes.begin(), result.shapes.end());
+    for (ContinuousShape& shape : result.shapes) shape.density = chain.density;
     return result;
 }
 
+/// The `count` greatest conical heights at which shapes leave the vertical, descending: those of small amplitude, by
+/// the same series with T = V. Method: the place of crossing j of a chain that goes on beyond its support falls as the
+/// height does: bisection, then the secant within what is left. Accuracy: 4e-15 relative.
+/// Cost: ten paths each, but one for all where the chain is uniform without tip weight.
+/// Throws InvalidArgument for a count below 1 or above 1e5.
+inline Vector<double> critical_heights(const ContinuousChain& chain, Index count) {
+    constexpr std::string_view place = "modes";
+    if (count < 1 || count > 100'000)
+        revchain::detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
+    Vector<double> heights(count);
+    const auto place_of = [&](double height, Index crossing) {
+        const Path path(kind_of(chain, height, 0), 1, {.crossings = static_cast<int>(crossing), .with_change = false});
+        if (static_cast<Index>(path.crossings().size()) < crossing)
+            revchain::detail::throw_invalid(
+                place,
+                chain.density != nullptr
+                    ? "the line density is too rough to follow up to critical height"
+                    : "the tip weight is too great beside the chain's to follow up to critical height",
+                crossing);
+        return path.crossings();
+    };
+    if (chain.density == nullptr && chain.tip == 0) {
+        const auto crossings = place_of(1, count);
+        for (Index j = 0; j < count; ++j) heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
+        return heights;
+    }
+    for (Index j = 1; j <= count; ++j) {
+        const auto excess = [&](double height) {
+            return std::log(place_of(height, j).back().arc * height / chain.length);
+        };
+        heights[j - 1] = height_where(excess, j == 1 ? chain.length : heights[j - 2]);
+    }
+    return heights;
+}
+
+/// How many critical heights exceed `height`, by the same series. Throws InvalidArgument for a length above 1e6 heights
+/// and for a density or a tip that the series cannot follow.
+inline Index critical_heights_above(const ContinuousChain& chain, double height) {
+    constexpr std::string_view place = "count_modes";
+    const double length = chain.length / height;
+    if (!(length <= 1e6)) revchain::detail::throw_invalid(place, "length / conical height must be at most 1e6", length);
+    const Path path(kind_of(chain, height, 0), 1, {.farthest = length, .with_change = false});
+    if (!(path.end() > length))
+        revchain::detail::throw_invalid(place,
+                                        "the density is too rough, or the tip too heavy, to be followed; the "
+                                        "series ended at arc length",
+                                        path.end() * height);
+    return std::count_if(path.crossings().begin(), path.crossings().end(),
+                         [&](const Path::Crossing& crossing) { return crossing.arc < length; });
+}
+
+/// One mode of small amplitude, by the same series. Cost: one path; of a place 1 microsecond, 10 with a density.
+class CordModeShape {
+   public:
+    CordModeShape(const ContinuousChain& chain, double height, Index mode)
+        : chain_(chain),
+          height_(height),
+          kind_(kind_of(chain_, height, 0)),
+          path_(kind_, 1, {.crossings = static_cast<int>(mode), .with_change = false}) {}
+
+    /// Offset at a distance from the free end, where it is 1.
+    double shape(double s) const {
+        if (!(s >= 0 && s <= chain_.length))
+            revchain::detail::throw_invalid("CordModes::offset", "s must lie between 0 (free end) and the length", s);
+        return state_at(kind_, path_.steps(), 1, s / height_).offset;
+    }
+    /// Where the cord crosses the axis, ascending, the support left out.
+    Vector<double> nodes() const {
+        Vector<double> points(static_cast<Index>(path_.crossings().size()) - 1);
+        for (Index i = 0; i < points.size(); ++i)
+            points[i] = path_.crossings()[static_cast<std::size_t>(i)].arc * height_;
+        return points;
+    }
+
+   private:
+    ContinuousChain chain_;
+    double height_;
+    PathKind kind_;
+    Path path_;
+};
+
 }  // namespace finite
 
-/// All steady shapes of a chain that whirls at the speed of conical height `height`, the straight one left out, of two
-/// mirror images that with the free end at a positive offset. Where `complete` is false there may be more (see above).
+/// All steady shapes of a cord at a speed, at any inclination. The straight one is left out, and of two mirror images
+/// the one whose free end is at a negative offset. Where `complete` is false there may be more (see above).
 ///
 /// Method: power series of order 24 in the time that makes the equations polynomials (`finite::PathSeries`), Newton's
 /// method on the place of crossing j, its derivative by the series of the change; crossings told by quadrants within
@@ -145,60 +235,15 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
 /// integral of the uniform chain, of the tension carried by its own series against that of its parts with a density.
 /// Cost: a microsecond a step, four and more a half wave: 1.8 ms for the fourteen shapes at length/height 500
 /// (bench/continuous.cpp); ten times that with a density, and `scanned` paths more.
-/// Throws InvalidArgument for a length or height not positive and finite, a negative tip weight, and a density over
-/// another length.
-inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height,
-                                          const ContinuousShapesOptions& options = {}) {
-    constexpr std::string_view place = "continuous_shapes";
-    finite::check(place, chain);
-    detail::require_positive(place, "conical height", height);
-    if (!(chain.length / height <= 1e6))
-        detail::throw_invalid(place, "length / conical height must be at most 1e6", chain.length / height);
+/// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for a length above 1e6
+/// heights, for `scanned` below 1, and for an exponent of the density above 20.
+inline ContinuousShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
+    constexpr std::string_view place = "steady_shapes";
+    const double height = detail::height_given(place, options);
+    if (!(cord.length() / height <= 1e6))
+        detail::throw_invalid(place, "length / conical height must be at most 1e6", cord.length() / height);
     if (options.scanned < 1) detail::throw_invalid(place, "scanned must be at least 1", options.scanned);
-    return finite::continuous_shapes(chain, height, options);
-}
-
-/// The same at an angular speed n, lambda = g/n^2.
-inline ContinuousShapes continuous_shapes_at_speed(const ContinuousChain& chain, double angular_speed,
-                                                   double gravity = conical_pendulum::standard_gravity,
-                                                   const ContinuousShapesOptions& options = {}) {
-    return continuous_shapes(chain, conical_pendulum::height(angular_speed, gravity), options);
-}
-
-/// The `count` greatest conical heights at which shapes leave the vertical, descending: those of small amplitude, by
-/// the same series with T = V. Method: the place of crossing j of a chain that goes on beyond its support falls as the
-/// height does: bisection, then the secant within what is left. Accuracy: 4e-15 relative.
-/// Cost: ten paths each, but one for all where the chain is uniform without tip weight.
-/// Throws InvalidArgument as continuous_shapes does, and for a count below 1 or above 1e5.
-inline Vector<double> continuous_critical_heights(const ContinuousChain& chain, Index count) {
-    constexpr std::string_view place = "continuous_critical_heights";
-    finite::check(place, chain);
-    if (count < 1 || count > 100'000) detail::throw_invalid(place, "count must be from 1 to 100000", count);
-    Vector<double> heights(count);
-    const auto place_of = [&](double height, Index crossing) {
-        const finite::Path path(finite::kind_of(chain, height, 0), 1,
-                                {.crossings = static_cast<int>(crossing), .with_change = false});
-        if (static_cast<Index>(path.crossings().size()) < crossing)
-            detail::throw_invalid(
-                place,
-                chain.density != nullptr
-                    ? "the line density is too rough to follow up to critical height"
-                    : "the tip weight is too great beside the chain's to follow up to critical height",
-                crossing);
-        return path.crossings();
-    };
-    if (chain.density == nullptr && chain.tip_weight == 0) {
-        const auto crossings = place_of(1, count);
-        for (Index j = 0; j < count; ++j) heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
-        return heights;
-    }
-    for (Index j = 1; j <= count; ++j) {
-        const auto excess = [&](double height) {
-            return std::log(place_of(height, j).back().arc * height / chain.length);
-        };
-        heights[j - 1] = finite::height_where(excess, j == 1 ? chain.length : heights[j - 2]);
-    }
-    return heights;
+    return finite::continuous_shapes(finite::ContinuousChain(cord), height, options.scanned);
 }
 
 }  // namespace revchain

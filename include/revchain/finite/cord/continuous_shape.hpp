@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <memory>
+
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/cord/path.hpp"
 
 namespace revchain {
-
-/// A chain without links: perfectly flexible, of one length, with a weight at its free end or none.
-struct ContinuousChain {
-    double length = 1;
-    double tip_weight = 0;                 ///< in units of line weight times length
-    const LineDensity* density = nullptr;  ///< must outlive what is computed; none: 1 per unit of length
-};
 
 /// A place on a whirling chain, in the units of the chain.
 struct ContinuousPlace {
@@ -33,9 +28,9 @@ struct ContinuousShape {
     int half_waves = 1;          ///< crossings of the axis, the support among them
     double length = 0;
     double conical_height = 0;  ///< of the speed
-    double residual = 0;     ///< of the first integral at the support, over the largest tension; see continuous_shapes
-    double error_bound = 0;  ///< of every inclination, rad, and of every offset and height over the length
-    double condition = 0;    ///< largest change of an inclination for a relative change 1 of the length alone
+    double residual = 0;        ///< of the first integral at the support, over the largest tension; see `steady_shapes`
+    double error_bound = 0;     ///< of every inclination, rad, and of every offset and height over the length
+    double condition = 0;       ///< largest change of an inclination for a relative change 1 of the length alone
 
     /// The place at an arc length from the free end. Cost: 1 microsecond.
     /// Throws InvalidArgument outside 0 ... length.
@@ -44,7 +39,8 @@ struct ContinuousShape {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
 
-    // What the places are computed from: steps of the path, scaled.
+    // What the places are computed from: steps of the path, scaled, and the density that `kind` points to.
+    std::shared_ptr<const LineDensity> density;
     finite::PathKind kind;
     std::vector<finite::Path::Step> steps;
     double tip_offset = 0, support_arc = 0, support_height = 0;
@@ -56,15 +52,19 @@ inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x
     const double below = shape.kind.weight_below(x.arc), lambda = shape.conical_height;
     const double inclination = below == 0 ? std::atan(x.offset) : -std::atan2(x.pull, below);  // the free end's limit
     return {x.arc * lambda, x.offset * lambda, (x.height - shape.support_height) * lambda, inclination,
-            std::hypot(x.pull, below) * lambda * shape.kind.per_length};
+            std::hypot(x.pull, below) * lambda * shape.kind.line_weight};
 }
 
-/// The time of a series at which it reaches an arc length: arc' = pace T > 0. A step whose start was moved may end a
-/// little earlier.
-inline double time_at(const PathSeries& series, double arc, double duration) {
-    return time_of_zero(duration, 1.05 * duration, [&](double t) {
-        return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
-    });
+/// The place of a path at an arc length, from its steps.
+inline PathState state_at(const PathKind& kind, const std::vector<Path::Step>& steps, double tip_offset, double arc) {
+    const auto after = std::upper_bound(steps.begin() + 1, steps.end(), arc,
+                                        [](double x, const Path::Step& step) { return x < step.start.arc; });
+    const Path::Step& step = *(after - 1);
+    if (kind.density == nullptr && kind.tip == 0 && &step == &steps.front())
+        return TipSeries(step.start.offset, kind.bend).state(arc);
+    if (arc < steps.front().start.arc) return Path::near_tip(kind, tip_offset, arc);  // below where the path starts
+    const PathSeries series(kind, step.start);
+    return series.state(time_at(series, arc, 1.05 * step.duration));  // a step that was moved may end a little later
 }
 
 /// Places, residual, error and condition of the path that ends at the support, gathered as it is followed.
@@ -211,21 +211,8 @@ class ShapeSamples {
 inline ContinuousPlace ContinuousShape::operator()(double arc) const {
     if (!(arc >= 0 && arc <= length))
         detail::throw_invalid("ContinuousShape", "arc length must lie between 0 and the length", arc);
-    using finite::Path;
     const double scaled = std::min(arc / conical_height, support_arc);
-    const auto after = std::upper_bound(steps.begin() + 1, steps.end(), scaled,
-                                        [](double x, const Path::Step& step) { return x < step.start.arc; });
-    const Path::Step& step = *(after - 1);
-    finite::PathState state;
-    if (kind.density == nullptr && kind.tip == 0 && &step == &steps.front()) {
-        state = finite::TipSeries(step.start.offset, kind.bend).state(scaled);
-    } else if (scaled < steps.front().start.arc) {
-        state = finite::Path::near_tip(kind, tip_offset, scaled);  // below where the path starts
-    } else {
-        const finite::PathSeries series(kind, step.start);
-        state = series.state(finite::time_at(series, scaled, step.duration));
-    }
-    ContinuousPlace place = finite::place_of(*this, state);
+    ContinuousPlace place = finite::place_of(*this, finite::state_at(kind, steps, tip_offset, scaled));
     place.arc_length = arc;
     if (arc == length) place.offset = 0;
     return place;

@@ -25,7 +25,7 @@ class Path {
         std::size_t step;
         double time;
     };
-    static constexpr std::size_t most_steps = 50'000;
+    static constexpr std::size_t max_steps = 50'000;
 
     struct Options {
         int crossings = std::numeric_limits<int>::max();
@@ -58,7 +58,7 @@ class Path {
             int passed = 0;
             for (int cuts = 0; cuts < 200; ++cuts) {
                 passed = quadrants(state, next.state);
-                const bool told = next.most_phase < 1.5 * std::numbers::pi;
+                const bool told = next.max_phase < 1.5 * std::numbers::pi;
                 if (told && crossings_in(state, passed) <= 1) break;
                 duration *= 0.6;
                 next = series.reached(duration);
@@ -74,6 +74,7 @@ class Path {
             if (!(next.state.arc > state.arc)) break;  // a density too rough to follow
             state = next.state;
         }
+        end_ = state.arc;
     }
     Path(const PathKind& kind, double tip_offset, const Options& options)
         : Path(kind, tip_offset, options, [](const auto&, double) {}) {}
@@ -81,6 +82,8 @@ class Path {
     const std::vector<Crossing>& crossings() const { return crossings_; }
     const std::vector<Step>& steps() const { return steps_; }
     double tip_offset() const { return tip_offset_; }
+    /// Arc length at which the last step ended.
+    double end() const { return end_; }
     bool starts_by_series() const { return kind_.density == nullptr && kind_.tip == 0; }
     /// Tension carried by its own series against that of u and V, over the largest.
     double discrepancy() const { return discrepancy_ / largest_tension_; }
@@ -113,17 +116,11 @@ class Path {
         if (kind_.density == nullptr) return duration;
         const double end = kind_.density->end_of_piece(series.arc[0] * kind_.unit) / kind_.unit;
         if (PathSeries::at(series.arc, duration) <= end) return duration;
-        double low = 0, high = duration;  // sigma grows with t
-        for (int i = 0; i < 200 && low < high; ++i) {
-            const double middle = low + (high - low) / 2;
-            if (middle == low || middle == high) break;
-            (PathSeries::at(series.arc, middle) < end ? low : high) = middle;
-        }
-        return high;
+        return time_at(series, end, duration);
     }
     bool ended(const Options& options, const PathState& state) const {
         return static_cast<int>(crossings_.size()) >= options.crossings || state.arc > options.farthest ||
-               steps_.size() >= most_steps;
+               steps_.size() >= max_steps;
     }
     /// eta > 0 > u: 0, then in the order in which they are passed.
     static int quadrant(const PathState& x) {
@@ -141,7 +138,7 @@ class Path {
     }
     void note_crossing(const PathSeries& series, double duration, bool with_change) {
         const double sign = series.offset[0] > 0 ? -1 : 1;
-        const double t = time_of_zero(duration, duration, [&](double time) {
+        const double t = time_of_zero(duration, [&](double time) {
             double value = series.offset[PathSeries::order], slope = 0;
             for (std::size_t k = PathSeries::order; k-- > 0;) {
                 slope = slope * time + value;
@@ -162,7 +159,7 @@ class Path {
     double tip_offset_;
     std::vector<Step> steps_;
     std::vector<Crossing> crossings_;
-    double largest_tension_ = 0, discrepancy_ = 0;
+    double largest_tension_ = 0, discrepancy_ = 0, end_ = 0;
 };
 
 }  // namespace revchain::finite

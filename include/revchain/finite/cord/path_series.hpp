@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "revchain/finite/cord/line_density.hpp"
+#include "revchain/system/line_density.hpp"
 
 namespace revchain::finite {
 
@@ -31,6 +31,7 @@ struct PathKind {
     double per_length = 1;                 ///< its values are over this
     const LineDensity* density = nullptr;  ///< uniform, rho = 1, where there is none
     double bend = 1;                       ///< 0: small amplitude, T = V
+    double line_weight = 1;                ///< mean weight per length of the cord: tensions are in its unit
 
     double weight_below(double arc) const {
         return tip + (density == nullptr ? arc : density->weight_below(arc * unit) / (unit * per_length));
@@ -61,19 +62,24 @@ class PathSeries {
         below[0] = kind.weight_below(state.arc);
         tension[0] = kind.tension(state.pull, below[0]);
         has_change_ = change != nullptr, is_dense_ = kind.density != nullptr, pace = 1;
-        if (has_change_) {
-            offset_change[0] = change->offset, pull_change[0] = change->pull;
-            arc_change[0] = change->arc, height_change[0] = change->height;
-        }
-        if (kind.density == nullptr) {
-            if (has_change_) {
-                uniform<true>(kind.bend);
-            } else {
-                uniform<false>(kind.bend);
-            }
-        } else {
+        if (has_change_) set_change(*change);
+        if (is_dense_)
             dense(kind);
-        }
+        else
+            uniform<true>({kind.bend});
+    }
+    /// The uniform chain with other constants in the equations, its weight below and the change of that given.
+    struct Constants {
+        double bend = 1, weight = 1;  ///< V' = weight T,  T' = weight V - bend u eta
+        double weight_change = 0;     ///< how `weight` itself changes
+    };
+    void start(const Constants& constants, const PathState& state, double weight_below, const PathChange* change,
+               double change_below) {
+        offset[0] = state.offset, pull[0] = state.pull, arc[0] = state.arc, height[0] = state.height;
+        below[0] = weight_below, below_change[0] = change_below, tension[0] = std::hypot(state.pull, weight_below);
+        has_change_ = change != nullptr;
+        if (has_change_) set_change(*change);
+        uniform<false>(constants);
     }
 
     /// The longest time for which the first terms left out stay below `tolerance`.
@@ -95,7 +101,7 @@ class PathSeries {
     /// now does not exceed: dtheta/dt <= pace sqrt(largest rho T).
     struct Reached {
         PathState state;
-        double tension, most_phase;
+        double tension, max_phase;
     };
     Reached reached(double t) const {  // side by side, as each sum waits for itself
         const Coefficients& pulled = is_dense_ ? mass : tension;
@@ -106,9 +112,9 @@ class PathSeries {
             x.state.pull = x.state.pull * t + pull[k];
             x.state.height = x.state.height * t + height[k];
             x.tension = x.tension * t + tension[k];
-            x.most_phase = x.most_phase * t + std::abs(pulled[k]);
+            x.max_phase = x.max_phase * t + std::abs(pulled[k]);
         }
-        x.most_phase = pace * t * std::sqrt(x.most_phase);
+        x.max_phase = pace * t * std::sqrt(x.max_phase);
         return x;
     }
     PathState state(double t) const { return reached(t).state; }
@@ -127,9 +133,23 @@ class PathSeries {
 
     Coefficients arc{}, offset, pull, height, tension, below;
     double pace = 1;  ///< dsigma = pace T dt
-    Coefficients arc_change, offset_change, pull_change, height_change, tension_change;
+    Coefficients arc_change, offset_change, pull_change, height_change, tension_change, below_change;
 
    private:
+    void set_change(const PathChange& change) {
+        offset_change[0] = change.offset, pull_change[0] = change.pull;
+        arc_change[0] = change.arc, height_change[0] = change.height;
+    }
+    /// The weight is known to be 1 when a path is compiled: two products in a row less for each coefficient, 5 % of the
+    /// time of a path (bench/continuous.cpp).
+    template <bool unit_weight>
+    void uniform(const Constants& constants) {
+        if (has_change_)
+            uniform<unit_weight, true>(constants);
+        else
+            uniform<unit_weight, false>(constants);
+    }
+
     /// Coefficient n of a product.
     static double product(const double* a, const double* b, int n) {
         double even = 0, odd = 0;
@@ -150,8 +170,10 @@ class PathSeries {
 
     /// Every new coefficient is at once multiplied into the sums it belongs to, for later: loops without sums across,
     /// which compilers turn into SIMD code. What is not yet known is 0, so that no pair counts twice.
-    template <bool change>
-    void uniform(double bend) {
+    template <bool unit_weight, bool change>
+    void uniform(const Constants& constants) {
+        const double bend = constants.bend, weight = unit_weight ? 1.0 : constants.weight;
+        Coefficients& change_below = unit_weight ? arc_change : below_change;
         constexpr std::size_t size = order + 1, block = 4, room = 2 * order + 2 * block;
         std::array<double, room> e{}, w{}, de{}, dw{};        // eta, T and their changes
         std::array<double, room> eT{}, ee{}, d_eT{}, d_ee{};  // eta T, eta^2/2 and their changes
@@ -178,7 +200,7 @@ class PathSeries {
             if constexpr (change) d_ee[2 * n] += en * den;
         };
         if constexpr (change)
-            tension_change[0] = (bend * pull[0] * pull_change[0] + below[0] * arc_change[0]) / tension[0];
+            tension_change[0] = (bend * pull[0] * pull_change[0] + below[0] * change_below[0]) / tension[0];
         double en = offset[0], den = change ? offset_change[0] : 0.0;
         for (std::size_t n = 0; n < order; ++n) {
             const double inverse = 1.0 / static_cast<double>(n + 1);
@@ -189,17 +211,22 @@ class PathSeries {
             if constexpr (change) de[n] = den;
             const double next = pull[n] * inverse, next_change = change ? pull_change[n] * inverse : 0.0;
             offset[n + 1] = next;
-            arc[n + 1] = below[n + 1] = wn * inverse;
+            arc[n + 1] = wn * inverse;
+            below[n + 1] = weight * arc[n + 1];
             height[n + 1] = below[n] * inverse;
             pull[n + 1] = -eT[n] * inverse;
             // (eta^2/2)_n+1 lacks its pair (n + 1, 0)
-            tension[n + 1] = height[n + 1] - bend * (ee[n + 1] + next * e[0]);
+            tension[n + 1] = weight * height[n + 1] - bend * (ee[n + 1] + next * e[0]);
             if constexpr (change) {
                 offset_change[n + 1] = next_change;
                 arc_change[n + 1] = dwn * inverse;
-                height_change[n + 1] = arc_change[n] * inverse;
+                if constexpr (!unit_weight)
+                    below_change[n + 1] = weight * arc_change[n + 1] + constants.weight_change * arc[n + 1];
+                height_change[n + 1] = change_below[n] * inverse;
                 pull_change[n + 1] = -d_eT[n] * inverse;
-                tension_change[n + 1] = height_change[n + 1] - bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
+                tension_change[n + 1] =
+                    weight * height_change[n + 1] - bend * (d_ee[n + 1] + next * de[0] + next_change * e[0]);
+                if constexpr (!unit_weight) tension_change[n + 1] += constants.weight_change * height[n + 1];
             }
             en = next, den = next_change;
         }
@@ -215,7 +242,7 @@ class PathSeries {
         for (double& x : c) x *= scale, scale *= kind.unit;
         std::array<Coefficients, degree + 1> line{};  // line[i] = c_i + (sigma - sigma_0) line[i + 1]
         pace = 1 / (c[0] * (1 + std::abs(offset[0])));
-        Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{}, below_change{};
+        Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{};
         int last = degree;  // powers that no longer count within the piece are left out
         const double span = std::min(kind.density->end_of_piece(state_arc(kind)) / kind.unit - arc[0], 1e300);
         while (last > 0 && std::abs(c[static_cast<std::size_t>(last)]) * std::pow(span, last) < 1e-17 * c[0]) --last;
@@ -272,18 +299,25 @@ class PathSeries {
 /// go on to the last digit of the time, which the rounding of a series of 25 terms does not give. `value_and_slope(t)`
 /// returns a pair.
 template <class F>
-double time_of_zero(double duration, double latest, const F& value_and_slope) {
-    double low = 0, high = latest, t = duration / 2;
+double time_of_zero(double latest, const F& value_and_slope) {
+    double low = 0, high = latest, t = latest / 2;
     for (int i = 0; i < 100; ++i) {
         const auto [value, slope] = value_and_slope(t);
         (value < 0 ? low : high) = t;
         double next = t - value / slope;
-        if (std::abs(next - t) <= std::min(0x1p-52 * duration, 0x1p-51 * t)) break;
+        if (std::abs(next - t) <= std::min(0x1p-52 * latest, 0x1p-51 * t)) break;
         if (!(next > low && next < high)) next = low + (high - low) / 2;
         if (next == low || next == high) break;
         t = next;
     }
     return t;
+}
+
+/// The time before `latest` at which a series reaches an arc length: arc' = pace T > 0.
+inline double time_at(const PathSeries& series, double arc, double latest) {
+    return time_of_zero(latest, [&](double t) {
+        return std::pair(PathSeries::at(series.arc, t) - arc, series.pace * PathSeries::at(series.tension, t));
+    });
 }
 
 /// The series of a uniform chain without a tip weight about its free end, in sigma, where T = 0: with u = sigma q,

@@ -41,57 +41,48 @@ struct TipRange {
     bool rises;
 };
 
-/// The free end's offset for which crossing number j lies at `length`: Newton's method within the range, or the law
-/// above fitted to each path tried. What is found is within `near` of the offset, relatively; paths whose step is
-/// greater than that are followed no better than they need.
-class TipOffset {
-   public:
+/// The free end's offset for which crossing number `crossing` lies at `length`, and the law fitted to the last path
+/// tried: Newton's method within the range, or that law. What is found is within `near` of the offset, relatively;
+/// paths whose step is greater than that are followed no better than they need. 0 where the path could not be followed
+/// that far.
+struct TipOffset {
     static constexpr double near = 1e-8;
-
-    TipOffset(const PathKind& kind, int crossing, double place_at_rest, double length, const TipRange& range,
-              const CrossingLaw& law)
-        : law_(law), range_(range) {
-        const double rise = length - place_at_rest;
-        double tip = inside(std::min(law_.tip_offset(rise), 0.999 * range.high)), last = 0.05;
-        for (int round = 0; round < 200; ++round) {
-            // Fitted, the law leaves a hundredth of the step's square, and more than that need not be known: of the
-            // rise, which near a critical height is a small part of the place.
-            const double square = last * last;
-            const double tolerance = std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
-            const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
-            if (static_cast<int>(path.crossings().size()) < crossing) return;
-            const Path::Crossing& found = path.crossings().back();
-            const double off = found.arc - length;
-            ((off < 0) == range_.rises ? range_.low : range_.high) = tip;
-            law_ = CrossingLaw::through(tip, found.arc - place_at_rest, found.rate, law_);
-            const double newton = tip - off / found.rate, fitted = law_.tip_offset(rise);
-            double next = inside(std::abs(fitted - newton) < std::abs(newton - tip) ? fitted : newton);
-            // Steps that do not shrink by half are no better than halving, and may creep.
-            if (round > 1 && std::abs(next / tip - 1) > 0.5 * last) next = middle();
-            last = std::abs(next / tip - 1);
-            // Either step leaves less than its square, mostly a tenth of it, where the law holds that near; and what
-            // the tolerance left.
-            const bool enough = last * last < near && std::abs(off) < 4e-4 * rise && tolerance * length < near * rise;
-            tip = next;
-            if (enough) break;
-        }
-        value_ = tip;
-    }
-    /// 0 where the path could not be followed that far.
-    double value() const { return value_; }
-    const CrossingLaw& law() const { return law_; }
-
-   private:
-    double middle() const {
-        if (range_.low == 0) return 0.1 * range_.high;
-        return std::clamp(std::sqrt(range_.low) * std::sqrt(range_.high), range_.low, range_.high);
-    }
-    double inside(double tip) const { return tip > range_.low && tip < range_.high ? tip : middle(); }
-
-    CrossingLaw law_;
-    TipRange range_;
-    double value_ = 0;
+    double value = 0;
+    CrossingLaw law;
 };
+inline TipOffset tip_offset(const PathKind& kind, int crossing, double place_at_rest, double length, TipRange range,
+                            CrossingLaw law) {
+    const auto middle = [&] {
+        if (range.low == 0) return 0.1 * range.high;
+        return std::clamp(std::sqrt(range.low) * std::sqrt(range.high), range.low, range.high);
+    };
+    const auto inside = [&](double tip) { return tip > range.low && tip < range.high ? tip : middle(); };
+    const double rise = length - place_at_rest;
+    double tip = inside(std::min(law.tip_offset(rise), 0.999 * range.high)), last = 0.05;
+    for (int round = 0; round < 200; ++round) {
+        // Fitted, the law leaves a hundredth of the step's square, and more than that need not be known: of the rise,
+        // which near a critical height is a small part of the place.
+        const double square = last * last;
+        const double tolerance = std::clamp(3e-3 * square * square * rise / length, PathSeries::rounding, 1e-7);
+        const Path path(kind, tip, {.crossings = crossing, .tolerance = tolerance});
+        if (static_cast<int>(path.crossings().size()) < crossing) return {0, law};
+        const Path::Crossing& found = path.crossings().back();
+        const double off = found.arc - length;
+        ((off < 0) == range.rises ? range.low : range.high) = tip;
+        law = CrossingLaw::through(tip, found.arc - place_at_rest, found.rate, law);
+        const double newton = tip - off / found.rate, fitted = law.tip_offset(rise);
+        double next = inside(std::abs(fitted - newton) < std::abs(newton - tip) ? fitted : newton);
+        // Steps that do not shrink by half are no better than halving, and may creep.
+        if (round > 1 && std::abs(next / tip - 1) > 0.5 * last) next = middle();
+        last = std::abs(next / tip - 1);
+        tip = next;
+        // Either step leaves less than its square, mostly a tenth of it, where the law holds that near; and what the
+        // tolerance left.
+        if (last * last < TipOffset::near && std::abs(off) < 4e-4 * rise && tolerance * length < TipOffset::near * rise)
+            break;
+    }
+    return {tip, law};
+}
 
 /// The height at which a falling or rising function of it is 0: from a height at which it is positive (or above all
 /// such) downwards, then the secant method on the logarithm of the ratio of the two, whatever the unit, within the

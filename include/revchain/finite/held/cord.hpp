@@ -6,6 +6,7 @@
 #include "revchain/conical_pendulum.hpp"
 #include "revchain/finite/held/cord_series.hpp"
 #include "revchain/finite/held/curve.hpp"
+#include "revchain/system/cord.hpp"
 
 namespace revchain {
 
@@ -35,11 +36,7 @@ struct HeldCordShape {
     std::vector<finite::CordPlace> steps;  ///< what places are computed from, lengths over the cord's
 };
 
-struct HeldCordOptions {
-    int most_half_waves = 1;
-};
-
-/// Shapes of a cord held at both ends, one at the most for each number of half waves; see `HeldShapes`.
+/// Shapes of a cord held at both ends, see `HeldShapes`.
 struct HeldCordShapes {
     std::vector<HeldCordShape> shapes;
     std::vector<int> missing;
@@ -60,11 +57,14 @@ class HeldCord {
 
     HeldCurve<HeldCord> curve() { return {*this, 1, 1}; }
 
-    std::optional<HeldState> weightless(int half_waves, double span) {
+    /// The state with `half_waves` half waves, reached from the nearly straight weightless cord: its ends are drawn
+    /// together, then gravity grows. Lengths are over the cord's.
+    std::optional<HeldState> at_height(int half_waves, double span, double height) {
         const double waves = half_waves * std::numbers::pi, along = 1 / (waves * waves), slack = 1 - span,
                      first = std::min(slack, 1e-3);
         auto state = curve().corrected({{-2 * std::sqrt(first) * along, along, 0}, 1 - first});
         if (state && slack > first) state = curve().to_span(*state, span);
+        if (state && height > 0) state = curve().to_height(*state, height);
         return state;
     }
 };
@@ -121,17 +121,14 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
         {std::abs(integral - first) / largest_tension, std::abs(end.offset), std::abs(end.rise - span / length)});
 
     // A change of the span, or of the height, asks two forces, and both the inclinations.
-    const double a = end.offset_change[0], b = end.offset_change[1], c = end.rise_change[0], d = end.rise_change[1],
-                 determinant = a * d - b * c;
-    double moved = 0;
     const auto condition = [&](double y, double z, double direct) {
-        const double across = (d * y - b * z) / determinant, along = (a * z - c * y) / determinant;
+        const auto forces = end.forces_to_move(y, z);
         double most = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             const CordPlace& x = places[i];
             const double squared = x.across * x.across + x.along * x.along;
             const auto change = [&](double CordPlace::*part) {
-                return changes[i][0].*part * across + changes[i][1].*part * along + changes[i][2].*part * direct;
+                return changes[i][0].*part * forces[0] + changes[i][1].*part * forces[1] + changes[i][2].*part * direct;
             };
             const double turn = change(&CordPlace::across) * x.along - change(&CordPlace::along) * x.across;
             most = std::max(most, std::abs(turn) / squared);
@@ -140,82 +137,40 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     };
     shape.condition = std::max(condition(0, span / length, 0),
                                condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, lambda));
-    moved = std::max(condition(0, 1, 0), condition(1, 0, 0));
+    const double moved = std::max(condition(0, 1, 0), condition(1, 0, 0));
     // Rounding of the forces and of the end's place, and where it turns sharply of the arc.
     shape.error_bound = epsilon<double>() * (2 + 2 * shape.condition + 2 * moved + steepest);
     return shape;
 }
 
-inline HeldCordShapes held_cord_shapes(double length, double span, double height, double weight,
-                                       const HeldCordOptions& options) {
-    constexpr std::string_view place = "held_cord_shapes";
-    revchain::detail::require_positive(place, "length", length);
-    revchain::detail::require_positive(place, "span", span);
-    revchain::detail::require_positive(place, "weight", weight);
-    if (!(height >= 0 && std::isfinite(height)))
-        revchain::detail::throw_invalid(place, "conical height must not be negative, and finite", height);
-    if (!(span < length)) revchain::detail::throw_invalid(place, "span must be less than the length", span);
-    if (options.most_half_waves < 1)
-        revchain::detail::throw_invalid(place, "most half waves must be at least 1", options.most_half_waves);
-    HeldCordShapes result;
-    HeldCord cord;
-    for (int k = 1; k <= options.most_half_waves; ++k) {
-        std::optional<HeldState> state = cord.weightless(k, span / length);
-        if (state && height > 0) state = cord.curve().to_height(*state, height / length);
-        std::optional<HeldCordShape> shape;
-        if (state) shape = described(*state, span, length, weight);
-        if (shape && shape->error_bound < 1e-3)  // else it hangs folded along the axis
-            result.shapes.push_back(std::move(*shape));
-        else
-            result.missing.push_back(k);
-    }
-    return result;
+/// The shape of each number of half waves up to `max_half_waves` at a span and a height; height 0: without gravity.
+inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
+    const double length = cord.length();
+    return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
+        if (const auto state = HeldCord().at_height(k, span / length, height / length))
+            add(std::optional(described(*state, span, length, cord.weight())));
+    });
 }
 
-}  // namespace finite
-
-/// Steady shapes of a uniform, perfectly flexible cord whose two ends are held on the axis, `span` apart, at a conical
-/// height: `held_shapes` of more and more links. Height 0 stands for no gravity: Greenhill (1908) §5, y = b sn(K x/a).
-///
-/// Method: power series of degree 24, exact derivatives with the two forces at the lower end, Newton's method along a
-/// curve from the nearly straight cord. Accuracy: 1e-13 of the length (tests/cpp/paper/section_5_held_cord.cpp). Cost:
-/// 20 microseconds a path, some 100 paths a shape.
-/// Throws InvalidArgument for numbers not positive and finite, but the height, which may be 0, and a span not below the
-/// length.
-inline HeldCordShapes held_cord_shapes(double length, double span, double conical_height, double weight = 1,
-                                       const HeldCordOptions& options = {}) {
-    return finite::held_cord_shapes(length, span, conical_height, weight, options);
-}
-
-/// Shapes of a cord for a given tension at the upper end instead of the span; see `held_shapes_under_tension`.
-inline HeldCordShapes held_cord_shapes_under_tension(double length, double height_times_tension, double conical_height,
-                                                     double weight = 1, const HeldCordOptions& options = {}) {
-    constexpr std::string_view place = "held_cord_shapes_under_tension";
-    detail::require_positive(place, "height times tension", height_times_tension);
-    detail::require_positive(place, "length", length);
-    detail::require_positive(place, "weight", weight);
-    if (!(conical_height >= 0 && std::isfinite(conical_height)))
-        detail::throw_invalid(place, "conical height must not be negative, and finite", conical_height);
-    if (options.most_half_waves < 1)
-        detail::throw_invalid(place, "most half waves must be at least 1", options.most_half_waves);
-    finite::HeldCord cord;
-    HeldCordShapes result;
-    for (int k = 1; k <= options.most_half_waves; ++k) {
-        const std::size_t before = result.shapes.size();
+/// All shapes on the branch of each number of half waves whose tension at the upper end, times the height, is
+/// `height_times_tension`.
+inline HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double height_times_tension, double height,
+                                                     int max_half_waves) {
+    const double length = cord.length(), weight = cord.weight();
+    return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
+        HeldCord held;
         for (const double share : {0.9, 0.5, 0.99, 0.1}) {
-            auto state = cord.weightless(k, share);
-            if (state && conical_height > 0) state = cord.curve().to_height(*state, conical_height / length);
+            const auto state = held.at_height(k, share, height / length);
             if (!state) continue;
-            cord.curve().under(*state, height_times_tension / length / weight, [&](const finite::HeldState& found) {
-                HeldCordShape shape = finite::described(found, found.span * length, length, weight);
-                if (shape.error_bound < 1e-3) result.shapes.push_back(std::move(shape));
+            held.curve().under(*state, height_times_tension / length / weight, [&](const HeldState& found) {
+                add(std::optional(described(found, found.span * length, length, weight)));
             });
             break;
         }
-        if (result.shapes.size() == before) result.missing.push_back(k);
-    }
-    return result;
+    });
 }
+
+}  // namespace finite
 
 inline HeldCordPlace HeldCordShape::operator()(double arc) const {
     if (!(arc >= 0 && arc <= length))

@@ -24,7 +24,7 @@ class HeldCurve {
     /// Sizes that weigh steps: total length and weight.
     HeldCurve(Shooter& shooter, double length, double weight) : shooter_(&shooter), length_(length), weight_(weight) {}
 
-    static constexpr int most_steps = 3000;
+    static constexpr int max_steps = 3000;
 
     /// Newton's method at span and height of `state`, as far as double goes.
     std::optional<HeldState> corrected(HeldState state) {
@@ -33,11 +33,7 @@ class HeldCurve {
         for (int round = 0; round < 25; ++round) {
             const HeldEnd<double> end = (*shooter_)(state.forces, false);
             if (!end.known) return {};
-            const double y = end.offset, z = end.rise - state.span;
-            const auto& [a, b, unused] = end.offset_change;
-            const auto& [c, d, unused_too] = end.rise_change;
-            const double determinant = a * d - b * c, across = -(d * y - b * z) / determinant,
-                         along = -(a * z - c * y) / determinant;
+            const auto [across, along] = end.forces_to_move(-end.offset, state.span - end.rise);
             const double size = std::abs(across) / std::abs(state.forces.across) +
                                 std::abs(along) / (std::abs(state.forces.along) + std::abs(state.forces.across));
             if (!(size < 1)) return {};
@@ -183,7 +179,7 @@ class HeldCurve {
         HeldEnd<double> end = (*shooter_)(state.forces, true);
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<spans>(state);
-        for (int count = 0; count < most_steps && step > 1e-9; ++count) {
+        for (int count = 0; count < max_steps && step > 1e-9; ++count) {
             revchain::detail::look();
             const auto [over_y, over_z] = gradients<spans>(end, scale);
             Triple tangent = normalised(over_y, over_z);
@@ -263,5 +259,21 @@ class HeldCurve {
     Shooter* shooter_;
     double length_, weight_;
 };
+
+/// Collects shapes of 1 ... `most` half waves. `find(k, add)` looks for those of k half waves and calls `add` with a
+/// shape or none.
+template <class Shapes, class Find>
+Shapes each_half_wave(int most, const Find& find) {
+    constexpr double folded = 1e-3;  // error bounds beyond which a shape is none: it hangs folded along the axis
+    Shapes result;
+    for (int k = 1; k <= most; ++k) {
+        const std::size_t before = result.shapes.size();
+        find(k, [&](auto&& shape) {
+            if (shape && shape->error_bound < folded) result.shapes.push_back(std::move(*shape));
+        });
+        if (result.shapes.size() == before) result.missing.push_back(k);
+    }
+    return result;
+}
 
 }  // namespace revchain::finite

@@ -51,7 +51,7 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldForces<Wi
         v->setZero(size + 1);
     shape.inclination.resize(size);
     S rise(0), hung(0), inertia(0), energy(0);
-    double reach = 0, last_sign = 0, weight = 0;
+    double reach = 0, last_sign = 0;
     const auto through = [&](Index pin, double across, double along) {
         shape.height_times_tension[pin] = moment(std::hypot(across, along));
         shape.force_inclination[pin] = std::atan2(across, along);
@@ -87,7 +87,6 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldForces<Wi
             turned.push_back(
                 {static_cast<double>(change[0]), static_cast<double>(change[1]), static_cast<double>(change[2])});
         });
-    weight = static_cast<double>(hung);
     shape.span = shape.height[size] = length(static_cast<double>(span));
     shape.conical_height = length(static_cast<double>(forces.height));
     const double gap =
@@ -100,19 +99,17 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldForces<Wi
     shape.height_times_energy = length(moment(static_cast<double>(forces.height * energy - inertia / S(2))));
 
     // What a change of the span, or of the height, asks of the two forces, and both of the links.
-    const auto number = [](const S& x) { return static_cast<double>(x); };
-    const double a = number(end.offset_change[0]), b = number(end.offset_change[1]), c = number(end.rise_change[0]),
-                 d = number(end.rise_change[1]), determinant = a * d - b * c;
-    const auto condition = [&](double y, double z, double direct) {
-        const double across = (d * y - b * z) / determinant, along = (a * z - c * y) / determinant;
+    const auto condition = [&](const S& y, const S& z, double direct) {
+        const auto [across, along] = end.forces_to_move(y, z);
+        const double a = static_cast<double>(across), b = static_cast<double>(along);
         for (const HeldChange<double>& t : turned)
-            shape.condition = std::max(shape.condition, std::abs(t[0] * across + t[1] * along + t[2] * direct));
+            shape.condition = std::max(shape.condition, std::abs(t[0] * a + t[1] * b + t[2] * direct));
     };
-    const double lambda = number(forces.height);
-    condition(0, number(span), 0);
-    condition(-number(end.offset_change[2]) * lambda, -number(end.rise_change[2]) * lambda, lambda);
+    const S& lambda = forces.height;
+    condition(S(0), span, 0);
+    condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, static_cast<double>(lambda));
     // An estimate until something is proved: rounding in double of the data.
-    shape.error_bound = epsilon<double>() * (2 + shape.condition) + 1e-24 * weight / weight;
+    shape.error_bound = epsilon<double>() * (2 + shape.condition);
     return shape;
 }
 

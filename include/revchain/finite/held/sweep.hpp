@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "revchain/finite/balance/links.hpp"
+#include "revchain/finite/balance/link_equation.hpp"
 
 namespace revchain::finite {
 
@@ -14,9 +14,9 @@ struct HeldForces {
     S across, along, height;
 };
 
-/// How a number changes with the three.
-template <class S>
-using HeldChange = std::array<S, 3>;
+/// How a number changes with the first K of the three.
+template <class S, std::size_t K = 3>
+using HeldChange = std::array<S, K>;
 
 /// Sine and cosine of a link's inclination.
 template <class S>
@@ -25,11 +25,19 @@ struct Direction {
 };
 
 /// Where the upper end comes to, and lambda times the force across the axis there.
-template <class S>
+template <class S, std::size_t K = 3>
 struct HeldEnd {
-    S offset, rise, across;
-    HeldChange<S> offset_change, rise_change, across_change;
+    S offset{}, rise{}, across{};
+    HeldChange<S, K> offset_change{}, rise_change{}, across_change{};
     bool known = false;  ///< not where a link is slack, or its inclination turns over
+
+    /// The changes of the forces across and along that move the upper end by (y,
+    /// z).
+    std::array<S, 2> forces_to_move(const S& y, const S& z) const {
+        const S &a = offset_change[0], &b = offset_change[1], &c = rise_change[0], &d = rise_change[1];
+        const S determinant = a * d - b * c;
+        return {(d * y - b * z) / determinant, (a * z - c * y) / determinant};
+    }
 };
 
 namespace detail {
@@ -72,27 +80,32 @@ S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& dir
 
 }  // namespace detail
 
-/// From the lower end, on the axis, to the upper: Greenhill (1908) §8 with a force at the lower end,
-///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
-///     y = y_below - length s,         H = R + rest y,
-/// H = `across` and tau = `along` at the lower end. A link points where it is pulled, above the horizontal or below:
-/// every link is in tension. Changes are exact derivatives. `direction` holds where to look, and what was found;
-/// `each(m, y, R, H, growth, change of the inclination)` sees every link, y of the lower pin and H of the upper. Cost
-/// O(N): 0.1 microseconds a link in double.
-template <class S, class Each>
-HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces,
-                      std::vector<Direction<S>>& direction, Each&& each) {
+/// From the lower end, on the axis, to the upper: Greenhill (1908) §8 with a
+/// force at the lower end,
+///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s =
+///     R, y = y_below - length s,         H = R + rest y,
+/// H = `across` and tau = `along` at the lower end. Changes with the first K of
+/// the forces are exact derivatives. `settle(m, R, V, way)` gives link m its
+/// direction under its load and returns the derivative of its moment with the
+/// inclination; the sweep ends where that is not positive. `each(m, y, R, H,
+/// growth, change of the inclination)` sees every link, y of the lower pin and
+/// H of the upper.
+template <std::size_t K, class S, class Settle, class Each>
+HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces, const Settle& settle,
+                         const Each& each) {
     S y(0), z(0), H = forces.across;
-    HeldChange<S> y_change{S(0), S(0), S(0)}, z_change = y_change, H_change{S(1), S(0), S(0)};
-    HeldEnd<S> end;
+    HeldChange<S, K> y_change, z_change, H_change;
+    y_change.fill(S(0)), z_change.fill(S(0)), H_change.fill(S(0));
+    H_change[0] = S(1);
     for (std::size_t m = 0; m < links.size(); ++m) {
         const Link<S>& link = links[m];
         const S R = H + link.moment * y, V = forces.height * link.pull + forces.along;
-        const S growth = detail::settle(link, R, V, direction[m]);
-        if (!(growth > S(0))) return end;
-        const auto& [s, c] = direction[m];
-        HeldChange<S> R_change, turned;
-        for (std::size_t i = 0; i < 3; ++i) {
+        Direction<S> way;
+        const S growth = settle(m, R, V, way);
+        if (!is_positive(growth)) return {};
+        const auto& [s, c] = way;
+        HeldChange<S, K> R_change, turned;
+        for (std::size_t i = 0; i < K; ++i) {
             R_change[i] = H_change[i] + link.moment * y_change[i];
             S moment = c * R_change[i];
             if (i == 1) moment = moment - s;
@@ -101,7 +114,7 @@ HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& fo
         }
         const S below = y;
         y = y - link.length * s, z = z + link.length * c, H = R + link.rest * y;
-        for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < K; ++i) {
             y_change[i] = y_change[i] - link.length * c * turned[i];
             z_change[i] = z_change[i] - link.length * s * turned[i];
             H_change[i] = R_change[i] + link.rest * y_change[i];
@@ -110,11 +123,24 @@ HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& fo
     }
     return {y, z, H, y_change, z_change, H_change, true};
 }
+
+/// The sweep in numbers. A link points where it is pulled, above the horizontal
+/// or below: every link is in tension. `direction` holds where to look, and
+/// what was found. Cost O(N): 0.1 microseconds a link in double.
+template <class S, class Each>
+HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces,
+                      std::vector<Direction<S>>& direction, const Each& each) {
+    const auto settle = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
+        const S growth = detail::settle(links[m], R, V, direction[m]);
+        way = direction[m];
+        return growth;
+    };
+    return held_sweep<3>(links, forces, settle, each);
+}
 template <class S>
 HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces,
                       std::vector<Direction<S>>& direction) {
-    return held_sweep(links, forces, direction,
-                      [](std::size_t, const S&, const S&, const S&, const S&, const HeldChange<S>&) {});
+    return held_sweep(links, forces, direction, [](std::size_t, const auto&...) {});
 }
 
 }  // namespace revchain::finite

@@ -5,15 +5,6 @@
 #include "revchain/numeric/progress.hpp"
 
 namespace revchain {
-
-/// Whirl speeds of a chain held straight between two points of its axis.
-struct TautModes {
-    double tension = 0;             ///< at the lower end, in the unit of the weights
-    Vector<double> conical_height;  ///< of mode k + 1, descending
-    Vector<double> error_bound;     ///< relative
-    Table<double> shape;            ///< (modes, N + 1) offsets of the pins, largest 1, the lowest free pin's positive
-};
-
 namespace finite {
 
 /// Small offsets of a chain held at both ends, tau = lambda times the tension at the lower end: the pencil of link
@@ -35,18 +26,44 @@ class TautLinks {
         });
         return negative;
     }
-    /// Offsets of the pins for a unit pull inwards at the lower end. To be called where the last comes out 0.
+    /// Offsets of the pins, both ends 0, for a unit pull inwards at the lower end; to be called at a mode's height. The
+    /// pencil is eliminated from both ends to the pin where least is left over (twisted factorization), so that the
+    /// offsets are as accurate in a light part of the chain as in a heavy one.
     std::vector<S> shape(const S& height, const S& along) const {
-        std::vector<S> y{S(0)};
-        sweep(
-            height, along, [&](std::size_t, const S& offset, const S&) { y.push_back(offset); }, false);
+        using std::abs;
+        const std::size_t count = links_->size();
+        std::vector<S> y(count + 1, S(0)), diagonal = y, beside = y;  // of pins; beside[m]: of pins m and m + 1
+        if (count < 2) return y;
+        for (std::size_t m = 0; m < count; ++m) {
+            const Link<S>& link = (*links_)[m];
+            const S k = (height * link.pull + along) / link.length;
+            diagonal[m] = diagonal[m] + (k - (link.moment - link.cross));
+            diagonal[m + 1] = diagonal[m + 1] + (k - (link.rest - link.cross));
+            beside[m] = -(k + link.cross);
+        }
+        const auto pivot = [](const S& x) { return x == S(0) ? S(std::numeric_limits<double>::min()) : x; };
+        std::vector<S> from_below = diagonal, from_above = diagonal;
+        for (std::size_t m = 2; m < count; ++m)
+            from_below[m] = diagonal[m] - beside[m - 1] * beside[m - 1] / pivot(from_below[m - 1]);
+        for (std::size_t m = count - 2; m > 0; --m)
+            from_above[m] = diagonal[m] - beside[m] * beside[m] / pivot(from_above[m + 1]);
+        const auto left = [&](std::size_t m) { return abs(from_below[m] + from_above[m] - diagonal[m]); };
+        std::size_t meet = 1;
+        for (std::size_t m = 2; m < count; ++m)
+            if (left(m) < left(meet)) meet = m;
+        y[meet] = S(1);
+        for (std::size_t m = meet; m-- > 1;) y[m] = -(beside[m] * y[m + 1]) / pivot(from_below[m]);
+        for (std::size_t m = meet + 1; m < count; ++m) y[m] = -(beside[m - 1] * y[m - 1]) / pivot(from_above[m]);
+        const Link<S>& lowest = links_->front();
+        const S unit = lowest.length / (height * lowest.pull + along + lowest.length * lowest.cross) / pivot(y[1]);
+        for (S& offset : y) offset = offset * unit;
         return y;
     }
     Index pins() const { return static_cast<Index>(links_->size()) - 1; }
 
    private:
     template <class Visit>
-    void sweep(const S& height, const S& along, Visit&& visit, bool rescale = true) const {
+    void sweep(const S& height, const S& along, Visit&& visit) const {
         using std::abs;
         revchain::detail::look();
         S y(0), H(-1);
@@ -59,7 +76,7 @@ class TautLinks {
             H = R + link.rest * y;
             visit(m, y, stiffness);
             const double size = std::abs(static_cast<double>(y)) + std::abs(static_cast<double>(H));
-            if (rescale && (size > 1e100 || size < 1e-100)) y = y / S(size), H = H / S(size);
+            if (size > 1e100 || size < 1e-100) y = y / S(size), H = H / S(size);
         }
     }
     const std::vector<Link<S>>* links_;
@@ -80,46 +97,77 @@ double taut_number(const Count& count, Index k, double start) {
     return low;
 }
 
-}  // namespace finite
-
-/// Whirl speeds of the straight chain whose two ends are held on the axis, its lower end pulled down with `tension`, in
-/// the unit of the weights: the first `count` conical heights, and the offsets. Shapes held at finite amplitude leave
-/// from these: `held_shapes` of a span as short of the length as one likes.
-///
-/// Method: counts of negative pivots in two words of double, from the held lower pin up, halved until two neighbouring
-/// doubles enclose the height. Accuracy: 1 ulp, the bound returned; shapes 1e-13 / gap of the heights. Cost 60 N for
-/// each. Fewer are returned where there are fewer: N - 1 of N links, one less for each pin without mass.
-/// Throws InvalidArgument for a tension that is not positive and finite, and a count below 1.
-inline TautModes taut_modes(const Chain<double>& chain, double tension, Index count) {
+/// Modes of small amplitude of a straight chain whose two ends are held on the axis, its lower end pulled down. Shapes
+/// of finite amplitude begin at their heights, where the span is all but the length.
+class TautChain {
+   public:
     using S = Wide<double>;
-    constexpr std::string_view place = "taut_modes";
-    detail::require_positive(place, "tension", tension);
-    if (count < 1) detail::throw_invalid(place, "count must be at least 1", count);
-    const auto chained = finite::links_of(chain);
-    const finite::TautLinks<S> taut(chained.links);
-    const S pull(std::ldexp(tension, -chained.units.weight_exponent));
-    const auto above = [&](double height) { return taut.count(S(height), pull * S(height)); };
-    std::vector<double> found;
-    for (Index k = 0; k < std::min(count, taut.pins()); ++k) {
-        const double height = finite::taut_number(above, k, 1.0);
-        if (height == 0) break;
-        found.push_back(height);
-    }
-    TautModes modes;
-    modes.tension = tension;
-    const auto size = static_cast<Index>(found.size());
-    modes.conical_height.resize(size), modes.shape.resize(size, chain.size() + 1);
-    modes.error_bound = Vector<double>::Constant(size, epsilon<double>());
-    for (Index k = 0; k < size; ++k) {
-        const double height = found[static_cast<std::size_t>(k)];
-        modes.conical_height[k] = std::ldexp(height, chained.units.length_exponent);
-        const std::vector<S> y = taut.shape(S(height), pull * S(height));
-        for (Index m = 0; m <= chain.size(); ++m)
-            modes.shape(k, m) = static_cast<double>(y[static_cast<std::size_t>(m)]);
-        modes.shape(k, chain.size()) = 0;
-        modes.shape.row(k) /= modes.shape.row(k).cwiseAbs().maxCoeff();
-    }
-    return modes;
-}
 
+    /// `lower_tension`: at the lower end, in the unit of the weights.
+    TautChain(const Chain<double>& chain, const S& lower_tension)
+        : chain_(links_of(chain)), tension_(ldexp(lower_tension, -chain_.units.weight_exponent)) {}
+
+    /// How many conical heights exceed `height`.
+    Index above(double height) const { return count(scaled(height)); }
+    /// N - 1 of N links, one less for each free pin without mass.
+    Index mode_count() const { return count(lowest); }
+    /// The conical height at index k, from 0 for the largest, to a rounding. Cost: 60 counts.
+    double height(Index k) const {
+        return std::ldexp(taut_number([&](double x) { return count(x); }, k, 1.0), chain_.units.length_exponent);
+    }
+    /// Offsets of the pins, lower end first, at a conical height; the largest 1, that of the lowest free pin positive.
+    Vector<double> shape(double height) const {
+        const S at(scaled(height));
+        const std::vector<S> y = TautLinks<S>(chain_.links).shape(at, tension_ * at);
+        Vector<double> offset(static_cast<Index>(y.size()));
+        for (Index m = 0; m < offset.size(); ++m) offset[m] = static_cast<double>(y[static_cast<std::size_t>(m)]);
+        return offset / offset.cwiseAbs().maxCoeff();
+    }
+    /// The largest force that the offsets leave unbalanced at a free pin, over the largest sum of forces at a pin.
+    double residual(double height, const Vector<double>& offset) const {
+        const auto size_of = [](const S& x) { return std::abs(static_cast<double>(x)); };
+        const S at(scaled(height));
+        S force(0);  // carried over from the link below
+        double size = 0, worst = 0, largest = 0;
+        for (std::size_t m = 0; m < chain_.links.size(); ++m) {
+            const Link<S>& link = chain_.links[m];
+            const auto i = static_cast<Index>(m);
+            const S lower(offset[i]), upper(offset[i + 1]), stiffness = (at * link.pull + tension_ * at) / link.length;
+            const S spring = stiffness * (lower - upper);
+            const double spring_size = size_of(stiffness) * (size_of(lower) + size_of(upper));
+            const S on_lower = (link.moment - link.cross) * lower + link.cross * upper;
+            const S on_upper = (link.rest - link.cross) * upper + link.cross * lower;
+            if (m > 0) worst = std::max(worst, size_of(force + (spring - on_lower)));
+            largest = std::max(largest, size + spring_size + size_of(on_lower));
+            force = -spring - on_upper, size = spring_size + size_of(on_upper);
+        }
+        return worst / largest;
+    }
+    /// Distances from the lower end at which the chain crosses the axis between its ends.
+    Vector<double> nodes(const Vector<double>& offset) const {
+        std::vector<double> found;
+        S below(0);
+        for (std::size_t m = 0; m < chain_.links.size(); ++m) {
+            const auto i = static_cast<Index>(m);
+            const double y = offset[i], next = offset[i + 1];
+            const S length = chain_.links[m].length;
+            if (y * next < 0 || (i > 0 && y == 0)) {
+                const S place = y == 0 ? below : below + length * S(y / (y - next));
+                found.push_back(std::ldexp(static_cast<double>(place), chain_.units.length_exponent));
+            }
+            below = below + length;
+        }
+        return Eigen::Map<const Vector<double>>(found.data(), static_cast<Index>(found.size()));
+    }
+
+   private:
+    static constexpr double lowest = 0x1p-400;  // below every height: `taut_number` goes no further down
+    double scaled(double height) const { return std::ldexp(height, -chain_.units.length_exponent); }
+    Index count(double height) const { return TautLinks<S>(chain_.links).count(S(height), tension_ * S(height)); }
+
+    Links<S> chain_;
+    S tension_;
+};
+
+}  // namespace finite
 }  // namespace revchain

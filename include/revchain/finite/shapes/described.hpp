@@ -12,7 +12,7 @@ struct SteadyShape;  // revchain/steady_shapes.hpp
 
 namespace finite {
 
-/// g/n^2 in two words, infinite or 0 where it is out of range.
+/// g/n^2 in double-double, infinite or 0 where it is out of range.
 inline Wide<double> height_at_speed(double angular_speed, double gravity) {
     int of_speed = 0, of_gravity = 0;
     const Wide<double> n(std::frexp(angular_speed, &of_speed)), g(std::frexp(gravity, &of_gravity));

@@ -4,7 +4,7 @@
 #include <optional>
 #include <random>
 
-#include "revchain/finite/balance/jet.hpp"
+#include "revchain/finite/balance/taylor.hpp"
 #include "revchain/numeric/progress.hpp"
 
 namespace revchain::finite {
@@ -24,48 +24,6 @@ struct Isolation {
 };
 
 namespace detail {
-
-/// Offset of the support (how far it is off where the `support` holds it) for tangents of the lowest link within an
-/// interval, and, if asked, those of all links.
-template <Real T, class End = OnAxis>
-Interval<T> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-                           const Interval<T>& lowest, std::vector<Interval<T>>* tangents = nullptr,
-                           const End& support = {}) {
-    Interval<T> y, sum, t = lowest;
-    for (std::size_t m = 0; m < links.size(); ++m) {
-        const Link<Interval<T>>& link = links[m];
-        const Interval<T> stiffness = height * link.pull, turning = link.length * link.cross;
-        const bool plummet = link.cross.low == T(0) && link.cross.high == T(0);
-        Interval<T> R;
-        if (m > 0) {
-            R = sum + link.moment * y;
-            t = plummet ? R / stiffness : tangent(stiffness, turning, R);
-        }
-        if (tangents) tangents->push_back(t);
-        const Interval<T> s = Sine<T>(t).value;
-        if (m == 0) {
-            R = stiffness * t;
-            if (!plummet) R = R + turning * s;
-            y = R / link.moment;
-        }
-        y = y - link.length * s;
-        sum = R + link.rest * y;
-    }
-    return support.miss(y, sum);
-}
-
-/// Its sign at one tangent: 0 where rounding leaves it open.
-template <Real T, class End = OnAxis>
-int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t,
-            const End& support = {}) {
-    return support_offset<T>(links, height, Interval<T>(t), nullptr, support).sign();
-}
-
-template <Real T>
-struct Part {
-    T low, high;
-    int low_sign, high_sign;
-};
 
 /// Whether what a function is seen to do over a cell is not much wider than at its centre alone, where nothing but
 /// rounding makes it wide (or is not known at all): splitting the cell would show no more.
@@ -100,42 +58,62 @@ class Cutting {
     std::minstd_rand random_{1};
 };
 
-/// Splits 0 ... `last` until each cell is seen to hold no shape or one, or is narrower than `narrowest` of its upper
-/// end, or next to 0 of `last` and of 1. The straight chain, at 0, is left out.
-template <Real T, class End = OnAxis>
-Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Part<T>& whole,
-                     const T& narrowest, long budget, const End& support = {}) {
-    Isolation<T> found;
-    std::vector<Part<T>> stack{whole};
+/// Of a range of tangents: nothing is left to show there; splitting it may show more; rounding lets it show no more.
+enum class Seen { settled, open, ruled_by_rounding };
+
+/// Splits `whole` until `classify(part, cells)` finds every part settled. Calls `leave_open(part)` for parts ruled by
+/// rounding, for parts narrower than `narrowest` of their upper end (next to 0 of `last` and of 1), and for what is
+/// beyond the budget. Returns the number of parts looked at, to which `classify` may add.
+template <class T, class Classify, class LeaveOpen>
+long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budget, const Classify& classify,
+           const LeaveOpen& leave_open) {
+    std::vector<Bracket<T>> stack{whole};
     Cutting<T> cutting;
+    long cells = 0;
     while (!stack.empty()) {
         revchain::detail::look();
-        const Part<T> part = stack.back();
+        const Bracket<T> part = stack.back();
         stack.pop_back();
-        if (found.cells++ >= budget) {
-            found.undecided.push_back({part.low, part.high});
+        if (cells >= budget) {
+            leave_open(part);
             continue;
         }
-        const Jet<T> end = support_offset(links, height, Cell<T>(part.low, part.high), support);
-        const bool from_zero = part.low == T(0) && support.is_symmetric();
-        if (!from_zero && !end.value.may_vanish()) continue;
-        if (!end.slope.may_vanish()) {
-            if (from_zero) continue;  // the straight chain alone
-            if (part.low_sign * part.high_sign != 0) {
-                if (part.low_sign != part.high_sign) found.shapes.push_back({part.low, part.high});
-                continue;
-            }
-        }
-        const auto cut = cutting.between(part.low, part.high, narrowest, whole.high);
-        if (!cut ||
-            rounding_rules(from_zero ? end.slope : end.value, from_zero ? end.centre_slope : end.centre_value)) {
-            found.undecided.push_back({part.low, part.high});
+        ++cells;
+        const Seen seen = classify(part, cells);
+        if (seen == Seen::settled) continue;
+        const auto cut = cutting.between(part.low, part.high, narrowest, last);
+        if (!cut || seen == Seen::ruled_by_rounding) {
+            leave_open(part);
             continue;
         }
-        const int sign = sign_at(links, height, *cut, support);
-        stack.push_back({*cut, part.high, sign, part.high_sign});
-        stack.push_back({part.low, *cut, part.low_sign, sign});
+        stack.push_back({*cut, part.high});
+        stack.push_back({part.low, *cut});
     }
+    return cells;
+}
+
+/// Splits `whole` until each part is seen to hold no shape or one. The straight chain, at 0, is left out.
+template <Real T, class End = OnAxis>
+Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Bracket<T>& whole,
+                     const T& narrowest, long budget, const End& support = {}) {
+    Isolation<T> found;
+    const auto classify = [&](const Bracket<T>& part, long&) {
+        const auto end = support_offset(links, height, Cell<T, 1>(Interval<T>(part.low, part.high)), support);
+        const bool from_zero = part.low == T(0) && support.is_symmetric();
+        if (!from_zero && !end.value.may_vanish()) return Seen::settled;
+        if (!end.slope[0].may_vanish()) {
+            if (from_zero) return Seen::settled;  // the straight chain alone
+            const int low = sign_at(links, height, part.low, support),
+                      high = sign_at(links, height, part.high, support);
+            if (low * high == -1) found.shapes.push_back(part);
+            if (low * high != 0) return Seen::settled;
+        }
+        const bool rounding =
+            from_zero ? rounding_rules(end.slope[0], end.centre_slope[0]) : rounding_rules(end.value, end.centre_value);
+        return rounding ? Seen::ruled_by_rounding : Seen::open;
+    };
+    found.cells = split(whole, whole.high, narrowest, budget, classify,
+                        [&](const Bracket<T>& part) { found.undecided.push_back(part); });
     return found;
 }
 

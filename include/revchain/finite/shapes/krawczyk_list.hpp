@@ -5,23 +5,23 @@
 
 namespace revchain::finite {
 
-/// Zeros of the balance in one posture, each in a box that holds no other; mirror images are one.
+/// KrawczykList of the balance in one posture, each in a box that holds no other; mirror images are one.
 template <Real T, class End = OnAxis>
-class Zeros {
+class KrawczykList {
    public:
     struct Zero {
-        Box<T> near;  ///< holds it, narrow
+        TangentBox<T> near;  ///< holds it, narrow
         bool straight = false;
     };
 
-    explicit Zeros(const WholeBalance<T, End>& balance) : balance_(balance) {
+    explicit KrawczykList(const WholeBalance<T, End>& balance) : balance_(balance) {
         if (balance.is_symmetric()) add_straight(balance.posture().size());
     }
     /// Those of the same balance found in fewer digits.
     template <class Fewer, class FewerEnd>
-    Zeros(const WholeBalance<T, End>& balance, const Zeros<Fewer, FewerEnd>& known) : balance_(balance) {
-        const auto same = [](const Box<Fewer>& x) {
-            Box<T> result;
+    KrawczykList(const WholeBalance<T, End>& balance, const KrawczykList<Fewer, FewerEnd>& known) : balance_(balance) {
+        const auto same = [](const TangentBox<Fewer>& x) {
+            TangentBox<T> result;
             for (const Interval<Fewer>& t : x) result.push_back({T(t.low), T(t.high)});
             return result;
         };
@@ -32,7 +32,7 @@ class Zeros {
     const std::vector<Zero>& found() const { return found_; }
 
     /// Whether all zeros in the box are known now: there is none, or one, which is in the list.
-    bool settles(Box<T> box) {
+    bool settles(TangentBox<T> box) {
         for (int round = 0; round < 4; ++round) {
             if (is_known(box)) return true;
             const auto narrow = balance_.narrowed(box);
@@ -48,7 +48,7 @@ class Zeros {
             if (!less) break;
         }
         // A zero on the edge of the box, or of a box narrowed to rounding, needs room about it.
-        Box<T> wider = box;
+        TangentBox<T> wider = box;
         for (int round = 0; round < 3; ++round) {
             using std::abs;
             for (Interval<T>& t : wider) {
@@ -69,18 +69,18 @@ class Zeros {
 
    private:
     template <Real, class>
-    friend class Zeros;
+    friend class KrawczykList;
     struct Zone {
-        Box<T> box;
+        TangentBox<T> box;
         std::size_t zero;
     };
 
-    bool is_known(const Box<T>& box) const {
+    bool is_known(const TangentBox<T>& box) const {
         return std::any_of(zones_.begin(), zones_.end(), [&](const Zone& zone) { return within(box, zone.box); });
     }
 
     /// Puts the one zero of the box, `narrow` in it, on the list; false if it cannot be told from those there.
-    bool add(const Box<T>& box, Box<T> near) {
+    bool add(const TangentBox<T>& box, TangentBox<T> near) {
         for (int round = 0; round < 20; ++round) {
             const auto again = balance_.narrowed(near);
             if (!again) break;
@@ -93,7 +93,7 @@ class Zeros {
             if (!(now < T(0.5) * before)) break;
         }
         const bool both = balance_.is_symmetric();
-        const Box<T> other = both ? mirrored(near) : near;
+        const TangentBox<T> other = both ? mirrored(near) : near;
         for (const Zone& zone : zones_) {
             if (!within(near, zone.box) && !within(other, zone.box)) continue;
             zones_.push_back({box, zone.zero});
@@ -113,10 +113,10 @@ class Zeros {
 
     void add_straight(std::size_t size) {
         for (T reach(0.5); reach > T(1e-12); reach = reach / T(4)) {
-            const Box<T> box(size, Interval<T>(-reach, reach));
+            const TangentBox<T> box(size, Interval<T>(-reach, reach));
             const auto narrow = balance_.narrowed(box);
             if (!narrow || !strictly_within(*narrow, box)) continue;
-            found_.push_back({Box<T>(size, Interval<T>(T(0))), true});
+            found_.push_back({TangentBox<T>(size, Interval<T>(T(0))), true});
             zones_.push_back({box, 0});
             return;
         }

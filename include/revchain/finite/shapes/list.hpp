@@ -33,16 +33,15 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
 /// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
 template <class T>
 bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
-    return std::all_of(links.begin() + 1, links.end(), [&](const Link<Interval<T>>& link) {
-        return grows_fast(height * link.pull, link.length * link.cross);
-    });
+    return std::all_of(links.begin() + 1, links.end(),
+                       [&](const Link<Interval<T>>& link) { return grows_fast(height * link.pull, turning_of(link)); });
 }
 
 inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Interval<double>& height) {
     return single_valued(enclosed<double>(links.links), height);
 }
 
-/// Isolated in double, where that leaves cells open in two words; what the proof leaves open is scanned.
+/// Isolated in double, where that leaves cells open in double-double; what the proof leaves open is scanned.
 template <class AnyLinks>
 Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, double last,
                                  long links_to_look_at) {
@@ -51,10 +50,7 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
     const auto support = enclosed<double>(support_of(chain));
-    const auto sign_at = [&](double t) { return detail::sign_at(narrow, lambda, t, support); };
-    const int first_sign = support.is_symmetric() ? 0 : sign_at(0);
-    const Isolation<double> first =
-        detail::isolate<double>(narrow, lambda, {0.0, last, first_sign, sign_at(last)}, 1e-14, budget, support);
+    const Isolation<double> first = detail::isolate<double>(narrow, lambda, {0.0, last}, 1e-14, budget, support);
     Isolation<Far> found;
     found.cells = first.cells;
     for (const Bracket<double>& b : first.shapes) found.shapes.push_back({Far(b.low), Far(b.high)});
@@ -62,14 +58,12 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     const auto wide = swept_links<Far>(chain);
     const Interval<Far> height_wide = enclosed<Far>(height);
     const auto support_wide = enclosed<Far>(support_of(chain));
-    const auto wide_sign_at = [&](const Far& t) { return detail::sign_at(wide, height_wide, t, support_wide); };
     const std::size_t count = first.undecided.size();
     for (std::size_t i = 0, end = 0; i < count; i = end) {
         for (end = i + 1; end < count && first.undecided[end].low == first.undecided[end - 1].high;) ++end;
         const Far low(first.undecided[i].low), high(first.undecided[end - 1].high);  // cells that touch are one
-        const int low_sign = low == Far(0) ? first_sign : wide_sign_at(low);
-        const auto again = detail::isolate<Far>(wide, height_wide, {low, high, low_sign, wide_sign_at(high)},
-                                                Far(1e-26), std::max(0L, budget - found.cells), support_wide);
+        const auto again = detail::isolate<Far>(wide, height_wide, {low, high}, Far(1e-26),
+                                                std::max(0L, budget - found.cells), support_wide);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
         for (const Bracket<Far>& b : again.undecided) {
@@ -81,8 +75,8 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     }
     if (found.undecided.empty()) return found;
     const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
-        const int sign = sign_at(static_cast<double>(t));
-        return sign != 0 ? sign : wide_sign_at(t);
+        const int sign = detail::sign_at(narrow, lambda, static_cast<double>(t), support);
+        return sign != 0 ? sign : detail::sign_at(wide, height_wide, t, support_wide);
     });
     found.shapes.insert(found.shapes.end(), more.begin(), more.end());
     return found;
@@ -102,7 +96,7 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
     const std::vector<Link<S>>& links = chain.links;
     const auto support = support_of(chain);
     S low = bracket.low.word(), high = bracket.high.word();
-    const auto falls_short = [&](const S& t) { return missed(links, height, t, support) < S(0); };
+    const auto falls_short = [&](const S& t) { return detail::support_offset(links, height, t, support) < S(0); };
     const bool rises = falls_short(low);
     const auto halve = [&]() {
         const S middle = low + (high - low) * S(0.5);
@@ -122,8 +116,8 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
 }
 
 /// How far the inclinations of what Newton's method found may be from those of the shape in the bracket, rad: signs of
-/// the support's offset on both sides of its lowest tangent, as near as two words can tell, and what all links then may
-/// do.
+/// the support's offset on both sides of its lowest tangent, as near as double-double can tell, and what all links then
+/// may do.
 template <class End>
 double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
                          const Bracket<DoubleDouble>& bracket, const Finished& found,
@@ -140,7 +134,7 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
         const auto sign_at = [&](const Far& t) { return detail::sign_at(links, lambda, t, support); };
         if (!far && !whole && sign_at(low) * sign_at(high) != -1) continue;
         std::vector<Interval<Far>> tangents;
-        detail::support_offset(links, lambda, Interval<Far>(low, high), &tangents);
+        detail::support_offset(links, lambda, Interval<Far>(low, high), OnAxis{}, &tangents);
         double worst = 0;
         for (std::size_t m = 0; m < tangents.size(); ++m) {
             const Far t(detail::tangent_in(found.shape, middle, m));
@@ -179,8 +173,8 @@ std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<do
     const auto links = swept_links<Far>(chain);
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
-    Box<Far> near;
-    detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), &near, support);
+    TangentBox<Far> near;
+    detail::support_offset(links, lambda, Interval<Far>(part.low, part.high), support, &near);
     const WholeBalance balance(links, lambda, posture_of(chain), support);
     auto found = detail::settled(chain, height, balance, near);
     if (!found) return std::nullopt;

@@ -7,17 +7,17 @@
 
 namespace revchain::finite {
 
-/// What is left open: tangents of the lowest link along one path.
+/// What is left open: tangents of the lowest link along one choice of branches.
 template <class T>
 struct OpenPart {
-    std::vector<Piece> path;
+    std::vector<MonotoneBranch> choice;
     T low, high;
 };
 
-/// Steady shapes with every link in a given posture. A path is one piece for each link: along it the tangents of all
+/// Steady shapes with every link in a given posture. A choice is one branch for each link: along it the tangents of all
 /// links are functions of that of the lowest, by the upward sweep of Greenhill (1908) §8 (4), (12), with derivatives
-/// wherever no link comes near a joint of its pieces. Parts of a path that the offset of the support rules out are
-/// dropped, the others split, until what they leave of the tangents of all links is a box that `Zeros` settles.
+/// wherever no link comes near a joint of its branches. Parts of a choice that the offset of the support rules out are
+/// dropped, the others split, until what they leave of the tangents of all links is a box that `KrawczykList` settles.
 template <Real T, class End = OnAxis>
 class PostureSearch {
    public:
@@ -45,62 +45,46 @@ class PostureSearch {
     PostureSearch& operator=(const PostureSearch&) = delete;
 
     const WholeBalance<T, End>& balance() const { return balance_; }
-    const std::vector<typename Zeros<T, End>::Zero>& zeros() const { return zeros_.found(); }
+    const std::vector<typename KrawczykList<T, End>::Zero>& zeros() const { return zeros_.found(); }
     const std::vector<OpenPart<T>>& open() const { return open_; }
 
-    /// The first path: the lowest link needs no pieces, its tangent is given.
-    std::vector<Piece> first_path() const {
-        std::vector<Piece> path(links_.size(), Piece::whole);
-        for (std::size_t m = 1; m < path.size(); ++m)
-            if (!response_[m].is_single()) path[m] = Piece::right;
-        return path;
+    /// The first choice: the lowest link needs no branch, its tangent is given.
+    std::vector<MonotoneBranch> first_choice() const {
+        std::vector<MonotoneBranch> choice(links_.size(), MonotoneBranch::whole);
+        for (std::size_t m = 1; m < choice.size(); ++m)
+            if (!response_[m].is_single()) choice[m] = MonotoneBranch::right;
+        return choice;
     }
     /// The one after; false after the last.
-    bool next_path(std::vector<Piece>& path) const {
-        for (std::size_t m = 1; m < path.size(); ++m) {
-            if (path[m] == Piece::whole) continue;
-            if (path[m] == Piece::left) {
-                path[m] = Piece::right;
+    bool next_choice(std::vector<MonotoneBranch>& choice) const {
+        for (std::size_t m = 1; m < choice.size(); ++m) {
+            if (choice[m] == MonotoneBranch::whole) continue;
+            if (choice[m] == MonotoneBranch::left) {
+                choice[m] = MonotoneBranch::right;
                 continue;
             }
-            path[m] = path[m] == Piece::right ? Piece::middle : Piece::left;
+            choice[m] = choice[m] == MonotoneBranch::right ? MonotoneBranch::middle : MonotoneBranch::left;
             return true;
         }
         return false;
     }
 
-    /// Settles low ... high of a path, but parts narrower than `narrowest` of their upper end (next to 0 of `last` and
-    /// of 1), those in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts
+    /// Settles low ... high of a choice, but parts narrower than `narrowest` of their upper end (next to 0 of `last`
+    /// and of 1), those in which rounding rules, and what is beyond the budget, which it leaves open. Returns the parts
     /// looked at, and N^3/256 for each test of the whole chain.
     long search(const OpenPart<T>& whole, const T& last, const T& narrowest, long budget) {
         const bool straight =
-            support_.is_symmetric() && std::none_of(whole.path.begin(), whole.path.end(),
-                                                    [](Piece p) { return p == Piece::right || p == Piece::left; });
-        std::vector<std::pair<T, T>> stack{{whole.low, whole.high}};
-        detail::Cutting<T> cutting;
-        long cells = 0;
-        while (!stack.empty()) {
-            revchain::detail::look();
-            const auto [low, high] = stack.back();
-            stack.pop_back();
-            if (cells >= budget) {
-                open_.push_back({whole.path, low, high});
-                continue;
-            }
-            ++cells;
-            cells_of_tests_ = 0;
-            const Part part = judged(whole.path, low, high, straight && low == T(0));
-            cells += cells_of_tests_;
-            if (part == Part::settled) continue;
-            const auto cut = cutting.between(low, high, narrowest, last);
-            if (!cut || part == Part::ruled_by_rounding) {
-                open_.push_back({whole.path, low, high});
-                continue;
-            }
-            stack.push_back({*cut, high});
-            stack.push_back({low, *cut});
-        }
-        return cells;
+            support_.is_symmetric() && std::none_of(whole.choice.begin(), whole.choice.end(), [](MonotoneBranch p) {
+                return p == MonotoneBranch::right || p == MonotoneBranch::left;
+            });
+        return detail::split(
+            Bracket<T>{whole.low, whole.high}, last, narrowest, budget,
+            [&](const Bracket<T>& part, long& cells) {
+                return classify(whole.choice, part, straight && part.low == T(0), cells);
+            },
+            [&](const Bracket<T>& part) {
+                open_.push_back({whole.choice, part.low, part.high});
+            });
     }
 
    private:
@@ -112,94 +96,67 @@ class PostureSearch {
             response_.emplace_back(links_[m], height, balance_.posture()[m]);
     }
 
-    /// Of a part of a path: holds no shape that is not in the list; may show more if split; will not.
-    enum class Part { settled, open, ruled_by_rounding };
-    Part judged(const std::vector<Piece>& path, const T& low, const T& high, bool holds_straight) {
-        const Cell<T> cell(low, high);
-        Jet<T> y, sum, t = cell.x();
-        bool smooth = true;
-        for (std::size_t m = 0; m < links_.size(); ++m) {
-            const Link<Interval<T>>& link = links_[m];
-            const Response<T>& response = response_[m];
-            Jet<T> R;
-            if (m > 0) {
-                R = sum + link.moment * y;
-                if (smooth) R = cell.centred(R);
-                const Met<T> met = response.met(path[m], R.value);
-                if (!met.possible) return Part::settled;
-                smooth = smooth && met.smooth;
-                t.value = met.tangent;
-                if (smooth) smooth = derive(response, path[m], R, t);
-                if (smooth) t = cell.centred(t);
-            }
-            box_[m] = t.value;
-            const Jet<T> s = sine(m, t, smooth ? &cell : nullptr);
-            if (m == 0) {
-                R = response.stiffness() * t;
-                if (!response.is_plummet()) R = R + link.length * link.cross * s;
-                y = cell.centred((Interval<T>(T(1)) / link.moment) * R);
-            }
-            y = y - link.length * s;
-            if (smooth) y = cell.centred(y);
-            sum = R;
-            if (!(link.rest.low == T(0) && link.rest.high == T(0))) sum = sum + link.rest * y;
-            if (smooth) sum = cell.centred(sum);
-        }
-        if constexpr (is_held<End>) {
-            if (smooth)
-                y = support_.miss(cell, y, sum);
-            else
-                y.value = support_.miss(y.value, sum.value);
-        }
-        if (holds_straight ? smooth && !y.slope.may_vanish() : !y.value.may_vanish()) return Part::settled;
-        cells_of_tests_ = static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
-        if (zeros_.settles(box_)) return Part::settled;
-        const bool rounding = smooth && (holds_straight ? detail::rounding_rules(y.slope, y.centre_slope)
+    using Seen = detail::Seen;
+    /// A part is settled where every shape in it is in the list.
+    Seen classify(const std::vector<MonotoneBranch>& choice, const Bracket<T>& part, bool holds_straight, long& cells) {
+        const Cell<T, 1> cell(Interval<T>(part.low, part.high));
+        Sweep rules{*this, choice, cell};
+        const auto end = sweep_up(links_, cell.first(), rules);
+        if (!end.reached) return Seen::settled;
+        const bool smooth = rules.smooth;
+        Taylor<T, 1> y = end.offset;
+        if constexpr (is_held<End>) y = rules.tighten(support_.miss(y, end.sum));
+        if (holds_straight ? smooth && !y.slope[0].may_vanish() : !y.value.may_vanish()) return Seen::settled;
+        cells += static_cast<long>(links_.size() * links_.size() * links_.size() / 256);
+        if (zeros_.settles(box_)) return Seen::settled;
+        const bool rounding = smooth && (holds_straight ? detail::rounding_rules(y.slope[0], y.centre_slope[0])
                                                         : detail::rounding_rules(y.value, y.centre_value));
-        return rounding ? Part::ruled_by_rounding : Part::open;
+        return rounding ? Seen::ruled_by_rounding : Seen::open;
     }
 
-    /// Derivatives of the tangent that carries R.
-    bool derive(const Response<T>& response, Piece piece, const Jet<T>& R, Jet<T>& t) const {
-        if (response.is_plummet()) {
-            t = (Interval<T>(T(1)) / response.stiffness()) * R;
+    /// The sweep along a choice; without derivatives from the first link on that comes near a joint.
+    struct Sweep {
+        PostureSearch& search;
+        const std::vector<MonotoneBranch>& choice;
+        const Cell<T, 1>& cell;
+        bool smooth = true;
+
+        Taylor<T, 1> tighten(const Taylor<T, 1>& f) const { return smooth ? cell.centred(f) : f; }
+        bool propagate(std::size_t m, const Taylor<T, 1>& R, Taylor<T, 1>& t) {
+            const Response<T>& response = search.response_[m];
+            const LoadedTangents<T> over = response.met(choice[m], R.value);
+            t.value = over.tangent;
+            smooth = smooth && over.smooth;
+            if (!over.possible || !smooth) return over.possible;
+            if (response.is_plummet()) {
+                t = R / response.stiffness();
+                return true;
+            }
+            const LoadedTangents<T> centre = response.met(choice[m], R.centre_value);
+            t.centre_value = centre.tangent;
+            smooth = centre.possible && centre.smooth &&
+                     detail::derive(response.stiffness(), response.stiffness(), response.turning(), {}, R, t);
             return true;
         }
-        const Met<T> centre = response.met(piece, R.centre_value);
-        if (!centre.possible || !centre.smooth) return false;
-        t.centre_value = centre.tangent;
-        const detail::Sine<T> over(t.value), at_centre(t.centre_value);
-        const Interval<T> growth = response.stiffness() + response.turning() * over.slope;
-        if (growth.may_vanish()) return false;
-        t.slope = R.slope / growth;
-        t.centre_slope = R.centre_slope / (response.stiffness() + response.turning() * at_centre.slope);
-        t.bend = (R.bend + Interval<T>(T(3)) * response.turning() * over.half_bend * square(t.slope)) / growth;
-        return true;
-    }
-
-    /// Of one link's inclination; without derivatives where there is no cell.
-    Jet<T> sine(std::size_t m, const Jet<T>& t, const Cell<T>* cell) const {
-        Jet<T> s;
-        const detail::Sine<T> over(t.value);
-        s.value = over.value;
-        if (cell) {
-            const detail::Sine<T> centre(t.centre_value);
-            s = {over.value, over.slope * t.slope,
-                 over.slope * t.bend - Interval<T>(T(3)) * over.half_bend * square(t.slope), centre.value,
-                 centre.slope * t.centre_slope};
-            s = cell->centred(s);
+        Taylor<T, 1> sine(std::size_t m, const Taylor<T, 1>& t) const {
+            Taylor<T, 1> s;
+            if (smooth)
+                s = detail::sine_at(t);
+            else
+                s.value = detail::sine_at(t.value);
+            return search.balance_.posture()[m] == Posture::hangs ? s : Interval<T>(T(-1)) * s;
         }
-        return balance_.posture()[m] == Posture::hangs ? s : Interval<T>(T(-1)) * s;
-    }
+        Taylor<T, 1> upright(const Taylor<T, 1>& t) const { return search.response_[0].stiffness() * t; }
+        void pass(std::size_t m, const Taylor<T, 1>& t, const Taylor<T, 1>&) { search.box_[m] = t.value; }
+    };
 
     const std::vector<Link<Interval<T>>>& links_;
     [[no_unique_address]] End support_;
     WholeBalance<T, End> balance_;
-    Zeros<T, End> zeros_;
-    Box<T> box_;
+    KrawczykList<T, End> zeros_;
+    TangentBox<T> box_;
     std::vector<Response<T>> response_;
     std::vector<OpenPart<T>> open_;
-    long cells_of_tests_ = 0;
 };
 
 }  // namespace revchain::finite

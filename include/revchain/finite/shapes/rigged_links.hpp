@@ -34,7 +34,7 @@ struct RiggedLinks : Links<Wide<double>> {
 
 namespace detail {
 
-/// sigma + n H/a, which may cancel: enclosed in two words first.
+/// sigma + n H/a, which may cancel: enclosed in double-double first.
 template <class T>
 Interval<T> effective_tension(const RigLink& link, const Wide<double>& speed) {
     if (link.spin == Wide<double>(0)) return enclosed<T>(link.tension);

@@ -27,10 +27,10 @@ struct SeveralInclinations {
 
 namespace detail {
 
-/// A box that holds one zero for certain, as small as two words allow, about one known to double precision.
+/// A box that holds one zero for certain, as small as double-double allows, about one known to double precision.
 template <class End>
-std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble, End>& balance,
-                                           const Box<DoubleDouble>& near) {
+std::optional<TangentBox<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble, End>& balance,
+                                                  const TangentBox<DoubleDouble>& near) {
     using Far = DoubleDouble;
     std::vector<Far> t = middle_of(near);
     double last = std::numeric_limits<double>::infinity();
@@ -40,10 +40,10 @@ std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble, End>
         if (*change < 1e-30 || (*change < 1e-20 && !(*change < 0.25 * last))) break;
         last = *change;
     }
-    Box<Far> point(t.begin(), t.end());
+    TangentBox<Far> point(t.begin(), t.end());
     const auto first = balance.narrowed(point);
     if (!first) return std::nullopt;
-    Box<Far> box(t.size());
+    TangentBox<Far> box(t.size());
     for (Far factor(4); factor < Far(1e20); factor = factor * Far(16)) {
         for (std::size_t m = 0; m < t.size(); ++m) {
             const Far off = factor * (std::max(abs((*first)[m].low - t[m]), abs((*first)[m].high - t[m])) +
@@ -58,7 +58,7 @@ std::optional<Box<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble, End>
 
 /// Whether offsets found by Newton's method are those of the zero in a box.
 inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
-                   const Box<DoubleDouble>& box) {
+                   const TangentBox<DoubleDouble>& box) {
     for (std::size_t m = 0; m < box.size(); ++m) {
         const DoubleDouble t(tangent_in(found, links, m));
         const double size = std::abs(static_cast<double>(t));
@@ -72,7 +72,7 @@ inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<
 /// that is inclined) is at a positive offset.
 template <class AnyLinks, class End>
 std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height,
-                               const WholeBalance<DoubleDouble, End>& balance, const Box<DoubleDouble>& near) {
+                               const WholeBalance<DoubleDouble, End>& balance, const TangentBox<DoubleDouble>& near) {
     using S = Wide<double>;
     const std::vector<Link<S>>& links = chain.links;
     auto box = sharpened(balance, near);
@@ -116,7 +116,7 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
 
 }  // namespace detail
 
-/// All shapes with links in one posture, found in double and, where that leaves parts open, in two words.
+/// All shapes with links in one posture, found in double and, where that leaves parts open, in double-double.
 template <class AnyLinks>
 void search_posture(const AnyLinks& chain, const Wide<double>& height, const std::vector<Posture>& posture, double last,
                     long budget, SeveralInclinations& result) {
@@ -132,22 +132,22 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
     const auto wide = swept_links<Far>(chain);
     const auto support = support_of(chain);
     PostureSearch first(narrow, enclosed<double>(height), posture, enclosed<double>(support));
-    auto path = first.first_path();
+    auto choice = first.first_choice();
     do {
-        result.cells += first.search({path, 0.0, last}, last, 1e-14, budget - result.cells);
-    } while (result.cells < budget && first.next_path(path));
+        result.cells += first.search({choice, 0.0, last}, last, 1e-14, budget - result.cells);
+    } while (result.cells < budget && first.next_choice(choice));
     if (result.cells >= budget) result.open.push_back({posture[0], 0.0, last});
-    // In two words, parts that touch are one.
+    // In double-double, parts that touch are one.
     PostureSearch second(wide, enclosed<Far>(height), first, enclosed<Far>(support));
     for (std::size_t i = 0, end = 0; i < first.open().size(); i = end) {
         const auto& part = first.open()[i];
         double high = part.high;
-        for (end = i + 1; end < first.open().size() && first.open()[end].path == part.path; ++end) {
+        for (end = i + 1; end < first.open().size() && first.open()[end].choice == part.choice; ++end) {
             if (first.open()[end].low != high) break;
             high = first.open()[end].high;
         }
         result.cells +=
-            second.search({part.path, Far(part.low), Far(high)}, Far(last), Far(1e-26), budget - result.cells);
+            second.search({part.choice, Far(part.low), Far(high)}, Far(last), Far(1e-26), budget - result.cells);
     }
     const auto leave_open = [&](const Far& low, const Far& high) {
         result.open.push_back({posture[0], static_cast<double>(low), static_cast<double>(high)});

@@ -49,20 +49,19 @@ inline bool same(const SteadyShape& x, const SteadyShape& y) {
 
 /// All shapes of a rig, both signs of the lowest link's tangent where the support is off the axis.
 inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, const Wide<double>& speed,
-                                  const RigShapesOptions& asked) {
-    const SteadyShapesOptions options{asked.budget, asked.hanging_only};
+                                  const SteadyShapesOptions& options) {
     if (rig == Rig(rig.chain(), {})) return steady_shapes(rig.chain(), height, options);
     const double scaled = std::ldexp(static_cast<double>(height), -rig.chain().units().length_exponent);
     SteadyShapes result;
     const auto leave_all = [&] {
-        const double end = asked.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;
+        const double end = options.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;
         result.undecided = {{rig.support().radius > 0 ? -end : 0, end}};
         return result;
     };
     if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) return leave_all();  // tangents overflow
     RiggedLinks links = rigged_links(rig, height, speed);
     const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
-    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !asked.hanging_only,
+    const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !options.hanging_only,
                                          enclosed<double>(links.support));
     result = listed<SteadyShapes>(links, lambda, options);
     const bool unbounded = !links.support.firm &&
@@ -70,13 +69,14 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     const auto leave_beyond = [&](SteadyShapes& found) {
         if (!unbounded) return;
         const double beyond = std::atan(last);
-        found.undecided.push_back({beyond, asked.hanging_only ? std::numbers::pi / 2 : std::numbers::pi - beyond});
+        found.undecided.push_back({beyond, options.hanging_only ? std::numbers::pi / 2 : std::numbers::pi - beyond});
         found.complete = false;
     };
     leave_beyond(result);
     if (links.support.is_symmetric()) return result;
     links.support.radius = -links.support.radius;
-    const SteadyShapesOptions rest{asked.budget - result.cells * static_cast<long>(rig.size()), asked.hanging_only};
+    SteadyShapesOptions rest = options;
+    rest.budget -= result.cells * static_cast<long>(rig.size());
     auto other = listed<SteadyShapes>(links, lambda, rest);
     leave_beyond(other);
     const std::size_t count = result.shapes.size();
@@ -94,18 +94,23 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     return result;
 }
 
-}  // namespace finite
-
-REVCHAIN_INLINE SteadyShapes steady_shapes(const Chain<double>& chain, double height,
-                                           const SteadyShapesOptions& options) {
-    detail::require_positive("steady_shapes", "conical height", height);
-    return finite::steady_shapes(chain, Wide<double>(height), options);
+/// Whether the speed is given as a conical height, and not as an angular speed.
+inline bool height_is_given(const SteadyShapesOptions& options) {
+    if (options.conical_height.has_value() == options.angular_speed.has_value())
+        revchain::detail::throw_invalid("steady_shapes", "give either conical_height or angular_speed");
+    if (options.conical_height)
+        revchain::detail::require_positive("steady_shapes", "conical height", *options.conical_height);
+    revchain::detail::require_positive("steady_shapes", "gravity", options.gravity);
+    return options.conical_height.has_value();
 }
 
-REVCHAIN_INLINE SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, double angular_speed, double gravity,
-                                                    const SteadyShapesOptions& options) {
-    detail::require_positive("steady_shapes_at_speed", "angular speed", angular_speed);
-    detail::require_positive("steady_shapes_at_speed", "gravity", gravity);
+}  // namespace finite
+
+REVCHAIN_INLINE SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options) {
+    if (finite::height_is_given(options))
+        return finite::steady_shapes(chain, Wide<double>(*options.conical_height), options);
+    const double angular_speed = *options.angular_speed, gravity = options.gravity;
+    detail::require_positive("steady_shapes", "angular speed", angular_speed);
     constexpr double least = std::numeric_limits<double>::min();
     const double near = gravity / angular_speed / angular_speed;
     if (near > std::numeric_limits<double>::max() / 4) {  // far above any critical height
@@ -113,27 +118,23 @@ REVCHAIN_INLINE SteadyShapes steady_shapes_at_speed(const Chain<double>& chain, 
         none.complete = true;
         return none;
     }
-    if (near < least / epsilon<double>()) return steady_shapes(chain, std::max(near, least), options);
+    if (near < least / epsilon<double>())
+        return finite::steady_shapes(chain, Wide<double>(std::max(near, least)), options);
     return finite::steady_shapes(chain, finite::height_at_speed(angular_speed, gravity), options);
 }
 
-REVCHAIN_INLINE SteadyShapes steady_shapes(const Rig& rig, double height, const RigShapesOptions& options) {
-    detail::require_positive("steady_shapes", "conical height", height);
-    detail::require_positive("steady_shapes", "gravity", options.gravity);
-    if (options.sense != 1 && options.sense != -1)
-        detail::throw_invalid("steady_shapes", "sense must be 1 or -1", options.sense);
-    const Wide<double> speed = sqrt(Wide<double>(options.gravity) / Wide<double>(height));
-    return finite::steady_shapes(rig, Wide<double>(height), options.sense > 0 ? speed : -speed, options);
-}
-
-REVCHAIN_INLINE SteadyShapes steady_shapes_at_speed(const Rig& rig, double angular_speed,
-                                                    const RigShapesOptions& options) {
-    constexpr std::string_view place = "steady_shapes_at_speed";
-    detail::require_positive(place, "gravity", options.gravity);
-    const double size = std::abs(angular_speed);
+REVCHAIN_INLINE SteadyShapes steady_shapes(const Rig& rig, const SteadyShapesOptions& options) {
+    if (finite::height_is_given(options)) {
+        if (options.direction != 1 && options.direction != -1)
+            detail::throw_invalid("steady_shapes", "direction must be 1 or -1", options.direction);
+        const Wide<double> height(*options.conical_height), speed = sqrt(Wide<double>(options.gravity) / height);
+        return finite::steady_shapes(rig, height, options.direction > 0 ? speed : -speed, options);
+    }
+    const double angular_speed = *options.angular_speed, size = std::abs(angular_speed);
     const Wide<double> height = finite::height_at_speed(size, options.gravity);
     if (!(size > 0) || !std::isfinite(static_cast<double>(height)) || !std::isfinite(size))
-        detail::throw_invalid(place, "angular speed must be finite and not 0, nor so small that g/n^2 overflows",
+        detail::throw_invalid("steady_shapes",
+                              "angular speed must be finite and not 0, nor so small that g/n^2 overflows",
                               angular_speed);
     return finite::steady_shapes(rig, height, Wide<double>(angular_speed), options);
 }

@@ -11,33 +11,33 @@ namespace revchain::finite {
 
 /// Tangents of all links, each within an interval.
 template <class T>
-using Box = std::vector<Interval<T>>;
+using TangentBox = std::vector<Interval<T>>;
 
 template <Real T>
-bool within(const Box<T>& x, const Box<T>& y) {
+bool within(const TangentBox<T>& x, const TangentBox<T>& y) {
     for (std::size_t m = 0; m < x.size(); ++m)
         if (!(y[m].low <= x[m].low && x[m].high <= y[m].high)) return false;
     return true;
 }
 template <Real T>
-bool strictly_within(const Box<T>& x, const Box<T>& y) {
+bool strictly_within(const TangentBox<T>& x, const TangentBox<T>& y) {
     for (std::size_t m = 0; m < x.size(); ++m)
         if (!(y[m].low < x[m].low && x[m].high < y[m].high)) return false;
     return true;
 }
 template <Real T>
-bool apart(const Box<T>& x, const Box<T>& y) {
+bool apart(const TangentBox<T>& x, const TangentBox<T>& y) {
     for (std::size_t m = 0; m < x.size(); ++m)
         if (x[m].high < y[m].low || y[m].high < x[m].low) return true;
     return false;
 }
 template <Real T>
-Box<T> mirrored(Box<T> x) {
+TangentBox<T> mirrored(TangentBox<T> x) {
     for (Interval<T>& t : x) t = -t;
     return x;
 }
 template <Real T>
-std::vector<T> middle_of(const Box<T>& x) {
+std::vector<T> middle_of(const TangentBox<T>& x) {
     std::vector<T> result;
     for (const Interval<T>& t : x) result.push_back(t.middle());
     return result;
@@ -76,7 +76,7 @@ inline bool invert(std::vector<double>& a, std::size_t n) {
 /// The balance of the whole chain in the tangents of all its links, each in its posture, s the sines:
 ///     F_m = lambda sigma_m t_m - sum_r B_mr s_r = 0,   B_mr = sigma_min(m,r) a_r, less X a on the diagonal:
 /// linear but for the sines, so that its derivative over a box is known as sharply as those of the sines. Here nothing
-/// is singular at a joint of two pieces.
+/// is singular at a joint of two branches.
 /// In a rig, sigma in B belongs to the weights that move, the highest pin is at
 ///     y = (b + sum_r sigma_r a_r s_r/(lambda E))/(1 - W/(lambda E)),
 /// where W is all the weight that moves, and F_m is less by sigma_m y.
@@ -119,12 +119,12 @@ class WholeBalance {
 
     /// All zeros of F that the box holds lie in what is returned (Krawczyk); if that lies strictly within the box, the
     /// box holds exactly one. Nothing is returned where the derivative has no inverse. Cost N^3.
-    std::optional<Box<T>> narrowed(const Box<T>& box) const {
+    std::optional<TangentBox<T>> narrowed(const TangentBox<T>& box) const {
         const std::vector<T> centre = middle_of(box);
         const auto inverse = inverse_at(centre);
         if (!inverse) return std::nullopt;
-        const Box<T> left = scaled(*inverse, value(centre));
-        Box<T> result(size_), slope(size_), off(size_);
+        const TangentBox<T> left = scaled(*inverse, value(centre));
+        TangentBox<T> result(size_), slope(size_), off(size_);
         for (std::size_t r = 0; r < size_; ++r) {
             slope[r] = signed_(r, detail::Sine<T>(box[r]).slope);
             off[r] = box[r] - Interval<T>(centre[r]);
@@ -148,7 +148,7 @@ class WholeBalance {
     std::optional<double> improve(std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
-        const Box<T> left = scaled(*inverse, value(t));
+        const TangentBox<T> left = scaled(*inverse, value(t));
         double largest = 0;
         for (std::size_t m = 0; m < size_; ++m) {
             const T step = left[m].middle();
@@ -207,8 +207,8 @@ class WholeBalance {
 
     Interval<T> signed_(std::size_t m, const Interval<T>& x) const { return posture_[m] == Posture::hangs ? x : -x; }
 
-    Box<T> value(const std::vector<T>& t) const {
-        Box<T> sines(size_), F(size_);
+    TangentBox<T> value(const std::vector<T>& t) const {
+        TangentBox<T> sines(size_), F(size_);
         for (std::size_t r = 0; r < size_; ++r) sines[r] = sine(r, Interval<T>(t[r]));
         for (std::size_t m = 0; m < size_; ++m) {
             F[m] = stiffness_[m] * Interval<T>(t[m]);
@@ -228,8 +228,8 @@ class WholeBalance {
         if (!detail::invert(jacobian, size_)) return std::nullopt;
         return jacobian;
     }
-    Box<T> scaled(const std::vector<double>& a, const Box<T>& x) const {
-        Box<T> result(size_, Interval<T>(T(0)));
+    TangentBox<T> scaled(const std::vector<double>& a, const TangentBox<T>& x) const {
+        TangentBox<T> result(size_, Interval<T>(T(0)));
         for (std::size_t m = 0; m < size_; ++m)
             for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(T(a[m * size_ + r])) * x[r];
         return result;
@@ -237,12 +237,12 @@ class WholeBalance {
 
     std::size_t size_;
     std::vector<Posture> posture_;
-    Box<T> stiffness_, matrix_;
+    TangentBox<T> stiffness_, matrix_;
     std::vector<double> middle_;
     struct OnTheAxis {};
     struct Top {
-        Interval<T> at_rest;  // offset of the topmost pin under vertical links
-        Box<T> drawn, load;   // what each sine adds to it; sigma times it at rest
+        Interval<T> at_rest;        // offset of the topmost pin under vertical links
+        TangentBox<T> drawn, load;  // what each sine adds to it; sigma times it at rest
         bool symmetric;
     };
     [[no_unique_address]] std::conditional_t<is_held<End>, Top, OnTheAxis> top_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <optional>
+
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/numeric/double_double.hpp"
 
@@ -8,7 +10,7 @@ namespace revchain::finite {
 
 /// What is proved of a shape that Newton's method found.
 struct Verified {
-    std::vector<DoubleDouble> offset;  ///< of the pins, the support's 0 last; its digits are those of two words
+    std::vector<DoubleDouble> offset;  ///< of the pins, the support's 0 last; its digits are those of double-double
     double inclination_error;          ///< a steady shape, and one alone, has all its inclinations within this, rad
     double condition;  ///< largest change of an inclination, rad, where each force changes by its own size, times it
 };
@@ -27,7 +29,7 @@ struct Forces {
     Forces(const std::vector<Link<Interval<Far>>>& links, const Interval<Far>& height,
            const std::vector<Interval<Far>>& y, const End& support) {
         const std::size_t n = links.size();
-        Interval<Far> carried(Far(0)), mass_below(Far(0));
+        Interval<Far> from_below(Far(0)), mass_below(Far(0));
         double size_below = 0;
         const auto largest = [](const Interval<Far>& x) { return static_cast<double>(x.size()); };
         for (std::size_t m = 0; m < n; ++m) {
@@ -40,18 +42,18 @@ struct Forces {
             }
             const Interval<Far> adjacent = sqrt(square), pull = height * link.pull * d / adjacent,
                                 turn = link.cross * d, at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
-            force.push_back(carried + pull + turn - at_lower);
+            force.push_back(from_below + pull + turn - at_lower);
             stiffness.push_back(height * link.pull * revchain::square(link.length) / (adjacent * square) + link.cross);
             mass.push_back(mass_below + link.moment);
             size.push_back(size_below + largest(pull) + largest(turn) + largest(at_lower));
             cosine.push_back(static_cast<double>((adjacent / link.length).low));
             size_below = largest(pull) + largest(turn) + largest(at_upper);
-            carried = -(pull + turn + at_upper), mass_below = link.rest;
+            from_below = -(pull + turn + at_upper), mass_below = link.rest;
         }
         if constexpr (is_held<End>) {  // a spring is a link more, the upper end of which stays where it is
             if (!support.yields()) return;
             const Interval<Far> pull = support.stiffness * (y[n] - y[n + 1]), at_lower = support.carriage * y[n];
-            force.push_back(carried + pull - at_lower);
+            force.push_back(from_below + pull - at_lower);
             stiffness.push_back(support.stiffness), mass.push_back(mass_below + support.carriage);
             size.push_back(size_below + largest(pull) + largest(at_lower));
         }
@@ -103,66 +105,69 @@ struct Inverse {
         }
         return result;
     }
-};
-
-}  // namespace detail
-
-/// Newton's method to the end of two words, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969)
-/// 187, doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4
-/// microseconds a link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
-template <class End = OnAxis>
-Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
-                  std::vector<DoubleDouble> offset, const End& support = {}) {
-    using Far = DoubleDouble;
-    constexpr double unproved = std::numeric_limits<double>::infinity();
-    if constexpr (is_held<End>)
-        if (support.yields()) offset.push_back(support.radius.middle());
-    const std::size_t n = offset.size() - 1;
-    const auto forces = [&] { return detail::Forces(links, height, {offset.begin(), offset.end()}, support); };
-    detail::Forces at = forces();
-    const auto nothing = [&] {
-        offset.resize(links.size() + 1);
-        return Verified{offset, unproved, 0};
-    };
-    if (!at.known) return nothing();
-    const auto size = [](const Far& x) { return std::abs(static_cast<double>(x)); };
-    detail::Inverse inverse(at);
-    double last = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < 4; ++round) {
-        const std::vector<Far> step = inverse.step(at.force);
-        double largest = 0;
-        for (std::size_t m = 0; m < n; ++m)
-            if (const double y = size(offset[m]); y > 0) largest = std::max(largest, size(step[m]) / y);
-        if (!(largest < 0.1 * last) || largest < 1e-26) break;
-        for (std::size_t m = 0; m < n; ++m) offset[m] = offset[m] + step[m];
-        last = largest;
-        at = forces();
-        if (!at.known) return nothing();
-        inverse = detail::Inverse(at);
-    }
-    const auto &p = inverse.p, &q = inverse.q;  // no structured binding: Clang captures those from version 16 on
-    const Far w = inverse.w;
-
-    // Sizes, a little more for rounding.
-    const double share = 1.0000001 / size(w);
-    /// For each pin |q| times the sum of `of_p` below it, |p| times that of `of_q` above it, over w.
-    const auto spread = [&](const std::vector<double>& of_p, const std::vector<double>& of_q) {
+    /// For each pin |q| times the sum of `of_p` below it and |p| times that of `of_q` above it, over |w|; a little more
+    /// for rounding.
+    std::vector<double> spread(const std::vector<double>& of_p, const std::vector<double>& of_q) const {
+        const std::size_t n = of_p.size();
         std::vector<double> result(n);
         double sum = 0;
-        for (std::size_t m = 0; m < n; sum += of_p[m++]) result[m] = size(q[m]) * sum * share;
+        for (std::size_t m = 0; m < n; sum += of_p[m++]) result[m] = size(q[m]) * sum * share();
         sum = 0;
-        for (std::size_t m = n; m-- > 0; sum += of_q[m]) result[m] += size(p[m]) * sum * share;
+        for (std::size_t m = n; m-- > 0; sum += of_q[m]) result[m] += size(p[m]) * sum * share();
         return result;
-    };
-    const auto largest = [](const Interval<Far>& x) { return static_cast<double>(x.size()) * 1.0000001; };
-
-    std::vector<double> left(n), by_p(n), by_q(n), own(n), radius;
-    for (std::size_t m = 0; m < n; ++m) {
-        left[m] = largest(at.force[m]);
-        by_p[m] = size(p[m]) * left[m], by_q[m] = size(q[m]) * left[m];
     }
-    std::vector<double> step = spread(by_p, by_q);
-    for (std::size_t m = 0; m < n; ++m) step[m] += size(p[m]) * by_q[m] * share;
+    double share() const { return 1.0000001 / size(w); }
+    static double size(const Far& x) { return std::abs(static_cast<double>(x)); }
+    static double size(const Interval<Far>& x) { return static_cast<double>(x.size()) * 1.0000001; }
+};
+
+/// Offsets that Newton's method leaves no better, the forces there and the inverse of their derivative.
+struct Balance {
+    std::vector<DoubleDouble> offset;
+    Forces at;
+    Inverse inverse;
+};
+
+/// Newton's method to the last digit of double-double; nothing where an offset is out of reach.
+template <class End>
+std::optional<Balance> newton(const std::vector<Link<Interval<DoubleDouble>>>& links,
+                              const Interval<DoubleDouble>& height, std::vector<DoubleDouble> offset,
+                              const End& support) {
+    const std::size_t n = offset.size() - 1;
+    double last = std::numeric_limits<double>::infinity();
+    for (int round = 0;; ++round) {
+        Forces at(links, height, {offset.begin(), offset.end()}, support);
+        if (!at.known) return std::nullopt;
+        Inverse inverse(at);
+        const std::vector<DoubleDouble> step = inverse.step(at.force);
+        double largest = 0;
+        for (std::size_t m = 0; m < n; ++m)
+            if (const double y = Inverse::size(offset[m]); y > 0)
+                largest = std::max(largest, Inverse::size(step[m]) / y);
+        if (round == 4 || !(largest < 0.1 * last) || largest < 1e-26)
+            return Balance{std::move(offset), std::move(at), std::move(inverse)};
+        for (std::size_t m = 0; m < n; ++m) offset[m] = offset[m] + step[m];
+        last = largest;
+    }
+}
+
+/// Krawczyk's test on all pins at once: how far each may be from its place in the one shape that is so near; nothing
+/// where that is not proved.
+template <class End>
+std::optional<std::vector<double>> proved_radius(const std::vector<Link<Interval<DoubleDouble>>>& links,
+                                                 const Interval<DoubleDouble>& height, const Balance& found,
+                                                 const End& support) {
+    using Far = DoubleDouble;
+    const auto& [offset, at, inverse] = found;
+    const auto& [p, q, w] = inverse;
+    const std::size_t n = offset.size() - 1;
+    std::vector<double> by_p(n), by_q(n), own(n), radius;
+    for (std::size_t m = 0; m < n; ++m) {
+        const double left = Inverse::size(at.force[m]);
+        by_p[m] = Inverse::size(p[m]) * left, by_q[m] = Inverse::size(q[m]) * left;
+    }
+    std::vector<double> step = inverse.spread(by_p, by_q);
+    for (std::size_t m = 0; m < n; ++m) step[m] += Inverse::size(p[m]) * by_q[m] * inverse.share();
     std::vector<Interval<Far>> box;
     for (std::size_t m = 0; m < n; ++m) {
         radius.push_back(2 * step[m]);
@@ -170,8 +175,8 @@ Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const 
             {revchain::detail::down(offset[m] - Far(radius[m])), revchain::detail::up(offset[m] + Far(radius[m]))});
     }
     box.push_back(Interval<Far>(offset[n]));
-    const detail::Forces over(links, height, box, support);
-    if (!over.known) return nothing();
+    const Forces over(links, height, box, support);
+    if (!over.known) return std::nullopt;
 
     // Rows of 1 - inverse times derivative: beside the diagonal p_i or q_i times what p and q leave of the equations.
     const Interval<Far> one(Far(1)), W(w);
@@ -181,28 +186,47 @@ Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const 
         if (m > 0)
             product = product +
                       over.stiffness[m - 1] * (P * (Interval<Far>(q[m - 1]) - Q) + Q * (P - Interval<Far>(p[m - 1])));
-        own[m] = largest(one - product / W) * radius[m];
-        by_q[m] = largest(rest) * radius[m];
-        by_p[m] = m + 1 < n ? largest(over.row(m, p)) * radius[m] : 0.0;
+        own[m] = Inverse::size(one - product / W) * radius[m];
+        by_q[m] = Inverse::size(rest) * radius[m];
+        by_p[m] = m + 1 < n ? Inverse::size(over.row(m, p)) * radius[m] : 0.0;
     }
-    const std::vector<double> beside = spread(by_p, by_q);
-    Verified result{offset, unproved, 0};
+    const std::vector<double> beside = inverse.spread(by_p, by_q);
+    for (std::size_t m = 0; m < n; ++m)
+        if (!(step[m] + beside[m] + own[m] < radius[m])) return std::nullopt;
+    return radius;
+}
+
+}  // namespace detail
+
+/// Newton's method, then Krawczyk's test, on all pins at once: R. Krawczyk, Computing 4 (1969) 187,
+/// doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4 microseconds a
+/// link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
+template <class End = OnAxis>
+Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
+                  std::vector<DoubleDouble> offset, const End& support = {}) {
+    using detail::Inverse;
+    Verified result{offset, std::numeric_limits<double>::infinity(), 0};
+    if constexpr (is_held<End>)
+        if (support.yields()) offset.push_back(support.radius.middle());
+    const auto found = detail::newton(links, height, std::move(offset), support);
+    if (!found) return result;
+    const auto& [p, q, w] = found->inverse;
+    const std::size_t n = found->offset.size() - 1;
+    std::copy_n(found->offset.begin(), links.size() + 1, result.offset.begin());
+    const auto radius = detail::proved_radius(links, height, *found, support);
     std::vector<double> below(n + 1, 0.0), above(n + 1, 0.0);
-    for (std::size_t m = 0; m < n; ++m) below[m + 1] = below[m] + size(p[m]) * at.size[m];
-    for (std::size_t m = n; m-- > 0;) above[m] = above[m + 1] + size(q[m]) * at.size[m];
+    for (std::size_t m = 0; m < n; ++m) below[m + 1] = below[m] + Inverse::size(p[m]) * found->at.size[m];
+    for (std::size_t m = n; m-- > 0;) above[m] = above[m + 1] + Inverse::size(q[m]) * found->at.size[m];
     double worst = 0;
-    bool proved = true;
-    for (std::size_t m = 0; m < n; ++m) {
-        proved = proved && step[m] + beside[m] + own[m] < radius[m];
-        if (is_held<End> && m == links.size()) break;  // the spring's end
-        const double opposite = static_cast<double>(links[m].length.low) * over.cosine[m];
-        worst = std::max(worst, (radius[m] + (m + 1 < n ? radius[m + 1] : 0.0)) / opposite);
-        const Far p_above = m + 1 < n ? p[m + 1] : Far(0);
-        const double change = size(p[m] - p_above) * above[m + 1] + size(q[m] - q[m + 1]) * below[m + 1];
-        result.condition = std::max(result.condition, change * share / opposite);
+    for (std::size_t m = 0; m < links.size(); ++m) {
+        const double opposite = static_cast<double>(links[m].length.low) * found->at.cosine[m];
+        if (radius) worst = std::max(worst, ((*radius)[m] + (m + 1 < n ? (*radius)[m + 1] : 0.0)) / opposite);
+        const DoubleDouble p_above = m + 1 < n ? p[m + 1] : DoubleDouble(0);
+        const double change =
+            Inverse::size(p[m] - p_above) * above[m + 1] + Inverse::size(q[m] - q[m + 1]) * below[m + 1];
+        result.condition = std::max(result.condition, change * found->inverse.share() / opposite);
     }
-    if (proved && worst == worst) result.inclination_error = worst;
-    result.offset.resize(links.size() + 1);
+    if (radius && worst == worst) result.inclination_error = worst;
     return result;
 }
 

@@ -2,114 +2,77 @@
 #pragma once
 
 #include "revchain/finite/balance/links.hpp"
-#include "revchain/finite/balance/newton.hpp"
+#include "revchain/finite/held/shape.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
+#include "revchain/stability.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain {
-
-/// In what a chain is free to move when it is disturbed.
-enum class StabilityFrame {
-    free,    ///< ball joints, no torque about the axis: in and out of the plane of the shape
-    driven,  ///< axles at right angles to a plane that is made to turn: in that plane alone
-};
-
-/// What becomes of a small disturbance of a steady shape.
-enum class Verdict {
-    minimum,  ///< of the energy seen from the turning frame (free: at constant angular momentum): it stays small
-    spectrally_stable,  ///< it swings and does not grow, to first order, by gyroscopic forces
-    unstable,           ///< it grows
-    undecided,          ///< within the error of the exponents
-};
-inline std::string_view to_string(Verdict verdict) {
-    constexpr std::string_view names[]{"minimum", "spectrally stable", "unstable", "undecided"};
-    return names[static_cast<std::size_t>(verdict)];
-}
-
-/// Times in units of 1/n, the turning speed.
-struct Stability {
-    StabilityFrame frame = StabilityFrame::free;
-    Verdict verdict = Verdict::undecided;
-    std::vector<std::complex<double>>
-        exponents;                  ///< s of exp(s n t), by imaginary part; free: without rotation's own 0, 0
-    double growth_rate = 0;         ///< largest real part
-    double margin = 0;              ///< what of the growth rate rounding may explain
-    Index negative_directions = 0;  ///< of the Hessian; free: of the amended one, rotation left out
-};
-
 namespace finite {
 
-/// Links and shape without the pins that carry no mass, those of links without weight: the two links that meet in one
-/// stay in line, and are one.
-struct MassivePins {
-    std::vector<Link<Wide<double>>> links;
-    std::vector<double> inclination, offset;  ///< of the links; of their lower pins, over the unit of the links
+/// Directions at right angles to the columns of a matrix.
+inline Matrix<double> beside(const Matrix<double>& columns) {
+    const Matrix<double> whole = Eigen::HouseholderQR<Matrix<double>>(columns).householderQ();
+    return whole.rightCols(columns.rows() - columns.cols());
+}
 
-    MassivePins(const std::vector<Link<Wide<double>>>& all, const SteadyShape& shape, double unit) {
-        const auto none = [](const Wide<double>& x) { return x == Wide<double>(0); };
-        for (std::size_t m = 0; m < all.size(); ++m) {
-            const Link<Wide<double>>& link = all[m];
-            const auto i = static_cast<Index>(m);
-            if (m > 0 && none(links.back().rest) && none(links.back().cross) && none(link.moment) && none(link.cross)) {
-                links.back().length = links.back().length + link.length;
-                links.back().rest = link.rest;
-                continue;
-            }
-            links.push_back(link);
-            inclination.push_back(shape.inclination[i]), offset.push_back(shape.offset[i] * unit);
-        }
-    }
+/// A shape as its links, their inclinations, lambda times the pull along each, and the offsets of their lower pins.
+struct PulledLinks {
+    std::vector<Link<double>> links;
+    std::vector<double> inclination, pull, offset;
 };
 
 /// The chain disturbed from a shape by angles q of the links in its plane and offsets y of the pins out of it, time in
 /// 1/n:
-///     A q'' - 2 B y' + lambda (diag(kappa sec) - X'MX/lambda) q = 0,
-///     M y'' + 2 B' q' + lambda (K(delta) - M/lambda) y = 0,
-/// X q and Z q the pins' motions across and along the axis, A = X'MX + Z'MZ, B = X'M.
+///     A q'' - 2 B y' + (diag(a P) - X'MX) q = 0,
+///     M y'' + 2 B' q' + (K(P/a) - M) y = 0,
+/// P lambda times the pull along each link, X q and Z q the pins' motions across and along the axis,
+/// A = X'MX + Z'MZ, B = X'M.
 struct Disturbed {
     Matrix<double> inertia, coupling, mass;  // A, B, M
     Matrix<double> in_plane, out_of_plane;   // both stiffnesses times lambda
+    Matrix<double> ends;                     // how the lower end moves with q, across the axis and along it
     Vector<double> offset;                   // the shape: out of plane, a rotation
 
-    Disturbed(const MassivePins& chain, double height) {
-        const auto& links = chain.links;
-        const auto n = static_cast<Index>(links.size());
+    explicit Disturbed(const PulledLinks& shape) {
+        const auto n = static_cast<Index>(shape.links.size());
         Matrix<double> across = Matrix<double>::Zero(n, n), along = across;
-        mass = Matrix<double>::Zero(n, n), in_plane = mass, out_of_plane = mass;
-        offset = Eigen::Map<const Vector<double>>(chain.offset.data(), n);
+        mass = in_plane = out_of_plane = across;
+        offset = Eigen::Map<const Vector<double>>(shape.offset.data(), n);
         for (Index m = 0; m < n; ++m) {
-            const auto& link = links[static_cast<std::size_t>(m)];
-            const double a = static_cast<double>(link.length), cross = static_cast<double>(link.cross);
-            const double inclination = chain.inclination[static_cast<std::size_t>(m)];
-            const double cosine = std::cos(inclination), sine = std::sin(inclination);
-            across.col(m).head(m + 1).setConstant(a * cosine), along.col(m).head(m + 1).setConstant(a * sine);
-            const double pull = height * static_cast<double>(link.pull);
-            in_plane(m, m) = pull * a / cosine;
-            const double stiffness = pull / (a * cosine);
+            const auto i = static_cast<std::size_t>(m);
+            const Link<double>& link = shape.links[i];
+            const double a = link.length, pull = shape.pull[i];
+            across.col(m).head(m + 1).setConstant(a * std::cos(shape.inclination[i]));
+            along.col(m).head(m + 1).setConstant(a * std::sin(shape.inclination[i]));
+            in_plane(m, m) = pull * a;
             const auto element = [&](Matrix<double>& to, double lower, double mixed, double upper) {
                 to(m, m) += lower;
                 if (m + 1 < n) to(m, m + 1) += mixed, to(m + 1, m) += mixed, to(m + 1, m + 1) += upper;
             };
-            const double at_lower = static_cast<double>(link.moment) - cross,
-                         at_upper = static_cast<double>(link.rest) - cross;
-            element(mass, at_lower, cross, at_upper);
-            element(out_of_plane, stiffness - at_lower, -stiffness - cross, stiffness - at_upper);
+            const double at_lower = link.moment - link.cross, at_upper = link.rest - link.cross;
+            element(mass, at_lower, link.cross, at_upper);
+            element(out_of_plane, pull / a - at_lower, -pull / a - link.cross, pull / a - at_upper);
         }
-        const Matrix<double> swept = mass * across;
+        ends.resize(n, 2);
+        ends << across.row(0).transpose(), along.row(0).transpose();
+        const Matrix<double> swept = mass * across, centrifugal = across.transpose() * swept;
         coupling = swept.transpose();
-        const Matrix<double> centrifugal = across.transpose() * swept;
         inertia = centrifugal + along.transpose() * mass * along;
         in_plane -= centrifugal;
     }
-};
 
-/// Directions at right angles, in the masses, to one of all pins.
-inline Matrix<double> beside(const Vector<double>& y, const Matrix<double>& mass) {
-    const Vector<double> momentum = mass * y;
-    const Eigen::HouseholderQR<Matrix<double>> factor{Matrix<double>(momentum)};
-    const Matrix<double> whole = factor.householderQ();
-    return whole.rightCols(y.size() - 1);
-}
+    /// Leaves angles that keep both ends where they are, and offsets of the free pins.
+    void hold_lower_end() {
+        const Matrix<double> kept = beside(ends);
+        const Index pins = offset.size() - 1;
+        inertia = (kept.transpose() * inertia * kept).eval(), in_plane = (kept.transpose() * in_plane * kept).eval();
+        coupling = (kept.transpose() * coupling.rightCols(pins)).eval();
+        mass = mass.bottomRightCorner(pins, pins).eval(), offset = offset.tail(pins).eval();
+        out_of_plane = out_of_plane.bottomRightCorner(pins, pins).eval();
+    }
+};
 
 /// The verdict on  M x'' + G x' + K x = 0  of a chain of so many links.
 inline Stability judged(StabilityFrame frame, Index links, const Matrix<double>& mass, const Matrix<double>& gyroscopic,
@@ -138,41 +101,85 @@ inline Stability judged(StabilityFrame frame, Index links, const Matrix<double>&
     return result;
 }
 
+inline Stability judged(StabilityFrame frame, const Disturbed& d) {
+    const Index n = d.in_plane.rows(), links = d.ends.rows(), k = d.offset.size() - 1;
+    if (frame == StabilityFrame::driven) return judged(frame, links, d.inertia, Matrix<double>::Zero(n, n), d.in_plane);
+    const Vector<double> momentum = d.mass * d.offset, b = d.coupling * d.offset;
+    const Matrix<double> others = beside(momentum);  // offsets at right angles to the rotation, in the masses
+    Matrix<double> mass = Matrix<double>::Zero(n + k, n + k), stiffness = mass, gyroscopic = mass;
+    mass.topLeftCorner(n, n) = d.inertia;
+    mass.bottomRightCorner(k, k) = others.transpose() * d.mass * others;
+    stiffness.topLeftCorner(n, n) = d.in_plane + 4 / d.offset.dot(momentum) * b * b.transpose();
+    stiffness.bottomRightCorner(k, k) = others.transpose() * d.out_of_plane * others;
+    gyroscopic.topRightCorner(n, k) = -2 * d.coupling * others;
+    gyroscopic.bottomLeftCorner(k, n) = -gyroscopic.topRightCorner(n, k).transpose();
+    return judged(frame, links, mass, gyroscopic, stiffness);
+}
+
+/// Links and shape without the pins that carry no mass, those of links without weight: the two links that meet in one
+/// stay in line, and are one.
+inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadyShape& shape) {
+    const double unit = std::ldexp(1.0, -chain.units.length_exponent);
+    PulledLinks result;
+    Index i = -1;
+    for (const Link<double>& link : rounded<double>(chain.links)) {
+        if (++i > 0) {
+            Link<double>& below = result.links.back();
+            if (below.rest == 0 && below.cross == 0 && link.moment == 0 && link.cross == 0) {
+                below.length += link.length, below.rest = link.rest;
+                continue;
+            }
+        }
+        result.links.push_back(link);
+        result.inclination.push_back(shape.inclination[i]), result.offset.push_back(shape.offset[i] * unit);
+        result.pull.push_back(shape.conical_height * unit * link.pull / std::cos(shape.inclination[i]));
+    }
+    return result;
+}
+
+inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShape& shape) {
+    const auto length = [&](double x) { return std::ldexp(x, -chain.units.length_exponent); };
+    const auto moment = [&](double x) { return std::ldexp(length(x), -chain.units.weight_exponent); };
+    PulledLinks result{rounded<double>(chain.links), {}, {}, {}};
+    double H = moment(-shape.lower_pull[0]);
+    const double height = length(shape.conical_height), tau = moment(shape.lower_pull[1]);
+    for (Index m = 0; m < shape.inclination.size(); ++m) {
+        const Link<double>& link = result.links[static_cast<std::size_t>(m)];
+        const double s = std::sin(shape.inclination[m]), c = std::cos(shape.inclination[m]);
+        const double R = H + link.moment * length(shape.offset[m]), V = height * link.pull + tau;
+        H = R + link.rest * length(shape.offset[m + 1]);
+        result.inclination.push_back(shape.inclination[m]), result.offset.push_back(length(shape.offset[m]));
+        result.pull.push_back(V * c + (R - link.cross * link.length * s) * s);
+    }
+    return result;
+}
+
+template <class Shape>
+Disturbed disturbed(const Chain<double>& chain, const Shape& shape) {
+    if (shape.inclination.size() != chain.size())
+        revchain::detail::throw_invalid("stability", "the shape is not of this chain; its links number",
+                                        shape.inclination.size());
+    return Disturbed(pulled_links(links_of(chain), shape));
+}
+
 }  // namespace finite
 
-/// What becomes of a small disturbance of a steady shape of `chain`.
-///
-/// Rotation about the axis costs nothing; in the free frame it is taken out by the angular momentum's constancy, which
-/// adds 4 b b' / (y0'M y0), b = B y0, y0 the shape, to the stiffness in the plane, so that no double zero blurs the
-/// exponents. Links are rods without inertia about their own axes: 4 N - 2 exponents of N links if free, 2 N if driven;
-/// fewer where links have no weight, as two that meet in a pin without mass stay in line.
-/// Accuracy: exponents to about 1e-13 of the largest where they are simple. Cost (4 N)^3: 1 ms for 10 links, a second
-/// for 100. N = 1: omega = n sqrt(1 + 3 cos^2 d) free, n sin d driven (section 7 (6)).
-inline Stability stability(const Chain<double>& chain, const SteadyShape& shape,
-                           StabilityFrame frame = StabilityFrame::free) {
-    if (shape.inclination.size() != chain.size())
-        detail::throw_invalid("stability", "the shape is not of this chain; its links number",
-                              shape.inclination.size());
-    const auto links = finite::links_of(chain);
-    const double unit = std::ldexp(1.0, -links.units.length_exponent);
-    const finite::Disturbed d(finite::MassivePins(links.links, shape, unit), shape.conical_height * unit);
-    const Index n = d.offset.size();
-    Matrix<double> mass, gyroscopic, stiffness;
-    if (frame == StabilityFrame::driven) {
-        mass = d.inertia, stiffness = d.in_plane, gyroscopic = Matrix<double>::Zero(n, n);
-    } else {
-        const Matrix<double> others = finite::beside(d.offset, d.mass);
-        const Index k = n - 1;
-        mass = Matrix<double>::Zero(n + k, n + k), stiffness = mass, gyroscopic = mass;
-        const Vector<double> b = d.coupling * d.offset;
-        mass.topLeftCorner(n, n) = d.inertia;
-        mass.bottomRightCorner(k, k) = others.transpose() * d.mass * others;
-        stiffness.topLeftCorner(n, n) = d.in_plane + 4 / d.offset.dot(d.mass * d.offset) * b * b.transpose();
-        stiffness.bottomRightCorner(k, k) = others.transpose() * d.out_of_plane * others;
-        gyroscopic.topRightCorner(n, k) = -2 * d.coupling * others;
-        gyroscopic.bottomLeftCorner(k, n) = -gyroscopic.topRightCorner(n, k).transpose();
+REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
+    return finite::judged(frame, finite::disturbed(chain, shape));
+}
+
+REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
+    finite::Disturbed d = finite::disturbed(chain, shape);
+    d.hold_lower_end();
+    for (Index m = 0; m < d.mass.rows(); ++m)
+        if (!(d.mass.row(m).cwiseAbs().maxCoeff() > 0))
+            detail::throw_invalid("stability", "pins must have mass; one that has none is number", m + 1);
+    if (d.in_plane.size() == 0) {  // two links: nothing can move but by rotation
+        Stability still;
+        still.frame = frame, still.verdict = Verdict::minimum;
+        return still;
     }
-    return finite::judged(frame, n, mass, gyroscopic, stiffness);
+    return finite::judged(frame, d);
 }
 
 }  // namespace revchain

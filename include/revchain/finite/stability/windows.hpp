@@ -2,8 +2,8 @@
 #pragma once
 
 #include "revchain/finite/branch/branch.hpp"
-#include "revchain/finite/stability/stability.hpp"
 #include "revchain/numeric/progress.hpp"
+#include "revchain/stability.hpp"
 
 namespace revchain {
 
@@ -22,37 +22,24 @@ struct StabilityWindowsOptions {
 
 namespace finite {
 
-/// Judges a branch at any arc.
-class BranchJudge {
-   public:
-    struct Judged {
-        double arc, height;
-        Verdict verdict;
-    };
-    BranchJudge(const Chain<double>& chain, const Branch& branch, StabilityFrame frame)
-        : chain_(&chain), branch_(&branch), corrector_(rounded<double>(branch.links->links)), frame_(frame) {}
-
-    /// At an arc beyond point `index` and not beyond the next.
-    Judged at(std::size_t index, double arc) {
-        revchain::detail::look();
-        const BranchPoint& from = branch_->points[index];
-        std::optional<BranchPoint> point;
-        if (arc > from.arc)
-            point = corrector_.corrected(moved(from.state, arc - from.arc, from.tangent), from.tangent, 1.0);
-        const BranchPoint& here = point ? *point : from;
-        const auto shape = shape_at(*branch_->links, here.state, GivenPlace<Wide<double>>(here));
-        if (!shape)
-            return {arc, std::ldexp(std::exp(here.state.log_height), branch_->links->units.length_exponent),
-                    Verdict::undecided};
-        return {arc, shape->conical_height, stability(*chain_, *shape, frame_).verdict};
-    }
-
-   private:
-    const Chain<double>* chain_;
-    const Branch* branch_;
-    Corrector corrector_;
-    StabilityFrame frame_;
+/// The verdict at one place of a branch.
+struct JudgedPlace {
+    double arc, height;
+    Verdict verdict;
 };
+
+/// Judges a branch at an arc beyond point `index` and not beyond the next.
+inline JudgedPlace judged_at(const Chain<double>& chain, const Branch& branch, Corrector& corrector, std::size_t index,
+                             double arc, StabilityFrame frame) {
+    revchain::detail::look();
+    const BranchPoint& from = branch.points[index];
+    std::optional<BranchPoint> point;
+    if (arc > from.arc) point = corrector.corrected(moved(from.state, arc - from.arc, from.tangent), from.tangent, 1.0);
+    const BranchPoint& here = point ? *point : from;
+    if (const auto shape = shape_at(*branch.links, here.state, GivenPlace<Wide<double>>(here)))
+        return {arc, shape->conical_height, stability(chain, *shape, frame).verdict};
+    return {arc, std::ldexp(std::exp(here.state.log_height), branch.links->units.length_exponent), Verdict::undecided};
+}
 
 }  // namespace finite
 
@@ -76,9 +63,12 @@ inline std::vector<StabilityWindow> stability_windows(const Chain<double>& chain
     std::size_t first = 0;
     while (first < branch.size() && finite::largest_rise(branch.points[first].state) == 0) ++first;
     if (first >= branch.size()) return windows;
-    using Judged = finite::BranchJudge::Judged;
-    finite::BranchJudge judge(chain, branch, options.frame);
-    Judged last = judge.at(first, branch.arc[first]);
+    using Judged = finite::JudgedPlace;
+    finite::Corrector corrector(finite::rounded<double>(branch.links->links));
+    const auto judge = [&](std::size_t index, double arc) {
+        return finite::judged_at(chain, branch, corrector, index, arc, options.frame);
+    };
+    Judged last = judge(first, branch.arc[first]);
     windows.push_back({last.arc, last.arc, last.height, last.height, last.verdict});
     // the part from `last` on to one judged, cut in two until it is short or of one verdict
     const auto extend = [&](std::size_t index, const Judged& to) {
@@ -90,7 +80,7 @@ inline std::vector<StabilityWindow> stability_windows(const Chain<double>& chain
                                   std::abs(next.height - last.height) <= options.tolerance * last.height;
                 const double middle = last.arc + (next.arc - last.arc) / 2;
                 if (!near && last.arc < middle && middle < next.arc) {
-                    ahead.push_back(judge.at(index, middle));
+                    ahead.push_back(judge(index, middle));
                     continue;
                 }
                 const double arc = middle, height = last.height + (next.height - last.height) / 2;
@@ -105,9 +95,9 @@ inline std::vector<StabilityWindow> stability_windows(const Chain<double>& chain
     };
     for (std::size_t i = first; i + 1 < branch.size(); ++i) {
         const double step = branch.arc[i + 1] - branch.arc[i];
-        for (int k = 1; k < options.samples; ++k) extend(i, judge.at(i, branch.arc[i] + step * k / options.samples));
+        for (int k = 1; k < options.samples; ++k) extend(i, judge(i, branch.arc[i] + step * k / options.samples));
         // the next point, told from this one: halving stays within one step
-        extend(i, judge.at(i + 1, branch.arc[i + 1]));
+        extend(i, judge(i + 1, branch.arc[i + 1]));
     }
     return windows;
 }

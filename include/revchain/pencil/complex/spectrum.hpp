@@ -34,9 +34,8 @@ V log_derivative(const SignedPencil<Wide<double>>& pencil, const V& x, Index zer
     using S = Wide<double>;
     const Factors<V> f = pencil.factors(x), g = pencil.slopes(x);
     V below = S(0.0), slope_below = S(0.0), sum = S(0.0);
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
-        const SignedElement<S>& e = pencil.elements[m];
-        const SignedElementError<double>& off = pencil.errors[m];
+    for (const SignedElement<S>& e : pencil.elements) {
+        const ElementError<double>& off = e.error;
         const V k = number(e.stiffness, off.stiffness), s = number(e.spin, off.spin);
         const V L = f.stiffness * k + f.spin * s, slope = g.stiffness * k + g.spin * s;
         const V p = below + (L - number(e.lower, off.lower)), q = (L + number(e.cross, off.cross)) / p;
@@ -52,8 +51,7 @@ V log_derivative(const SignedPencil<Wide<double>>& pencil, const V& x, Index zer
 /// det Q.
 inline Index without_stiffness(const SignedPencil<Wide<double>>& pencil) {
     Index count = 0;
-    for (std::size_t m = 0; m < pencil.elements.size(); ++m)
-        count += pencil.elements[m].stiffness == Wide<double>(0.0) && pencil.errors[m].stiffness == 0;
+    for (const auto& e : pencil.elements) count += e.stiffness == Wide<double>(0.0) && e.error.stiffness == 0;
     return count;
 }
 

@@ -24,13 +24,13 @@ struct CondensedRun {
 
 /// Gathers the runs of a chain, lowest first, into blocks that hold for every lambda >= `least_shift`.
 template <Real T>
-class BlockBuilder {
+class CondensedPencilBuilder {
    public:
     using Run = CondensedRun<T>;
     using S = Wide<T>;
     static constexpr std::size_t degree = Block<T>::degree;
 
-    explicit BlockBuilder(const T& least_shift) : least_shift_(least_shift), mu_(T(1) / least_shift) {}
+    explicit CondensedPencilBuilder(const T& least_shift) : least_shift_(least_shift), mu_(T(1) / least_shift) {}
 
     const T& least_shift() const { return least_shift_; }
 
@@ -100,8 +100,8 @@ class BlockBuilder {
             runs_.pop_back();
     }
 
-    BlockPencil<T> finish() const {
-        BlockPencil<T> pencil;
+    CondensedPencil<T> finish() const {
+        CondensedPencil<T> pencil;
         pencil.least_shift = least_shift_;
         std::vector<Run> runs;  // neighbours that `add` left apart because the lower one was longer
         for (const Run& run : runs_)

@@ -31,7 +31,7 @@ struct Block {
 
 /// A chain of blocks, lowest first; the last one's upper pin is held. Valid for shifts lambda >= `least_shift`.
 template <Real T>
-struct BlockPencil {
+struct CondensedPencil {
     std::vector<Block<T>> blocks;
     T least_shift{};
     /// Every eigenvalue above `least_shift` is within this (relative) of the exact chain's: docs/accuracy.md.
@@ -85,10 +85,20 @@ template <class S, Real T>
             upper + upper * change};
 }
 
+/// Those of all blocks, lowest first. Cost: 7 ns per block in packs of doubles, 35 in double words of such.
+template <class S, Real T>
+std::vector<LumpedElement<S>> elements_at(const CondensedPencil<T>& pencil, const S& shift) {
+    std::vector<LumpedElement<S>> elements(pencil.blocks.size());
+    simd([&](auto) REVCHAIN_INLINED {
+        for (std::size_t m = 0; m < elements.size(); ++m) elements[m] = element_at<S>(pencil.blocks[m], shift);
+    });
+    return elements;
+}
+
 /// For each shift the number of eigenvalues above it, as `count_above` of an ElementPencil.
 /// Preconditions: shifts >= least_shift. Cost: 15 ns per block for 8 shifts of double.
 template <Real T, std::size_t L>
-std::array<Index, L> count_above(const BlockPencil<T>& pencil, const std::array<T, L>& shifts) {
+std::array<Index, L> count_above(const CondensedPencil<T>& pencil, const std::array<T, L>& shifts) {
     using V = Pack<T>;
     return simd([&](auto) REVCHAIN_INLINED {
         constexpr std::size_t packs = (L + pack_size - 1) / pack_size;
@@ -117,9 +127,10 @@ struct CertifiedCounts {
 };
 
 /// The count with a running bound on the error of the recursion from rounding, for the chain of exactly these elements:
-/// `proved` as in sturm.hpp. Cost: 40 ns per block for the four shifts of a pack.
+/// `proved` as in sturm.hpp, with fewer terms: elements change with the shift and have no cross mass.
+/// Cost: 40 ns per block for the four shifts of a pack.
 template <Real T>
-CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
+CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
     using V = Pack<T>;
     using S = DoubleWord<V>;
     return simd([&](auto) REVCHAIN_INLINED {
@@ -131,7 +142,7 @@ CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const Dou
         V error{};
         CertifiedCounts<V> result{zero, one};
         for (const Block<T>& block : pencil.blocks) {
-            const LumpedElement<S> e = element_at<S>(block, shift);
+            const LumpedElement<S> e = element_at<S>(block, shift);  // here it fills the wait for the division
             const S hung = below - e.lower;
             const S pivot = hung + e.spring;
             const V spring = abs(e.spring.high), size = abs(pivot.high);
@@ -150,38 +161,40 @@ CertifiedCounts<Pack<T>> certified_count(const BlockPencil<T>& pencil, const Dou
     });
 }
 
-/// Offsets of the pins between blocks, free end first, the held pin last (0), at an eigenvalue in each lane; 1 at the
-/// pin where upper and lower part balance best. See `eigenvector` in twisted.hpp. S: a pack, or a double word of one.
-/// Cost: 30 ns per block in packs of doubles, 150 in double words of such.
-template <class S, Real T>
-std::vector<S> offsets_between(const BlockPencil<T>& pencil, const S& eigenvalue) {
-    using V = Pack<T>;
+/// Offsets of the pins between blocks, free end first, the held pin last (0), from their elements at an eigenvalue in
+/// each lane; 1 at the pin where upper and lower part balance best. See `eigenvector` in twisted.hpp. S: a pack, or a
+/// double word of one.
+/// Cost: 30 ns per block in packs of doubles, 150 in double words of such, for four modes; `eigenvector`, which takes
+/// one, would take 2.8 times as long.
+template <class S>
+std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
+    using V = Narrow<S>;
+    using T = Lane<V>;
     return simd([&](auto) REVCHAIN_INLINED {
-        const std::size_t n = pencil.blocks.size();
+        const std::size_t n = elements.size();
         const S one(V(T(1)));
         const auto not_zero = [](const S& pivot, const S& spring) REVCHAIN_INLINED {
             const V tiny = static_cast<V>(spring) * (epsilon<T>() * epsilon<T>());
             return pivot + S(if_equal(static_cast<V>(pivot), V{}, tiny, V{}));
         };
         struct Pin {
-            LumpedElement<S> element;  // above this pin
-            S below;                   // dynamic stiffness of what hangs there
-            S down;                    // offset of this pin over that of the pin above
-            S up;                      // offset of the pin above over that of this pin
+            S below;  // dynamic stiffness of what hangs there
+            S down;   // offset of this pin over that of the pin above
+            S up;     // offset of the pin above over that of this pin
         };
         std::vector<Pin> pins(n);
         S below{};
         for (std::size_t m = 0; m < n; ++m) {
-            const LumpedElement<S> e = element_at<S>(pencil.blocks[m], eigenvalue);
+            const LumpedElement<S>& e = elements[m];
             const S hung = below - e.lower;
             const S down = e.spring / not_zero(e.spring + hung, e.spring);
-            pins[m] = {e, below, down, S{}};
+            pins[m] = {below, down, S{}};
             below = down * hung - e.upper;
         }
         S above{};
         V least(std::numeric_limits<T>::infinity()), twist{};
         for (std::size_t m = n; m-- > 0;) {
-            const LumpedElement<S>& e = pins[m].element;
+            const LumpedElement<S>& e = elements[m];
             V forces = static_cast<V>(e.spring) + static_cast<V>(e.lower);
             if (m + 1 == n) {
                 above = e.spring - e.lower;
@@ -190,7 +203,7 @@ std::vector<S> offsets_between(const BlockPencil<T>& pencil, const S& eigenvalue
                 pins[m].up = e.spring / not_zero(e.spring + held, e.spring);
                 above = pins[m].up * held - e.lower;
             }
-            if (m > 0) forces += static_cast<V>(pins[m - 1].element.spring) + static_cast<V>(pins[m - 1].element.upper);
+            if (m > 0) forces += static_cast<V>(elements[m - 1].spring) + static_cast<V>(elements[m - 1].upper);
             const V unbalanced = abs(static_cast<V>(pins[m].below + above)) / forces;
             twist = if_less(unbalanced, least, V(static_cast<T>(m)), twist);
             least = if_less(unbalanced, least, unbalanced, least);
@@ -217,21 +230,23 @@ struct Improved {
 /// where one eigenvalue is near, the step cubes the error. S, a pack or a double word of one, says how accurately the
 /// form is summed. Cost: 100 to 200 ns per block.
 template <class S, Real T>
-Improved<S> improved(const BlockPencil<T>& pencil, const S& shift) {
+Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
     using V = Pack<T>;
+    const V at = static_cast<V>(shift), step = at * T(1e-5);
+    const std::vector<V> offset = offsets_between(elements_at(pencil, at));
+    const std::vector<LumpedElement<S>> here = elements_at(pencil, shift);
+    const std::vector<LumpedElement<V>> there = elements_at(pencil, at + step);
     return simd([&](auto) REVCHAIN_INLINED {
-        const V at = static_cast<V>(shift), step = at * T(1e-5);
-        const std::vector<V> offset = offsets_between<V>(pencil, at);
         // The form at the shift, in S; its derivative from a second value, in T.
         S form{};
         V ahead{};
-        for (std::size_t m = 0; m < pencil.blocks.size(); ++m) {
+        for (std::size_t m = 0; m < here.size(); ++m) {
             const V lower = offset[m], upper = offset[m + 1], stretched = lower - upper;
             const S stretch = S(lower) - S(upper);
-            const LumpedElement<S> e = element_at<S>(pencil.blocks[m], shift);
+            const LumpedElement<S>& e = here[m];
             form =
                 form + (stretch * stretch * e.spring - (S(lower) * S(lower) * e.lower + S(upper) * S(upper) * e.upper));
-            const LumpedElement<V> f = element_at<V>(pencil.blocks[m], at + step);
+            const LumpedElement<V>& f = there[m];
             ahead += f.spring * stretched * stretched - (f.lower * lower * lower + f.upper * upper * upper);
         }
         const S change = form / S((ahead - static_cast<V>(form)) / step);

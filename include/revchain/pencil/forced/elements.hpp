@@ -4,25 +4,20 @@
 #include <vector>
 
 #include "revchain/numeric/interval.hpp"
+#include "revchain/pencil/signed.hpp"
 
 namespace revchain::pencil {
 
 /// An element between two neighbouring pins of  height K - M  whose end is moved from outside: stiffness
-/// height k + swing s, in whatever sign, mass [ lower cross ; cross upper ], and how far each may be off.
-struct DrivenElement {
-    using S = Wide<double>;
-    S stiffness, spin;  ///< k and s
-    S lower, upper, cross;
-    double stiffness_error = 0;  ///< of k, besides what multiplying it by the height leaves
-    double lower_error = 0, upper_error = 0, cross_error = 0;
+/// height k + spin s, spin within two operations of what is meant.
+struct DrivenElement : SignedElement<Wide<double>> {
     int step = 0;  ///< the unit of this element is 2^-step of the one below
 };
 
-/// At what speed: height and, where elements have a stiffness that goes with the speed, height times speed.
+/// The speed of a drive: height and, where elements have a stiffness that goes with the speed, height times speed.
 /// Each within two operations of what is meant.
 struct Driving {
-    using S = Wide<double>;
-    S height, swing;
+    Wide<double> height, spin;
 };
 
 /// What one moved end does to a string of elements. Offsets are over that of the moved end.
@@ -71,15 +66,15 @@ Driven driven(const std::vector<DrivenElement>& elements, const Driving& at, con
     bool compliant = false;  // `below` is the reciprocal
     Driven result;
     const auto two = [](const S& x, double part) { return detail::around(x, std::abs(x.high) * part); };
-    const I height = two(at.height, 2 * unit), swing = two(at.swing, 2 * unit);
+    const I height = two(at.height, 2 * unit), spin = two(at.spin, 2 * unit);
     for (std::size_t m = 0; m < n; ++m) {
         const DrivenElement& e = elements[m];
         if (e.step != 0) below = detail::rescaled(below, compliant ? -e.step : e.step);
-        I stiffness = height * detail::around(e.stiffness, e.stiffness_error);
-        if (e.spin.high != 0) stiffness = stiffness + swing * two(e.spin, 4 * unit);
-        const I lower = stiffness - detail::around(e.lower, e.lower_error);
-        const I upper = stiffness - detail::around(e.upper, e.upper_error);
-        const I coupling = stiffness + detail::around(e.cross, e.cross_error);
+        I stiffness = height * detail::around(e.stiffness, e.error.stiffness);
+        if (e.spin.high != 0) stiffness = stiffness + spin * two(e.spin, 4 * unit);
+        const I lower = stiffness - detail::around(e.lower, e.error.lower);
+        const I upper = stiffness - detail::around(e.upper, e.error.upper);
+        const I coupling = stiffness + detail::around(e.cross, e.error.cross);
         const I square = revchain::square(coupling);
         if (compliant) {
             const I whole = I(S(1.0)) + below * lower;

@@ -35,7 +35,7 @@ template <class V>
 /// What is carried up for the drives in one pack.
 template <class V>
 struct DrivenWalk {
-    DoubleWord<V> height, swing, below, product;
+    DoubleWord<V> height, spin, below, product;
     V error;  ///< of `below`
     V row;    ///< the part of it that the last element brought in
     V doubt;  ///< sum of the relative errors of the ratios
@@ -53,7 +53,7 @@ template <class V>
 [[gnu::always_inline]] inline void start(DrivenWalk<V>& w, const Driving* at) {
     for (std::size_t i = 0; i < V::size; ++i) {
         w.height.high.set(i, at[i].height.high), w.height.low.set(i, at[i].height.low);
-        w.swing.high.set(i, at[i].swing.high), w.swing.low.set(i, at[i].swing.low);
+        w.spin.high.set(i, at[i].spin.high), w.spin.low.set(i, at[i].spin.low);
     }
     w.proved = typename V::Mask(-1);
 }
@@ -65,7 +65,7 @@ template <bool turning, bool fused, class V>
     DoubleWord<V> stiffness = product<fused>(w.height, k);
     V size = abs(stiffness.high);
     if constexpr (turning) {
-        const DoubleWord<V> added = product<fused>(w.swing, everywhere<V>(e.spin));
+        const DoubleWord<V> added = product<fused>(w.spin, everywhere<V>(e.spin));
         stiffness = stiffness + added;
         size = size + abs(added.high);
     }
@@ -75,11 +75,11 @@ template <bool turning, bool fused, class V>
     const DoubleWord<V> carried = (stiffness - everywhere<V>(e.upper)) - product<fused>(coupling, ratio);
 
     constexpr double tiny = 0x1p-960;
-    const V of_stiffness = w.height.high * V(e.stiffness_error) + V(12 * unit) * size + V(tiny);
-    const V coupled = of_stiffness + V(e.cross_error + 12 * unit * std::abs(e.cross.high));
+    const V of_stiffness = w.height.high * V(e.error.stiffness) + V(12 * unit) * size + V(tiny);
+    const V coupled = of_stiffness + V(e.error.cross + 12 * unit * std::abs(e.cross.high));
     const V local =
-        of_stiffness + V(e.lower_error + 12 * unit * std::abs(e.lower.high)) + V(12 * unit) * abs(w.below.high);
-    const V above = of_stiffness + V(e.upper_error + 12 * unit * std::abs(e.upper.high));
+        of_stiffness + V(e.error.lower + 12 * unit * std::abs(e.lower.high)) + V(12 * unit) * abs(w.below.high);
+    const V above = of_stiffness + V(e.error.upper + 12 * unit * std::abs(e.upper.high));
     const V gain = abs(coupling.high) * V(1 + 0x1p-50) + coupled;
     const V least = abs(pivot.high) * V(1 - 0x1p-50) - (local + w.error);
     const V inverse = V(1.0) / least;

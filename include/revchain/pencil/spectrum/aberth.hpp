@@ -10,21 +10,13 @@
 
 namespace revchain::pencil {
 
-/// Bounds on what rounding did to the numbers of `small::LumpedLinks`, relative, in units of u = 2^-53.
-struct SmallRoundings {
-    double energies = 0;  ///< y^T M y and y^T K y together
-    double mass = 0;      ///< lumped masses
-    double drop = 0;      ///< a computed force over k + mu X, its division and product included
-    double skew = 0;      ///< what the skews' roundings add to y^T M y
-};
-
 /// Eigenvalues lambda, descending, and a bound on the relative error of each.
-struct SmallSpectrum {
-    alignas(small::Four) std::array<double, small::walked(small::most_links)> eigenvalue;
-    std::array<double, small::most_links> bound;
+struct AberthSpectrum {
+    alignas(aberth::Four) std::array<double, aberth::walked(aberth::most_links)> eigenvalue;
+    std::array<double, aberth::most_links> bound;
 };
 
-namespace small {
+namespace aberth {
 
 /// Numbers for every root; what is beyond the last is a copy of it.
 struct Roots {
@@ -159,7 +151,7 @@ template <bool rigid>
 /// Quotients and squared residuals of the vectors at all shifts; false where some number is of no use.
 template <bool rigid>
 [[gnu::always_inline]] inline bool set_quotients(const LumpedLinks& links, const double* flexibility_above,
-                                                 const Roots& roots, SmallSpectrum& result, double* residual) {
+                                                 const Roots& roots, AberthSpectrum& result, double* residual) {
     Four odd(0.0);
     for_packs(links.size, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
                                              std::size_t first) REVCHAIN_INLINED {
@@ -186,7 +178,7 @@ template <bool rigid>
 
 /// The bounds from the quotients and the sizes of their residuals; false where one exceeds the goal. Disjoint
 /// intervals, as many as eigenvalues: one in each. Then Kato and Temple. `rounding`: of the quotients.
-inline bool set_bounds(SmallSpectrum& result, std::size_t n, const double* residual, double rounding, double goal) {
+inline bool set_bounds(AberthSpectrum& result, std::size_t n, const double* residual, double rounding, double goal) {
     constexpr double slack = 1 + 0x1p-30;
     const double blurred = 1.01 * rounding + 0x1p-50;  // what is stored is the vector's quotient but for rounding
     const auto& value = result.eigenvalue;
@@ -202,16 +194,16 @@ inline bool set_bounds(SmallSpectrum& result, std::size_t n, const double* resid
     return good;
 }
 
-/// See `small_spectrum`. What its constants count: docs/accuracy.md, "All modes of small chains".
+/// See `aberth_spectrum`. What its constants count: docs/accuracy.md, "All modes of small chains".
 template <bool rigid>
-inline bool solve(const LumpedLinks& links, const SmallRoundings& roundings, double tolerance, SmallSpectrum& result) {
+inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& result) {
     return simd([&](auto) REVCHAIN_INLINED {
         constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30, largest = 0x1p64;  // and 1 / largest the least
         const std::size_t n = links.size;
         const double lowest = 0.5 * links.least_shift, highest = 2 * links.greatest_shift;
         Roots roots;
         roots.count = n;
-        double above[most_links], square = 0, sum = 0, swing = 0;
+        double above[most_links], square = 0, sum = 0, cross_ratio = 0;
         bool fit = lowest > 1 / largest && highest < largest;
         for (std::size_t m = n; m-- > 0;) {
             const double mass = links.mass[m], k = links.stiffness[m], flexibility = links.flexibility[m];
@@ -219,7 +211,7 @@ inline bool solve(const LumpedLinks& links, const SmallRoundings& roundings, dou
             above[m] = sum;
             square += k * sum;
             fit = fit && std::min({mass, k, flexibility}) > 1 / largest && std::max({mass, k, flexibility}) < largest;
-            if constexpr (rigid) swing = std::max(swing, links.swing[m]);
+            if constexpr (rigid) cross_ratio = std::max(cross_ratio, links.cross_ratio[m]);
         }
         const double root = std::sqrt(square);
         if (!fit || !first_roots<rigid>(links, roots)) return false;
@@ -229,14 +221,15 @@ inline bool solve(const LumpedLinks& links, const SmallRoundings& roundings, dou
 
         const double additions = static_cast<double>(std::min(n, leg) + (n - 1) / leg - 1);
         const double rounding =
-            unit * (roundings.energies + (rigid ? 18 : 15) + 2 * additions + roundings.skew) * slack;
+            unit * (links.roundings.energies + (rigid ? 18 : 15) + 2 * additions + links.roundings.skew) * slack;
         const double goal = std::min(tolerance, 0x1p-32);  // above, squares of bounds would count
         alignas(Four) double residual[Roots::room];
         for (int round = 0; round < 2; ++round) {
             if (!set_quotients<rigid>(links, above, roots, result, residual)) return false;
             for (std::size_t i = 0; i < n; ++i) {
-                const double stretch = rigid ? 1 + roots.shift[i] * swing : 1;
-                const double rounded = 1.01 * unit * stretch * ((10 + 2 * roundings.mass) * root + roundings.drop);
+                const double stretch = rigid ? 1 + roots.shift[i] * cross_ratio : 1;
+                const double rounded =
+                    1.01 * unit * stretch * ((10 + 2 * links.roundings.mass) * root + links.roundings.drop);
                 residual[i] = 2 * (std::sqrt(residual[i]) * slack + rounded);  // 2 > 1 / ratio
             }
             if (set_bounds(result, n, residual, rounding, goal)) return true;
@@ -248,7 +241,7 @@ inline bool solve(const LumpedLinks& links, const SmallRoundings& roundings, dou
     });
 }
 
-}  // namespace small
+}  // namespace aberth
 
 /// All eigenvalues lambda of lambda K y = M y for a small chain, each with a bound that is proved, no larger than
 /// `tolerance` and 2^-32; false where that fails (then what is in `result` means nothing): neighbours too close,
@@ -261,10 +254,8 @@ inline bool solve(const LumpedLinks& links, const SmallRoundings& roundings, dou
 /// Cost (AVX-512): 0.7 microseconds for 10 plummets, 0.9 for 10 rods, 54 and 80 for 100 (bench_small).
 /// Preconditions: 1 <= size <= most_links; X >= 0, M positive definite. Refused besides: masses, stiffnesses,
 /// flexibilities and shifts beyond 2^-64 ... 2^64.
-inline bool small_spectrum(const small::LumpedLinks& links, const SmallRoundings& roundings, double tolerance,
-                           SmallSpectrum& result) {
-    return links.rigid ? small::solve<true>(links, roundings, tolerance, result)
-                       : small::solve<false>(links, roundings, tolerance, result);
+inline bool aberth_spectrum(const aberth::LumpedLinks& links, double tolerance, AberthSpectrum& result) {
+    return links.rigid ? aberth::solve<true>(links, tolerance, result) : aberth::solve<false>(links, tolerance, result);
 }
 
 }  // namespace revchain::pencil

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <numeric>
+
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/spectrum/refinement.hpp"
 #include "revchain/pencil/spectrum/window.hpp"
@@ -27,7 +29,7 @@ struct Candidate {
 /// What rounding adds to a Rayleigh quotient, relative: 16 links to a plain sum, one or two terms each.
 inline double rounding_quotient(const LumpedChain& chain, double mu) {
     const double skewed = std::min(chain.skew_against_turn, std::sqrt(mu) * chain.skew_against_stiffness);
-    const double terms = static_cast<double>(longest_leg) * (chain.swings ? 3 : 2) + 24;
+    const double terms = static_cast<double>(longest_leg) * (chain.has_cross ? 3 : 2) + 24;
     return (epsilon<double>() / 2 + chain.data_error) * (terms + 8 * skewed);
 }
 
@@ -36,9 +38,10 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
                      bool placed, std::size_t longest) {
     std::vector<double> shifts;
     std::vector<std::size_t> places;
-    for (const std::size_t i : which) shifts.push_back(all[i].shift);
-    if (placed)
-        for (const std::size_t i : which) places.push_back(all[i].place);
+    for (const std::size_t i : which) {
+        shifts.push_back(all[i].shift);
+        if (placed) places.push_back(all[i].place);
+    }
     const auto quotients = quotients_all(chain, shifts, places, longest);
     for (std::size_t j = 0; j < which.size(); ++j) {
         Candidate& c = all[which[j]];
@@ -71,11 +74,11 @@ inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const 
         const FineQuotient& q = quotients[j];
         if (!(std::abs(q.excess) < 0x1p-10 && q.residual < 0x1p-10)) continue;
         // 1/mu = high (1 + left) but for squares of roundings
-        const double high = 1 / shifts[j];
-        const DoubleWord<double> product = two_product(high, shifts[j]);
+        const double shift = shifts[j], high = 1 / shift;
+        const DoubleWord<double> product = two_product(high, shift);
         const double left = (1 - product.high) - product.low;
         const DoubleWord<double> value = fast_two_sum(high, high * (left + q.excess));
-        c.shift = shifts[j];
+        c.shift = shift;
         c.eigenvalue = value.high;
         c.rest = value.low;
         c.residual = q.residual / std::min(1 + q.excess, 1.0) * (1 + 0x1p-40);
@@ -96,26 +99,11 @@ inline double gap(const Candidate& larger, const Candidate& smaller, const Candi
 /// Kato and Temple: |lambda - quotient| <= residual^2 / distance to the rest of the spectrum.
 inline double temple(const Candidate& c, double distance) { return c.residual * c.residual / distance; }
 
-/// An eigenvalue by counts alone: bisection, twisted vector, two proved counts in two words.
-template <Real S>
-Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pencil, Index j,
-                  const Bracket<double>& bracket) {
-    const double margin = 2 * epsilon<double>();
-    double eigenvalue = between(bracket.lower, bracket.upper), rest = 0;
-    Certified<double> sure;
-    for (int round = 0; round < 2 && !std::isfinite(sure.error_bound); ++round) {
-        const S quotient = rayleigh_quotient<S>(wide, eigenvector(pencil, eigenvalue).offset);
-        eigenvalue = static_cast<double>(quotient);
-        rest = static_cast<double>(quotient - S(eigenvalue));
-        if (lies_within<S>(wide, j, eigenvalue, margin)) sure = {eigenvalue, bound_of_margin<S>(margin)};
-    }
-    if (!std::isfinite(sure.error_bound)) {
-        sure = bisect_certified<S>(wide, j, between(bracket.lower, bracket.upper));
-        rest = 0;
-    }
+/// An eigenvalue that counts have proved.
+inline Candidate counted(const Certified<double>& sure) {
     Candidate c;
     c.shift = 1 / sure.eigenvalue;
-    c.eigenvalue = sure.eigenvalue, c.rest = rest;
+    c.eigenvalue = sure.eigenvalue, c.rest = static_cast<double>(sure.unrounded - Wide<double>(sure.eigenvalue));
     c.residual = c.bound = sure.error_bound;
     c.reach = sure.error_bound * (1 + 0x1p-50) + 0x1p-50;
     c.counted = true;
@@ -125,12 +113,157 @@ Candidate counted(const ElementPencil<S>& wide, const ElementPencil<double>& pen
 /// Below this tolerance quotients in double do not suffice.
 inline constexpr double loosest_fine = 40 * 0x1p-52;
 
-}  // namespace spectrum
+/// The candidates of some windows on their way to proved bounds: number `first` ... `last` - 1 of `total` eigenvalues,
+/// and those that share their windows.
+template <Real S>
+class Candidates {
+   public:
+    Candidates(const ElementPencil<S>& wide, const LumpedChain& chain, double tolerance)
+        : wide_(wide),
+          pencil_(rounded<double>(wide)),
+          chain_(chain),
+          tolerance_(tolerance),
+          leg_(std::bit_floor(std::clamp(chain.size() / 8, std::size_t(1), longest_leg))) {}
 
-/// An eigenvalue, its bound, and what it was before it was rounded.
-struct FineCertified : Certified<double> {
-    DoubleWord<double> unrounded;
+    /// Candidate number j (from 0, descending).
+    const Candidate& operator[](Index j) const { return all_[static_cast<std::size_t>(j - begin_)]; }
+
+    /// By windows and quotients; false where these prove too little.
+    bool solve(Index first, Index last, Index total) {
+        if (!chain_.fit || chain_.size() < 2 || !separate(first, last, total)) return false;
+        improve();
+        refine_bounds();
+        return settle(first, last);
+    }
+
+    /// By counts alone.
+    void count(Index first, Index last) {
+        begin_ = first;
+        all_.clear();
+        for (const auto& bracket : bisect(pencil_, first, last - first, 2 * epsilon<double>(), 1.0))
+            all_.push_back(proved(first + static_cast<Index>(all_.size()), bracket));
+    }
+
+   private:
+    Candidate proved(Index j, const Bracket<double>& bracket) const {
+        return counted(certified_eigenvalue(wide_, pencil_, j, between(bracket.lower, bracket.upper)));
+    }
+
+    /// First shifts. With the proved counts at both ends there are as many eigenvalues as candidates.
+    bool separate(Index first, Index last, Index total) {
+        std::vector<Window> found;
+        if (!isolate(chain_, first, last, found, all_)) return false;
+        begin_ = found.front().first;
+        const Index end = found.back().last;
+        const auto is_proved = [&](double mu, Index above) {
+            const auto count = certified_count<S, 1>(wide_, {S(1.0) / S(mu)});
+            return count[0].proved && count[0].above == above;
+        };
+        if (begin_ > 0 && !is_proved(found.front().lower, begin_)) return false;
+        if (end < total && !is_proved(found.back().upper, end)) return false;
+        if (begin_ > 0) top_ = 1 / found.front().lower;
+        if (end < total) bottom_ = 1 / found.back().upper;
+        for (const Candidate& c : all_) starts_.push_back(c.shift);
+        return true;
+    }
+
+    /// Rounds of quotients until their error, the square of the vector's, is below rounding.
+    void improve() {
+        std::vector<std::size_t> which(all_.size()), astray;
+        std::iota(which.begin(), which.end(), std::size_t(0));
+        for (int round = 0; round < 4 && !(which.empty() && astray.empty()); ++round) {
+            evaluate(chain_, all_, which, true, leg_);
+            evaluate(chain_, all_, astray, false, chain_.size() < 4096 ? 1 : leg_);
+            which.insert(which.end(), astray.begin(), astray.end());
+            astray.clear();
+            std::vector<std::size_t> again;
+            for (const std::size_t i : which) {
+                Candidate& c = all_[i];
+                if (!(c.rounding < 0x1p-10)) continue;  // double has no more to say
+                const double next = 1 / c.eigenvalue, apart = room(i);
+                const bool rough = c.residual > 4 * c.rounding;
+                if (!rough || temple(c, 0.5 * apart / starts_[i]) < 0x1p-56) continue;
+                // On to the quotient, unless a vector joined at a bad place led astray.
+                const bool near = std::isfinite(c.residual) && std::abs(next - starts_[i]) < 0.4 * apart;
+                c.shift = near ? next : starts_[i];
+                (near && (round > 0 || c.residual * starts_[i] < 0.01 * apart) ? again : astray).push_back(i);
+            }
+            which = std::move(again);
+        }
+    }
+
+    /// Once, and where that leaves the vector's error in sight again: at the better shift, or where that went astray
+    /// at the first one, joined at any pin near where the mode seems to live, at last anywhere.
+    void refine_bounds() {
+        const bool fine = tolerance_ < loosest_fine;
+        for (int round = 0; round < 3; ++round) {
+            std::vector<std::size_t> some;
+            for (std::size_t i = 0; i < all_.size(); ++i) {
+                Candidate& c = all_[i];
+                if (set_bound(i) && (!fine || (round > 0 && c.bound < 0.51 * epsilon<double>()))) continue;
+                if (!(std::abs(1 / c.eigenvalue - starts_[i]) < 0.4 * room(i))) {
+                    if (round == 0) continue;
+                    c.eigenvalue = 1 / starts_[i];
+                    c.residual = c.reach = std::numeric_limits<double>::infinity();  // of this nothing is known
+                }
+                some.push_back(i);
+            }
+            refine(chain_, all_, some, round < 2, round == 1 || (round == 2 && chain_.size() < 4096) ? 1 : leg_);
+        }
+    }
+
+    /// What is not apart from its neighbours is left to counts, and what then is not apart from those.
+    bool settle(Index first, Index last) {
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::size_t i = 0; i < all_.size(); ++i) {
+                Candidate& c = all_[i];
+                if (c.counted || set_bound(i)) continue;
+                const Index j = begin_ + static_cast<Index>(i);
+                if ((j < first || j >= last) && distance(i) - c.reach > 0) continue;  // a neighbour only
+                const double guess = std::isfinite(c.residual) ? c.eigenvalue : 1 / c.shift;
+                c = proved(j, bisect(pencil_, j, Index(1), 2 * epsilon<double>(), guess).front());
+                changed = true;
+                if (!std::isfinite(c.bound)) return false;
+            }
+        }
+        return true;
+    }
+
+    bool set_bound(std::size_t i) {
+        Candidate& c = all_[i];
+        const double apart = distance(i) - c.reach;
+        const double b = apart > 0 ? temple(c, apart) + c.error : std::numeric_limits<double>::infinity();
+        c.bound = b < 0.5 ? b / (1 - b) * (1 + 0x1p-30) : std::numeric_limits<double>::infinity();
+        return c.bound <= tolerance_ && c.error <= 64 * epsilon<double>();
+    }
+    /// To the interval of the next candidate, or the end of the windows; NaN where a neighbour is not known.
+    double distance(std::size_t i) const {
+        const Candidate& c = all_[i];
+        const double above = i > 0 ? gap(all_[i - 1], c, c) : (top_ * (1 - 0x1p-50) - c.eigenvalue) / c.eigenvalue;
+        const double below =
+            i + 1 < all_.size() ? gap(c, all_[i + 1], c) : (c.eigenvalue - bottom_ * (1 + 0x1p-50)) / c.eigenvalue;
+        return std::isnan(above) ? above : std::min(below, above);
+    }
+    /// To the next start.
+    double room(std::size_t i) const {
+        const double below = i > 0 ? starts_[i] - starts_[i - 1] : starts_[i];
+        const double above = i + 1 < starts_.size() ? starts_[i + 1] - starts_[i] : starts_[i];
+        return std::min(below, above);
+    }
+
+    const ElementPencil<S>& wide_;
+    ElementPencil<double> pencil_;
+    const LumpedChain& chain_;
+    double tolerance_;
+    std::size_t leg_;
+    Index begin_ = 0;  // number of all_.front()
+    std::vector<Candidate> all_;
+    std::vector<double> starts_;                                         // first shifts
+    double top_ = std::numeric_limits<double>::infinity(), bottom_ = 0;  // ends of the windows
 };
+
+}  // namespace spectrum
 
 /// All eigenvalues number `first` ... `last - 1` (descending, from 0) of a pencil with `total` positive ones, each with
 /// a bound that is proved: as theorems and counts say (docs/accuracy.md, "All modes"), no larger than `tolerance` (2
@@ -147,130 +280,21 @@ struct FineCertified : Certified<double> {
 /// for random ones, 1.5 and 2.0 for rods, portable build (bench_all_modes); to the last digit 1.3 to 2 more.
 /// Preconditions: 0 <= first, last <= total <= size.
 template <Real S>
-std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,
-                                           Index first, Index last, Index total, double tolerance) {
-    using namespace spectrum;
-    std::vector<FineCertified> result;
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, const spectrum::LumpedChain& chain,
+                                               Index first, Index last, Index total, double tolerance) {
+    std::vector<Certified<double>> result;
     if (first >= last) return result;
-    const ElementPencil<double> pencil = rounded<double>(wide);
-    const auto nothing = [](Index) {};
-    const auto by_counts = [&](Index j, double guess) {
-        return counted(wide, pencil, j, bisect(pencil, j, Index(1), 2 * epsilon<double>(), guess, nothing).front());
-    };
-    std::vector<Candidate> all;
-    Index begin = first;  // number of all.front()
-
-    const auto fast = [&] {
-        if (!chain.fit || chain.size() < 2) return false;
-        std::vector<Window> found;
-        if (!isolate(chain, first, last, found, all)) return false;
-        begin = found.front().first;
-        const Index end = found.back().last;
-        // With the proved counts at both ends there are as many eigenvalues as intervals.
-        const auto proved = [&](double mu, Index above) {
-            const auto count = certified_count<S, 1>(wide, {S(1.0) / S(mu)});
-            return count[0].proved && count[0].above == above;
-        };
-        if (begin > 0 && !proved(found.front().lower, begin)) return false;
-        if (end < total && !proved(found.back().upper, end)) return false;
-        const double top = begin > 0 ? 1 / found.front().lower : std::numeric_limits<double>::infinity();
-        const double bottom = end < total ? 1 / found.back().upper : 0;
-
-        // Rounds of quotients until their error, the square of the vector's, is below rounding.
-        std::vector<std::size_t> which(all.size());
-        std::vector<double> starts(all.size());
-        for (std::size_t i = 0; i < all.size(); ++i) starts[i] = all[i].shift;
-        for (std::size_t i = 0; i < all.size(); ++i) which[i] = i;
-        const auto distance = [&](std::size_t i) {
-            const Candidate& c = all[i];
-            const double above = i > 0 ? gap(all[i - 1], c, c) : (top * (1 - 0x1p-50) - c.eigenvalue) / c.eigenvalue;
-            const double below =
-                i + 1 < all.size() ? gap(c, all[i + 1], c) : (c.eigenvalue - bottom * (1 + 0x1p-50)) / c.eigenvalue;
-            return std::isnan(above) ? above : std::min(below, above);  // NaN of a neighbour not known: then a NaN
-        };
-        const auto room = [&](std::size_t i) {  // to the next start
-            const double below = i > 0 ? starts[i] - starts[i - 1] : starts[i];
-            const double above = i + 1 < all.size() ? starts[i + 1] - starts[i] : starts[i];
-            return std::min(below, above);
-        };
-        std::vector<std::size_t> astray;
-        const std::size_t leg = std::bit_floor(std::clamp(chain.size() / 8, std::size_t(1), longest_leg));
-        for (int round = 0; round < 4 && !(which.empty() && astray.empty()); ++round) {
-            evaluate(chain, all, which, true, leg);
-            evaluate(chain, all, astray, false, chain.size() < 4096 ? 1 : leg);
-            which.insert(which.end(), astray.begin(), astray.end());
-            astray.clear();
-            std::vector<std::size_t> again;
-            for (const std::size_t i : which) {
-                Candidate& c = all[i];
-                if (!(c.rounding < 0x1p-10)) continue;  // double has no more to say
-                const double next = 1 / c.eigenvalue, apart = room(i);
-                const bool rough = c.residual > 4 * c.rounding;
-                if (!rough || temple(c, 0.5 * apart / starts[i]) < 0x1p-56) continue;
-                // On to the quotient, unless a vector joined at a bad place led astray.
-                const bool near = std::isfinite(c.residual) && std::abs(next - starts[i]) < 0.4 * apart;
-                c.shift = near ? next : starts[i];
-                (near && (round > 0 || c.residual * starts[i] < 0.01 * apart) ? again : astray).push_back(i);
-            }
-            which = std::move(again);
-        }
-        const auto set_bound = [&](std::size_t i) {
-            Candidate& c = all[i];
-            const double apart = distance(i) - c.reach;
-            const double b = apart > 0 ? temple(c, apart) + c.error : std::numeric_limits<double>::infinity();
-            c.bound = b < 0.5 ? b / (1 - b) * (1 + 0x1p-30) : std::numeric_limits<double>::infinity();
-            return c.bound <= tolerance && c.error <= 64 * epsilon<double>();
-        };
-        // Once, and where that leaves the vector's error in sight again: at the better shift, or where that went astray
-        // at the first one, joined at any pin near where the mode seems to live, at last anywhere.
-        const bool fine = tolerance < loosest_fine;
-        for (int round = 0; round < 3; ++round) {
-            std::vector<std::size_t> some;
-            for (std::size_t i = 0; i < all.size(); ++i) {
-                Candidate& c = all[i];
-                if (set_bound(i) && (!fine || (round > 0 && c.bound < 0.51 * epsilon<double>()))) continue;
-                if (!(std::abs(1 / c.eigenvalue - starts[i]) < 0.4 * room(i))) {
-                    if (round == 0) continue;
-                    c.eigenvalue = 1 / starts[i];
-                    c.residual = c.reach = std::numeric_limits<double>::infinity();  // of this nothing is known
-                }
-                some.push_back(i);
-            }
-            refine(chain, all, some, round < 2, round == 1 || (round == 2 && chain.size() < 4096) ? 1 : leg);
-        }
-        // What is not apart from its neighbours is left to counts, and what then is not apart from those.
-        for (bool changed = true; changed;) {
-            changed = false;
-            for (std::size_t i = 0; i < all.size(); ++i) {
-                Candidate& c = all[i];
-                if (c.counted || set_bound(i)) continue;
-                const Index j = begin + static_cast<Index>(i);
-                if ((j < first || j >= last) && distance(i) - c.reach > 0) continue;  // a neighbour only
-                c = by_counts(j, std::isfinite(c.residual) ? c.eigenvalue : 1 / c.shift);
-                changed = true;
-                if (!std::isfinite(c.bound)) return false;
-            }
-        }
-        return true;
-    };
-    if (!fast()) {
-        begin = first;
-        all.clear();
-        const auto brackets = bisect(pencil, first, last - first, 2 * epsilon<double>(), 1.0, nothing);
-        for (std::size_t i = 0; i < brackets.size(); ++i)
-            all.push_back(counted(wide, pencil, first + static_cast<Index>(i), brackets[i]));
-    }
-    for (Index j = first; j < last; ++j) {
-        const Candidate& c = all[static_cast<std::size_t>(j - begin)];
-        result.push_back({{c.eigenvalue, c.bound}, {c.eigenvalue, c.rest}});
-    }
+    spectrum::Candidates<S> found(wide, chain, tolerance);
+    if (!found.solve(first, last, total)) found.count(first, last);
+    for (Index j = first; j < last; ++j)
+        result.push_back({found[j].eigenvalue, found[j].bound, {found[j].eigenvalue, found[j].rest}});
     return result;
 }
 
 template <Real S>
-std::vector<FineCertified> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
-                                           double tolerance) {
-    return all_eigenvalues(wide, spectrum::pinned(wide), first, last, total, tolerance);
+std::vector<Certified<double>> all_eigenvalues(const ElementPencil<S>& wide, Index first, Index last, Index total,
+                                               double tolerance) {
+    return all_eigenvalues(wide, spectrum::lumped(wide), first, last, total, tolerance);
 }
 
 }  // namespace revchain::pencil

@@ -19,7 +19,7 @@ struct LumpedLink {
     double flexibility;  ///< 1/k
     double stiffness;    ///< k
     double mass;         ///< of the pin above: B + X of this link and A + X of the next
-    double swing;        ///< X/k
+    double cross_ratio;  ///< X/k
     double weight;       ///< W
     double lower_share;  ///< (A + X)/W = h/a
     double upper_share;  ///< (B + X)/W = 1 - h/a
@@ -27,7 +27,7 @@ struct LumpedLink {
 };
 
 /// What of the pencil's numbers is left when they are rounded to those of `LumpedLink`; and the cross mass X.
-struct PinnedRest {
+struct LumpedRest {
     double stiffness, mass, cross, cross_rest;
 };
 
@@ -37,31 +37,31 @@ inline constexpr std::size_t longest_leg = 16;
 /// What rounding bounds need to know of a run of links: the largest X/k, and of k/m, m the mass of the pin above, the
 /// largest root and the largest root times X/k.
 struct Bounds {
-    double swing = 0, root = 0, swing_root = 0;
+    double cross_ratio = 0, root = 0, cross_root = 0;
 };
 
 /// The pencil as lumped pins and links, every number within `data_error` (relative) of the exact one.
 struct LumpedChain {
     std::vector<LumpedLink> links;
-    std::vector<PinnedRest> rests;          ///< of each link
+    std::vector<LumpedRest> rests;          ///< of each link
     std::vector<double> flexibility_above;  ///< [t]: sum of 1/k over the links t ... N-1
     double tip_mass = 0;                    ///< of pin 0
     double tip_mass_rest = 0;
     double rounding_root = 0;           ///< root of C of docs/accuracy.md: sum over j of k_j (sum of 1/k from j up)
     std::vector<Bounds> bounds;         ///< of each run of `longest_leg` links
-    double largest_swing = 0;           ///< max X/k
+    double largest_cross_ratio = 0;     ///< max X/k
     double max_mass_to_stiffness = 0;   ///< max (m + |X|)/k: bounds mu m/k, the growth along one link
     double skew_against_turn = 0;       ///< max p q (W / turn)^(1/2): how much a link's two offsets can cancel
     double skew_against_stiffness = 0;  ///< max p q (W / k)^(1/2)
     double data_error = 0;              ///< what the wide entries' own error may come to, of any number
-    bool swings = false;                ///< some X is not 0
+    bool has_cross = false;             ///< some X is not 0
     bool fit = true;                    ///< masses >= 0 and all numbers in a range whose squares are normal
 
     std::size_t size() const { return links.size(); }
 };
 
 template <Real S>
-LumpedChain pinned(const ElementPencil<S>& wide) {
+LumpedChain lumped(const ElementPencil<S>& wide) {
     LumpedChain chain;
     const std::size_t n = wide.elements.size();
     chain.links.reserve(n);
@@ -87,10 +87,10 @@ LumpedChain pinned(const ElementPencil<S>& wide) {
         (m == 0 ? chain.tip_mass : chain.links[m - 1].mass) = pin;
         (m == 0 ? chain.tip_mass_rest : chain.rests[m - 1].mass) = rest;
         const double k = static_cast<double>(e.stiffness);
-        const double swing = static_cast<double>(cross / e.stiffness);
+        const double cross_ratio = static_cast<double>(cross / e.stiffness);
         const S weight(e.weight);
         const bool massless = e.weight == 0;
-        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, swing, e.weight,
+        chain.links.push_back({static_cast<double>(S(1.0) / e.stiffness), k, 0.0, cross_ratio, e.weight,
                                massless ? 0.0 : static_cast<double>((e.lower + cross) / weight),
                                massless ? 0.0 : static_cast<double>((e.upper + cross) / weight),
                                static_cast<double>(e.turning)});
@@ -102,7 +102,7 @@ LumpedChain pinned(const ElementPencil<S>& wide) {
             chain.skew_against_turn = std::max(chain.skew_against_turn, skewed / std::sqrt(last.turn));
             chain.skew_against_stiffness = std::max(chain.skew_against_stiffness, skewed / std::sqrt(k));
         }
-        chain.swings = chain.swings || x != 0;
+        chain.has_cross = chain.has_cross || x != 0;
         chain.fit = chain.fit && in_range(k) && (cross == zero || in_range(x));
         if (cross != zero) cancelled = std::max(cancelled, cross_size / x);
     }
@@ -113,10 +113,10 @@ LumpedChain pinned(const ElementPencil<S>& wide) {
         const LumpedLink& link = chain.links[m];
         Bounds& b = chain.bounds[m / longest_leg];
         const double root = m + 1 < n ? std::sqrt(link.stiffness / link.mass) : 0;  // the held pin does not move
-        b.swing = std::max(b.swing, link.swing);
-        chain.largest_swing = std::max(chain.largest_swing, link.swing);
+        b.cross_ratio = std::max(b.cross_ratio, link.cross_ratio);
+        chain.largest_cross_ratio = std::max(chain.largest_cross_ratio, link.cross_ratio);
         b.root = std::max(b.root, root);
-        b.swing_root = std::max(b.swing_root, root * link.swing);
+        b.cross_root = std::max(b.cross_root, root * link.cross_ratio);
     }
     chain.flexibility_above.assign(n + 1, 0.0);
     double square = 0;
@@ -127,7 +127,7 @@ LumpedChain pinned(const ElementPencil<S>& wide) {
         const double below = m == 0 ? chain.tip_mass : chain.links[m - 1].mass;
         chain.max_mass_to_stiffness =
             std::max(chain.max_mass_to_stiffness,
-                     (std::max(link.mass, below) + std::abs(link.swing) * link.stiffness) * link.flexibility);
+                     (std::max(link.mass, below) + std::abs(link.cross_ratio) * link.stiffness) * link.flexibility);
     }
     chain.rounding_root = std::sqrt(square) * (1 + 0x1p-20);
     return chain;

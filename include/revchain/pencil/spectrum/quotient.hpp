@@ -19,20 +19,22 @@ struct Quotient {
 inline constexpr std::size_t quotient_packs = 4;
 
 /// A vector built link by link from one end, one for each shift of a pack: offset y and mu times the spring force G of
-/// the link ahead, with y^T M y (where swings, else mu times it) and y^T K y so far. The sums belong to the offsets as
-/// stored and to their differences: whatever rounding did to the recurrence, they are the energies of this very vector.
+/// the link ahead, with y^T M y (with cross masses, else mu times it) and y^T K y so far. The sums belong to the
+/// offsets as stored and to their differences: whatever rounding did to the recurrence, they are the energies of this
+/// vector.
 template <class V>
 struct Walk {
     V mu, offset, force;
     CompensatedSum<V> inertia, stiffness;  // plain sums over a leg are added without loss
     V forces;                              ///< bound on the sum of (force/k)^2 k over the links
-    V offsets;  ///< bound on the sum of (1 + mu X/k)^2 k y^2 over the upper pins; where swings only
+    V offsets;  ///< bound on the sum of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
 };
 
 /// Carries walks over the links begin ... end - 1, upwards from pin `begin` or downwards from pin `end`. Going up, a
 /// walk has passed the mass of the pin it stands at; going down, it has not.
-template <bool swings, bool up, class V>
-[[gnu::always_inline]] inline void carry(const LumpedChain& chain, std::size_t begin, std::size_t end, Walk<V>* walk) {
+template <bool has_cross, bool up, class V>
+[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
+                                             Walk<V>* walk) {
     constexpr std::size_t P = quotient_packs;
     V mu[P], offset[P], force[P], inertia[P], stiffness[P], pins[P];
     for (std::size_t p = 0; p < P; ++p) {
@@ -44,18 +46,18 @@ template <bool swings, bool up, class V>
         for (std::size_t p = 0; p < P; ++p) {
             const auto pass_pin = [&]() REVCHAIN_INLINED {
                 const V q = e.mass * (mu[p] * offset[p]);
-                (swings ? pins[p] : inertia[p]) += q * offset[p];
+                (has_cross ? pins[p] : inertia[p]) += q * offset[p];
                 force[p] = up ? force[p] + q : force[p] - q;
             };
             if (!up) pass_pin();
             const V before = offset[p];
             V d = e.flexibility * force[p];
-            if constexpr (swings) d = d / (1.0 + mu[p] * e.swing);
+            if constexpr (has_cross) d = d / (1.0 + mu[p] * e.cross_ratio);
             offset[p] = up ? before - d : before + d;
             d = up ? before - offset[p] : offset[p] - before;
             const V square = d * d;
             stiffness[p] += e.stiffness * square;
-            if constexpr (swings) {
+            if constexpr (has_cross) {
                 const V centroid =
                     e.lower_share * (up ? before : offset[p]) + e.upper_share * (up ? offset[p] : before);
                 inertia[p] += e.weight * (centroid * centroid);
@@ -69,9 +71,9 @@ template <bool swings, bool up, class V>
         Walk<V>& w = walk[p];
         w.offset = offset[p], w.force = force[p];
         w.inertia.add(inertia[p]), w.stiffness.add(stiffness[p]);
-        if constexpr (swings) {
+        if constexpr (has_cross) {
             const Bounds& b = chain.bounds[begin / longest_leg];
-            const V factor = 1.0 + mu[p] * b.swing, root = b.root + mu[p] * b.swing_root;
+            const V factor = 1.0 + mu[p] * b.cross_ratio, root = b.root + mu[p] * b.cross_root;
             w.forces += factor * factor * stiffness[p];
             w.offsets += root * root * pins[p] / mu[p];
         }
@@ -104,12 +106,12 @@ struct AtPin {
 
 /// What rounding of a twisted vector, and the pencil's own error, put into its residual; of its sums `forces` and
 /// `offsets` over |y|^2.
-template <bool swings>
+template <bool has_cross>
 double vector_rounding(const LumpedChain& chain, double mu, double forces, double offsets) {
     // where a pin has no mass, y_m^2 <= Phi_m |y|_K^2 serves
-    const double most = (1 + mu * chain.largest_swing) * chain.rounding_root;
-    const double force_part = swings ? std::sqrt(forces) : 1.0;
-    const double offset_part = swings ? std::fmin(std::sqrt(offsets), most) : chain.rounding_root;
+    const double most = (1 + mu * chain.largest_cross_ratio) * chain.rounding_root;
+    const double force_part = has_cross ? std::sqrt(forces) : 1.0;
+    const double offset_part = has_cross ? std::fmin(std::sqrt(offsets), most) : chain.rounding_root;
     const double unit = epsilon<double>() / 2 + chain.data_error;
     return unit * ((16 * chain.rounding_root + 10) * force_part + 1.1 * offset_part) * 1.01;
 }
@@ -131,8 +133,8 @@ inline Legs legs_of(const LumpedChain& chain, const double* shifts, std::size_t 
 /// For each shift the Rayleigh quotient of its twisted vector: recurrences from both ends, joined at that pin where the
 /// residual is least, of those between `lowest` and `highest` whose number `longest`, a power of 2, divides. Its error
 /// is the square of the vector's.
-/// Cost per shift and link (AVX-512): 0.45 ns without swings, 0.86 with.
-template <bool swings, class V>
+/// Cost per shift and link (AVX-512): 0.45 ns without cross masses, 0.86 with.
+template <bool has_cross, class V>
 [[gnu::always_inline]] inline void quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
                                              std::size_t highest, std::size_t longest, Quotient* result,
                                              std::vector<AtPin<V>>& scratch) {
@@ -146,10 +148,10 @@ template <bool swings, class V>
         walk[p].mu = V::load(shifts + p * V::size);
         walk[p].offset = V(1.0);
         walk[p].force = chain.tip_mass * walk[p].mu;
-        if (!swings) walk[p].inertia.add(walk[p].force);
+        if (!has_cross) walk[p].inertia.add(walk[p].force);
     }
     for (std::size_t at = 0; at <= high; ++at) {
-        if (at > 0) carry<swings, true>(chain, (at - 1) * leg, at * leg, walk);
+        if (at > 0) propagate<has_cross, true>(chain, (at - 1) * leg, at * leg, walk);
         if (at < low) continue;
         for (std::size_t p = 0; p < P; ++p) scratch[(at - low) * P + p] = AtPin<V>(walk[p]);
     }
@@ -162,7 +164,7 @@ template <bool swings, class V>
     }
     for (std::size_t at = legs + 1, end = n; at-- > low;) {
         const std::size_t begin = at * leg;
-        carry<swings, false>(chain, begin, end, walk);
+        propagate<has_cross, false>(chain, begin, end, walk);
         end = begin;
         if (at > high) continue;
         const double above = chain.flexibility_above[begin];
@@ -179,18 +181,18 @@ template <bool swings, class V>
             inertia[p] = select(better, up.inertia * scale_up + down.inertia * scale_down, inertia[p]);
             stiffness[p] = select(better, energy, stiffness[p]);
             twist[p] = select(better, V(static_cast<double>(begin)), twist[p]);
-            if constexpr (swings) {
+            if constexpr (has_cross) {
                 forces[p] = select(better, up.forces * scale_up + down.forces * scale_down, forces[p]);
                 offsets[p] = select(better, up.offsets * scale_up + down.offsets * scale_down, offsets[p]);
             }
         }
     }
     for (std::size_t p = 0; p < P; ++p) {
-        const V ratio = (swings ? walk[p].mu * inertia[p] : inertia[p]) / stiffness[p];
+        const V ratio = (has_cross ? walk[p].mu * inertia[p] : inertia[p]) / stiffness[p];
         for (std::size_t i = 0; i < V::size; ++i) {
             const double energy = stiffness[p][i];
             const double rounding =
-                vector_rounding<swings>(chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
+                vector_rounding<has_cross>(chain, walk[p].mu[i], forces[p][i] / energy, offsets[p][i] / energy);
             // Terms of second order are less than that 1.01 only where this is small.
             const double residual = rounding < 0x1p-10 ? std::sqrt(least[p][i]) * (1 + 0x1p-20) + rounding
                                                        : std::numeric_limits<double>::infinity();
@@ -199,9 +201,9 @@ template <bool swings, class V>
     }
 }
 
-/// For any number of shifts what `solve(registers, swings, shifts, lowest, highest, results)` gives for `packs` packs
-/// of them, each joined near its `place`, or with no places given anywhere. Those that live together go together: what
-/// lies between the places is walked twice.
+/// For any number of shifts what `solve(registers, has_cross, shifts, lowest, highest, results)` gives for `packs`
+/// packs of them, each joined near its `place`, or with no places given anywhere. Those that live together go together:
+/// what lies between the places is walked twice.
 template <class Result, std::size_t packs, class Solve>
 std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>& shifts,
                              const std::vector<std::size_t>& places, const Solve& solve) {
@@ -220,7 +222,7 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
             for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
             const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
             const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
-            if (chain.swings) {
+            if (chain.has_cross) {
                 solve(registers, std::true_type(), padded, lowest, highest, found);
             } else {
                 solve(registers, std::false_type(), padded, lowest, highest, found);
@@ -236,11 +238,11 @@ inline std::vector<Quotient> quotients_all(const LumpedChain& chain, const std::
                                            std::size_t longest = longest_leg) {
     return in_packs<Quotient, quotient_packs>(
         chain, shifts, places,
-        [&](auto registers, auto swings, const double* some, std::size_t lowest, std::size_t highest, Quotient* found)
-            REVCHAIN_INLINED {
-                std::vector<AtPin<Pack<double, registers.doubles>>> scratch;
-                quotients<swings.value>(chain, some, lowest, highest, longest, found, scratch);
-            });
+        [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
+            Quotient* found) REVCHAIN_INLINED {
+            std::vector<AtPin<Pack<double, registers.doubles>>> scratch;
+            quotients<has_cross.value>(chain, some, lowest, highest, longest, found, scratch);
+        });
 }
 
 }  // namespace revchain::pencil::spectrum

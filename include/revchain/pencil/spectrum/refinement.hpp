@@ -22,19 +22,20 @@ template <class V>
 struct FineWalk {
     V mu, offset, sum, rest;
     V excess, squares, stiffness;  ///< sums of f d, f^2 / k, k d^2
-    V forces, offsets;  ///< sums of (force/k)^2 k and of (1 + mu X/k)^2 k y^2 over the upper pins; where swings only
+    V forces,
+        offsets;  ///< sums of (force/k)^2 k and of (1 + mu X/k)^2 k y^2 over the upper pins; with cross masses only
 };
 
-template <bool swings, bool up, bool fused, class V>
-[[gnu::always_inline]] inline void carry(const LumpedChain& chain, std::size_t begin, std::size_t end,
-                                         FineWalk<V>* walk) {
+template <bool has_cross, bool up, bool fused, class V>
+[[gnu::always_inline]] inline void propagate(const LumpedChain& chain, std::size_t begin, std::size_t end,
+                                             FineWalk<V>* walk) {
     constexpr std::size_t P = fine_packs;
     FineWalk<V> at[P];
     for (std::size_t p = 0; p < P; ++p) at[p] = walk[p];
     for (std::size_t i = begin; i < end; ++i) {
         const std::size_t m = up ? i : begin + (end - 1 - i);
         const LumpedLink& e = chain.links[m];
-        const PinnedRest& rest = chain.rests[m];
+        const LumpedRest& rest = chain.rests[m];
 #pragma GCC unroll 8
         for (std::size_t p = 0; p < P; ++p) {
             FineWalk<V>& w = at[p];
@@ -49,8 +50,8 @@ template <bool swings, bool up, bool fused, class V>
             const DoubleWord<V> force = two_product<fused>(w.mu, w.sum);
             V stretch = e.flexibility * force.high;
             const V before = w.offset;
-            if constexpr (swings) {
-                const V factor = 1.0 + w.mu * e.swing;
+            if constexpr (has_cross) {
+                const V factor = 1.0 + w.mu * e.cross_ratio;
                 w.forces += stretch * force.high;
                 stretch = stretch / factor;
                 w.offset = up ? before - stretch : before + stretch;
@@ -62,7 +63,7 @@ template <bool swings, bool up, bool fused, class V>
             const DoubleWord<V> d = up ? two_sum(before, -w.offset) : two_sum(w.offset, -before);
             const DoubleWord<V> spring = two_product<fused>(V(e.stiffness), d.high);
             V f = w.mu * w.rest;
-            if constexpr (swings) {
+            if constexpr (has_cross) {
                 const DoubleWord<V> swung = two_product<fused>(w.mu, d.high);
                 const DoubleWord<V> inertia = two_product<fused>(V(rest.cross), swung.high);
                 const DoubleWord<V> remains = two_sum(force.high, -spring.high);
@@ -100,7 +101,7 @@ template <bool swings, bool up, bool fused, class V>
 /// `longest` divides, a power of 2.
 /// Accuracy: docs/accuracy.md, "All modes to the last digit". Cost per shift and link: about three times that of
 /// `quotients`.
-template <bool swings, bool fused, class V>
+template <bool has_cross, bool fused, class V>
 [[gnu::always_inline]] inline void fine_quotients(const LumpedChain& chain, const double* shifts, std::size_t lowest,
                                                   std::size_t highest, std::size_t longest, FineQuotient* result,
                                                   std::vector<FineWalk<V>>& scratch) {
@@ -117,7 +118,7 @@ template <bool swings, bool fused, class V>
         walk[p].rest = V(chain.tip_mass_rest);
     }
     for (std::size_t at = 0; at <= high; ++at) {
-        if (at > 0) carry<swings, true, fused>(chain, (at - 1) * leg, at * leg, walk);
+        if (at > 0) propagate<has_cross, true, fused>(chain, (at - 1) * leg, at * leg, walk);
         if (at < low) continue;
         for (std::size_t p = 0; p < P; ++p) scratch[(at - low) * P + p] = walk[p];
     }
@@ -131,7 +132,7 @@ template <bool swings, bool fused, class V>
     }
     for (std::size_t at = legs + 1, end = n; at-- > low;) {
         const std::size_t begin = at * leg;
-        carry<swings, false, fused>(chain, begin, end, walk);
+        propagate<has_cross, false, fused>(chain, begin, end, walk);
         end = begin;
         if (at > high) continue;
         const double above = chain.flexibility_above[begin];
@@ -154,7 +155,7 @@ template <bool swings, bool fused, class V>
             twist[p] = select(better, V(static_cast<double>(begin)), twist[p]);
             take(j.stiffness, a.stiffness, b.stiffness);
             take(j.squares, a.squares, b.squares);
-            if constexpr (swings) {
+            if constexpr (has_cross) {
                 take(j.forces, a.forces, b.forces);
                 take(j.offsets, a.offsets, b.offsets);
             }
@@ -166,13 +167,13 @@ template <bool swings, bool fused, class V>
         for (std::size_t i = 0; i < V::size; ++i) {
             const double mu = shifts[p * V::size + i], energy = joined[p].stiffness[i];
             const double rounding =
-                vector_rounding<swings>(chain, mu, joined[p].forces[i] / energy, joined[p].offsets[i] / energy);
+                vector_rounding<has_cross>(chain, mu, joined[p].forces[i] / energy, joined[p].offsets[i] / energy);
             const double second = rounding * (8 * epsilon<double>() * (static_cast<double>(n) + 16) +
                                               2 * chain.data_error / epsilon<double>());
             const double residual =
                 (std::sqrt(joined[p].squares[i] / energy) + std::sqrt(least[p][i])) * (1 + 0x1p-20) + second;
             const double swung =
-                swings ? std::sqrt(joined[p].forces[i] / energy) : 1.0;  // no less than mu X d^2 over |y|^2
+                has_cross ? std::sqrt(joined[p].forces[i] / energy) : 1.0;  // no less than mu X d^2 over |y|^2
             const double data = chain.data_error * (3 + 3 * swung);
             const double error = second + 8 * epsilon<double>() * (static_cast<double>(n) + 16) * residual + data;
             const bool good = rounding < 0x1p-10 && residual < 0x1p-10 && energy > 0x1p-900 && energy < 0x1p1000;
@@ -185,13 +186,13 @@ template <bool swings, bool fused, class V>
 inline std::vector<FineQuotient> fine_quotients_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                                     const std::vector<std::size_t>& places,
                                                     std::size_t longest = longest_leg) {
-    return in_packs<FineQuotient, fine_packs>(chain, shifts, places,
-                                              [&](auto registers, auto swings, const double* some, std::size_t lowest,
-                                                  std::size_t highest, FineQuotient* found) REVCHAIN_INLINED {
-                                                  std::vector<FineWalk<Pack<double, registers.doubles>>> scratch;
-                                                  fine_quotients<swings.value, registers.fused>(
-                                                      chain, some, lowest, highest, longest, found, scratch);
-                                              });
+    return in_packs<FineQuotient, fine_packs>(
+        chain, shifts, places,
+        [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
+            FineQuotient* found) REVCHAIN_INLINED {
+            std::vector<FineWalk<Pack<double, registers.doubles>>> scratch;
+            fine_quotients<has_cross.value, registers.fused>(chain, some, lowest, highest, longest, found, scratch);
+        });
 }
 
 }  // namespace revchain::pencil::spectrum

@@ -26,11 +26,11 @@ inline constexpr std::size_t sample_packs = 6;
 ///
 ///     V' = s V - G/k,     G' = s G + m mu V',     V = 1, G = mu m_0 at the free end.
 ///
-/// Cost per shift and link (AVX-512): 0.13 ns without swings (X = 0), 0.23 with.
+/// Cost per shift and link (AVX-512): 0.13 ns without cross masses (X = 0), 0.23 with.
 ///
 /// With `count`, also the number of eigenvalues below the shift; else `history`, the sign of the offset after every
 /// `history_step` links from the free end, 64 signs to a word, the first in the highest bit used.
-template <class V, bool swings, bool count>
+template <class V, bool has_cross, bool count>
 [[gnu::always_inline]] inline void sample(const LumpedChain& chain, const double* shifts, Sample* samples,
                                           std::uint64_t* history) {
     V mu[sample_packs], offset[sample_packs], force[sample_packs];
@@ -51,8 +51,8 @@ template <class V, bool swings, bool count>
 #pragma GCC unroll 8
             for (std::size_t p = 0; p < sample_packs; ++p) {
                 [[maybe_unused]] const V before = offset[p];
-                if constexpr (swings) {
-                    const V s = 1.0 + mu[p] * link.swing;
+                if constexpr (has_cross) {
+                    const V s = 1.0 + mu[p] * link.cross_ratio;
                     offset[p] = s * offset[p] - link.flexibility * force[p];
                     force[p] = s * force[p] + link.mass * (mu[p] * offset[p]);
                 } else {
@@ -107,10 +107,10 @@ inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vecto
             revchain::detail::look();
             const std::size_t taken = std::min(together, shifts.size() - i);
             for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[i + (j < taken ? j : 0)];
-            if (history == nullptr && chain.swings) sample<V, true, true>(chain, padded, found, nullptr);
-            if (history == nullptr && !chain.swings) sample<V, false, true>(chain, padded, found, nullptr);
-            if (history != nullptr && chain.swings) sample<V, true, false>(chain, padded, found, signs.data());
-            if (history != nullptr && !chain.swings) sample<V, false, false>(chain, padded, found, signs.data());
+            if (history == nullptr && chain.has_cross) sample<V, true, true>(chain, padded, found, nullptr);
+            if (history == nullptr && !chain.has_cross) sample<V, false, true>(chain, padded, found, nullptr);
+            if (history != nullptr && chain.has_cross) sample<V, true, false>(chain, padded, found, signs.data());
+            if (history != nullptr && !chain.has_cross) sample<V, false, false>(chain, padded, found, signs.data());
             for (std::size_t j = 0; j < taken; ++j) samples[i + j] = found[j];
             if (history != nullptr)
                 for (std::size_t j = 0; j < taken * words; ++j) (*history)[i * words + j] = signs[j];

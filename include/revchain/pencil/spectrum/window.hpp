@@ -14,6 +14,29 @@ struct Window {
     Index size() const { return last - first; }
 };
 
+/// Cuts each window at `cuts(window)` shifts `at(window, number, cuts)`, from number 1 on, by counts. Pieces that hold
+/// no eigenvalue are left out.
+template <class Cuts, class At>
+std::vector<Window> cut(const LumpedChain& chain, const std::vector<Window>& windows, const Cuts& cuts, const At& at) {
+    std::vector<double> shifts;
+    for (const Window& w : windows)
+        for (int c = 1; c <= cuts(w); ++c) shifts.push_back(at(w, c, cuts(w)));
+    const auto counted = sample_all(chain, shifts);
+    std::vector<Window> pieces;
+    std::size_t next = 0;
+    for (const Window& w : windows) {
+        Window rest = w;
+        for (int c = 1; c <= cuts(w); ++c, ++next) {
+            // counts may waver within a few ulp: clamped, no eigenvalue is lost
+            const Index below = std::clamp(counted[next].below, rest.first, rest.last);
+            if (below > rest.first) pieces.push_back({rest.lower, shifts[next], rest.first, below});
+            rest.lower = shifts[next], rest.first = below;
+        }
+        if (rest.size() > 0) pieces.push_back(rest);
+    }
+    return pieces;
+}
+
 /// Cuts the spectrum from eigenvalue `first` to `last` (mu = 1/lambda, ascending) into windows of at most `most`
 /// eigenvalues each, by counts. Windows end at the ends of the range only where other eigenvalues are cut off, so the
 /// first and the last may hold more than was asked. Ascending. Cost: about 2 (last - first)/most counts.
@@ -37,40 +60,22 @@ inline std::vector<Window> windows(const LumpedChain& chain, Index first, Index 
         }
         if (!found) continue;
     }
+    const auto cuts = [&](const Window& w) {
+        return static_cast<int>(std::clamp<Index>((w.size() + piece - 1) / piece - 1, 1, 31));
+    };
+    const auto at = [](const Window& w, int number, int of) {
+        const double share = number / static_cast<double>(of + 1);
+        const bool wide = w.upper > 4 * w.lower && w.lower > 0;
+        return wide ? w.lower * std::pow(w.upper / w.lower, share) : w.lower + (w.upper - w.lower) * share;
+    };
     std::vector<Window> work{whole}, done;
-    std::vector<double> shifts;
     while (!work.empty()) {
-        std::vector<std::size_t> pieces;
-        shifts.clear();
-        for (const Window& w : work) {
-            const std::size_t cuts =
-                static_cast<std::size_t>(std::clamp<Index>((w.size() + piece - 1) / piece - 1, 1, 31));
-            pieces.push_back(cuts);
-            const bool wide = w.upper > 4 * w.lower && w.lower > 0;
-            for (std::size_t c = 1; c <= cuts; ++c) {
-                const double share = static_cast<double>(c) / static_cast<double>(cuts + 1);
-                shifts.push_back(wide ? w.lower * std::pow(w.upper / w.lower, share)
-                                      : w.lower + (w.upper - w.lower) * share);
-            }
-        }
-        const auto counted = sample_all(chain, shifts);
         std::vector<Window> next;
-        std::size_t at = 0;
-        for (std::size_t i = 0; i < work.size(); ++i) {
-            Window rest = work[i];
-            const auto keep = [&](const Window& w) {
-                if (w.last <= std::max(first, w.first) || w.first >= last) return;
-                const bool wide = w.upper > 4 * w.lower;
-                const bool divisible = w.upper - w.lower > 0x1p-40 * w.upper;
-                ((w.size() > piece || wide) && divisible ? next : done).push_back(w);
-            };
-            for (std::size_t c = 0; c < pieces[i]; ++c, ++at) {
-                // counts may waver within a few ulp: clamped, no eigenvalue is lost
-                const Index below = std::clamp(counted[at].below, rest.first, rest.last);
-                keep({rest.lower, shifts[at], rest.first, below});
-                rest.lower = shifts[at], rest.first = below;
-            }
-            keep(rest);
+        for (const Window& w : cut(chain, work, cuts, at)) {
+            if (w.last <= first || w.first >= last) continue;
+            const bool wide = w.upper > 4 * w.lower;
+            const bool divisible = w.upper - w.lower > 0x1p-40 * w.upper;
+            ((w.size() > piece || wide) && divisible ? next : done).push_back(w);
         }
         work = std::move(next);
     }
@@ -126,25 +131,6 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     return roots;
 }
 
-/// Cuts a window in four by counts.
-inline std::vector<Window> quartered(const LumpedChain& chain, const std::vector<Window>& windows) {
-    std::vector<double> shifts;
-    for (const Window& w : windows)
-        for (int i = 1; i < 4; ++i) shifts.push_back(w.lower + (w.upper - w.lower) * (0.25 * i + 0.01));
-    const auto counts = sample_all(chain, shifts);
-    std::vector<Window> result;
-    for (std::size_t i = 0; i < windows.size(); ++i) {
-        Window rest = windows[i];
-        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-            const Index below = std::clamp(counts[c].below, rest.first, rest.last);
-            if (below > rest.first) result.push_back({rest.lower, shifts[c], rest.first, below});
-            rest.lower = shifts[c], rest.first = below;
-        }
-        if (rest.size() > 0) result.push_back(rest);
-    }
-    return result;
-}
-
 /// Approximate shifts of the eigenvalues `first` ... `last - 1` and those that share their windows, into
 /// `candidates[.].shift`, ascending, and the links below where they live into `.place`. Windows whose interpolant has
 /// not as many zeros as counts say are cut up; false if that does not end.
@@ -156,8 +142,13 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
     const Index begin = found.front().first;
     candidates.assign(static_cast<std::size_t>(found.back().last - begin), {});
     std::vector<Window> work = found;
+    const auto quarter = [](const Window& w, int number, int) {
+        return w.lower + (w.upper - w.lower) * (0.25 * number + 0.01);
+    };
     for (int round = 0; round < 12 && !work.empty(); ++round) {
-        if (round > 0) work = quartered(chain, work);
+        if (round > 0)
+            work = cut(
+                chain, work, [](const Window&) { return 3; }, quarter);
         std::vector<double> shifts;
         for (const Window& w : work) {
             const std::size_t n = node_count(w.size());

@@ -3,8 +3,8 @@
 
 #include "revchain/finite/branch/shape_on_branch.hpp"
 #include "revchain/modes.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/error_metric.hpp"
@@ -29,7 +29,7 @@ Chain<double> random_chain(support::Random& random, Index n, bool rods, double w
 }
 
 double height_of(const Chain<double>& chain, Index mode) {
-    return revchain::modes(chain, {.first = mode, .count = 1, .shapes = false}).conical_height[0];
+    return revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0];
 }
 
 /// Largest error of an inclination at a height given.
@@ -124,7 +124,7 @@ TEST_CASE("every point of a branch is in the proved list at its speed", "[finite
                 CHECK(shape.moment_of_inertia == Approx(branch.moment_of_inertia[at]).epsilon(1e-11));
                 CHECK(shape.effective_energy == Approx(branch.effective_energy[at]).epsilon(1e-11));
                 if (std::find(branch.folds.begin(), branch.folds.end(), at) != branch.folds.end()) continue;
-                const auto list = revchain::steady_shapes(chain, shape.conical_height);
+                const auto list = revchain::steady_shapes(chain, {.conical_height = shape.conical_height});
                 double nearest = 1;
                 for (const SteadyShape& each : list.shapes)
                     nearest = std::min(nearest, (each.inclination - shape.inclination).cwiseAbs().maxCoeff());
@@ -161,7 +161,7 @@ TEST_CASE("what people ask: tip inclination, tip radius and top tension come bac
                   1e-15 * std::max(1.0, again.condition));
             // what forces do at a height that is given is told exactly, and as the proved list tells it
             if (n > 8) continue;
-            const auto list = revchain::steady_shapes(chain, again.conical_height);
+            const auto list = revchain::steady_shapes(chain, {.conical_height = again.conical_height});
             for (const SteadyShape& proved : list.shapes)
                 if ((proved.inclination - again.inclination).cwiseAbs().maxCoeff() < again.error_bound) {
                     CHECK(again.condition == Approx(proved.condition).epsilon(1e-9));

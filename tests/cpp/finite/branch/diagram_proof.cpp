@@ -65,15 +65,14 @@ Trial trial(const Chain<double>& chain, double lowest, const std::vector<Branch>
     revchain::finite::DiagramProver prover(narrow, 300'000);
     const double first = revchain::modes(chain, {.count = 1}).conical_height[0], low = lowest * unit;
     Trial result;
-    result.proof =
-        prover.run(low, first * unit * (1 + 1e-9),
-                   low * revchain::finite::farthest_tangent(narrow, Interval<double>(low)) * (1 + 1e-12),
-                   [&](const revchain::finite::DiagramPoint& at, const revchain::finite::Rectangle<double>& within) {
-                       for (const Branch& branch : known)
-                           if (revchain::finite::goes_through(branch, corrector, at, within)) return true;
-                       result.others.push_back({at.x / unit, at.height / unit});
-                       return accept;
-                   });
+    result.proof = prover.run(low, first * unit * (1 + 1e-9),
+                              low * revchain::finite::farthest_tangent(narrow, Interval<double>(low)) * (1 + 1e-12),
+                              [&](const revchain::finite::DiagramPoint& at, const revchain::finite::Rectangle& within) {
+                                  for (const Branch& branch : known)
+                                      if (revchain::finite::goes_through(branch, corrector, at, within)) return true;
+                                  result.others.push_back({at.x / unit, at.height / unit});
+                                  return accept;
+                              });
     result.proof.open_low /= unit, result.proof.open_high /= unit;
     return result;
 }
@@ -89,13 +88,14 @@ TEST_CASE("the offset and its derivatives stay within their enclosures: quadrupl
         const auto links = revchain::finite::links_of(chain);
         const double unit = std::ldexp(1.0, -links.units.length_exponent), length = chain.total_length() * unit;
         const double size = i % 3 == 0 ? 1e-2 : i % 3 == 1 ? 0.3 : 1e-5;
-        revchain::finite::Rectangle<double> over{};
+        revchain::finite::Rectangle over{};
         over.low = i % 7 == 0 ? 0.0 : length * random.log_between(1e-6, 1.0);
         over.high = over.low + (over.low == 0 ? length * size : over.low * size);
         over.height_low = length * random.log_between(0.01, 1.0);
         over.height_high = over.height_low * (1 + size * random());
-        const auto y = revchain::finite::support_surface(revchain::finite::enclosed<double>(links.links), over);
-        narrow += y.xx.width() < 1e-3 * std::abs(y.xx.middle());
+        const auto y = revchain::finite::support_offset(revchain::finite::enclosed<double>(links.links),
+                                                        revchain::finite::Cell<double, 2>(over.x(), over.height()));
+        narrow += y.bend[0].width() < 1e-3 * std::abs(y.bend[0].middle());
         for (int k = 0; k < 4; ++k) {
             const Quad x = over.low + random() * (over.high - over.low),
                        h = over.height_low + random() * (over.height_high - over.height_low);
@@ -110,11 +110,11 @@ TEST_CASE("the offset and its derivatives stay within their enclosures: quadrupl
             };
             CAPTURE(i, k, n);
             CHECK(holds(y.value, here, Quad(1e-28)));
-            CHECK(within(y.x, (right - left) / (2 * dx), dx));
-            CHECK(within(y.h, (above - below) / (2 * dh), dh));
-            CHECK(within(y.xx, (right - 2 * here + left) / (dx * dx), dx * dx));
-            CHECK(within(y.hh, (above - 2 * here + below) / (dh * dh), dh * dh));
-            CHECK(within(y.xh, (f(1, 1) - f(1, -1) - f(-1, 1) + f(-1, -1)) / (4 * dx * dh), dx * dh));
+            CHECK(within(y.slope[0], (right - left) / (2 * dx), dx));
+            CHECK(within(y.slope[1], (above - below) / (2 * dh), dh));
+            CHECK(within(y.bend[0], (right - 2 * here + left) / (dx * dx), dx * dx));
+            CHECK(within(y.bend[2], (above - 2 * here + below) / (dh * dh), dh * dh));
+            CHECK(within(y.bend[1], (f(1, 1) - f(1, -1) - f(-1, 1) + f(-1, -1)) / (4 * dx * dh), dx * dh));
         }
     }
     CHECK(narrow > 50);  // they say something
@@ -136,7 +136,7 @@ TEST_CASE("a branch left out is missed: three plummets without their isolated br
     CHECK(met.proof.complete);
     REQUIRE_FALSE(met.others.empty());
     for (const auto& at : met.others) {  // shapes on the branch left out, near its fold
-        const auto list = revchain::steady_shapes(chain, at.height).shapes;
+        const auto list = revchain::steady_shapes(chain, {.conical_height = at.height}).shapes;
         const double inclination = std::atan(at.x / at.height);
         CHECK(std::any_of(list.begin(), list.end(), [&](const auto& shape) {
             return shape.half_waves == 3 && std::abs(shape.inclination[0] - inclination) < 1e-6;

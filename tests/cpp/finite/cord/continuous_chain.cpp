@@ -8,9 +8,9 @@
 #include "support/catch.hpp"
 #include "support/table.hpp"
 
-using revchain::ContinuousChain;
 using revchain::ContinuousShape;
 using revchain::ContinuousShapes;
+using revchain::Cord;
 using revchain::Index;
 using revchain::LineDensity;
 
@@ -26,6 +26,20 @@ std::function<double(double)> function_of(const std::string& name, double length
         const double x = (s / length - 0.4) / 0.1;
         return 1 + 3 * std::exp(-x * x);
     };
+}
+
+/// A cord whose weight per length is 1, or as a function says; the tip in that unit.
+Cord cord(double length, double tip_weight = 0, std::shared_ptr<const LineDensity> density = nullptr) {
+    if (density) return Cord(length, {.density = density, .tip_weight = tip_weight});
+    return Cord(length, {.weight = length, .tip_weight = tip_weight});
+}
+
+ContinuousShapes shapes_at(const Cord& of, double height) {
+    return revchain::steady_shapes(of, {.conical_height = height});
+}
+
+revchain::Vector<double> critical_heights(const Cord& of, Index count) {
+    return revchain::finite::critical_heights(revchain::finite::ContinuousChain(of), count);
 }
 
 const ContinuousShape* with(const ContinuousShapes& found, int half_waves) {
@@ -63,7 +77,7 @@ double worst_balance(const ContinuousShape& shape, double tip_weight) {
 
 TEST_CASE("shapes against 22 digits", "[finite]") {
     std::string chain_of_row;
-    std::unique_ptr<LineDensity> density;
+    std::shared_ptr<LineDensity> density;
     ContinuousShapes found;
     double worst_of_bound = 0, worst_residual = 0;
     std::map<std::string, double> worst;  // inclinations, by density; offsets and heights over the length
@@ -75,8 +89,8 @@ TEST_CASE("shapes against 22 digits", "[finite]") {
         if (const std::string name = row[0] + "," + row[1] + "," + row[2]; name != chain_of_row) {
             chain_of_row = name;
             density =
-                row[0] == "uniform" ? nullptr : std::make_unique<LineDensity>(function_of(row[0], length), length);
-            found = revchain::continuous_shapes({length, tip, density.get()}, 1.0);
+                row[0] == "uniform" ? nullptr : std::make_shared<LineDensity>(function_of(row[0], length), length);
+            found = shapes_at(cord(length, tip, density), 1.0);
         }
         const ContinuousShape* shape = with(found, half_waves);
         REQUIRE(shape != nullptr);
@@ -111,8 +125,8 @@ TEST_CASE("shapes against 22 digits", "[finite]") {
 TEST_CASE("counted by the critical heights: Kolodner's theorem", "[finite]") {
     for (const double ratio : {1.0, 1.4457, 1.4459, 7.6, 7.7, 50.0, 500.0, 3000.0, 10000.0}) {
         CAPTURE(ratio);
-        const auto found = revchain::continuous_shapes({ratio}, 1.0);
-        const auto critical = revchain::continuous_critical_heights({ratio}, 70);
+        const auto found = shapes_at(cord(ratio), 1.0);
+        const auto critical = critical_heights(cord(ratio), 70);
         CHECK(found.complete);
         CHECK(static_cast<Index>(found.shapes.size()) == (critical.array() > 1.0).count());
         for (std::size_t j = 0; j < found.shapes.size(); ++j) {
@@ -130,19 +144,19 @@ TEST_CASE("counted by the critical heights: Kolodner's theorem", "[finite]") {
             CHECK(shape.offset[0] > 0);
         }
     }
-    CHECK(revchain::continuous_shapes({500}, 1.0).shapes.size() == 14);
-    CHECK(revchain::continuous_shapes({10000}, 1.0).shapes.size() == 63);
+    CHECK(shapes_at(cord(500), 1.0).shapes.size() == 14);
+    CHECK(shapes_at(cord(10000), 1.0).shapes.size() == 63);
 }
 
 TEST_CASE("no shape at or above the first critical height, and its side told to rounding", "[finite]") {
-    const double first = revchain::continuous_critical_heights({1}, 1)[0];
+    const double first = critical_heights(cord(1), 1)[0];
     CHECK(first == Approx(0.69166027612257974).epsilon(4e-16));
     for (const double above : {1e-13, 1e-9, 1e-3, 1.0, 1e6}) {
-        const auto none = revchain::continuous_shapes({1}, first * (1 + above));
+        const auto none = shapes_at(cord(1), first * (1 + above));
         CHECK(none.complete);
         CHECK(none.shapes.empty());
         if (above > 0.5) continue;
-        const auto one = revchain::continuous_shapes({1}, first * (1 - above));
+        const auto one = shapes_at(cord(1), first * (1 - above));
         CHECK(one.complete);
         REQUIRE(one.shapes.size() == 1);
         // Small amplitude: the rise of s_1 is 0.3224 eta_0^2.
@@ -152,15 +166,15 @@ TEST_CASE("no shape at or above the first critical height, and its side told to 
                   Approx(std::sqrt(1.4457964907366961 * above / 0.32244)).epsilon(2 * above + 2e-3 + 1e-15 / above));
         CHECK(one.shapes[0].error_bound >= 1e-16 * tip / above);
     }
-    const auto at = revchain::continuous_shapes({1}, first);
+    const auto at = shapes_at(cord(1), first);
     CHECK_FALSE(at.complete);
 }
 
 TEST_CASE("forces balance; tip weights; free end", "[finite]") {
     for (const double tip : {0.0, 1e-9, 0.03, 1.0, 70.0, 1000.0}) {
         for (const double height : {0.3, 0.05, 0.004}) {
-            const auto found = revchain::continuous_shapes({1, tip}, height);
-            const auto critical = revchain::continuous_critical_heights({1, tip}, 15);
+            const auto found = shapes_at(cord(1, tip), height);
+            const auto critical = critical_heights(cord(1, tip), 15);
             CAPTURE(tip, height);
             REQUIRE(static_cast<Index>(found.shapes.size()) == (critical.array() > height).count());
             CHECK(found.complete == (tip == 0 || found.shapes.size() == 1));
@@ -183,7 +197,7 @@ TEST_CASE("forces balance; tip weights; free end", "[finite]") {
 }
 
 TEST_CASE("units do not matter", "[finite]") {
-    const auto found = revchain::continuous_shapes({1}, 1.0 / 64), scaled = revchain::continuous_shapes({1024}, 16.0);
+    const auto found = shapes_at(cord(1), 1.0 / 64), scaled = shapes_at(cord(1024), 16.0);
     REQUIRE(found.shapes.size() == scaled.shapes.size());
     for (std::size_t j = 0; j < found.shapes.size(); ++j) {
         CHECK(scaled.shapes[j].offset[0] == 1024 * found.shapes[j].offset[0]);
@@ -191,8 +205,8 @@ TEST_CASE("units do not matter", "[finite]") {
     }
     // a density that is a number; weights in any unit
     for (const double weight : {1.0, 1e-200, 1e200}) {
-        const LineDensity density([=](double) { return weight; }, 1);
-        const auto dense = revchain::continuous_shapes({1, 0, &density}, 1.0 / 64);
+        const auto density = std::make_shared<LineDensity>([=](double) { return weight; }, 1);
+        const auto dense = shapes_at(cord(1, 0, density), 1.0 / 64);
         REQUIRE(dense.shapes.size() == found.shapes.size());
         for (std::size_t j = 0; j < found.shapes.size(); ++j) {
             CHECK(std::abs(dense.shapes[j].offset[0] - found.shapes[j].offset[0]) <= 2 * found.shapes[j].error_bound);
@@ -208,20 +222,20 @@ TEST_CASE("critical heights of a chain with a tip mass, of a power law, of two h
         const double tip = std::stod(row[0]);
         const int mode = std::stoi(row[1]);
         if (tip > 1000 || mode > 14) continue;
-        const auto heights = revchain::continuous_critical_heights({1, tip}, mode);
+        const auto heights = critical_heights(cord(1, tip), mode);
         worst = std::max(worst, static_cast<double>(fabsq(heights[mode - 1] / support::quad_of(row[2]) - 1)));
         ++rows;
     }
     CHECK(rows == 60);
     CHECK(worst <= 4e-15);
     // s^(1/2): zeros of J_1/2 are those of the sine
-    const LineDensity root([](double s) { return std::sqrt(s); }, 30);
-    const auto of_root = revchain::continuous_critical_heights({30, 0, &root}, 4);
+    const auto root = std::make_shared<LineDensity>([](double s) { return std::sqrt(s); }, 30);
+    const auto of_root = critical_heights(cord(30, 0, root), 4);
     for (Index k = 1; k <= 4; ++k)
         CHECK(of_root[k - 1] == Approx(180 / std::pow(pi * static_cast<double>(k), 2)).epsilon(3e-14));
     // A jump half way up: below it J_0, above it J_0 and Y_0 of a chain that hangs from what is below.
-    const LineDensity halves([](double s) { return s < 0.5 ? 1.0 : 4.0; }, 1);
-    const auto of_halves = revchain::continuous_critical_heights({1, 0, &halves}, 3);
+    const auto halves = std::make_shared<LineDensity>([](double s) { return s < 0.5 ? 1.0 : 4.0; }, 1);
+    const auto of_halves = critical_heights(cord(1, 0, halves), 3);
     for (Index k = 0; k < 3; ++k) {
         const double x = 1 / of_halves[k], r = std::sqrt(x);
         // y = J_0(2 sqrt(x s)); above, 4 (V y')' ... with V = 1/2 + 4 (s - 1/2): y of z = 2 sqrt(x V / 4)
@@ -238,10 +252,9 @@ TEST_CASE("critical heights of a chain with a tip mass, of a power law, of two h
 TEST_CASE("beads on a light thread: more shapes than critical heights", "[finite]") {
     // Three plummets have five shapes once length of a link over height exceeds 15.24 (steady_shapes), where their three
     // conical heights promise three: what is true of the uniform chain is not of every chain.
-    const LineDensity density(beads, 3);
-    const auto few = revchain::continuous_shapes({3, 0, &density}, 0.1),
-               many = revchain::continuous_shapes({3, 0, &density}, 0.06);
-    const auto critical = revchain::continuous_critical_heights({3, 0, &density}, 4);
+    const auto density = std::make_shared<LineDensity>(beads, 3);
+    const auto few = shapes_at(cord(3, 0, density), 0.1), many = shapes_at(cord(3, 0, density), 0.06);
+    const auto critical = critical_heights(cord(3, 0, density), 4);
     CHECK((critical.array() > 0.06).count() == 3);
     CHECK(few.shapes.size() == 3);
     CHECK(many.shapes.size() == 5);
@@ -249,7 +262,7 @@ TEST_CASE("beads on a light thread: more shapes than critical heights", "[finite
     for (const ContinuousShape& shape : many.shapes) CHECK(shape.error_bound <= 2e-13);
     CHECK(with(many, 3) != nullptr);
     // one critical height above: one shape, by the theorem
-    const auto one = revchain::continuous_shapes({3, 0, &density}, 0.5);
+    const auto one = shapes_at(cord(3, 0, density), 0.5);
     CHECK(one.complete);
     CHECK(one.shapes.size() == 1);
 }
@@ -257,9 +270,9 @@ TEST_CASE("beads on a light thread: more shapes than critical heights", "[finite
 TEST_CASE("jumps of the density", "[finite]") {
     // Light, a hundred times as heavy, and all but weightless: many more shapes than heights of small amplitude.
     const auto weight = [](double s) { return s < 0.3 ? 1.0 : s < 0.7 ? 100.0 : 0.01; };
-    const LineDensity density(weight, 1);
-    CHECK(density.total() == Approx(40.303).epsilon(1e-13));
-    const auto found = revchain::continuous_shapes({1, 0, &density}, 0.003);
+    const auto density = std::make_shared<LineDensity>(weight, 1);
+    CHECK(density->total() == Approx(40.303).epsilon(1e-13));
+    const auto found = shapes_at(cord(1, 0, density), 0.003);
     CHECK(found.shapes.size() == 31);
     for (const ContinuousShape& shape : found.shapes) {
         CHECK(shape.error_bound <= 1e-11);
@@ -280,11 +293,10 @@ TEST_CASE("jumps of the density", "[finite]") {
 TEST_CASE("near the free end: the inclination falls as the series says", "[finite]") {
     // tan psi = eta_0 - s eta_0 m/sqrt(1 + eta_0^2) + ..., m = (p + 1)/(p + 2) for a density s^p; over the height.
     for (const double power : {0.0, 0.5, 2.0}) {
-        const LineDensity density([=](double s) { return 3 * std::pow(s, power); }, 1);
+        const auto density = std::make_shared<LineDensity>([=](double s) { return 3 * std::pow(s, power); }, 1);
         for (const bool uniform : {true, false}) {
             if (uniform && power != 0) continue;
-            for (const ContinuousShape& shape :
-                 revchain::continuous_shapes({1, 0, uniform ? nullptr : &density}, 0.02).shapes) {
+            for (const ContinuousShape& shape : shapes_at(cord(1, 0, uniform ? nullptr : density), 0.02).shapes) {
                 const double tip = shape.offset[0] / 0.02, m = (power + 1) / (power + 2);
                 for (double s = 1e-15; s < 1e-6; s *= 3) {
                     const double slope = -tip * m / std::sqrt(1 + tip * tip) / (1 + tip * tip);
@@ -303,18 +315,18 @@ TEST_CASE("line densities are what they were given", "[finite]") {
     for (const std::string name : {"power:0.5", "power:2", "power:-0.25", "linear", "bump"}) {
         CAPTURE(name);
         const auto f = function_of(name, 7);
-        const LineDensity density(f, 7);
+        const auto density = std::make_shared<LineDensity>(f, 7);
         std::mt19937 random(5);
         double worst = 0;
         for (int i = 0; i < 2000; ++i) {
             const double s = 7 * std::pow(std::uniform_real_distribution<>(0, 1)(random), 3);
-            worst = std::max(worst, std::abs(density.about(s)[0] / f(s) - 1));
+            worst = std::max(worst, std::abs(density->about(s)[0] / f(s) - 1));
         }
         CHECK(worst <= 2e-14);
         if (name.rfind("power", 0) == 0) {
             const double p = std::stod(name.substr(6));
             for (const double s : {1e-12, 1e-5, 0.4, 7.0})
-                CHECK(density.weight_below(s) == Approx(std::pow(s / 7, p) * s / (p + 1)).epsilon(3e-14));
+                CHECK(density->weight_below(s) == Approx(std::pow(s / 7, p) * s / (p + 1)).epsilon(3e-14));
         }
     }
 }
@@ -324,22 +336,21 @@ TEST_CASE("wrong chains are refused", "[finite]") {
     using revchain::InvalidArgument;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double wrong : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
-        CHECK_THROWS_AS(revchain::continuous_shapes({wrong}, 1.0), InvalidArgument);
-        CHECK_THROWS_AS(revchain::continuous_shapes({1}, wrong), InvalidArgument);
-        CHECK_THROWS_AS(revchain::continuous_shapes_at_speed({1}, wrong), InvalidArgument);
+        CHECK_THROWS_AS(cord(wrong), InvalidArgument);
+        CHECK_THROWS_AS(shapes_at(cord(1), wrong), InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shapes(cord(1), {.angular_speed = wrong}), InvalidArgument);
         CHECK_THROWS_AS(LineDensity([=](double) { return wrong; }, 1.0), InvalidArgument);
     }
-    CHECK_THROWS_WITH(revchain::continuous_shapes({1, -0.5}, 1.0),
-                      ContainsSubstring("tip weight") && ContainsSubstring("-0.5"));
-    CHECK_THROWS_WITH(revchain::continuous_shapes({1e7}, 1.0), ContainsSubstring("at most 1e6"));
-    CHECK_THROWS_AS(revchain::continuous_shapes({1}, 1.0, {.scanned = 0}), InvalidArgument);
-    CHECK_THROWS_AS(revchain::continuous_critical_heights({1}, 0), InvalidArgument);
-    const LineDensity density([](double) { return 1.0; }, 2);
-    CHECK_THROWS_WITH(revchain::continuous_shapes({1, 0, &density}, 1.0), ContainsSubstring("over the length"));
+    CHECK_THROWS_WITH(cord(1, -0.5), ContainsSubstring("tip weight") && ContainsSubstring("-0.5"));
+    CHECK_THROWS_WITH(shapes_at(cord(1e7), 1.0), ContainsSubstring("at most 1e6"));
+    CHECK_THROWS_AS(revchain::steady_shapes(cord(1), {.conical_height = 1.0, .scanned = 0}), InvalidArgument);
+    CHECK_THROWS_AS(critical_heights(cord(1), 0), InvalidArgument);
+    const auto density = std::make_shared<LineDensity>([](double) { return 1.0; }, 2);
+    CHECK_THROWS_WITH(cord(1, 0, density), ContainsSubstring("over the length"));
     std::mt19937 random(1);
     CHECK_THROWS_WITH(LineDensity([&](double) { return std::uniform_real_distribution<>(1, 2)(random); }, 1),
                       ContainsSubstring("rough"));
-    const auto shape = revchain::continuous_shapes({1}, 0.5).shapes.at(0);
+    const auto shape = shapes_at(cord(1), 0.5).shapes.at(0);
     CHECK_THROWS_AS(shape(-0.1), InvalidArgument);
     CHECK_THROWS_AS(shape(1.1), InvalidArgument);
     CHECK_THROWS_AS(shape(nan), InvalidArgument);

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "revchain/modes.hpp"
-#include "revchain/paper/two_links_shapes.hpp"
 #include "revchain/steady_shapes.hpp"
+#include "revchain/two_links.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"
@@ -271,7 +271,7 @@ Chain<double> chain_of_kind(int kind, Index n, Random& random) {
 }
 
 SteadyShapes all_shapes(const Chain<double>& chain, double height) {
-    return revchain::steady_shapes(chain, height, {.hanging_only = false});
+    return revchain::steady_shapes(chain, {.conical_height = height, .hanging_only = false});
 }
 
 std::size_t hanging(const SteadyShapes& found) {
@@ -311,7 +311,7 @@ TEST_CASE("all postures, one to four links: every shape proved, every degree", "
         const auto chain = chain_of_kind(kind, n, random);
         const double height = chain.total_length() * random.log_between(1e-3, 3.0);
         CAPTURE(i, n, kind, height);
-        const auto all = all_shapes(chain, height), hang = revchain::steady_shapes(chain, height);
+        const auto all = all_shapes(chain, height), hang = revchain::steady_shapes(chain, {.conical_height = height});
         check_list(chain, height, all);
         check_list(chain, height, hang, true);
         CHECK(hanging(all) == hang.shapes.size());
@@ -417,7 +417,7 @@ TEST_CASE("exactly a critical height: what rounding leaves open is narrow, and t
     Random random(307);
     for (int i = 0; i < 48; ++i) {
         const auto chain = chain_of_kind(i % 4, 1 + i % 3, random);
-        const auto heights = revchain::modes(chain, {.shapes = false}).conical_height;
+        const auto heights = revchain::modes(chain, {.count = revchain::all_modes}).conical_height;
         for (const double height : heights) {
             CAPTURE(i, chain.size(), height);
             const auto found = all_shapes(chain, height);
@@ -435,7 +435,7 @@ TEST_CASE("a lowest link that hangs, or stands, in the axis", "[finite]") {
     // Link 2 carries no load and leans at 60 degrees, as lambda sigma/cos d = -a X does; link 3 leans as much against it.
     const Chain<double> chain(
         {revchain::plummet(1.0, 1.0), {1.0, 1.0, 0.5, revchain::Wide<double>(1.0)}, revchain::plummet(1.0, 1.0)});
-    const auto hang = revchain::steady_shapes(chain, 0.25), all = all_shapes(chain, 0.25);
+    const auto hang = revchain::steady_shapes(chain, {.conical_height = 0.25}), all = all_shapes(chain, 0.25);
     CHECK(hang.complete);
     CHECK(all.complete);
     for (const auto* found : {&hang, &all}) {
@@ -467,63 +467,12 @@ TEST_CASE("joints that coincide: one inclination becomes three", "[finite]") {
         }
 }
 
-TEST_CASE("the tangents of a piece: all that carry a load, and derivatives only away from the joints", "[finite]") {
-    using revchain::Interval;
-    using revchain::finite::Piece;
-    using revchain::finite::Posture;
-    Random random(308);
-    int smooth = 0, met_in_all = 0, near_joint = 0;
-    for (int i = 0; i < 4000; ++i) {
-        // R(t) = k t - c t/sqrt(1 + t^2), from all but flat to c = 1e4 k
-        const double k = random.log_between(1e-3, 1e3);
-        const double c = k * (1 + (i % 3 == 0 ? random.log_between(1e-16, 1e-3) : random.log_between(1e-3, 1e4)));
-        const revchain::finite::Link<Interval<double>> link{1.0, k, -c, 1.0, 0.0};
-        const revchain::finite::Response<double> response(link, 1.0, Posture::hangs);
-        REQUIRE_FALSE(response.is_single());
-        const Quad ratio = cbrtq(Quad(c) / k), joint = sqrtq(ratio * ratio - 1);
-        const auto load = [&](const Quad& t) { return k * t - c * t / sqrtq(1 + t * t); };
-        const auto piece = std::array{Piece::right, Piece::middle, Piece::left}[static_cast<std::size_t>(i / 3 % 3)];
-        const auto on_piece = [&]() -> Quad {
-            const double off = random.log_between(1e-9, 1.0);
-            if (piece == Piece::middle) return joint * (random() < 0.5 ? -1 : 1) * (1 - off);
-            return (piece == Piece::right ? 1 : -1) * joint * (1 + off * 100);
-        };
-        const Quad one = on_piece(), other = random() < 0.3   ? one
-                                             : random() < 0.5 ? one * (1 + Quad(1e-6))
-                                                              : on_piece();
-        const double a = static_cast<double>(load(one)), b = static_cast<double>(load(other));
-        const Interval<double> R(std::min(a, b), std::max(a, b));
-        const auto met = response.met(piece, R);
-        CAPTURE(k, c, static_cast<int>(piece), R.low, R.high);
-        REQUIRE(met.possible);
-        smooth += met.smooth;
-        if (met.smooth) {  // one monotone stretch
-            const bool inside = Quad(met.tangent.high) < joint && Quad(met.tangent.low) > -joint;
-            const bool beyond = Quad(met.tangent.low) > joint || Quad(met.tangent.high) < -joint;
-            CHECK((piece == Piece::middle ? inside : beyond));
-        } else {
-            ++near_joint;
-        }
-        for (int j = 0; j < 20; ++j) {
-            const Quad t = j < 2 ? (j == 0 ? one : other) : one + (other - one) * random();
-            const bool is_on = piece == Piece::middle ? fabsq(t) <= joint : (piece == Piece::right ? t : -t) >= joint;
-            if (!is_on || load(t) < R.low || load(t) > R.high) continue;
-            ++met_in_all;
-            CHECK(Quad(met.tangent.low) <= t);
-            CHECK(t <= Quad(met.tangent.high));
-        }
-    }
-    CHECK(smooth > 2000);
-    CHECK(near_joint > 200);
-    CHECK(met_in_all > 40000);
-}
-
 TEST_CASE("a free end across the axis is told by its offset", "[finite]") {
     // A lowest link with l = 3 a above its critical speed: its lower pin swings over to the other side.
     const Chain<double> chain(
         {revchain::compound_pendulum<double>({.weight = 1, .length = 1, .centroid = 0.5, .pendulum_length = 3})});
     for (const double height : {2.9, 2.1, 1.9, 0.5}) {
-        const auto found = revchain::steady_shapes(chain, height);
+        const auto found = revchain::steady_shapes(chain, {.conical_height = height});
         REQUIRE(found.shapes.size() == 1);
         CHECK(found.shapes[0].offset[0] > 0);
     }
@@ -533,8 +482,8 @@ TEST_CASE("chains too long for the budget say so", "[finite]") {
     Random random(307);
     const auto chain = chain_of_kind(2, 30, random);
     for (const bool hanging_only : {false, true}) {
-        const auto found =
-            revchain::steady_shapes(chain, 0.01 * chain.total_length(), {.budget = 2000, .hanging_only = hanging_only});
+        const auto found = revchain::steady_shapes(
+            chain, {.conical_height = 0.01 * chain.total_length(), .budget = 2000, .hanging_only = hanging_only});
         CHECK_FALSE(found.complete);
         CHECK_FALSE(found.undecided.empty());
     }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/stability/held.hpp"
+#include "revchain/stability.hpp"
 
-#include "revchain/held.hpp"
+#include "revchain/pencil/complex/gyroscopic.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
+#include "support/held.hpp"
 
 using revchain::Chain;
 using revchain::HeldShape;
@@ -64,8 +65,8 @@ TEST_CASE("held at both ends: exponents of small disturbances against points in 
                 for (const double share : {0.9, 0.5})
                     for (const double slow : {0.0, 0.01}) {
                         const Chain<double> chain = family.make(size);
-                        const auto found = revchain::held_shapes(chain, share * chain.total_length(),
-                                                                 slow * chain.total_length(), {.most_half_waves = 3});
+                        const auto found = support::held_shapes(chain, share * chain.total_length(),
+                                                                slow * chain.total_length(), {.max_half_waves = 3});
                         for (const HeldShape& shape : found.shapes)
                             for (const bool driven : {false, true}) {
                                 INFO(name << " " << size << " span " << share << " height " << slow << " "
@@ -100,7 +101,7 @@ TEST_CASE("held at both ends: exponents of small disturbances against points in 
 
 TEST_CASE("held at both ends: two links can only turn, refusals") {
     const Chain<double> pair = Chain<double>::uniform_plummets(2, 2.0);
-    const HeldShape shape = revchain::held_shapes(pair, 1.0, 0.1).shapes.at(0);
+    const HeldShape shape = support::held_shapes(pair, 1.0, 0.1).shapes.at(0);
     CHECK(revchain::stability(pair, shape).verdict == revchain::Verdict::minimum);
     CHECK(revchain::stability(pair, shape).exponents.empty());
     CHECK_THROWS_AS(revchain::stability(Chain<double>::uniform_plummets(3), shape), revchain::InvalidArgument);

@@ -82,7 +82,7 @@ TEST_CASE("what a truncated series leaves out is less than is noted", "[blocks]"
         const auto both = some_links(random, links, std::pow(10.0, 3 * random()), random() < 0.5, below);
         const double phase = random.log_between(1e-4, 0.5);
         const double least = static_cast<double>(both.exact.b[0] * both.exact.c[0]) / phase;
-        const BlockBuilder<double> builder(least);
+        const CondensedPencilBuilder<double> builder(least);
         const auto compare = [&]<std::size_t Kept>() {
             CondensedRun<double> run = both.run;
             builder.note_truncation<Kept>(run);
@@ -125,7 +125,7 @@ TEST_CASE("merged runs are as accurate as is noted", "[blocks]") {
             exact = m == 0 ? links[0].exact : merged(exact, links.back().exact);
         }
         const double least = static_cast<double>(exact.b[0] * exact.c[0]) / 0.06;
-        BlockBuilder<double> builder(least);
+        CondensedPencilBuilder<double> builder(least);
         for (const Both& link : links) {
             auto run = link.run;
             builder.note_roundings(run, 1, builder.second_terms(run));
@@ -164,7 +164,7 @@ TEST_CASE("runs are merged while the result is short, complete and accurate, and
     const double phase_of_two =
         static_cast<double>((one.exact.b[0] + two.exact.b[0]) * (one.exact.c[0] + two.exact.c[0]));
     const auto blocks = [&](double phase, const CondensedRun<double>& first) {
-        BlockBuilder<double> builder(phase_of_two / phase);
+        CondensedPencilBuilder<double> builder(phase_of_two / phase);
         builder.add(first);
         builder.add(two.run);
         return builder.finish().blocks.size();
@@ -178,13 +178,13 @@ TEST_CASE("runs are merged while the result is short, complete and accurate, and
     inaccurate.mass_error = 1.2 * 0x1p-52;
     CHECK(blocks(0.01, inaccurate) == 2);
     // The largest errors are those of the chain.
-    BlockBuilder<double> builder(phase_of_two);
+    CondensedPencilBuilder<double> builder(phase_of_two);
     builder.add(inaccurate);
     CHECK(builder.finish().error >= 1.2 * 0x1p-52);
 }
 
 TEST_CASE("a massless run has no error of its masses", "[blocks]") {
-    const BlockBuilder<double> builder(1.0);
+    const CondensedPencilBuilder<double> builder(1.0);
     CondensedRun<double> run;
     run.flexibility = Wide<double>(0.01);
     append_spring(run.transfer, 0.01);

@@ -18,7 +18,7 @@ using W = DoubleWord<V>;
 namespace {
 
 /// The pencil of blocks itself, in quadruple precision: how many eigenvalues exceed a shift.
-Index exact_count(const BlockPencil<double>& pencil, Quad shift) {
+Index exact_count(const CondensedPencil<double>& pencil, Quad shift) {
     Index negative = 0;
     Quad below = 0;
     const Quad z = -1 / shift;
@@ -85,7 +85,7 @@ TEST_CASE("a block at a shift, in every kind of number", "[blocks]") {
     Random random(62);
     for (int kind = 0; kind < 4; ++kind) {
         const Chain<double> chain = chain_of_kind(kind, 500, random);
-        const auto pencil = compress(chain, 20.0).pencil;
+        const auto pencil = condensed_chain(chain, 20.0).pencil;
         for (const auto& block : pencil.blocks) {
             const Wide<double> shift = Wide<double>(random.log_between(20, 1e4)) + Wide<double>(1e-20 * random());
             const auto narrow = element_at(block, shift.high);
@@ -113,8 +113,8 @@ TEST_CASE("counts on blocks are those on links, and those in quadruple precision
     for (int kind = 0; kind < 4; ++kind)
         for (int i = 0; i < 12; ++i) {
             const Chain<double> chain = chain_of_kind(kind, 260 + 30 * i, random);
-            const auto compressed = compress(chain, random.log_between(1.0, 20.0));
-            const auto& pencil = compressed.pencil;
+            const auto condensed = condensed_chain(chain, random.log_between(1.0, 20.0));
+            const auto& pencil = condensed.pencil;
             const support::Truth truth(chain);
             CAPTURE(kind, i, pencil.blocks.size());
             for (int k = 0; k < 10; ++k) {
@@ -125,7 +125,7 @@ TEST_CASE("counts on blocks are those on links, and those in quadruple precision
                 const auto quick = count_above(pencil, shifts);
                 const auto sure = certified_count(pencil, pack_of(first));
                 for (std::size_t j = 0; j < 5; ++j) {
-                    const Index on_links = truth.above(Quad(shifts[j]) * Quad(compressed.unit_length));
+                    const Index on_links = truth.above(Quad(shifts[j]) * Quad(condensed.unit_length));
                     CHECK(exact_count(pencil, shifts[j]) == on_links);
                     CHECK(quick[j] == on_links);
                     if (j == 4) continue;
@@ -146,9 +146,9 @@ TEST_CASE("proved counts beside an eigenvalue", "[blocks]") {
     for (int kind = 0; kind < 4; ++kind)
         for (int i = 0; i < 4; ++i) {
             const Chain<double> chain = chain_of_kind(kind, 300, random);
-            const auto compressed = compress(chain, 8.0);
+            const auto condensed = condensed_chain(chain, 8.0);
             // Kept from corrections that each shift rounds anew: lumps alone, which are a chain as well.
-            auto pencil = compressed.pencil;
+            auto pencil = condensed.pencil;
             for (auto& block : pencil.blocks) block.a = {}, block.b = {}, block.d = {};
             const Index before = exact_count(pencil, 8.0);
             if (before == 0) continue;
@@ -184,10 +184,10 @@ TEST_CASE("improved shifts and offsets at the pins between blocks", "[blocks]") 
     for (int kind = 0; kind < 4; ++kind) {
         const Chain<double> chain = chain_of_kind(kind, 2000, random);
         const double least = revchain::detail::estimated_height(chain, 6);
-        const auto compressed = compress(chain, least);
-        const auto& pencil = compressed.pencil;
+        const auto condensed = condensed_chain(chain, least);
+        const auto& pencil = condensed.pencil;
         const support::Truth truth(chain);
-        const Quad unit = compressed.unit_length;
+        const Quad unit = condensed.unit_length;
         const Index modes = std::min<Index>(truth.above(Quad(least) * unit), 4);
         REQUIRE(modes >= 1);
         for (Index j = 0; j < modes; ++j) {
@@ -200,7 +200,7 @@ TEST_CASE("improved shifts and offsets at the pins between blocks", "[blocks]") 
             CAPTURE(kind, j, static_cast<double>(height));
             CHECK(error <= pencil.error + 1e-20);
             worst = std::max(worst, error / pencil.error);
-            const auto offset = offsets_between<W>(pencil, fine);
+            const auto offset = offsets_between(elements_at(pencil, fine));
             const auto shape = truth.shape(height * unit);
             CHECK(offset.size() == pencil.blocks.size() + 1);
             CHECK(offset.back().high[0] == 0);

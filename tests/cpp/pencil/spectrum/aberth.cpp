@@ -12,7 +12,7 @@
 
 using support::Quad;
 namespace pencil = revchain::pencil;
-namespace small = revchain::pencil::small;
+namespace aberth = revchain::pencil::aberth;
 
 namespace {
 
@@ -24,8 +24,8 @@ struct Body {
     double weight, ratio, stiffness;
 };
 
-small::LumpedLinks pinned(const std::vector<Body>& bodies, bool rigid) {
-    small::LumpedLinks links;
+aberth::LumpedLinks lumped(const std::vector<Body>& bodies, bool rigid) {
+    aberth::LumpedLinks links;
     links.size = bodies.size();
     links.rigid = rigid;
     double trace = 0, greatest = 0, hung = 0;
@@ -34,7 +34,7 @@ small::LumpedLinks pinned(const std::vector<Body>& bodies, bool rigid) {
         links.mass[m] = rigid ? (weight + (m == 0 ? 0 : bodies[m - 1].weight)) / 2 : weight;
         links.stiffness[m] = k;
         links.flexibility[m] = 1 / k;
-        links.swing[m] = weight * (0.25 - r) / k;
+        links.cross_ratio[m] = weight * (0.25 - r) / k;
         links.quarter_weight[m] = weight / 4;
         links.skew[m] = 0;
         links.turn[m] = weight * r;
@@ -45,6 +45,8 @@ small::LumpedLinks pinned(const std::vector<Body>& bodies, bool rigid) {
     }
     links.least_shift = 0.999 / trace;
     links.greatest_shift = 1.001 * greatest;
+    links.roundings = {2, 0, 6, 0};
+    if (rigid) links.roundings = {6, 4, 25, 0};
     return links;
 }
 
@@ -74,12 +76,10 @@ Quad exact(const std::vector<Body>& bodies, bool rigid, std::size_t j, Quad low,
     return low;
 }
 
-constexpr pencil::SmallRoundings lumped{2, 0, 6, 0}, rods{6, 4, 25, 0};
-
 /// The worst error in ulp, checked against the bounds; negative where nothing was found.
 double worst_error(const std::vector<Body>& bodies, bool rigid, double tolerance) {
-    const auto found = std::make_unique<pencil::SmallSpectrum>();
-    if (!pencil::small_spectrum(pinned(bodies, rigid), rigid ? rods : lumped, tolerance, *found)) return -1;
+    const auto found = std::make_unique<pencil::AberthSpectrum>();
+    if (!pencil::aberth_spectrum(lumped(bodies, rigid), tolerance, *found)) return -1;
     double worst = 0;
     for (std::size_t j = 0; j < bodies.size(); ++j) {
         const Quad value = found->eigenvalue[j], reach = 4 * Quad(tolerance);
@@ -103,11 +103,11 @@ std::vector<Body> random_bodies(support::Random& random, std::size_t n, double s
 }  // namespace
 
 TEST_CASE("one and two links, by formula", "[linalg]") {
-    const auto found = std::make_unique<pencil::SmallSpectrum>();
-    REQUIRE(pencil::small_spectrum(pinned({{3, 0, 2}}, false), lumped, 1e-14, *found));
+    const auto found = std::make_unique<pencil::AberthSpectrum>();
+    REQUIRE(pencil::aberth_spectrum(lumped({{3, 0, 2}}, false), 1e-14, *found));
     CHECK_THAT(found->eigenvalue[0], Catch::Matchers::WithinULP(1.5, 1));
     // two equal plummets, k = 1 and 2: mu = 2 -+ sqrt(2)
-    REQUIRE(pencil::small_spectrum(pinned({{1, 0, 1}, {1, 0, 2}}, false), lumped, 1e-14, *found));
+    REQUIRE(pencil::aberth_spectrum(lumped({{1, 0, 1}, {1, 0, 2}}, false), 1e-14, *found));
     CHECK_THAT(found->eigenvalue[0], Catch::Matchers::WithinULP(1 / (2 - std::sqrt(2.0)), 4));
     CHECK_THAT(found->eigenvalue[1], Catch::Matchers::WithinULP(1 / (2 + std::sqrt(2.0)), 4));
 }
@@ -150,36 +150,35 @@ TEST_CASE("small spectra: what cannot be proved is refused", "[linalg]") {
     const std::vector<Body> pairs{{1, 0, 1}, {1e-13, 0, 1e-13}, {1, 0, 1e13}, {1, 0, 1}};
     const double error = worst_error(pairs, false, 1e-14);
     CHECK(error <= 5);  // refused, or right
-    const auto found = std::make_unique<pencil::SmallSpectrum>();
+    const auto found = std::make_unique<pencil::AberthSpectrum>();
     const std::vector<Body> ordinary{{1, 0, 1}, {1, 0, 2}, {1, 0, 3}};
-    CHECK(pencil::small_spectrum(pinned(ordinary, false), lumped, 1e-14, *found));
-    CHECK_FALSE(pencil::small_spectrum(pinned(ordinary, false), lumped, 1e-15, *found));
+    CHECK(pencil::aberth_spectrum(lumped(ordinary, false), 1e-14, *found));
+    CHECK_FALSE(pencil::aberth_spectrum(lumped(ordinary, false), 1e-15, *found));
     // A range of shifts that leaves eigenvalues out.
-    auto short_range = pinned(ordinary, false);
+    auto short_range = lumped(ordinary, false);
     short_range.greatest_shift /= 4;
-    CHECK_FALSE(pencil::small_spectrum(short_range, lumped, 1e-14, *found));
+    CHECK_FALSE(pencil::aberth_spectrum(short_range, 1e-14, *found));
     // Numbers beyond 2^64, a NaN, and a polynomial that leaves the range of double.
-    CHECK_FALSE(pencil::small_spectrum(pinned({{1, 0, 0x1p65}, {1, 0, 1}}, false), lumped, 0.5, *found));
-    CHECK_FALSE(pencil::small_spectrum(pinned({{0x1p-65, 0, 1}, {1, 0, 1}}, false), lumped, 0.5, *found));
+    CHECK_FALSE(pencil::aberth_spectrum(lumped({{1, 0, 0x1p65}, {1, 0, 1}}, false), 0.5, *found));
+    CHECK_FALSE(pencil::aberth_spectrum(lumped({{0x1p-65, 0, 1}, {1, 0, 1}}, false), 0.5, *found));
     for (const double mass : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 0.0}) {
-        auto broken = pinned(std::vector<Body>(40, {1, 0, 1}), false);
+        auto broken = lumped(std::vector<Body>(40, {1, 0, 1}), false);
         broken.mass[17] = mass;
-        CHECK_FALSE(pencil::small_spectrum(broken, lumped, 0.5, *found));
+        CHECK_FALSE(pencil::aberth_spectrum(broken, 0.5, *found));
     }
     std::vector<Body> steep;
     for (int m = 0; m < 128; ++m) steep.push_back({m % 2 == 0 ? 0x1p40 : 1, 0.1, m % 2 == 0 ? 1 : 0x1p40});
-    for (const bool rigid : {false, true})
-        CHECK_FALSE(pencil::small_spectrum(pinned(steep, rigid), rigid ? rods : lumped, 0.5, *found));
+    for (const bool rigid : {false, true}) CHECK_FALSE(pencil::aberth_spectrum(lumped(steep, rigid), 0.5, *found));
 }
 
 TEST_CASE("small spectra: however loose the tolerance, bounds stay where their squares do not count", "[linalg]") {
     support::Random random(10);
-    const auto found = std::make_unique<pencil::SmallSpectrum>();
+    const auto found = std::make_unique<pencil::AberthSpectrum>();
     int served = 0;
     for (int i = 0; i < 400; ++i) {
         const std::size_t n = 1 + static_cast<std::size_t>(random() * 8);
         const std::vector<Body> bodies = random_bodies(random, n, 1e6);
-        if (!pencil::small_spectrum(pinned(bodies, i % 2 == 0), i % 2 == 0 ? rods : lumped, 0.5, *found)) continue;
+        if (!pencil::aberth_spectrum(lumped(bodies, i % 2 == 0), 0.5, *found)) continue;
         ++served;
         for (std::size_t j = 0; j < n; ++j) {
             const Quad value = found->eigenvalue[j],
@@ -196,38 +195,39 @@ namespace {
 /// What the bounds of `solve` are about, for vectors built from exact data: the worst error of the quotient and of the
 /// residual over what docs/accuracy.md, "All modes of small chains", allows, at these shifts.
 template <bool rigid>
-std::array<double, 2> worst_roundings(const std::vector<Body>& bodies, const small::LumpedLinks& links,
-                                      const small::Four& mu) {
+std::array<double, 2> worst_roundings(const std::vector<Body>& bodies, const aberth::LumpedLinks& links,
+                                      const aberth::Four& mu) {
     const std::size_t n = links.size;
-    std::vector<small::Four> up(n + 1), down(n + 1);
+    std::vector<aberth::Four> up(n + 1), down(n + 1);
     const auto yield = [&](std::size_t m) {
-        return small::Four(links.flexibility[m]) / (small::Four(1.0) + mu * small::Four(rigid ? links.swing[m] : 0.0));
+        return aberth::Four(links.flexibility[m]) /
+               (aberth::Four(1.0) + mu * aberth::Four(rigid ? links.cross_ratio[m] : 0.0));
     };
-    small::Walk<rigid, false> walk;
-    walk.offset = small::Four(1.0);
+    aberth::Walk<rigid, false> walk;
+    walk.offset = aberth::Four(1.0);
     for (std::size_t m = 0; m < n; ++m) {
         walk.pass_pin(links, m, mu, true);
         up[m] = walk.offset;
         walk.pass_link(links, m, yield(m), true);
     }
     walk = {};
-    walk.force = small::Four(1.0);
+    walk.force = aberth::Four(1.0);
     std::vector<double> above(n + 1);
-    double square = 0, swing = 0;
+    double square = 0, cross_ratio = 0;
     for (std::size_t m = n; m-- > 0;) {
         above[m] = above[m + 1] + links.flexibility[m];
         square += links.stiffness[m] * above[m];
-        swing = rigid ? std::max(swing, links.swing[m]) : 0;
+        cross_ratio = rigid ? std::max(cross_ratio, links.cross_ratio[m]) : 0;
         walk.pass_link(links, m, yield(m), false);
         down[m] = walk.offset;
         walk.pass_pin(links, m, mu, false);
     }
-    const auto found = small::quotients<rigid, false, 1>(links, above.data(), {mu})[0];
+    const auto found = aberth::quotients<rigid, false, 1>(links, above.data(), {mu})[0];
     // Data are exact but for 1/k and X/k, which `drop` counts with three more operations and the product.
     const double allowed = 0x1p-53 * ((rigid ? 18 : 15) + 2 * static_cast<double>(n - 1));
     std::array<double, 2> worst{};
     for (std::size_t i = 0; i < 4; ++i) {
-        const double room = 1.01 * 0x1p-53 * (1 + mu[i] * swing) * (10 * std::sqrt(square) + (rigid ? 6 : 2));
+        const double room = 1.01 * 0x1p-53 * (1 + mu[i] * cross_ratio) * (10 * std::sqrt(square) + (rigid ? 6 : 2));
         std::array<double, 2> best{1e300, 1e300};
         for (std::size_t t = 0; t < n; ++t) {  // which pin they were joined at is not told
             const auto y = [&](std::size_t m) {
@@ -258,16 +258,16 @@ std::array<double, 2> worst_roundings(const std::vector<Body>& bodies, const sma
 
 TEST_CASE("small spectra: roundings of quotients and residuals against what is allowed for them", "[linalg]") {
     support::Random random(11);
-    const auto found = std::make_unique<pencil::SmallSpectrum>();
+    const auto found = std::make_unique<pencil::AberthSpectrum>();
     for (const bool rigid : {false, true}) {
         std::array<double, 2> worst{};
         for (int i = 0; i < 3000; ++i) {
             std::vector<Body> bodies = random_bodies(random, 1 + static_cast<std::size_t>(random() * 16), 100.0);
             for (Body& body : bodies)  // few digits, so that products with them are exact
                 body.weight = std::ceil(body.weight), body.ratio = std::ceil(64 * body.ratio) / 64;
-            const small::LumpedLinks links = pinned(bodies, rigid);
-            if (!pencil::small_spectrum(links, rigid ? rods : lumped, 1e-13, *found)) continue;
-            small::Four mu;
+            const aberth::LumpedLinks links = lumped(bodies, rigid);
+            if (!pencil::aberth_spectrum(links, 1e-13, *found)) continue;
+            aberth::Four mu;
             for (std::size_t j = 0; j < 4; ++j) {
                 const std::size_t mode = static_cast<std::size_t>(random() * static_cast<double>(bodies.size()));
                 mu.set(j, (1 + random.log_between(1e-16, 1e-3)) / found->eigenvalue[mode]);

@@ -95,7 +95,7 @@ TEST_CASE("all eigenvalues of every kind of chain are the nearest doubles", "[li
     for (const auto& family : support::families()) {
         for (const Index n : {1, 2, 3, 5, 17, 64, 200}) {
             const auto chain = family.make(n);
-            const bool fit = n > 1 && spectrum::pinned(revchain::assemble(chain).pencil).fit;
+            const bool fit = n > 1 && spectrum::lumped(revchain::assemble(chain).pencil).fit;
             CAPTURE(family.name, n);
             const Worst worst = worst_of(chain, n > 100 ? 7 : 1);
             CHECK(worst.error <= 0.501);
@@ -203,8 +203,8 @@ TEST_CASE("what a fine quotient says of its errors is so", "[linalg]") {
         const Index n = 2 + static_cast<Index>(random() * 60);
         const auto chain = random_chain(random, n);
         const Exact exact(chain);
-        const auto pinned = spectrum::pinned(exact.assembled.pencil);
-        if (!pinned.fit) continue;
+        const auto lumped = spectrum::lumped(exact.assembled.pencil);
+        if (!lumped.fit) continue;
         const Index total = chain.mode_count();
         const auto all = pencil::all_eigenvalues(exact.assembled.pencil, Index(0), total, total, 2 * ulp);
         std::vector<double> shifts;
@@ -216,8 +216,8 @@ TEST_CASE("what a fine quotient says of its errors is so", "[linalg]") {
             shifts.push_back((1 + std::pow(10.0, random.between(-17, -5))) / c.eigenvalue);
             places.push_back(static_cast<std::size_t>(random() * static_cast<double>(n)));
         }
-        const auto fine = spectrum::fine_quotients_all(pinned, shifts, places, i % 2 == 0 ? 1 : 16);
-        const auto rough = spectrum::quotients_all(pinned, shifts, places);
+        const auto fine = spectrum::fine_quotients_all(lumped, shifts, places, i % 2 == 0 ? 1 : 16);
+        const auto rough = spectrum::quotients_all(lumped, shifts, places);
         for (std::size_t s = 0; s < shifts.size(); ++s) {
             const auto& q = fine[s];
             if (!(q.residual < 1)) continue;
@@ -240,7 +240,7 @@ TEST_CASE("what a fine quotient says of its errors is so", "[linalg]") {
                 // Its vector may be a better one: joined at another pin, where other shifts share its packs.
                 const double of_fine = q.residual < 1e-9 ? 0.0 : bound;
                 CHECK(std::abs(rough[s].ratio - 1 - q.excess) <=
-                      spectrum::rounding_quotient(pinned, shifts[s]) + 1e-18 / gap + of_fine);
+                      spectrum::rounding_quotient(lumped, shifts[s]) + 1e-18 / gap + of_fine);
             }
         }
     }
@@ -281,8 +281,8 @@ TEST_CASE("the same without fused operations, two numbers to a register", "[lina
         const Index n = 2 + static_cast<Index>(random() * 60);
         const auto chain = random_chain(random, n);
         const auto assembled = revchain::assemble(chain);
-        const auto pinned = spectrum::pinned(assembled.pencil);
-        if (!pinned.fit) continue;
+        const auto lumped = spectrum::lumped(assembled.pencil);
+        if (!lumped.fit) continue;
         const Index total = chain.mode_count();
         const auto all = pencil::all_eigenvalues(assembled.pencil, Index(0), total, total, 2 * ulp);
         std::array<double, spectrum::fine_packs * V::size> shifts;
@@ -291,14 +291,14 @@ TEST_CASE("the same without fused operations, two numbers to a register", "[lina
         for (double& s : shifts)
             s = (1 + 1e-13 * random()) /
                 all[static_cast<std::size_t>(random() * static_cast<double>(total))].eigenvalue;
-        const std::size_t size = pinned.size();
-        if (pinned.swings) {
-            spectrum::fine_quotients<true, false>(pinned, shifts.data(), 0, size, 1, found.data(), scratch);
+        const std::size_t size = lumped.size();
+        if (lumped.has_cross) {
+            spectrum::fine_quotients<true, false>(lumped, shifts.data(), 0, size, 1, found.data(), scratch);
         } else {
-            spectrum::fine_quotients<false, false>(pinned, shifts.data(), 0, size, 1, found.data(), scratch);
+            spectrum::fine_quotients<false, false>(lumped, shifts.data(), 0, size, 1, found.data(), scratch);
         }
         const std::vector<double> same(shifts.begin(), shifts.end());
-        const auto expected = spectrum::fine_quotients_all(pinned, same, {}, 1);
+        const auto expected = spectrum::fine_quotients_all(lumped, same, {}, 1);
         for (std::size_t s = 0; s < shifts.size(); ++s) {
             CAPTURE(i, n, s, found[s].excess, expected[s].excess, found[s].error, found[s].residual);
             if (!(expected[s].residual < 1e-9)) continue;

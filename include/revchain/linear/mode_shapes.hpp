@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "revchain/linear/condensed_shapes.hpp"
+#include "revchain/linear/one_mode.hpp"
+
+/// Stage 2 of `modes`: shapes, residuals and nodes of modes whose heights are known.
+namespace revchain::detail {
+
+template <Real T>
+ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count) {
+    return {Table<T>(count, chain.size() + 1), Vector<T>(count),
+            std::vector<Vector<T>>(static_cast<std::size_t>(count))};
+}
+
+/// Stores shape and nodes of mode `j`, and its residual in the pencil's scalar; `height` in the pencil's unit.
+template <Real T, Real S>
+void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain, const pencil::ElementPencil<S>& pencil,
+               const T& height, const pencil::Eigenvector<T>& vector) {
+    shapes.residual[j] = pencil::relative_residual(pencil, height, vector.offset);
+    shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, vector.crossings);
+    shapes.offset.row(j) = vector.offset.transpose();
+}
+
+/// Finds shapes of some modes of a chain, from heights in the units of its pencils.
+template <Real T>
+class ShapeFinder {
+   public:
+    /// `height[i]`: of mode number `first + i`. `loose`: T suffices at the height given; else shapes are found in
+    /// `Wide<T>` at the height before it was rounded. `condense`: whether a long chain may be condensed first.
+    ShapeFinder(const Chain<T>& chain, Index first, Heights<T> height, bool loose, bool condense)
+        : chain_(chain), first_(first), height_(std::move(height)), loose_(loose), condense_(condense) {}
+
+    /// Of `count` modes from index `from` on.
+    ModeShapes<T> operator()(Index from, Index count, Progress* progress) const {
+        ModeShapes<T> shapes = room_for_shapes(chain_, count);
+        if (count == 0) return shapes;
+        const auto begin = height_.begin() + from;
+        const Heights<T> height(begin, begin + count);
+        if constexpr (std::is_same_v<T, double>)
+            if (condense_ && condensation_pays(chain_, {first_ + from, count}) && chain_.has_one_weight_unit() &&
+                std::abs(chain_.units().weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
+                const T unit = std::ldexp(T(1), chain_.units().length_exponent) / LinkColumns<T>(chain_).unit_length;
+                const auto condensed = condensed_chain(chain_, T(0.95) * height.back().eigenvalue * unit);
+                if (shapes_by_condensation(shapes, chain_, condensed, height, progress)) return shapes;
+            }
+        const Pencils<T> pencils(chain_);
+        for (Index j = 0; j < count; ++j) {
+            const Height<T>& at = height[static_cast<std::size_t>(j)];
+            if (loose_)
+                set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,
+                          pencil::eigenvector(pencils.rounded(), at.eigenvalue));
+            else
+                set_shape(shapes, j, chain_, pencils.wide(), at.eigenvalue,
+                          fine_shape<T>(pencils.wide(), at.unrounded));
+            advance(progress, 1.0);  // may be cancelled
+        }
+        return shapes;
+    }
+
+   private:
+    Chain<T> chain_;
+    Index first_;
+    Heights<T> height_;
+    bool loose_, condense_;
+};
+
+}  // namespace revchain::detail

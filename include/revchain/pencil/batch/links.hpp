@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/pencil/batch/block.hpp"
+
+namespace revchain::pencil {
+
+/// Plummets: force F above and offset y of each pin for a free end at offset 1, with mu = 1/lambda,
+///
+///     F <- F - mu W y,      y <- y + F / k,      k = (weight hung above the pin's thread) / a.
+///
+/// y at the support is a polynomial in mu whose zeros are the modes. All functions inlined, all sums of one sign but in
+/// y.
+template <class V>
+class PlummetLanes : public detail::LaneNumbers<V, 3> {
+    using Numbers = detail::LaneNumbers<V, 3>;
+    using Numbers::get, Numbers::put, Numbers::units;
+
+   public:
+    using Numbers::size;
+
+    [[gnu::always_inline]] PlummetLanes(const LaneBlock& block, std::ptrdiff_t lane, double* work)
+        : Numbers(block, lane, work) {
+        CompensatedSum<V> hung;
+        for (std::ptrdiff_t m = 0; m < size(); ++m) {
+            const V weight = V::load(block.weight + m * block_lanes + lane) * units().per_weight;
+            const V length = V::load(block.length + m * block_lanes + lane) * units().per_length;
+            hung.add(weight);
+            put(m, 0, weight);
+            put(m, 1, hung.value() / length);
+            put(m, 2, length / hung.value());
+        }
+    }
+
+    /// Coefficients of y at the support, size() + 1 of them, lowest first. Cost N^2.
+    [[gnu::always_inline]] void polynomial(V* y) const {
+        V f[max_polynomial];  // F / (-mu)
+        y[0] = V(1.0);
+        for (std::ptrdiff_t m = 0; m < size(); ++m) {
+            const V weight = get(m, 0), flexibility = get(m, 2);
+            for (std::ptrdiff_t j = 0; j < m; ++j) f[j] = f[j] + weight * y[j];
+            f[m] = weight * y[m];
+            for (std::ptrdiff_t j = 1; j <= m; ++j) y[j] = y[j] + flexibility * f[j - 1];
+            y[m + 1] = flexibility * f[m];
+        }
+        for (std::ptrdiff_t j = 1; j <= size(); j += 2) y[j] = -y[j];
+    }
+
+    /// Offset y and force F, up one link, with derivatives. Written out: as one template for numbers and for truncated
+    /// power series it took 1.1 to 1.25 times as long, since the terms in x then wait for y.
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y, LaneTaylor<V>& f) const {
+        const V weight = get(m, 0), flexibility = get(m, 2);
+        f.curvature = f.curvature - weight * (x * y.curvature + y.slope);
+        f.slope = f.slope - weight * (x * y.slope + y.value);
+        f.value = f.value - x * (weight * y.value);
+        y.curvature = y.curvature + flexibility * f.curvature;
+        y.slope = y.slope + flexibility * f.slope;
+        y.value = y.value + flexibility * f.value;
+    }
+
+    /// The value alone.
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, V& y, V& f) const {
+        f = f - (x * get(m, 0)) * y;
+        y = y + get(m, 2) * f;
+    }
+
+    /// The shape, up one link.
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneShape<V>& s) const {
+        const V push = get(m, 0) * s.offset;
+        s.inertia = s.inertia + push * s.offset;
+        s.force = s.force - x * push;
+        stretch(m, s);
+    }
+
+    /// The shape, down one link; its force has the other sign.
+    [[gnu::always_inline]] void descend(std::ptrdiff_t m, const V& x, LaneShape<V>& s) const {
+        stretch(m, s);
+        const V push = get(m, 0) * s.offset;
+        s.inertia = s.inertia + push * s.offset;
+        s.force = s.force - x * push;
+    }
+
+    /// Mass of link m felt at its lower pin, its stiffness, and mass of link m felt at its upper pin.
+    [[gnu::always_inline]] V lower_mass(std::ptrdiff_t m) const { return get(m, 0); }
+    [[gnu::always_inline]] V stiffness(std::ptrdiff_t m) const { return get(m, 1); }
+    [[gnu::always_inline]] V upper_mass(std::ptrdiff_t) const { return V(0.0); }
+
+    static constexpr std::ptrdiff_t max_polynomial = 16;
+
+   private:
+    [[gnu::always_inline]] void stretch(std::ptrdiff_t m, LaneShape<V>& s) const {
+        const V next = s.offset + get(m, 2) * s.force;
+        const V stretched = next - s.offset;  // as rounded: the quotient's error is then the square of the offsets'
+        s.stiffness = s.stiffness + (get(m, 1) * stretched) * stretched;
+        s.offset = next;
+    }
+};
+
+/// Rigid links: with p = h/a, q = (a - h)/a, t = rho^2/a^2 the mass of a link is W (y_G^2 + t d^2), y_G = p y + q y'
+/// the offset of its centre of gravity and d = y' - y,
+///
+///     d = (F - mu W p y) / (k + mu X),     F <- F - mu W y_G,     X = W (p q - t).
+///
+/// Times (k + mu X)/k, link by link, y becomes a polynomial in mu and needs no division (`polynomial`, `taylor`,
+/// `modes_below`), whose changes of sign are the negative pivots of K - mu M also where k + mu X is negative.
+template <class V>
+class RigidLanes : public detail::LaneNumbers<V, 12> {
+    using Numbers = detail::LaneNumbers<V, 12>;
+    using Numbers::get, Numbers::put, Numbers::units;
+
+   public:
+    using Numbers::size;
+    static constexpr std::ptrdiff_t max_polynomial = 16;
+
+    [[gnu::always_inline]] RigidLanes(const LaneBlock& block, std::ptrdiff_t lane, double* work)
+        : Numbers(block, lane, work) {
+        CompensatedSum<V> hung;
+        for (std::ptrdiff_t m = 0; m < size(); ++m) {
+            const std::ptrdiff_t at = m * block_lanes + lane;
+            const V weight = V::load(block.weight + at) * units().per_weight;
+            const V a = V::load(block.length + at) * units().per_length;
+            const V h = V::load(block.centroid + at) * units().per_length;
+            const V turning = V::load(block.turning + at) * units().per_length;
+            const V gyration = block.turning_is_radius ? turning * turning : h * (turning - h);
+            const V kappa = weight * h + a * hung.value();
+            const V square = a * a;
+            const V k = kappa / square, flexibility = square / kappa;
+            const V p = h / a, q = (a - h) / a, t = gyration / square;
+            hung.add(weight);
+            put(m, weight_, weight);
+            put(m, weight_a, weight / a);
+            put(m, weight_aa, weight / square);
+            put(m, p_, h);
+            put(m, q_, a - h);
+            put(m, turn, weight / square * gyration);
+            put(m, stiffness_, k);
+            put(m, cross, weight * (p * q - t));
+            put(m, flexibility_, flexibility);
+            put(m, lower, weight * (p * p + t) * flexibility);
+            put(m, upper, weight * (q * q + t) * flexibility);
+            put(m, coupling, weight * weight * t * flexibility);
+        }
+    }
+
+    [[gnu::always_inline]] void polynomial(V* y) const {
+        V f[max_polynomial + 1];  // F / (-mu)
+        y[0] = V(1.0);
+        f[0] = V(0.0);
+        for (std::ptrdiff_t m = 0; m < size(); ++m) {
+            const V weight = get(m, weight_), a = get(m, lower), b = get(m, upper), c = get(m, coupling);
+            const V flexibility = get(m, flexibility_);
+            f[m + 1] = b * f[m] + c * y[m];
+            y[m + 1] = a * y[m] + flexibility * f[m];
+            for (std::ptrdiff_t j = m; j > 0; --j) {
+                f[j] = f[j] + weight * y[j] + (b * f[j - 1] + c * y[j - 1]);
+                y[j] = y[j] + (a * y[j - 1] + flexibility * f[j - 1]);
+            }
+            f[0] = f[0] + weight * y[0];
+        }
+        for (std::ptrdiff_t j = 1; j <= size(); j += 2) y[j] = -y[j];
+    }
+
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneTaylor<V>& y, LaneTaylor<V>& f) const {
+        const V a = get(m, lower), b = get(m, upper), c = get(m, coupling), flexibility = get(m, flexibility_);
+        const V on_y = V(1.0) - x * a, on_f = V(1.0) - x * b;
+        const V couple = get(m, weight_) - x * c, push = x * couple, push1 = couple - x * c;
+        const LaneTaylor<V> above{on_y * y.value + flexibility * f.value,
+                                  on_y * y.slope - a * y.value + flexibility * f.slope,
+                                  on_y * y.curvature - a * y.slope + flexibility * f.curvature};
+        f.curvature = on_f * f.curvature - b * f.slope - (push * y.curvature + push1 * y.slope - c * y.value);
+        f.slope = on_f * f.slope - b * f.value - (push * y.slope + push1 * y.value);
+        f.value = on_f * f.value - push * y.value;
+        y = above;
+    }
+
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, V& y, V& f) const {
+        const V push = x * (get(m, weight_) - x * get(m, coupling));
+        const V above = (y - (x * get(m, lower)) * y) + get(m, flexibility_) * f;
+        f = (f - (x * get(m, upper)) * f) - push * y;
+        y = above;
+    }
+
+    [[gnu::always_inline]] void rise(std::ptrdiff_t m, const V& x, LaneShape<V>& s) const {
+        pass(m, x, get(m, p_), get(m, q_), s);
+    }
+    [[gnu::always_inline]] void descend(std::ptrdiff_t m, const V& x, LaneShape<V>& s) const {
+        pass(m, x, get(m, q_), get(m, p_), s);
+    }
+
+    [[gnu::always_inline]] V lower_mass(std::ptrdiff_t m) const { return get(m, lower) * get(m, stiffness_); }
+    [[gnu::always_inline]] V stiffness(std::ptrdiff_t m) const { return get(m, stiffness_); }
+    [[gnu::always_inline]] V upper_mass(std::ptrdiff_t m) const { return get(m, upper) * get(m, stiffness_); }
+
+   private:
+    enum : std::ptrdiff_t {
+        weight_,
+        weight_a,
+        weight_aa,
+        p_,
+        q_,
+        turn,
+        stiffness_,
+        cross,
+        flexibility_,
+        lower,
+        upper,
+        coupling
+    };
+
+    /// From a pin at the distance `far` from the centre of gravity to one at `near`, a y_G = near y + far y'.
+    [[gnu::always_inline]] void pass(std::ptrdiff_t m, const V& x, const V& near, const V& far, LaneShape<V>& s) const {
+        const V pull = get(m, weight_a) * near, k = get(m, stiffness_);
+        const V next = s.offset + (s.force - (x * pull) * s.offset) / (k + x * get(m, cross));
+        const V stretched = next - s.offset;  // as rounded: the quotient's error is then the square of the offsets'
+        const V moment = near * s.offset + far * next;
+        s.inertia = s.inertia + ((get(m, weight_aa) * moment) * moment + (get(m, turn) * stretched) * stretched);
+        s.stiffness = s.stiffness + (k * stretched) * stretched;
+        s.force = s.force - x * (get(m, weight_a) * moment);
+        s.offset = next;
+    }
+};
+
+}  // namespace revchain::pencil

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/modes.hpp"
+#include "revchain/pencil/certificate.hpp"
+#include "revchain/pencil/dense.hpp"
+#include "revchain/pencil/twisted.hpp"
+#include "revchain/questions/modes.hpp"
+#include "revchain/recurrence.hpp"
+
+/// The same modes by two formulations that share no step with `modes`: slow, less accurate, and for that very reason
+/// its references. Their error bounds are proved by the same counts and say what a dense solver costs in digits.
+namespace revchain {
+
+namespace detail {
+
+/// The proved relative error of `height` as the eigenvalue number j: the least power of two times an ulp that two
+/// counts confirm, infinite if none up to 1/2 does.
+template <Real T>
+T proved_error(const pencil::ElementPencil<Wide<T>>& pencil, Index j, const T& height) {
+    if (!(height > T(0))) return std::numeric_limits<T>::infinity();
+    for (T margin = T(2) * epsilon<T>(); margin <= T(0.5); margin = margin * T(2))
+        if (pencil::lies_within<Wide<T>>(pencil, j, height, static_cast<Narrow<Wide<T>>>(margin)))
+            return pencil::bound_of_margin<Wide<T>>(margin);
+    return std::numeric_limits<T>::infinity();
+}
+
+/// The modes asked for of all that `solve()` finds, in the units of the chain's pencils.
+template <Real T, class Solve>
+Modes<T> modes_of(const Chain<T>& chain, const ModesOptions<T>& options, const char* method, const Solve& solve) {
+    check(options);
+    LazyCounter<T> assembled(chain);
+    const ModeRange range = chosen(chain, assembled, options);
+    Modes<T> result = room_for_modes(range, options);
+    result.method = method;
+    ModeShapes<T> shapes = room_for_shapes(chain, range.count);
+    const Pencils<T>& pencils = assembled.pencils();
+    const pencil::Eigensystem<T> system = solve(pencils);
+    for (Index j = 0; j < range.count; ++j) {
+        const Index before = range.first - 1 + j;
+        const T height = system.values[before];
+        set_height(result, j, height, proved_error(pencils.wide(), before, height), chain.units().length_exponent,
+                   options);
+        Vector<T> offset = Vector<T>::Zero(chain.size() + 1);
+        offset.head(chain.size()) = system.vectors.col(before);
+        set_shape(shapes, j, chain, pencils.wide(), height, pencil::normalised(std::move(offset)));
+        if (options.certify) certify(result, j, pencils, chain.mode_count());
+        advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
+    }
+    result.lazy_shapes = LazyModeShapes<T>(std::move(shapes));
+    return result;
+}
+
+}  // namespace detail
+
+/// By the assembled symmetric-definite pencil, a dense O(N^3) solver. Arguments and errors as for `modes`.
+template <Real T>
+Modes<T> modes_dense(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
+    return detail::modes_of(chain, options, "dense", [](const detail::Pencils<T>& pencils) {
+        const auto matrices = pencil::assembled(pencils.rounded());
+        return pencil::solve_symmetric_definite(matrices.K, matrices.M);
+    });
+}
+
+/// By relation (21) as a dense pencil and the QZ algorithm, O(N^3). Arguments and errors as for `modes`.
+template <Real T>
+Modes<T> modes_recurrence(const Chain<T>& chain, const ModesOptions<T>& options = {}) {
+    return detail::modes_of(chain, options, "recurrence", [&chain](const detail::Pencils<T>&) {
+        using std::ldexp;
+        const RecurrencePencil<T> pencil = recurrence_matrices(chain);
+        auto system = pencil::solve_general(pencil.A, pencil.B);
+        for (T& value : system.values) value = ldexp(value, -chain.units().length_exponent);
+        return system;
+    });
+}
+
+}  // namespace revchain

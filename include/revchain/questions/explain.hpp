@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <ios>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "revchain/explain.hpp"
+#include "revchain/models/for_modes.hpp"
+#include "revchain/numeric/compiled.hpp"
+
+namespace revchain {
+
+namespace detail {
+
+inline std::string bound_text(double bound) {
+    std::ostringstream text;
+    text.precision(1);
+    text << std::scientific << bound;
+    return text.str();
+}
+
+/// Seconds with the unit that suits them.
+inline std::string time_text(double seconds) {
+    constexpr std::array<std::pair<const char*, double>, 4> units{{{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}}};
+    std::size_t i = 0;
+    while (i + 1 < units.size() && !(seconds >= units[i].second)) ++i;
+    std::ostringstream text;
+    text.precision(3);
+    text << seconds / units[i].second << ' ' << units[i].first;
+    return text.str();
+}
+
+template <std::size_t N>
+Explanation explained(const Choice<N>& choice) {
+    return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
+}
+
+}  // namespace detail
+
+REVCHAIN_INLINE std::string Explanation::text() const {
+    using Line = std::array<std::string, 5>;
+    std::vector<Line> lines{Line{"", "model", "error bound", "expected to take", ""}};
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+        const Estimate& model = methods[i];
+        Line line{i == chosen ? "->" : "", std::string(model.name), "-", "-", ""};
+        if (model.fit.applies)
+            line[2] = detail::bound_text(model.error_bound), line[3] = detail::time_text(model.cost);
+        else
+            line[4] = model.fit.reason;
+        lines.push_back(std::move(line));
+    }
+    std::array<std::size_t, 4> width{};
+    for (const Line& line : lines)
+        for (std::size_t i = 0; i < width.size(); ++i) width[i] = std::max(width[i], line[i].size());
+    std::string result = meets_tolerance ? "" : "no model keeps the tolerance\n";
+    for (const Line& line : lines) {
+        const auto space = [&](std::size_t i) { return std::string(width[i] - line[i].size(), ' '); };
+        std::string row = line[0] + space(0) + ' ' + line[1] + space(1) + "  " + space(2) + line[2] + "  " + space(3) +
+                          line[3] + "  " + line[4];
+        row.erase(row.find_last_not_of(' ') + 1);
+        result += row + '\n';
+    }
+    return result;
+}
+
+REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options) {
+    if (options.conical_height || options.angular_speed)
+        detail::throw_invalid("explain", "a window is decided by counting modes; give first and count");
+    const Index left = std::max<Index>(1, chain.mode_count() - options.first + 1), few = std::min<Index>(left, 10);
+    const Index count = !options.count ? few : *options.count == all_modes ? left : *options.count;
+    const Question question{options.first, count, options.rtol.value_or(0.0)};
+    return question.rtol > 0 ? detail::explained(select(models::for_tolerance, chain, question))
+                             : detail::explained(select(models::for_full_accuracy, chain, question));
+}
+
+REVCHAIN_INLINE Explanation explain(const Rig&, const ModesOptions<double>&) {
+    detail::throw_invalid("explain", "a Rig has one method for each kind, no choice; RigModes::method names it");
+}
+
+}  // namespace revchain

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <vector>
+
+#include "revchain/finite/shapes/described.hpp"
+#include "revchain/held.hpp"
+#include "revchain/numeric/compiled.hpp"
+#include "revchain/questions/modes.hpp"
+
+namespace revchain {
+
+namespace detail {
+
+/// The conical height of the speed asked for; 0 without gravity.
+inline Wide<double> height_asked(const HeldBy& by, const HeldShapesOptions& options) {
+    constexpr std::string_view place = "steady_shapes";
+    if (options.max_half_waves < 1) throw_invalid(place, "max_half_waves must be at least 1", options.max_half_waves);
+    if (options.angular_speed) require_positive(place, "angular speed", *options.angular_speed);
+    if (by.weightless) {
+        if (options.conical_height)
+            throw_invalid(place, "without gravity there is no conical height; give angular_speed instead of it",
+                          *options.conical_height);
+        if (by.tension && !options.angular_speed)
+            throw_invalid(place, "without gravity the shape under a tension depends on the speed; give angular_speed");
+        return Wide<double>(0);
+    }
+    if (options.conical_height.has_value() == options.angular_speed.has_value())
+        throw_invalid(place, "give either conical_height or angular_speed");
+    if (options.conical_height) {
+        require_positive(place, "conical height", *options.conical_height);
+        return Wide<double>(*options.conical_height);
+    }
+    if (options.gravity == 0)
+        throw_invalid(place, "gravity must be positive; for none, hold the system with weightless = true");
+    require_positive(place, "gravity", options.gravity);
+    const Wide<double> height = finite::height_at_speed(*options.angular_speed, options.gravity);
+    require_positive(place, "gravity / angular_speed^2", static_cast<double>(height));
+    return height;
+}
+
+/// The conical height times the tension at the upper end; without gravity, tension over speed squared.
+inline double height_times_tension(const HeldBy& by, double height, const HeldShapesOptions& options) {
+    const double tension = by.tension.value(), speed = options.angular_speed.value_or(1);
+    const double product = by.weightless ? tension / speed / speed : height * tension;
+    require_positive("steady_shapes", "conical height times tension", product);
+    return product;
+}
+
+/// The straight chain under the tension at its lower end.
+inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held) {
+    const Chain<double>& chain = held.system();
+    if (held.by().span)
+        throw_invalid(place,
+                      "a chain whose ends are a span apart is bent, and has no modes of the straight chain; ask "
+                      "steady_shapes for its shapes and stability for small motions about one; span",
+                      *held.by().span);
+    if (held.by().weightless)
+        throw_invalid(place,
+                      "modes are given as conical heights, of which there are none without gravity; leave out "
+                      "weightless, and take a weight that is small beside the tension");
+    const Wide<double> lower = Wide<double>(*held.by().tension) - chain.weight_below(chain.size());
+    if (!(lower > Wide<double>(0)))
+        throw_invalid(place,
+                      "tension at the upper end must exceed the weight of the chain " +
+                          in_digits(chain.total_weight()) + ", or its lower part is slack",
+                      *held.by().tension);
+    return {chain, lower};
+}
+
+[[noreturn]] inline void no_modes_of_cords(std::string_view place) {
+    throw_invalid(place,
+                  "modes of a cord under tension are not available yet; cut it into links, as "
+                  "Held(Chain<double>::uniform_rods(1000, length, weight), {.tension = ...})");
+}
+
+}  // namespace detail
+
+REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
+    const Wide<double> height = detail::height_asked(held.by(), options);
+    if (held.by().span)
+        return finite::held_shapes(held.system(), *held.by().span, height, options.max_half_waves, options.prove);
+    const double rounded = static_cast<double>(height);
+    return finite::held_shapes_under_tension(held.system(), detail::height_times_tension(held.by(), rounded, options),
+                                             rounded, options.max_half_waves, options.prove);
+}
+
+REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options) {
+    const double height = static_cast<double>(detail::height_asked(held.by(), options));
+    if (held.by().span) return finite::held_cord_shapes(held.system(), *held.by().span, height, options.max_half_waves);
+    return finite::held_cord_shapes_under_tension(
+        held.system(), detail::height_times_tension(held.by(), height, options), height, options.max_half_waves);
+}
+
+REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options) {
+    detail::check(options);
+    if (options.certify)
+        detail::throw_invalid("modes", "certificates of a Held are not available; count_modes counts at any height");
+    const finite::TautChain taut = detail::taut_chain("modes", held);
+    const auto within = [&](const HeightWindow<double>& window) {
+        return detail::modes_within(window, taut.mode_count(), [&](double height) { return taut.above(height); });
+    };
+    const ModeRange range = detail::chosen(taut.mode_count(), options, within, [&](const SpeedWindow<double>& window) {
+        return within(detail::window_of_heights(window, options.gravity));
+    });
+    Modes<double> result = detail::room_for_modes(range, options);
+    result.method = "bisection";
+    for (Index j = 0; j < range.count; ++j) {
+        detail::set_height(result, j, taut.height(range.first - 1 + j), epsilon<double>(), 0, options);
+        detail::advance(options.progress, static_cast<double>(j + 1) / static_cast<double>(range.count));
+    }
+    result.lazy_shapes =
+        detail::LazyModeShapes<double>([taut, pins = held.system().size() + 1, heights = result.conical_height](
+                                           Index first, Index count, Progress* progress) {
+            ModeShapes<double> shapes{Table<double>(count, pins), Vector<double>(count), {}};
+            for (Index j = 0; j < count; ++j) {
+                const double height = heights[first + j];
+                const Vector<double> offset = taut.shape(height);
+                shapes.offset.row(j) = offset.transpose();
+                shapes.residual[j] = taut.residual(height, offset);
+                shapes.nodes.push_back(taut.nodes(offset));
+                detail::advance(progress, static_cast<double>(j + 1) / static_cast<double>(count));
+            }
+            return shapes;
+        });
+    return result;
+}
+
+REVCHAIN_INLINE Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
+    return detail::taut_chain("count_modes", held).above(detail::height_given("count_modes", options));
+}
+
+REVCHAIN_INLINE Modes<double> modes(const Held<Cord>&, const ModesOptions<double>&) {
+    detail::no_modes_of_cords("modes");
+}
+
+REVCHAIN_INLINE Index count_modes(const Held<Cord>&, const CountOptions<double>&) {
+    detail::no_modes_of_cords("count_modes");
+}
+
+}  // namespace revchain

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <concepts>
+#include <limits>
+#include <optional>
+
+#include "revchain/linear/mode_shapes.hpp"
+#include "revchain/models/for_modes.hpp"
+#include "revchain/modes.hpp"
+#include "revchain/numeric/floating_point_state.hpp"
+#include "revchain/system/converted.hpp"
+
+namespace revchain {
+
+namespace detail {
+
+template <Real T>
+void check(const ModesOptions<T>& options) {
+    if (options.rtol && !(*options.rtol >= T(0)))
+        throw_invalid("modes", "rtol must not be negative or NaN", *options.rtol);
+}
+
+/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those in a window.
+template <Real T, class InHeights, class InSpeeds>
+ModeRange chosen(Index all, const ModesOptions<T>& options, const InHeights& in_heights, const InSpeeds& in_speeds) {
+    const bool numbered = options.first != 1 || options.count.has_value();
+    if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
+        throw_invalid("modes",
+                      "give one of mode numbers (first, count), conical_height and angular_speed, not several");
+    if (options.conical_height) return in_heights(*options.conical_height);
+    if (options.angular_speed) return in_speeds(*options.angular_speed);
+    const std::string of = std::to_string(all) + " modes of this chain";
+    if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
+    if (options.first > all) throw_invalid("modes", "first must not exceed the " + of, options.first);
+    const Index left = all - options.first + 1;
+    const Index few = std::min<Index>(left, 10);
+    const Index count = !options.count ? few : *options.count == all_modes ? left : *options.count;
+    if (count < 1) throw_invalid("modes", "count must be at least 1", count);
+    if (count > left)
+        throw_invalid(
+            "modes",
+            "count must not exceed the " + (left == all ? of
+                                                        : std::to_string(left) + " from number " +
+                                                              std::to_string(options.first) + " on of the " + of),
+            count);
+    return {options.first, count};
+}
+
+template <Real T>
+ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOptions<T>& options) {
+    return chosen(
+        chain.mode_count(), options, [&](const HeightWindow<T>& window) { return assembled.counter().within(window); },
+        [&](const SpeedWindow<T>& window) { return assembled.counter().within(window, options.gravity); });
+}
+
+/// Room for what the options ask of these modes, nothing computed yet.
+template <Real T>
+Modes<T> room_for_modes(const ModeRange& range, const ModesOptions<T>& options) {
+    Modes<T> result;
+    result.first = range.first;
+    result.conical_height.resize(range.count);
+    result.error_bound.resize(range.count);
+    if (options.certify)
+        result.certificate = {Vector<T>(range.count), Vector<T>(range.count), Vector<Index>(range.count),
+                              Vector<Index>(range.count)};
+    return result;
+}
+
+/// Stores height number `j`, given in units of 2^exponent. Where it leaves the normal range of T on the way to the
+/// user's unit, the bound takes up what is lost. A bound beyond the tolerance asked is `tolerance_not_met`.
+template <Real T>
+void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent, const ModesOptions<T>& options) {
+    using std::abs;
+    using std::ldexp;
+    const T stored = ldexp(height, exponent);
+    const T lost = abs(ldexp(stored, -exponent) - height);
+    if (lost > T(0)) bound = stored > T(0) ? bound + T(2) * (lost / height) : std::numeric_limits<T>::infinity();
+    modes.conical_height[j] = stored;
+    modes.error_bound[j] = bound;
+    if (!(bound <= options.rtol.value_or(std::numeric_limits<T>::max()))) modes.status = Status::tolerance_not_met;
+}
+
+/// Proved counts at other numbers of T on either side of height `j`, as far away as its error bound
+/// says, and where rounding to T leaves that in doubt a little farther.
+template <Real T, Real P>
+void certify(Modes<T>& modes, Index j, const Pencils<P>& pencils, Index mode_count) {
+    using std::isfinite;
+    const T height = modes.conical_height[j], bound = modes.error_bound[j];
+    const Index before = modes.first - 1 + j;
+    modes.certificate.lower[j] = T(0);
+    modes.certificate.upper[j] = std::numeric_limits<T>::infinity();
+    modes.certificate.above_lower[j] = mode_count;
+    modes.certificate.above_upper[j] = 0;
+    if (!(bound < T(1))) return;
+    bool below = false, above = false;
+    T reach = height * std::max(bound, epsilon<T>());
+    for (int attempt = 0; attempt < 8 && !(below && above); ++attempt, reach = reach + reach) {
+        const T lower = height - reach, upper = height + reach;
+        if (!(lower > T(0)) || !isfinite(upper)) return;
+        const auto count =
+            pencils.template certified_count<2>({pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
+        if (!below && count[0].proved && count[0].above > before) {
+            modes.certificate.lower[j] = lower;
+            modes.certificate.above_lower[j] = count[0].above;
+            below = true;
+        }
+        if (!above && count[1].proved && count[1].above <= before) {
+            modes.certificate.upper[j] = upper;
+            modes.certificate.above_upper[j] = count[1].above;
+            above = true;
+        }
+    }
+}
+
+/// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
+inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const Answer& answer) {
+    const int exponent = -chain.units().length_exponent;
+    std::vector<Height<double>> heights;
+    heights.reserve(static_cast<std::size_t>(answer.conical_height.size()));
+    for (Index j = 0; j < answer.conical_height.size(); ++j) {
+        const Wide<double> height = answer.unrounded.empty()
+                                        ? Wide<double>(std::ldexp(answer.conical_height[j], exponent))
+                                        : answer.unrounded[static_cast<std::size_t>(j)];
+        heights.push_back({static_cast<double>(height), answer.error_bound[j], height});
+    }
+    return heights;
+}
+
+/// Heights by the cheapest model, or by the method asked for; by bisection where that has none.
+inline Solution solved(const Chain<double>& chain, const ModeRange& range, const ModesOptions<double>& options) {
+    const FloatingPointStateGuard quiet;  // costs and bounds of models may be infinite
+    const Question question{range.first, range.count, options.rtol.value_or(0.0), 0, options.progress};
+    if (options.method == ModesMethod::automatic)
+        return question.rtol > 0 ? solve(models::for_tolerance, chain, question)
+                                 : solve(models::for_full_accuracy, chain, question);
+    const ChainKind kind(chain);
+    const auto by = [&](const auto& model) {
+        return Solution{model.solve(chain, kind, question), model.name, Status::success};
+    };
+    Solution found{Answer::none(), {}, Status::success};
+    if (options.method == ModesMethod::aberth) found = by(models::Aberth{});
+    if (options.method == ModesMethod::interpolated) found = by(models::Interpolated{});
+    if (options.method == ModesMethod::condensed) found = by(models::Condensed{});
+    return found.answer.found ? found : by(models::Bisection{});
+}
+
+/// A chain of doubles: every method is open.
+inline Modes<double> modes_by_models(const Chain<double>& chain, const ModesOptions<double>& options) {
+    LazyCounter<double> assembled(chain);
+    const ModeRange range = chosen(chain, assembled, options);
+    Modes<double> result = room_for_modes(range, options);
+    result.method = "bisection";
+    if (range.count == 0) {
+        result.lazy_shapes = LazyModeShapes<double>(room_for_shapes(chain, 0));
+        return result;
+    }
+    const Solution found = solved(chain, range, options);
+    result.method = found.model;
+    for (Index j = 0; j < range.count; ++j)
+        set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options);
+    const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
+    result.lazy_shapes = LazyModeShapes<double>(ShapeFinder<double>(
+        chain, range.first, heights_in_units(chain, found.answer), loose, options.method != ModesMethod::bisection));
+    for (Index j = 0; options.certify && j < range.count; ++j) {
+        look();
+        certify(result, j, assembled.pencils(), chain.mode_count());
+    }
+    advance(options.progress, 1.0);
+    return result;
+}
+
+/// A chain of floats: in double, where a million links lose nothing, and rounded, which adds half an ulp of float to
+/// the bound. A template, so that a program without floats does not compile it.
+template <std::same_as<float> T>
+Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) {
+    const double half_ulp = 0.50001 * static_cast<double>(epsilon<float>());
+    const Chain<double> wide = converted<double>(chain);
+    ModesOptions<double> asked{.first = options.first, .count = options.count};
+    if (options.conical_height) asked.conical_height = {options.conical_height->low, options.conical_height->high};
+    if (options.angular_speed) asked.angular_speed = {options.angular_speed->low, options.angular_speed->high};
+    asked.gravity = options.gravity;
+    if (options.rtol && *options.rtol > 4 * half_ulp) asked.rtol = *options.rtol - half_ulp;
+    asked.progress = options.progress;
+    asked.method = options.method;
+    const Modes<double> fine = modes(wide, asked);
+
+    Modes<float> result = room_for_modes(fine.range(), options);
+    result.method = fine.method;
+    std::optional<Pencils<double>> pencils;
+    if (fine.size() > 0 && options.certify) pencils.emplace(wide);
+    for (Index j = 0; j < fine.size(); ++j) {
+        const float height = static_cast<float>(fine.conical_height[j]);
+        const double off = std::abs(static_cast<double>(height) / fine.conical_height[j] - 1);
+        const double bound = height > 0 && std::isfinite(height) ? (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15)
+                                                                 : std::numeric_limits<double>::infinity();
+        set_height(result, j, height, std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity()),
+                   0, options);
+        if (options.certify) certify(result, j, *pencils, chain.mode_count());
+    }
+    const Vector<float> heights = result.conical_height;
+    result.lazy_shapes = LazyModeShapes<float>([wide, fine, heights](Index first, Index count, Progress* progress) {
+        const ModeShapes<double> found = fine.lazy_shapes.some(first, count, progress);
+        ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(count), {}};
+        if (count == 0) return shapes;
+        const Pencils<double> own(wide);
+        for (Index j = 0; j < count; ++j) {
+            const Vector<double> offset = shapes.offset.row(j).transpose().cast<double>();
+            const double height = own.scaled(static_cast<double>(heights[first + j]));
+            shapes.residual[j] = static_cast<float>(pencil::relative_residual(own.rounded(), height, offset));
+            shapes.nodes.push_back(found.nodes[static_cast<std::size_t>(j)].cast<float>());
+        }
+        return shapes;
+    });
+    return result;
+}
+
+/// Every other scalar: by bisection in T itself.
+template <Real T>
+Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) {
+    LazyCounter<T> assembled(chain);
+    const ModeRange range = chosen(chain, assembled, options);
+    const HeightsOptions<T> stage{options.rtol, options.progress};
+    Modes<T> result = room_for_modes(range, options);
+    result.method = "bisection";
+    Heights<T> found;
+    if (range.count > 0) found = heights_by_bisection(chain, assembled, range, stage);
+    for (Index j = 0; j < range.count; ++j) {
+        const auto& height = found[static_cast<std::size_t>(j)];
+        set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options);
+        if (options.certify) certify(result, j, assembled.pencils(), chain.mode_count());
+    }
+    result.lazy_shapes =
+        LazyModeShapes<T>(ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false));
+    return result;
+}
+
+}  // namespace detail
+
+template <Real T>
+Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
+    static_assert(
+        !std::is_same_v<T, DoubleWord<double>> && !std::is_same_v<T, DoubleWord<long double>>,
+        "a double word is the working arithmetic of a narrower scalar; as a scalar of its own take DoubleDouble");
+    detail::check(options);
+    if constexpr (std::is_same_v<T, float>)
+        return detail::modes_in_double(chain, options);
+    else if constexpr (std::is_same_v<T, double>)
+        return detail::modes_by_models(chain, options);
+    else
+        return detail::modes_in_scalar(chain, options);
+}
+
+}  // namespace revchain

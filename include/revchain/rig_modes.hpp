@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <complex>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "revchain/modes.hpp"
+#include "revchain/rig.hpp"
+
+/// Whirl modes of small amplitude of a rig: a chain with a support that yields, standing links, flywheels or a fluid.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
+///     const revchain::Rig rig(chain, {.support = revchain::horizontal_spring(50.0)});
+///     const auto m = revchain::modes(rig, {.count = 2});
+///     m.forward.angular_speed[0];      // 3.72206 rad/s, the slowest mode
+///     m.forward.speed_error_bound[0];  // its relative error is at most 2.3e-16: proved
+///     m.forward.shape(0);              // offsets of the pins, free end first
+namespace revchain {
+
+/// Whirl modes of a rig in one sense of rotation, slowest first. Mode k of `available` is at index k - first.
+struct WhirlModes {
+    Index first = 1;
+    Index available = 0;                 ///< number of modes of this sense, found or not
+    Vector<double> conical_height{};     ///< (k,) lambda = g/n^2, descending, in the chain's unit of length
+    Vector<double> error_bound{};        ///< (k,) of it, relative to the exact one of the stored numbers; proved
+    Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
+    Vector<double> speed_error_bound{};  ///< (k,) of it, relative; proved
+    detail::LazyModeShapes<double> lazy_shapes{};  ///< behind `shapes` and `shape`
+
+    Index size() const { return conical_height.size(); }
+    /// All shapes, computed when first asked for and kept.
+    const ModeShapes<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes.all(size(), progress); }
+    /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
+    Vector<double> shape(Index j) const { return lazy_shapes.one(size(), j); }
+};
+
+/// A solution that is no steady motion: its conical height is negative or complex, or its speed complex; or infinite,
+/// where a coordinate is weightless and stays at rest wherever it is put.
+struct OtherMode {
+    std::complex<double> conical_height;  ///< lambda
+    std::complex<double>
+        angular_speed;       ///< n with lambda n^2 = g: the root that grows or, with momentum, the one found
+    double growth_rate = 0;  ///< |Im n|, 1/s: small offsets grow as exp(growth_rate t)
+    double error_bound = std::numeric_limits<double>::infinity();  ///< of the height, relative to its size; proved
+};
+
+/// A link whose effective tension, tension + n momentum/length, vanishes at a speed and is a thrust beyond it.
+struct SlackLink {
+    Index link = 0;            ///< from 0, lowest first
+    double angular_speed = 0;  ///< n, negative against the sense of a positive momentum
+};
+
+/// Whirl modes of a rig.
+struct RigModes {
+    bool has_momentum = false;
+    WhirlModes forward;   ///< n > 0; without flywheels both senses are alike, and all modes are here
+    WhirlModes backward;  ///< n < 0; empty without flywheels
+    std::vector<OtherMode> other;
+    std::vector<SlackLink> slack;  ///< slowest first: those between 0 and the fastest speed found of their sense
+    /// Whether `forward.available`, `backward.available` and `other`, if asked for, are proved to be all there are.
+    bool complete = false;
+    std::string method;  ///< "modes", "counts", "discs"
+    Status status = Status::success;
+};
+
+/// Beyond so many elements (the links, and a support that yields) no dense eigenproblem is solved for a rig.
+inline constexpr Index dense_rig_limit = 200;
+
+/// Whirl speeds of small amplitude of a rig: Greenhill (1908) §8 (21) with supports, standing links, floats and
+/// flywheels. The radius of a support that is carried round plays no part.
+///
+/// Uses `first`, `count`, `gravity`, `other` and `progress` of the options; mode numbers beyond those available give no
+/// modes. A window or `certify` throws: rigs have neither yet. `rtol` and `method` are ignored: speeds are always found
+/// to full accuracy.
+///
+/// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
+/// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in
+/// `other`. With momentum: K + n G - (n^2/g) M. Where K > 0 and M >= 0 each of its eigenvalues passes through 0 at most
+/// once on the way to either side of n = 0, so that counts number the speeds, 2N real ones where M > 0. Else all
+/// heights, or all speeds, come from one dense eigenproblem, refined in double-double and enclosed in discs that hold
+/// one each: for at most `dense_rig_limit` elements.
+/// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within 0.501 ulp of
+/// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of chains. A rig that is a plain chain
+/// is solved as a chain.
+/// Cost: 1 microsecond per link and mode with shapes, O(N k) memory; discs take seconds at the limit.
+/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, windows, and beyond the limit. A
+/// bound that could not be proved is infinite and the status `tolerance_not_met`.
+RigModes modes(const Rig& rig, const ModesOptions<double>& options = {});
+
+/// Throws InvalidArgument: modes of a rig cannot be counted yet.
+Index count_modes(const Rig& rig, const CountOptions<double>& options);
+
+}  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/questions/rig_modes.hpp"
+#endif

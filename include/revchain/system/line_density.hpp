@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "revchain/numeric/status.hpp"
+
+namespace revchain {
+
+/// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
+///
+/// Method: the length is halved, and the halves, until a polynomial of degree 12 through Chebyshev points gives the
+/// function to its rounding, looked at between them too, or a piece is 2^-46 of the length: so a jump or a corner costs
+/// about fifty pieces. At the free end a piece of 2^-40 stands for c s^p, as a power law has it, whose weight grows
+/// like s^(p+1).
+/// Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp).
+class LineDensity {
+   public:
+    static constexpr int degree = 12;
+    static constexpr double rounding = 8e-15;  // below what functions of a dozen operations give
+    static constexpr int least_halvings = 2, max_halvings = 46, max_at_tip = 40;
+    static constexpr std::size_t max_pieces = 20'000;
+
+    /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a
+    /// function that is rough at too many places.
+    LineDensity(const std::function<double(double)>& weight_per_length, double length) : length_(length) {
+        detail::require_positive("LineDensity", "length", length);
+        divide(weight_per_length, 0, length, 0);
+        std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
+        if (pieces_.front().power == 0) at_tip_ = about(0);
+        for (Piece& piece : pieces_) {
+            piece.below = total_;
+            if (piece.power == 0) {
+                total_ += weight_within(piece, 1);
+            } else {
+                total_ += piece.factor[0] * 2 * piece.half / (piece.power + 1);
+            }
+        }
+    }
+
+    double length() const { return length_; }
+    double total() const { return total_; }
+    double mean() const { return total_ / length_; }
+    std::size_t pieces() const { return pieces_.size(); }
+
+    /// Where the piece that holds s ends; beyond the chain: infinity.
+    double end_of_piece(double s) const {
+        return nudged(s) >= length_ ? std::numeric_limits<double>::infinity() : end(piece_at(s));
+    }
+    /// Coefficients of the density about s in powers of (distance from s): the piece to its right.
+    std::array<double, degree + 1> about(double s) const {
+        std::array<double, degree + 1> c{};
+        if (nudged(s) >= length_) {
+            c[0] = mean();
+            return c;
+        }
+        const Piece& piece = piece_at(s);
+        if (piece.power != 0) {
+            c[0] = piece.factor[0] * std::pow(s / end(piece), piece.power);
+            return c;
+        }
+        const double t = (s - piece.middle) / piece.half;
+        c = piece.factor;
+        for (int i = 0; i < degree; ++i)
+            for (int k = degree - 1; k >= i; --k)
+                c[static_cast<std::size_t>(k)] += t * c[static_cast<std::size_t>(k) + 1];
+        double scale = 1;
+        for (double& x : c) x *= scale, scale /= piece.half;
+        return c;
+    }
+    /// Weight of what hangs below s; beyond the chain it goes on with its mean density.
+    double weight_below(double s) const {
+        if (nudged(s) >= length_) return total_ + mean() * (s - length_);
+        if (s == 0) return 0;
+        const Piece& piece = piece_at(s);
+        if (piece.power != 0) return piece.factor[0] * s / (piece.power + 1) * std::pow(s / end(piece), piece.power);
+        if (&piece ==
+            &pieces_.front()) {  // in powers of s: near the free end the weight must be right relative to itself
+            double sum = 0;
+            for (std::size_t k = degree + 1; k-- > 0;) sum = sum * s + at_tip_[k] / static_cast<double>(k + 1);
+            return sum * s;
+        }
+        return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
+    }
+    /// Up to where the density is no polynomial but a power of s; mostly 0.
+    double end_of_power() const { return pieces_.front().power != 0 ? end(pieces_.front()) : 0.0; }
+    /// First moment of the chain below s about the free end, over weight below times s, as of a power of s: to first
+    /// order near the free end.
+    double first_moment(double s) const {
+        const double power = about(s)[0] * s / weight_below(s) - 1;
+        return (power + 1) / (power + 2);
+    }
+
+   private:
+    struct Piece {
+        double middle, half;
+        std::array<double, degree + 1> factor;  // of powers of (s - middle)/half
+        double power = 0;                       // not 0: this much of a power law, factor[0] its value at the right end
+        double below = 0;                       // weight of the chain below the piece
+    };
+
+    static double end(const Piece& piece) { return piece.middle + piece.half; }
+    /// A place at the end of a piece to rounding belongs to the next, so that paths go on.
+    static double nudged(double s) { return s * (1 + 0x1p-48); }
+    const Piece& piece_at(double s) const {
+        const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
+                                            [](double x, const Piece& piece) { return x < end(piece); });
+        return after == pieces_.end() ? pieces_.back() : *after;
+    }
+    static double value(const Piece& piece, double t) {
+        double sum = 0;
+        for (std::size_t k = degree + 1; k-- > 0;) sum = sum * t + piece.factor[k];
+        return sum;
+    }
+    /// Of the piece, from its left end to t.
+    static double weight_within(const Piece& piece, double t) {
+        double right = 0, left = 0;
+        for (std::size_t k = degree + 1; k-- > 0;) {
+            const double c = piece.factor[k] / static_cast<double>(k + 1);
+            right = right * t + c;
+            left = -left + c;
+        }
+        return piece.half * (right * t + left);
+    }
+
+    void divide(const std::function<double(double)>& f, double low, double high, int halvings) {
+        constexpr std::size_t count = degree + 1;
+        Piece piece{low + (high - low) / 2, (high - low) / 2, {}};
+        std::array<double, count> sample{}, chebyshev{};
+        double largest = 0, least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / count);
+            const double s = piece.middle + piece.half * x;
+            sample[i] = f(s);
+            if (!(sample[i] > 0 && std::isfinite(sample[i])))
+                detail::throw_invalid("LineDensity",
+                                      "weight per length must be positive and finite; at " + detail::in_digits(s),
+                                      sample[i]);
+            largest = std::max(largest, sample[i]), least = std::min(least, sample[i]);
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            double sum = 0;
+            for (std::size_t i = 0; i < count; ++i)
+                sum += sample[i] *
+                       std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / count);
+            chebyshev[k] = sum * (k == 0 ? 1.0 : 2.0) / count;
+        }
+        const double tail = std::max(std::abs(chebyshev[count - 1]), std::abs(chebyshev[count - 2]));
+        // At the free end, where little hangs below, the density must be right relative to itself.
+        bool good = halvings >= least_halvings && tail <= rounding * largest && (low > 0 || least > 0.02 * largest);
+        if (good) {
+            for (std::size_t k = count; k-- > 1 && std::abs(chebyshev[k]) <= 0.25 * rounding * largest;)
+                chebyshev[k] = 0;
+            piece.factor = in_powers(chebyshev);
+            for (std::size_t i = 1; i < count; ++i) {  // what is narrow may lie between
+                const double x = std::cos(std::numbers::pi * static_cast<double>(i) / count);
+                good = good && std::abs(value(piece, x) - f(piece.middle + piece.half * x)) <= 10 * rounding * largest;
+            }
+        }
+        if (!good && halvings < (low == 0 ? max_at_tip : max_halvings)) {
+            divide(f, low, piece.middle, halvings + 1);
+            divide(f, piece.middle, high, halvings + 1);
+            return;
+        }
+        if (pieces_.size() == max_pieces)
+            detail::throw_invalid("LineDensity", "weight per length is rough at too many places");
+        if (low == 0 && !good) {
+            piece.factor.fill(0);
+            piece.factor[0] = f(high);
+            piece.power = std::log2(f(high) / f(high / 2));
+            if (!(piece.power > -1))
+                detail::throw_invalid("LineDensity",
+                                      "the weight near the free end must be finite; weight per length goes like s^p, p",
+                                      piece.power);
+            if (piece.power == 0) piece.power = 1e-30;
+        } else if (!good) {  // a jump, within rounding of where it is
+            piece.factor.fill(0);
+            piece.factor[0] = f(piece.middle);
+        }
+        pieces_.push_back(piece);
+    }
+
+    /// From Chebyshev polynomials to powers: stable enough at this degree, as the coefficients fall.
+    static std::array<double, degree + 1> in_powers(const std::array<double, degree + 1>& chebyshev) {
+        constexpr std::size_t count = degree + 1;
+        std::array<double, count> sum{}, before{}, now{};
+        before[0] = 1, now[1] = 1;
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto& t = k == 0 ? before : now;
+            for (std::size_t i = 0; i < count; ++i) sum[i] += chebyshev[k] * t[i];
+            if (k == 0) continue;
+            std::array<double, count> next{};
+            for (std::size_t i = 0; i < count; ++i) next[i] = (i > 0 ? 2 * now[i - 1] : 0.0) - before[i];
+            before = now, now = next;
+        }
+        return sum;
+    }
+
+    double length_, total_ = 0;
+    std::vector<Piece> pieces_;
+    std::array<double, degree + 1> at_tip_{};
+};
+
+}  // namespace revchain

@@ -1,0 +1,496 @@
+// SPDX-License-Identifier: MPL-2.0
+// Chains held at both ends: against the bodies' Lagrangian in quadruple precision, triangles, the closed form of the
+// skipping rope, laws, and small theory.
+#include "revchain/held.hpp"
+
+#include "revchain/rope.hpp"
+#include "support/catch.hpp"
+#include "support/chains.hpp"
+#include "support/held.hpp"
+#include "support/truth.hpp"
+
+namespace {
+
+using revchain::Chain;
+using revchain::Held;
+using revchain::HeldShape;
+using revchain::Index;
+using support::Quad;
+using support::quad;
+
+/// Newton's method in quadruple precision on all inclinations and the two forces that keep the upper end in its place, from
+/// a shape found: the potential energy less half of y^2 over all mass, of bodies told by centroid and radius of gyration.
+/// Returns the largest difference of an inclination.
+double against_truth(const Chain<double>& chain, const HeldShape& shape) {
+    const auto n = static_cast<std::size_t>(chain.size()), size = n + 2;
+    std::vector<Quad> x(size, 0);
+    for (std::size_t m = 0; m < n; ++m) x[m] = shape.inclination[static_cast<Index>(m)];
+    x[n] = shape.lower_pull[0], x[n + 1] = -shape.lower_pull[1];
+    const Quad lambda = shape.conical_height, span = shape.span;
+    for (int round = 0; round < 8; ++round) {
+        std::vector<std::vector<Quad>> A(size, std::vector<Quad>(size + 1, 0));
+        std::vector<Quad> sine(n), cosine(n), length(n);
+        Quad y = 0, z = 0;
+        for (std::size_t m = 0; m < n; ++m) {
+            const auto link = chain.link(static_cast<Index>(m));
+            const Quad W = link.weight, a = link.length, h = link.centroid, turn = quad(link.gyration_ratio) * a * a;
+            sine[m] = sinq(x[m]), cosine[m] = cosq(x[m]), length[m] = a;
+            const Quad s = sine[m], c = cosine[m];
+            y -= a * s, z += a * c;
+            const Quad y_body = y + h * s;
+            for (std::size_t j = 0; j <= m; ++j) {
+                const Quad arm = j < m ? length[j] : a - h;
+                const Quad dy = -arm * cosine[j], dz = -arm * sine[j];
+                A[j][size] += W * (lambda * dz - y_body * dy);
+                A[j][j] += W * (lambda * -arm * cosine[j] - y_body * arm * sine[j]);
+                for (std::size_t i = 0; i <= m; ++i) A[j][i] -= W * dy * -(i < m ? length[i] : a - h) * cosine[i];
+            }
+            A[m][size] -= W * turn * s * c, A[m][m] -= W * turn * (c * c - s * s);
+        }
+        for (std::size_t j = 0; j < n; ++j) {
+            const Quad dy = -length[j] * cosine[j], dz = -length[j] * sine[j];
+            A[j][size] += x[n] * dy + x[n + 1] * dz;
+            A[j][j] += x[n] * length[j] * sine[j] - x[n + 1] * length[j] * cosine[j];
+            A[j][n] = A[n][j] = dy, A[j][n + 1] = A[n + 1][j] = dz;
+        }
+        A[n][size] = y, A[n + 1][size] = z - span;
+        for (std::size_t k = 0; k < size; ++k) {
+            std::size_t pivot = k;
+            for (std::size_t i = k; i < size; ++i)
+                if (fabsq(A[i][k]) > fabsq(A[pivot][k])) pivot = i;
+            std::swap(A[k], A[pivot]);
+            for (std::size_t i = 0; i < size; ++i) {
+                if (i == k) continue;
+                const Quad share = A[i][k] / A[k][k];
+                for (std::size_t j = k; j <= size; ++j) A[i][j] -= share * A[k][j];
+            }
+        }
+        for (std::size_t k = 0; k < size; ++k) x[k] -= A[k][size] / A[k][k];
+    }
+    double worst = 0;
+    for (std::size_t m = 0; m < n; ++m)
+        worst = std::max(worst, std::abs(static_cast<double>(x[m] - Quad(shape.inclination[static_cast<Index>(m)]))));
+    return worst;
+}
+
+}  // namespace
+
+TEST_CASE("held at both ends: inclinations within their proved bound of a Lagrangian in quadruple precision") {
+    int shapes = 0, sharp = 0;
+    double worst = 0, largest_bound = 0;
+    for (const auto& family : support::families()) {
+        if (family.name.find("1e12") != std::string::npos) continue;
+        for (const Index size : {3, 6, 15})
+            for (const double share : {0.999999, 0.8, 0.4, 0.1})
+                for (const double slow : {0.0, 0.01, 0.05}) {
+                    const Chain<double> chain = family.make(size);
+                    const double length = chain.total_length();
+                    const auto found =
+                        support::held_shapes(chain, share * length, slow * length, {.max_half_waves = 3});
+                    CHECK(found.shapes.size() + found.missing.size() == 3);
+                    CHECK_FALSE(found.complete);
+                    for (const HeldShape& shape : found.shapes) {
+                        INFO(family.name << ", " << size << " links, span " << share << ", height " << slow);
+                        const double error = against_truth(chain, shape);
+                        ++shapes;
+                        sharp += shape.error_bound < 4.5e-16;
+                        CHECK(error <= shape.error_bound);
+                        CHECK(shape.proved);
+                        CHECK(shape.residual < 1e-28);
+                        worst = std::max(worst, error), largest_bound = std::max(largest_bound, shape.error_bound);
+                    }
+                }
+    }
+    CAPTURE(shapes, sharp, worst, largest_bound);
+    CHECK(sharp > 0.96 * shapes);
+    CHECK(shapes > 360);
+    CHECK(worst < 1.12e-16);
+}
+
+TEST_CASE("held at both ends: extremes of weight") {
+    for (const auto& family : support::families()) {
+        if (family.name.find("1e12") == std::string::npos) continue;
+        const Chain<double> chain = family.make(8);
+        for (const double share : {0.99, 0.7}) {
+            const auto found = support::held_shapes(chain, share * chain.total_length(), 0.0);
+            for (const HeldShape& shape : found.shapes) {
+                INFO(family.name << " " << share);
+                CHECK(against_truth(chain, shape) <= shape.error_bound);
+            }
+        }
+    }
+}
+
+TEST_CASE("held at both ends: two links make a triangle") {
+    const double lower = 1.25, upper = 1.0, span = 1.5, heavy = 3.0;
+    const Chain<double> chain({revchain::plummet(7.0, lower), revchain::plummet(heavy, upper)});
+    const double up = (lower * lower - upper * upper + span * span) / (2 * span);
+    const double out = std::sqrt(lower * lower - up * up);
+    for (const double height : {0.0, 0.3}) {
+        const auto found = support::held_shapes(chain, span, height, {.max_half_waves = 2});
+        REQUIRE(found.shapes.size() == 1);
+        CHECK(found.missing == std::vector<int>{2});
+        const HeldShape& shape = found.shapes[0];
+        CHECK(std::abs(shape.offset[1] - out) < 2e-16);
+        CHECK(std::abs(shape.height[1] - up) < 3e-16);
+        // both threads pull the upper plummet inwards, the upper thread by P up, the lower by Q down
+        const double across = heavy * out;  // lambda times the centrifugal force
+        // P out/(span - up) + Q out/up = across,   P - Q = height heavy; the lower plummet lies on its bearing
+        const double Q = (across / out - height * heavy / (span - up)) / (1 / (span - up) + 1 / up);
+        CHECK(std::abs(shape.lower_pull[1] - (Q - 7 * height)) < 2e-15);
+        CHECK(std::abs(shape.lower_pull[0] - Q * out / up) < 2e-15);
+        CHECK(std::abs(shape.upper_pull[1] + Q + height * heavy) < 2e-15);
+    }
+    // the lower thread cannot reach so far without the upper pushing
+    const Chain<double> uneven({revchain::plummet(1.0, 2.0), revchain::plummet(1.0, 1.0)});
+    CHECK(support::held_shapes(uneven, 1.5, 0.0).shapes.empty());
+}
+
+TEST_CASE("held at both ends: many links tend to the skipping rope by order 2") {
+    for (const int waves : {1, 2, 3}) {
+        const revchain::analytic::SkippingRope rope(
+            {.span = 0.5, .length = 1.0, .angular_speed = 1.0, .half_waves = waves});
+        std::array<double, 3> rods{}, plummets{}, pull{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Index size = 60 << i;
+            const auto off = [&](const Chain<double>& chain) {
+                const auto found = support::held_shapes(chain, 0.5, 0.0, {.max_half_waves = waves});
+                REQUIRE(found.shapes.size() == static_cast<std::size_t>(waves));
+                const HeldShape& shape = found.shapes.back();
+                CHECK(shape.half_waves == waves);
+                pull[i] = shape.lower_pull[1] / rope.height_times_tension() - 1;
+                double worst = 0;
+                for (Index m = 0; m <= size; ++m) {
+                    const auto point = rope.at_arc(static_cast<double>(m) / static_cast<double>(size));
+                    worst = std::max(
+                        {worst, std::abs(point.offset - shape.offset[m]), std::abs(point.x - shape.height[m])});
+                }
+                return worst;
+            };
+            plummets[i] = off(Chain<double>::uniform_plummets(size)), rods[i] = off(Chain<double>::uniform_rods(size));
+        }
+        const double of_rods = std::log2(rods[1] / rods[2]), of_plummets = std::log2(plummets[1] / plummets[2]),
+                     of_pull = std::log2(pull[1] / pull[2]);
+        INFO(waves << " half waves: " << rods[2] << " " << plummets[2] << " " << pull[2]);
+        CAPTURE(of_rods, of_plummets, of_pull);
+        CHECK(std::abs(of_rods - 2) < 0.02);
+        CHECK(std::abs(of_plummets - 2) < 0.02);
+        CHECK(std::abs(of_pull - 2) < 0.02);
+    }
+}
+
+TEST_CASE("held at both ends: laws") {
+    const Chain<double> chain = support::families()[3].make(12);
+    const double length = chain.total_length(), span = 0.6 * length, height = 0.04 * length;
+    const HeldShape shape = support::held_shapes(chain, span, height).shapes.at(0);
+    double weight = 0, centrifugal = 0, moment = 0;
+    for (Index m = 0; m < chain.size(); ++m) {
+        const auto link = chain.link(m);
+        const double y = shape.offset[m + 1] + link.centroid * std::sin(shape.inclination[m]),
+                     z = shape.height[m + 1] - link.centroid * std::cos(shape.inclination[m]),
+                     turn = static_cast<double>(link.gyration_ratio) * link.length * link.length;
+        weight += link.weight, centrifugal += link.weight * y;
+        // about the lower end, centrifugal forces outwards and weights down; of a turned rod its product of inertia
+        moment +=
+            link.weight * (y * z + height * y - turn * std::sin(shape.inclination[m]) * std::cos(shape.inclination[m]));
+    }
+    CHECK(std::abs(shape.lower_pull[0] + shape.upper_pull[0] - centrifugal) < 4e-15 * centrifugal);
+    CHECK(std::abs(shape.lower_pull[1] + shape.upper_pull[1] + height * weight) < 4e-15 * height * weight);
+    CHECK(std::abs(shape.upper_pull[0] * span - moment) < 8e-15 * moment);
+
+    SECTION("other units") {
+        std::vector<revchain::Link<double>> links;
+        for (Index m = 0; m < chain.size(); ++m) {
+            auto link = chain.link(m);
+            link.weight *= 0x1p40, link.length *= 0x1p-30, link.centroid *= 0x1p-30;
+            links.push_back(link);
+        }
+        const HeldShape same =
+            support::held_shapes(Chain<double>(links), span * 0x1p-30, height * 0x1p-30).shapes.at(0);
+        CHECK(same.inclination == shape.inclination);
+        CHECK(same.lower_pull[0] == shape.lower_pull[0] * 0x1p10);
+        CHECK(same.moment_of_inertia == shape.moment_of_inertia * 0x1p-20);
+        CHECK(same.height_times_energy == shape.height_times_energy * 0x1p-20);
+    }
+    SECTION("symmetric without gravity") {
+        const HeldShape even = support::held_shapes(Chain<double>::uniform_rods(11), 0.5, 0.0).shapes.at(0);
+        for (Index m = 0; m < 11; ++m) CHECK(std::abs(even.inclination[m] + even.inclination[10 - m]) < 2.3e-16);
+    }
+    SECTION("the speed, in two words") {
+        const Held held(chain, {.span = span});
+        const auto at =
+            revchain::steady_shapes(held, {.angular_speed = std::sqrt(9.81 / height), .gravity = 9.81}).shapes.at(0);
+        CHECK((at.inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-15);
+        const Held light(chain, {.span = span, .weightless = true});
+        const auto none = revchain::steady_shapes(light, {.angular_speed = 5.0}).shapes.at(0);
+        CHECK(revchain::steady_shapes(light).shapes.at(0).inclination == none.inclination);
+        CHECK(none.inclination == support::held_shapes(chain, span, 0.0).shapes.at(0).inclination);
+    }
+    SECTION("tension instead of span") {
+        const double wanted = shape.height_times_tension[chain.size()];
+        const auto under = [&](double tension) {
+            return revchain::steady_shapes(Held(chain, {.tension = tension}), {.conical_height = height});
+        };
+        const auto found = under(wanted / height);
+        REQUIRE(found.shapes.size() == 1);
+        double nearest = length;
+        for (const HeldShape& other : found.shapes) {
+            CHECK(std::abs(other.height_times_tension[chain.size()] / wanted - 1) < 1e-15);
+            nearest = std::min(nearest, std::abs(other.span - span));
+        }
+        CHECK(nearest < 1e-12 * length);
+        CHECK(under(10 * wanted / height).shapes.empty());
+    }
+    SECTION("change of inclinations with the span") {
+        const double by = 1e-6;
+        double worst = 0;
+        for (const auto& [further, slower] : {std::pair{1 + by, 1.0}, {1.0, 1 + by}}) {
+            const HeldShape moved = support::held_shapes(chain, span * further, height * slower).shapes.at(0);
+            worst = std::max(worst, (moved.inclination - shape.inclination).cwiseAbs().maxCoeff() / by);
+        }
+        CHECK(std::abs(worst / shape.condition - 1) < 1e-5);
+    }
+}
+
+TEST_CASE("held at both ends: refused, and nothing where a chain folds") {
+    const Chain<double> chain = Chain<double>::uniform_rods(20);
+    using revchain::InvalidArgument;
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {0.0, -1.0, nan, infinity}) {
+        CAPTURE(bad);
+        CHECK_THROWS_AS(Held(chain, {.span = bad}), InvalidArgument);
+        CHECK_THROWS_AS(Held(chain, {.tension = bad}), InvalidArgument);
+        const Held held(chain, {.span = 0.5});
+        CHECK_THROWS_AS(revchain::steady_shapes(held, {.conical_height = bad}), InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shapes(held, {.angular_speed = bad}), InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shapes(held, {.angular_speed = 1.0, .gravity = bad}), InvalidArgument);
+        const Held light(chain, {.span = 0.5, .weightless = true});
+        CHECK_THROWS_AS(revchain::steady_shapes(light, {.angular_speed = bad}), InvalidArgument);
+    }
+    const auto slow = support::held_shapes(chain, 0.5, 10.0, {.max_half_waves = 2});
+    CHECK(slow.shapes.empty());
+    CHECK(slow.missing == std::vector<int>{1, 2});
+    CHECK(support::held_shapes(Chain<double>::uniform_rods(1), 0.5, 0.1).shapes.empty());
+}
+
+TEST_CASE("held straight: heights within an ulp of the assembled pencil in quadruple precision") {
+    for (const auto& family : support::families())
+        for (const Index size : {2, 5, 40})
+            for (const double pull : {1e-3, 1.0, 1e3}) {
+                const Chain<double> chain = family.make(size);
+                const double tension = pull * chain.total_weight();
+                const revchain::finite::TautChain modes(chain, revchain::Wide<double>(tension));
+                // negative pivots of height K - M, the lowest pin left out
+                const auto above = [&](Quad height) {
+                    Index negative = 0;
+                    Quad below = 0, pivot = 0, stiff_below = 0, upper_mass = 0, mixed_below = 0;
+                    for (Index m = 0; m < size; ++m) {
+                        const auto link = chain.link(m);
+                        const Quad W = link.weight, a = link.length, p = Quad(link.centroid) / a, q = 1 - p,
+                                   turn = quad(link.gyration_ratio);
+                        const Quad k = height * ((W * p + below) + Quad(tension)) / a;
+                        below += W;
+                        if (m > 0) {
+                            const Quad diagonal = stiff_below + k - upper_mass - W * (p * p + turn);
+                            pivot = diagonal - (m > 1 ? mixed_below * mixed_below / pivot : 0);
+                            if (pivot < 0) ++negative;
+                        }
+                        stiff_below = k, upper_mass = W * (q * q + turn), mixed_below = -k - W * (p * q - turn);
+                    }
+                    return negative;
+                };
+                for (Index k = 0; k < std::min<Index>(5, modes.mode_count()); ++k) {
+                    INFO(family.name << " " << size << " " << pull << " mode " << k + 1);
+                    const Quad height = modes.height(k), by = revchain::epsilon<double>();
+                    CHECK(above(height * (1 - by)) == k + 1);
+                    CHECK(above(height * (1 + by)) == k);
+                }
+            }
+}
+
+TEST_CASE("held straight: where shapes of finite amplitude begin") {
+    const Chain<double> chain = support::families()[2].make(9);
+    const double length = chain.total_length(), height = 0.03 * length;
+    for (const double slack : {1e-4, 1e-6}) {
+        const HeldShape shape = support::held_shapes(chain, length * (1 - slack), height).shapes.at(0);
+        const auto modes = revchain::modes(Held(chain, {.tension = -shape.upper_pull[1] / height}), {.count = 1});
+        CHECK(std::abs(modes.conical_height[0] / height - 1) < 3 * slack);
+        const revchain::Vector<double> scaled = shape.offset / shape.offset.cwiseAbs().maxCoeff();
+        CHECK((scaled - modes.shape(0)).cwiseAbs().maxCoeff() < 3 * slack);
+    }
+}
+
+TEST_CASE("held straight: the tension at the upper end, less the weight in double-double") {
+    for (const auto& family : support::families()) {
+        const Chain<double> chain = family.make(12);
+        const double tension = 1.25 * chain.total_weight();
+        INFO(family.name);
+        const auto modes = revchain::modes(Held(chain, {.tension = tension}));
+        const revchain::finite::TautChain taut(chain, revchain::Wide<double>(tension) - chain.weight_below(12));
+        REQUIRE(modes.size() == std::min<Index>(10, taut.mode_count()));
+        CHECK(modes.first == 1);
+        CHECK(modes.method == "bisection");
+        CHECK(modes.status == revchain::Status::success);
+        const auto& shapes = modes.shapes();
+        for (Index j = 0; j < modes.size(); ++j) {
+            CHECK(modes.conical_height[j] == taut.height(j));
+            CHECK(modes.error_bound[j] == revchain::epsilon<double>());
+            CHECK(modes.shape(j) == taut.shape(modes.conical_height[j]));
+            const double height = modes.conical_height[j];
+            CHECK(revchain::count_modes(Held(chain, {.tension = tension}), {.conical_height = height * (1 - 1e-14)}) ==
+                  j + 1);
+            CHECK(revchain::count_modes(Held(chain, {.tension = tension}), {.conical_height = height * (1 + 1e-14)}) ==
+                  j);
+            CHECK(shapes.residual[j] < 1e-15);
+            // mode k has k - 1 nodes, each between two pins of different sign
+            const auto& nodes = shapes.nodes[static_cast<std::size_t>(j)];
+            Index changes = 0;
+            double below = 0;
+            for (Index m = 0; m < 12; ++m) {
+                const double y = shapes.offset(j, m), next = shapes.offset(j, m + 1), length = chain.link(m).length;
+                if (y * next < 0) {
+                    REQUIRE(changes < nodes.size());
+                    CHECK(std::abs(nodes[changes] - (below + length * y / (y - next))) < 1e-14 * chain.total_length());
+                    ++changes;
+                }
+                below += length;
+            }
+            CHECK(changes == nodes.size());
+        }
+    }
+}
+
+TEST_CASE("held straight: two plummets on three threads, in closed form") {
+    // lambda K y = M y with the tensions 2 w + T, w + T and T over the threads of length 1: M is the weight w
+    const double w = 0.5, T = 3.0;
+    const Chain<double> chain({revchain::plummet(w, 1.0), revchain::plummet(w, 1.0), revchain::plummet(w, 1.0)});
+    const auto modes = revchain::modes(Held(chain, {.tension = 3 * w + T}));  // the lowest one lies on its bearing
+    REQUIRE(modes.size() == 2);
+    const double lower = w + T, middle = 2 * w + T, upper = 3 * w + T;  // in the three threads
+    const double a = lower + middle, b = middle, c = middle + upper, root = std::hypot((a - c) / 2, b);
+    CHECK(std::abs(modes.conical_height[0] * ((a + c) / 2 - root) / w - 1) < 1e-15);
+    CHECK(std::abs(modes.conical_height[1] * ((a + c) / 2 + root) / w - 1) < 1e-15);
+    CHECK(modes.shape(0)[0] == 0);
+    CHECK(modes.shape(0)[3] == 0);
+    CHECK(std::abs(modes.shape(0)[1] / modes.shape(0)[2] - b / (a - w / modes.conical_height[0])) < 1e-14);
+    CHECK(modes.angular_speed(10.0)[0] == std::sqrt(10.0) / std::sqrt(modes.conical_height[0]));
+}
+
+TEST_CASE("held straight: numbers, windows, all modes") {
+    const Chain<double> rods = Chain<double>::uniform_rods(30, 1.0, 2.0);
+    const Held held(rods, {.tension = 7.0});
+    const auto all = revchain::modes(held, {.count = revchain::all_modes});
+    REQUIRE(all.size() == 29);
+    const auto some = revchain::modes(held, {.first = 4, .count = 3});
+    CHECK(some.first == 4);
+    CHECK(some.conical_height == all.conical_height.segment(3, 3));
+    CHECK(some.shape(1) == all.shape(4));
+    CHECK(revchain::modes(held, {.first = 25}).size() == 5);
+    const double low = all.conical_height[6], high = all.conical_height[2];
+    const auto window =
+        revchain::modes(held, {.conical_height = revchain::HeightWindow<double>{low * 0.999, high * 1.001}});
+    CHECK(window.range() == revchain::ModeRange{3, 5});
+    CHECK(window.conical_height == all.conical_height.segment(2, 5));
+    const auto speeds = all.angular_speed();
+    const auto by_speed =
+        revchain::modes(held, {.angular_speed = revchain::SpeedWindow<double>{speeds[2] * 0.999, speeds[6] * 1.001}});
+    CHECK(by_speed.range() == window.range());
+    const double infinity = std::numeric_limits<double>::infinity();
+    CHECK(revchain::modes(held, {.angular_speed = revchain::SpeedWindow<double>{0, infinity}}).size() == 29);
+    CHECK(revchain::modes(held, {.conical_height = revchain::HeightWindow<double>{1e3, infinity}}).size() == 0);
+    CHECK(revchain::count_modes(held, {.angular_speed = speeds[6] * 1.001}) == 7);
+    CHECK(revchain::count_modes(held, {.angular_speed = 2 * speeds[6] * 1.001, .gravity = 4 * 9.80665}) == 7);
+    CHECK(revchain::modes(held, {.rtol = 1e-3}).status == revchain::Status::success);
+    CHECK(revchain::modes(held, {.rtol = 1e-20}).status == revchain::Status::tolerance_not_met);
+}
+
+TEST_CASE("held: a weightless system under a tension") {
+    const Chain<double> rods = Chain<double>::uniform_rods(25, 1.0, 2.0);
+    const double speed = 7.0;
+    for (const auto& shape :
+         revchain::steady_shapes(Held(rods, {.span = 0.7, .weightless = true}), {.max_half_waves = 2}).shapes) {
+        CHECK(shape.conical_height == 0);
+        const double tension = shape.height_times_tension[25] * speed * speed;  // newtons, of masses
+        const auto found = revchain::steady_shapes(Held(rods, {.tension = tension, .weightless = true}),
+                                                   {.angular_speed = speed, .max_half_waves = shape.half_waves});
+        REQUIRE(!found.shapes.empty());
+        CHECK(std::abs(found.shapes.back().span - 0.7) < 1e-12);
+        CHECK((found.shapes.back().inclination - shape.inclination).cwiseAbs().maxCoeff() < 1e-11);
+    }
+    const revchain::Cord cord(1.0, {.weight = 2.0});
+    const auto rope = revchain::steady_shapes(Held(cord, {.span = 0.7, .weightless = true})).shapes.at(0);
+    const double tension = rope.height_times_tension[rope.height_times_tension.size() - 1] * speed * speed;
+    const auto found =
+        revchain::steady_shapes(Held(cord, {.tension = tension, .weightless = true}), {.angular_speed = speed});
+    REQUIRE(found.shapes.size() == 1);
+    CHECK(std::abs(found.shapes[0].span - 0.7) < 1e-12);
+}
+
+TEST_CASE("held: what has no answer says what to ask instead") {
+    using Catch::Matchers::ContainsSubstring;
+    using revchain::Cord;
+    const Chain<double> rods = Chain<double>::uniform_rods(20, 1.0, 3.0);
+    CHECK_THROWS_WITH(Held(rods, {}), ContainsSubstring("give either span or tension"));
+    CHECK_THROWS_WITH(Held(rods, {.span = 0.5, .tension = 1.0}), ContainsSubstring("give either span or tension"));
+    CHECK_THROWS_WITH(Held(rods, {.span = 1.0}), ContainsSubstring("less than the length 1, got 1"));
+    CHECK_THROWS_WITH(Held(Cord(1, {.tip_weight = 1}), {.span = 0.5}), ContainsSubstring("must be uniform"));
+    CHECK_THROWS_WITH(Held(Cord(1, {.density = 1.0}), {.span = 0.5}), ContainsSubstring("Chain::tapered"));
+
+    const Held bent(rods, {.span = 0.5}), straight(rods, {.tension = 4.0});
+    const Held light(rods, {.tension = 4.0, .weightless = true}), light_bent(rods, {.span = 0.5, .weightless = true});
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent), ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.conical_height = 1.0, .angular_speed = 1.0}),
+                      ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.angular_speed = 1.0, .gravity = 0}),
+                      ContainsSubstring("weightless = true"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.angular_speed = 1e200}),
+                      ContainsSubstring("gravity / angular_speed^2 must be positive and finite"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(bent, {.conical_height = 0.1, .max_half_waves = 0}),
+                      ContainsSubstring("max_half_waves must be at least 1"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(light_bent, {.conical_height = 0.1}),
+                      ContainsSubstring("give angular_speed"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(light), ContainsSubstring("give angular_speed"));
+
+    CHECK_THROWS_WITH(revchain::modes(bent), ContainsSubstring("stability"));
+    CHECK_THROWS_WITH(revchain::count_modes(bent, {.conical_height = 0.1}), ContainsSubstring("stability"));
+    CHECK_THROWS_WITH(revchain::modes(light), ContainsSubstring("weightless"));
+    const Chain<double> beads = Chain<double>::uniform_plummets(4, 1.0, 3.0);
+    CHECK_THROWS_WITH(revchain::modes(Held(beads, {.tension = 3.0})),
+                      ContainsSubstring("must exceed the weight of the chain 3"));
+    CHECK_THROWS_WITH(revchain::count_modes(Held(rods, {.tension = 2.0}), {.conical_height = 0.1}),
+                      ContainsSubstring("must exceed the weight"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.certify = true}), ContainsSubstring("count_modes"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.first = 20}), ContainsSubstring("must not exceed the 19 modes"));
+    CHECK_THROWS_WITH(revchain::modes(straight, {.count = 20}), ContainsSubstring("must not exceed the 19 modes"));
+    CHECK_THROWS_AS(revchain::modes(straight, {.first = 0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.count = 0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.rtol = -1.0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.conical_height = revchain::HeightWindow<double>{2, 1}}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.angular_speed = revchain::SpeedWindow<double>{-1, 1}}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::modes(straight, {.angular_speed = revchain::SpeedWindow<double>{1, 2}, .gravity = 0}),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_WITH(revchain::count_modes(straight, {}), ContainsSubstring("give either"));
+    CHECK_THROWS_AS(revchain::count_modes(straight, {.conical_height = 0.0}), revchain::InvalidArgument);
+
+    const Held rope(Cord(1), {.tension = 2.0});
+    CHECK_THROWS_WITH(revchain::modes(rope), ContainsSubstring("cut it into links"));
+    CHECK_THROWS_WITH(revchain::count_modes(rope, {.conical_height = 0.1}), ContainsSubstring("cut it into links"));
+    CHECK_THROWS_WITH(revchain::steady_shapes(rope), ContainsSubstring("give either conical_height or angular_speed"));
+    CHECK_THROWS_WITH(revchain::tune(rope, {}), ContainsSubstring("cannot be tuned yet"));
+    CHECK_THROWS_WITH(revchain::tune(bent, {}), ContainsSubstring("cannot be tuned yet"));
+    CHECK_THROWS_WITH(revchain::explain(rope), ContainsSubstring("one method"));
+    CHECK_THROWS_WITH(revchain::explain(straight), ContainsSubstring("one method"));
+}
+
+TEST_CASE("held: a run can be cancelled") {
+    revchain::Progress progress;
+    const Chain<double> rods = Chain<double>::uniform_rods(20);
+    const auto modes = revchain::modes(Held(rods, {.tension = 4.0}), {.count = 3, .progress = &progress});
+    CHECK(progress.fraction() == 1);
+    progress.cancel();
+    CHECK_THROWS_AS(revchain::modes(Held(rods, {.tension = 4.0}), {.count = 3, .progress = &progress}),
+                    revchain::Cancelled);
+    CHECK_THROWS_AS(modes.shapes(&progress), revchain::Cancelled);
+}
