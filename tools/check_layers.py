@@ -14,8 +14,8 @@ INCLUDE = ROOT / "include" / "revchain"
 
 # Folder of include/revchain -> folders it may include, itself apart. The arrows run one way (see the check below).
 ALLOWED = {
-    "simd": set(),
-    "numeric": {"simd"},
+    "numeric": set(),
+    "simd": {"numeric"},
     "system": {"numeric"},
     "special": {"numeric", "system"},
     "pencil": {"numeric", "simd"},
@@ -88,6 +88,9 @@ FORBIDDEN = {
     r"\b(assert|eigen_assert)\s*\(": "a wrong call throws InvalidArgument",
     r"#\s*define\s+(?!REVCHAIN_)\w": "no macros, or else REVCHAIN_",
 }
+# What one compiler knows and another refuses, and the headers that hold it.
+COMPILER = r"__attribute__|__builtin_|__has_builtin|__GNUC__|__clang__|_MSC_VER|__float128|__int128|gnu::target|\b_mm\w*"
+COMPILER_HEADERS = {"numeric/compiler.hpp", "numeric/dispatch.hpp", "simd/registers.hpp"}
 SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh"}
 SKIPPED = {".git", ".venv", "build", "dist", "out"}
 
@@ -143,6 +146,8 @@ def check_header(path: Path) -> list[str]:
         for pattern, why in FORBIDDEN.items():
             if re.search(pattern, line):
                 complain(path, number, f"{line.strip()}: {why}")
+        if name not in COMPILER_HEADERS and re.search(COMPILER, line):
+            complain(path, number, f"{line.strip()}: another compiler may refuse it; see numeric/compiler.hpp")
         match = re.match(r"\s*#\s*include\s*<([^>]*)>", line)
         if not match:
             continue

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 #include <utility>
 
 #include "revchain/numeric/double_word.hpp"
@@ -50,21 +49,21 @@ template <Real T>
 T period(const T& height, const T& gravity = T(standard_gravity)) {
     using std::sqrt;
     detail::require_positive("conical_pendulum::period", "height", height, "gravity", gravity);
-    return T(2) * std::numbers::pi_v<T> * (sqrt(height) / sqrt(gravity));
+    return T(2) * detail::pi<T> * (sqrt(height) / sqrt(gravity));
 }
 
 /// lambda = g T^2 / (4 pi^2). §1 (1)
 template <Real T>
 T height_from_period(const T& period, const T& gravity = T(standard_gravity)) {
     detail::require_positive("conical_pendulum::height_from_period", "period", period, "gravity", gravity);
-    const T radian = period / (T(2) * std::numbers::pi_v<T>);
+    const T radian = period / (T(2) * detail::pi<T>);
     return gravity * radian * radian;
 }
 
 /// Revolutions per second, 1 / T.
 template <Real T>
 T revolutions_per_second(const T& height, const T& gravity = T(standard_gravity)) {
-    return angular_speed(height, gravity) / (T(2) * std::numbers::pi_v<T>);
+    return angular_speed(height, gravity) / (T(2) * detail::pi<T>);
 }
 
 /// lambda = g / (2 pi R)^2 from R revolutions per second.
@@ -72,14 +71,14 @@ template <Real T>
 T height_from_revolutions_per_second(const T& revolutions, const T& gravity = T(standard_gravity)) {
     detail::require_positive("conical_pendulum::height_from_revolutions_per_second", "revolutions per second",
                              revolutions);
-    return height(T(T(2) * std::numbers::pi_v<T> * revolutions), gravity);
+    return height(T(T(2) * detail::pi<T> * revolutions), gravity);
 }
 
 /// g = 4 pi^2 l / T^2 from the length of a simple pendulum and its period for a small swing to and fro. §1 (4)
 template <Real T>
 T gravity(const T& length, const T& period) {
     detail::require_positive("conical_pendulum::gravity", "length", length, "period", period);
-    const T radian = period / (T(2) * std::numbers::pi_v<T>);
+    const T radian = period / (T(2) * detail::pi<T>);
     return length / radian / radian;
 }
 
@@ -88,7 +87,7 @@ T gravity(const T& length, const T& period) {
 template <Real T>
 T gravity_from_seconds_pendulum(const T& length) {
     detail::require_positive("conical_pendulum::gravity_from_seconds_pendulum", "length", length);
-    return std::numbers::pi_v<T> * std::numbers::pi_v<T> * length;
+    return detail::pi<T> * detail::pi<T> * length;
 }
 
 /// lambda = L T^2 / 4 from the length L of the seconds pendulum; needs no g. §1 (7)

@@ -95,7 +95,7 @@ LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_spee
     if (!isfinite(angular_speed)) detail::throw_invalid("link_phase", "angular speed must be finite", angular_speed);
     const auto [sine, cosine] = detail::half_phase(string, angular_speed);
     if (sine.fraction < T(0)) return {T(0), T(2) * asinh(sine.times(T(-1)).root().value())};
-    if (cosine.fraction < T(0)) return {std::numbers::pi_v<T>, T(2) * asinh(cosine.times(T(-1)).root().value())};
+    if (cosine.fraction < T(0)) return {detail::pi<T>, T(2) * asinh(cosine.times(T(-1)).root().value())};
     return {T(2) * atan2(sine.root().value(), cosine.root().value()), T(0)};
 }
 
@@ -106,7 +106,7 @@ template <Real T>
 std::array<T, 2> wave_speeds(const GyrostaticString<T>& string, const T& phase) {
     using std::abs, std::sin;
     detail::check("wave_speeds", string);
-    if (!(phase > T(0)) || !(phase <= std::numbers::pi_v<T>))
+    if (!(phase > T(0)) || !(phase <= detail::pi<T>))
         detail::throw_invalid("wave_speeds", "phase must lie above 0 and not above pi", phase);
     using P = detail::Product<T>;
     const T chord = phase < epsilon<T>() ? phase : T(2) * sin(phase / T(2));

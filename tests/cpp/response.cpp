@@ -303,7 +303,7 @@ TEST_CASE("response: registers of two doubles, products not fused", "[linear]") 
                 for (const Quad& y : exact.offset) largest = fmaxq(largest, fabsq(y));
                 const double bound = found[j].error_bound + 1.2e-16;
                 CHECK(found[j].negative == revchain::count_modes(chain, {.conical_height = heights[j]}));
-                for (const std::size_t which : {0, 1}) {
+                for (const std::size_t which : {0u, 1u}) {
                     const Quad off = fabsq(Quad(offset[j][which]) - exact.offset[pins.pins[which]]) / largest;
                     CHECK(static_cast<double>(off) <= bound);
                 }

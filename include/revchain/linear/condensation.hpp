@@ -4,6 +4,7 @@
 #include "revchain/chain.hpp"
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/pencil/condensed/transfer.hpp"
+#include "revchain/simd/pack.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
@@ -86,12 +87,12 @@ struct LinkColumns {
 /// Cost: 0.9 ns a plummet, 1.5 ns a link in double with AVX-512, twice and three times that with AVX2 and SSE2.
 template <LinkKind Kind, std::size_t Degree, class T, class V = Pack<T>>
 LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         LaneRuns<V> runs;
         CompensatedSum<V> hung = below;
         V p(T(1)), coefficient{}, a(T(1)), per_length(T(1));
         const T per_unit = T(1) / links.unit_length;
-        const auto set_link = [&](Index m) __attribute__((always_inline)) {
+        const auto set_link = [&](Index m) REVCHAIN_INLINED {
             a = links.length.template lanes<V>(m, length) * per_unit;
             per_length = T(1) / a;
             if constexpr (Kind == LinkKind::equal_links)

@@ -62,7 +62,7 @@ struct PinState {
 template <class T>
 void descend(const LinkChunk<T>& links, const Pack<T>& lambda, PinState<Pack<T>>& state, Pack<T>* offset) {
     using V = Pack<T>;
-    simd([&](auto) __attribute__((always_inline)) {
+    simd([&](auto) REVCHAIN_INLINED {
         for (Index m = links.count; m-- > 0;) {
             const auto i = static_cast<std::size_t>(m);
             state.force.add(-(V(links.at_upper[i]) * state.offset.value()));
@@ -86,7 +86,7 @@ template <class T>
 void weigh(const LinkChunk<T>& links, const Pack<T>& lambda, const Pack<T>& top, bool held, const Pack<T>* offset,
            Balance<Pack<T>>& balance) {
     using V = Pack<T>;
-    simd([&](auto) __attribute__((always_inline)) {
+    simd([&](auto) REVCHAIN_INLINED {
         for (Index m = links.count; m-- > 0;) {
             const auto i = static_cast<std::size_t>(m);
             const V lower = offset[i], upper = m + 1 < links.count ? offset[i + 1] : top;

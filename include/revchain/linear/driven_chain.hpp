@@ -5,6 +5,7 @@
 #include "revchain/linear/rig_elements.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/pencil/forced/lanes.hpp"
+#include "revchain/simd/pack.hpp"
 
 namespace revchain::detail {
 
@@ -66,7 +67,7 @@ inline bool is_negligible(const pencil::Driven& found) { return found.error_boun
 template <class Put, class Take>
 void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, pencil::DrivenPins& pins, const Put& put,
                      const Take& take, Progress* progress) {
-    simd([&](auto registers) __attribute__((always_inline)) {
+    simd([&](auto registers) REVCHAIN_INLINED {
         using V = Pack<double, registers.doubles>;
         constexpr bool fused = registers.fused;
         constexpr std::size_t together = pencil::driven_together<V>;
@@ -76,8 +77,7 @@ void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, p
         for (std::size_t i = 0; i < at.size(); i += together) {
             const std::size_t taken = std::min(together, at.size() - i);
             for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
-            const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y)
-                __attribute__((always_inline)) {
+            const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y) REVCHAIN_INLINED {
                 if (lane < taken) put(static_cast<Index>(i + lane), which, y);
             };
             if (chain.turning)

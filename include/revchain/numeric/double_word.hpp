@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "revchain/numeric/scalar.hpp"
-#include "revchain/simd/pack.hpp"
+#include "revchain/numeric/word.hpp"
 
 namespace revchain {
 
@@ -40,28 +40,6 @@ struct DoubleWord {
                                       const DoubleWord& y) = default;  // NOLINT(modernize-use-nullptr)
     friend constexpr DoubleWord operator-(const DoubleWord& x) { return {-x.high, -x.low}; }
 };
-
-namespace detail {
-
-/// x itself. The compiler must not fuse the operation that computed x with the one that uses it. Error-free
-/// transformations need this: GCC fuses a product with every sum that uses it, also across functions that it inlines
-/// into one compiled for a processor with fused operations. Clang fuses within one expression, and under
-/// -ffp-contract=fast only a product that is used once: the transformations use each argument more than once.
-template <Word T>
-[[gnu::always_inline]] constexpr T rounded(const T& x) {
-#if defined(__clang__)
-    return x;
-#elif __has_builtin(__builtin_assoc_barrier)
-    if constexpr (IsPack<T>)
-        return x.rounded();
-    else
-        return __builtin_assoc_barrier(x);
-#else
-#error "revchain needs GCC 12 or Clang 14, or later versions"
-#endif
-}
-
-}  // namespace detail
 
 /// x + y = high + low exactly (Knuth).
 template <Word T>

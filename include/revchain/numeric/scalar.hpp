@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-#error "revchain: -ffast-math breaks compensated sums, error bounds and counts; compile without it (-O3 is fine)"
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(_M_FP_FAST) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "revchain: -ffast-math (/fp:fast) breaks compensated sums, bounds and counts; compile without it (-O3 is fine)"
 #endif
 #if defined(__FLT_EVAL_METHOD__) && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 2)
 #error "revchain: excess precision (x87 arithmetic) breaks error bounds; compile with -msse2 -mfpmath=sse"
@@ -12,12 +13,19 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <numbers>
 
 namespace revchain {
 
 using Index = Eigen::Index;
 
 namespace detail {
+/// pi, to the last digit of T.
+template <class T>
+inline constexpr T pi = std::numbers::pi_v<T>;
+template <>
+inline constexpr long double pi<long double> = 3.14159265358979323846264338327950288L;  // libc++ 14: that of double
+
 // The functions a scalar brings besides its operators, found in std or next to the type.
 using std::abs;
 using std::frexp;

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "revchain/pencil/element.hpp"
+#include "revchain/simd/pack.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
@@ -40,7 +41,7 @@ std::array<Index, L> count_above_in_units(const ElementPencil<T>& pencil, const 
 /// `count_above` in packs, whatever the compiler makes of loops: registers of 32 bytes at most, which compare faster.
 template <std::floating_point T, std::size_t L>
 std::array<Index, L> count_above_in_packs(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
-    return simd([&](auto registers) __attribute__((always_inline)) {
+    return simd([&](auto registers) REVCHAIN_INLINED {
         constexpr std::size_t width = std::min<std::size_t>(32, decltype(registers)::bytes) / sizeof(T);
         using Packed = Pack<T, width, L / width>;
         const Packed shift = Packed::load(shifts.data()), least(least_pivot<T>()), square(epsilon<T>() * epsilon<T>());

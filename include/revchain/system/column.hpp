@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "revchain/numeric/dispatch.hpp"
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/progress.hpp"
 
@@ -101,11 +102,11 @@ class RunningSum {
 template <Real T>
 Summary<T> summary(const T* x, Index count) {
     using S = std::conditional_t<detail::Compensated<T>, T, Wide<T>>;
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         S sum[detail::sum_lanes]{}, error[detail::sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
         T least[detail::sum_lanes];
         std::fill_n(least, detail::sum_lanes, x[0]);
-        const auto take = [&](const T* y, const T* z) __attribute__((always_inline)) {
+        const auto take = [&](const T* y, const T* z) REVCHAIN_INLINED {
             for (std::size_t i = 0; i < detail::sum_lanes; ++i) {
                 const S s = sum[i] + S(y[i]);
                 if constexpr (detail::Compensated<T>) {  // two_sum

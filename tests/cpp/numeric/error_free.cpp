@@ -9,7 +9,7 @@
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/interval.hpp"
-#include "revchain/simd/dispatch.hpp"
+#include "revchain/simd/pack.hpp"
 #include "support/catch.hpp"
 
 using revchain::DoubleWord;
@@ -95,7 +95,7 @@ template <class V, bool fused>
         for (std::size_t i = 0; i < size; ++i) {
             const C& one = all[begin + i];
             const Whole x = whole(one.a), y = whole(one.b), z = whole(one.c), xy = whole(one.ab);
-            const auto exact = [&](const DoubleWord<V>& got, Whole want) __attribute__((always_inline)) {
+            const auto exact = [&](const DoubleWord<V>& got, Whole want) REVCHAIN_INLINED {
                 return whole(lane(got.high, i)) + whole(lane(got.low, i)) == want;
             };
             wrong += !exact(product, x * y) + !exact(chosen, x * y);
@@ -129,10 +129,9 @@ template <class V>
                             y = revchain::fast_two_sum(b * thousand, -low);
         const DoubleWord<V> product = x * y, scaled = x * b, sum = x + y, difference = x - y, more = x + a * b;
         for (std::size_t i = 0; i < size; ++i) {
-            const auto value = [&](const DoubleWord<V>& w) __attribute__((always_inline)) {
-                return whole(lane(w.high, i)) + whole(lane(w.low, i));
-            };
-            const auto off = [&](const DoubleWord<V>& got, Whole want, int bound) __attribute__((always_inline)) {
+            const auto value = [&](const DoubleWord<V>& w)
+                                   REVCHAIN_INLINED { return whole(lane(w.high, i)) + whole(lane(w.low, i)); };
+            const auto off = [&](const DoubleWord<V>& got, Whole want, int bound) REVCHAIN_INLINED {
                 const Whole error = value(got) - want, size_of_want = want < 0 ? -want : want;
                 // u^2 = 2^-106; one more for what the cast to a whole number cuts off
                 return (error < 0 ? -error : error) > bound * (size_of_want >> 106) + bound + 1;
@@ -164,8 +163,7 @@ void in_each_kind(const F& f) {
         INFO("registers of this program");
         CHECK(revchain::detail::for_own(f) == 0);
     }
-#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && \
-    !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
+#if defined(REVCHAIN_SEVERAL_TARGETS)
     const auto processor = revchain::detail::processor();
     if (processor != revchain::detail::Processor::basic) {
         INFO("avx2, fma");
@@ -181,7 +179,7 @@ void in_each_kind(const F& f) {
 template <class T>
 void check_numbers() {
     const auto all = cases<T>(400'000);
-    in_each_kind([&](auto registers) __attribute__((always_inline)) {
+    in_each_kind([&](auto registers) REVCHAIN_INLINED {
         return wrong_transformations < T, std::floating_point<T> && registers.fused && sizeof(T) <= 8 > (all);
     });
 }
@@ -196,21 +194,20 @@ TEST_CASE("error-free transformations of numbers are exact in every target", "[c
 
 TEST_CASE("error-free transformations of packs are exact in every target", "[core]") {
     const auto all = cases<double>(400'000);
-    in_each_kind([&](auto registers) __attribute__((always_inline)) {
+    in_each_kind([&](auto registers) REVCHAIN_INLINED {
         return wrong_transformations<Pack<double, registers.doubles>, registers.fused>(all);
     });
-    in_each_kind([&](auto registers) __attribute__((always_inline)) {
+    in_each_kind([&](auto registers) REVCHAIN_INLINED {
         return wrong_transformations<Pack<double, registers.doubles, 2>, registers.fused>(all);
     });
     const auto few = cases<float>(400'000);
-    in_each_kind([&](auto registers) __attribute__((always_inline)) {
+    in_each_kind([&](auto registers) REVCHAIN_INLINED {
         return wrong_transformations<Pack<float, 2 * registers.doubles>, registers.fused>(few);
     });
 }
 
 TEST_CASE("double words and intervals keep their bounds in every target", "[core]") {
     const auto all = cases<double>(200'000);
-    in_each_kind([&](auto) __attribute__((always_inline)) { return wrong_words<double>(all); });
-    in_each_kind([&](auto registers)
-                     __attribute__((always_inline)) { return wrong_words<Pack<double, registers.doubles>>(all); });
+    in_each_kind([&](auto) REVCHAIN_INLINED { return wrong_words<double>(all); });
+    in_each_kind([&](auto registers) REVCHAIN_INLINED { return wrong_words<Pack<double, registers.doubles>>(all); });
 }

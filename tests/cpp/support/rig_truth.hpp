@@ -142,7 +142,7 @@ class RigTruth {
             Quad sum = 0, terms = 0;
             for (const auto& [factor, band] :
                  {std::pair(Quad(1), &K), std::pair(n, &G), std::pair(-n * n / gravity_, &M)}) {
-                const auto one = [&](Quad entry, std::size_t i) {
+                const auto one = [&, factor = factor](Quad entry, std::size_t i) {
                     const Quad term = factor * entry * Quad(y[static_cast<Index>(i)]);
                     sum += term, terms += fabsq(term);
                 };

@@ -111,7 +111,7 @@ inline std::size_t lane_work(std::ptrdiff_t size) {
 /// are bitwise the same wherever a chain stands; another kind of processor may change last digits.
 inline void lane_spectrum(const LaneBlock& block, std::ptrdiff_t count, LaneMethod method, double* work, double* height,
                           std::int64_t* verified) {
-    simd([&](auto registers) __attribute__((always_inline)) {
+    simd([&](auto registers) REVCHAIN_INLINED {
         // Eight doubles to a register were slower than four (N = 10, Zen 4).
         using V = Pack<double, std::min(registers.doubles, pack_size), 4>;
         for (std::ptrdiff_t lane = 0; lane < block_lanes; lane += static_cast<std::ptrdiff_t>(V::size)) {

@@ -89,7 +89,7 @@ template <class S, Real T>
 template <class S, Real T>
 std::vector<LumpedElement<S>> elements_at(const CondensedPencil<T>& pencil, const S& shift) {
     std::vector<LumpedElement<S>> elements(pencil.blocks.size());
-    simd([&](auto) __attribute__((always_inline)) {
+    simd([&](auto) REVCHAIN_INLINED {
         for (std::size_t m = 0; m < elements.size(); ++m) elements[m] = element_at<S>(pencil.blocks[m], shift);
     });
     return elements;
@@ -100,7 +100,7 @@ std::vector<LumpedElement<S>> elements_at(const CondensedPencil<T>& pencil, cons
 template <Real T, std::size_t L>
 std::array<Index, L> count_above(const CondensedPencil<T>& pencil, const std::array<T, L>& shifts) {
     using V = Pack<T>;
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         constexpr std::size_t packs = (L + pack_size - 1) / pack_size;
         std::array<V, packs> shift, below{}, negative{};
         for (std::size_t i = 0; i < packs * pack_size; ++i)
@@ -133,7 +133,7 @@ template <Real T>
 CertifiedCounts<Pack<T>> certified_count(const CondensedPencil<T>& pencil, const DoubleWord<Pack<T>>& shift) {
     using V = Pack<T>;
     using S = DoubleWord<V>;
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         const T unit = T(2) * operation_error<DoubleWord<T>>();
         const T inflate = T(1) + T(16) * epsilon<T>();
         const T underflow = std::numeric_limits<T>::min() * T(4);
@@ -170,10 +170,10 @@ template <class S>
 std::vector<S> offsets_between(const std::vector<LumpedElement<S>>& elements) {
     using V = Narrow<S>;
     using T = Lane<V>;
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         const std::size_t n = elements.size();
         const S one(V(T(1)));
-        const auto not_zero = [](const S& pivot, const S& spring) __attribute__((always_inline)) {
+        const auto not_zero = [](const S& pivot, const S& spring) REVCHAIN_INLINED {
             const V tiny = static_cast<V>(spring) * (epsilon<T>() * epsilon<T>());
             return pivot + S(if_equal(static_cast<V>(pivot), V{}, tiny, V{}));
         };
@@ -236,7 +236,7 @@ Improved<S> improved(const CondensedPencil<T>& pencil, const S& shift) {
     const std::vector<V> offset = offsets_between(elements_at(pencil, at));
     const std::vector<LumpedElement<S>> here = elements_at(pencil, shift);
     const std::vector<LumpedElement<V>> there = elements_at(pencil, at + step);
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         // The form at the shift, in S; its derivative from a second value, in T.
         S form{};
         V ahead{};

@@ -119,7 +119,7 @@ template <bool turning, bool fused, class V, class Offsets>
     wanted.ratio.resize(std::max(wanted.ratio.size(), count * 2 * P * L));
     double* const ratios = wanted.ratio.data();
     std::size_t next = 0;  // of the pins wanted
-    const auto put_away = [&](std::size_t which) __attribute__((always_inline)) {
+    const auto put_away = [&](std::size_t which) REVCHAIN_INLINED {
         for (std::size_t p = 0; p < P; ++p) {
             walks[p].product.high.store(ratios + (which * P + p) * 2 * L);
             walks[p].product.low.store(ratios + (which * P + p) * 2 * L + L);

@@ -50,31 +50,29 @@ template <bool rigid>
     int squarings = 1;
     for (; squarings < 6 && root > 8 * static_cast<double>(links.size); ++squarings) root = std::sqrt(root);
     const double step = (root - 1) / static_cast<double>(points - 1);
-    for_packs(
-        points, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
-                                   std::size_t i) __attribute__((always_inline)) {
-            std::array<Four, P> mu, changes{};
-            std::array<Offset<rigid>, P> y;
+    for_packs(points, [&]<std::size_t P>(std::integral_constant<std::size_t, P>, std::size_t i) REVCHAIN_INLINED {
+        std::array<Four, P> mu, changes{};
+        std::array<Offset<rigid>, P> y;
+#pragma GCC unroll 3
+        for (std::size_t p = 0; p < P; ++p) {
+            mu[p] = Four(1.0) + Four(step) * (Four(static_cast<double>(i + 4 * p)) + Four(0.0, 1.0, 2.0, 3.0));
+            for (int s = 0; s < squarings; ++s) mu[p] = mu[p] * mu[p];
+            mu[p] = mu[p] * Four(links.least_shift);
+        }
+        for (std::size_t m = 0; m < links.size; ++m)
 #pragma GCC unroll 3
             for (std::size_t p = 0; p < P; ++p) {
-                mu[p] = Four(1.0) + Four(step) * (Four(static_cast<double>(i + 4 * p)) + Four(0.0, 1.0, 2.0, 3.0));
-                for (int s = 0; s < squarings; ++s) mu[p] = mu[p] * mu[p];
-                mu[p] = mu[p] * Four(links.least_shift);
+                const Four before = y[p].value;
+                y[p].rise(links, m, mu[p]);
+                changes[p] += if_less(before * y[p].value, Four(0.0), Four(1.0), Four(0.0));
             }
-            for (std::size_t m = 0; m < links.size; ++m)
 #pragma GCC unroll 3
-                for (std::size_t p = 0; p < P; ++p) {
-                    const Four before = y[p].value;
-                    y[p].rise(links, m, mu[p]);
-                    changes[p] += if_less(before * y[p].value, Four(0.0), Four(1.0), Four(0.0));
-                }
-#pragma GCC unroll 3
-            for (std::size_t p = 0; p < P; ++p) {
-                mu[p].store(at + i + 4 * p);
-                y[p].value.store(value + i + 4 * p);
-                changes[p].store(below + i + 4 * p);
-            }
-        });
+        for (std::size_t p = 0; p < P; ++p) {
+            mu[p].store(at + i + 4 * p);
+            y[p].value.store(value + i + 4 * p);
+            changes[p].store(below + i + 4 * p);
+        }
+    });
     if (below[0] != 0 || below[points - 1] != static_cast<double>(links.size)) return false;
     at[points] = at[points - 1];
     value[points] = value[points - 1];
@@ -116,37 +114,35 @@ template <bool rigid>
     alignas(Four) double next[Roots::room];
     for (int round = 0; round < 16; ++round) {
         Four largest(0.0);
-        for_packs(
-            roots.count, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
-                                            std::size_t i) __attribute__((always_inline)) {
-                std::array<Four, P> mu, others{};
-                std::array<OffsetAndSlope<rigid>, P> y;
+        for_packs(roots.count, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
+                                                  std::size_t i) REVCHAIN_INLINED {
+            std::array<Four, P> mu, others{};
+            std::array<OffsetAndSlope<rigid>, P> y;
 #pragma GCC unroll 3
-                for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + i + 4 * p);
-                for (std::size_t m = 0; m < links.size; ++m)
+            for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + i + 4 * p);
+            for (std::size_t m = 0; m < links.size; ++m)
 #pragma GCC unroll 3
-                    for (std::size_t p = 0; p < P; ++p) y[p].rise(links, m, mu[p]);
-                for (std::size_t first = 0; first < roots.count; first += chunk) {
-                    std::array<Four, P> product, derivative{};
-                    product.fill(Four(1.0));
-                    for (std::size_t j = first; j < std::min(first + chunk, roots.count); ++j)
+                for (std::size_t p = 0; p < P; ++p) y[p].rise(links, m, mu[p]);
+            for (std::size_t first = 0; first < roots.count; first += chunk) {
+                std::array<Four, P> product, derivative{};
+                product.fill(Four(1.0));
+                for (std::size_t j = first; j < std::min(first + chunk, roots.count); ++j)
 #pragma GCC unroll 3
-                        for (std::size_t p = 0; p < P; ++p) {
-                            const Four distance = mu[p] - Four(roots.shift[j]), zero(0.0);
-                            derivative[p] =
-                                if_equal(distance, zero, derivative[p], derivative[p] * distance + product[p]);
-                            product[p] = if_equal(distance, zero, product[p], product[p] * distance);
-                        }
+                    for (std::size_t p = 0; p < P; ++p) {
+                        const Four distance = mu[p] - Four(roots.shift[j]), zero(0.0);
+                        derivative[p] = if_equal(distance, zero, derivative[p], derivative[p] * distance + product[p]);
+                        product[p] = if_equal(distance, zero, product[p], product[p] * distance);
+                    }
 #pragma GCC unroll 3
-                    for (std::size_t p = 0; p < P; ++p) others[p] += derivative[p] / product[p];
-                }
+                for (std::size_t p = 0; p < P; ++p) others[p] += derivative[p] / product[p];
+            }
 #pragma GCC unroll 3
-                for (std::size_t p = 0; p < P; ++p) {
-                    const Four step = y[p].value / (y[p].slope - y[p].value * others[p]);
-                    (mu[p] - step).store(next + i + 4 * p);
-                    largest = max(largest, abs(step) - Four(last_step) * mu[p]);
-                }
-            });
+            for (std::size_t p = 0; p < P; ++p) {
+                const Four step = y[p].value / (y[p].slope - y[p].value * others[p]);
+                (mu[p] - step).store(next + i + 4 * p);
+                largest = max(largest, abs(step) - Four(last_step) * mu[p]);
+            }
+        });
         for (std::size_t i = 0; i < walked(roots.count); i += 4) Four::load(next + i).store(roots.shift + i);
         if (!(largest[0] > 0 || largest[1] > 0 || largest[2] > 0 || largest[3] > 0)) return;
     }
@@ -157,28 +153,26 @@ template <bool rigid>
 [[gnu::always_inline]] inline bool set_quotients(const LumpedLinks& links, const double* flexibility_above,
                                                  const Roots& roots, AberthSpectrum& result, double* residual) {
     Four odd(0.0);
-    for_packs(
-        links.size, [&]<std::size_t P>(std::integral_constant<std::size_t, P>, std::size_t first)
-                        __attribute__((always_inline)) {
-                            std::array<Four, P> mu;
+    for_packs(links.size, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
+                                             std::size_t first) REVCHAIN_INLINED {
+        std::array<Four, P> mu;
 #pragma GCC unroll 3
-                            for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
-                            // Where there is code for it, a chain of one leg does without sums of legs.
-                            const auto all = any_packs && links.size <= leg
-                                                 ? quotients<rigid, !any_packs, P>(links, flexibility_above, mu)
-                                                 : quotients<rigid, true, P>(links, flexibility_above, mu);
+        for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
+        // Where there is code for it, a chain of one leg does without sums of legs.
+        const auto all = any_packs && links.size <= leg ? quotients<rigid, !any_packs, P>(links, flexibility_above, mu)
+                                                        : quotients<rigid, true, P>(links, flexibility_above, mu);
 #pragma GCC unroll 3
-                            for (std::size_t p = 0; p < P; ++p) {
-                                const Quotients& q = all[p];
-                                (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
-                                q.square.store(residual + first + 4 * p);
-                                odd += if_less(Four(0x1p-960), q.scale, Four(0.0), Four(1.0)) +
-                                       if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
-                                       if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
-                                       if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
-                                       if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
-                            }
-                        });
+        for (std::size_t p = 0; p < P; ++p) {
+            const Quotients& q = all[p];
+            (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
+            q.square.store(residual + first + 4 * p);
+            odd += if_less(Four(0x1p-960), q.scale, Four(0.0), Four(1.0)) +
+                   if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
+                   if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
+                   if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
+                   if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
+        }
+    });
     return odd[0] + odd[1] + odd[2] + odd[3] == 0;
 }
 
@@ -203,7 +197,7 @@ inline bool set_bounds(AberthSpectrum& result, std::size_t n, const double* resi
 /// See `aberth_spectrum`. What its constants count: docs/accuracy.md, "All modes of small chains".
 template <bool rigid>
 inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& result) {
-    return simd([&](auto) __attribute__((always_inline)) {
+    return simd([&](auto) REVCHAIN_INLINED {
         constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30, largest = 0x1p64;  // and 1 / largest the least
         const std::size_t n = links.size;
         const double lowest = 0.5 * links.least_shift, highest = 2 * links.greatest_shift;

@@ -44,7 +44,7 @@ template <bool has_cross, bool up, class V>
         const LumpedLink e = chain.links[up ? i : begin + (end - 1 - i)];
 #pragma GCC unroll 8
         for (std::size_t p = 0; p < P; ++p) {
-            const auto pass_pin = [&]() __attribute__((always_inline)) {
+            const auto pass_pin = [&]() REVCHAIN_INLINED {
                 const V q = e.mass * (mu[p] * offset[p]);
                 (has_cross ? pins[p] : inertia[p]) += q * offset[p];
                 force[p] = up ? force[p] + q : force[p] - q;
@@ -212,7 +212,7 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
     if (!places.empty())
         std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
     std::vector<Result> result(shifts.size());
-    simd([&](auto registers) __attribute__((always_inline)) {
+    simd([&](auto registers) REVCHAIN_INLINED {
         constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
         Result found[together];
         double padded[together];
@@ -239,7 +239,7 @@ inline std::vector<Quotient> quotients_all(const LumpedChain& chain, const std::
     return in_packs<Quotient, quotient_packs>(
         chain, shifts, places,
         [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
-            Quotient* found) __attribute__((always_inline)) {
+            Quotient* found) REVCHAIN_INLINED {
             std::vector<AtPin<Pack<double, registers.doubles>>> scratch;
             quotients<has_cross.value>(chain, some, lowest, highest, longest, found, scratch);
         });

@@ -39,7 +39,7 @@ template <bool has_cross, bool up, bool fused, class V>
 #pragma GCC unroll 8
         for (std::size_t p = 0; p < P; ++p) {
             FineWalk<V>& w = at[p];
-            const auto pass_pin = [&]() __attribute__((always_inline)) {
+            const auto pass_pin = [&]() REVCHAIN_INLINED {
                 const DoubleWord<V> q = two_product<fused>(V(e.mass), w.offset);
                 const DoubleWord<V> total = two_sum(w.sum, up ? q.high : -q.high);
                 const V left = q.low + rest.mass * w.offset;
@@ -148,7 +148,7 @@ template <bool has_cross, bool fused, class V>
             const V energy = a.stiffness * scale_up + b.stiffness * scale_down;
             const V square = gap * gap * above / energy;
             const auto better = square < least[p];  // false for a NaN: no twist at a node
-            const auto take = [&](V & to, const V& from_up, const V& from_down) __attribute__((always_inline)) {
+            const auto take = [&](V& to, const V& from_up, const V& from_down) REVCHAIN_INLINED {
                 to = select(better, from_up * scale_up + from_down * scale_down, to);
             };
             least[p] = select(better, square, least[p]);
@@ -189,7 +189,7 @@ inline std::vector<FineQuotient> fine_quotients_all(const LumpedChain& chain, co
     return in_packs<FineQuotient, fine_packs>(
         chain, shifts, places,
         [&](auto registers, auto has_cross, const double* some, std::size_t lowest, std::size_t highest,
-            FineQuotient* found) __attribute__((always_inline)) {
+            FineQuotient* found) REVCHAIN_INLINED {
             std::vector<FineWalk<Pack<double, registers.doubles>>> scratch;
             fine_quotients<has_cross.value, registers.fused>(chain, some, lowest, highest, longest, found, scratch);
         });

@@ -97,7 +97,7 @@ inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vecto
     std::vector<Sample> samples(shifts.size());
     const std::size_t words = history_words(chain.size());
     if (history != nullptr) history->assign(shifts.size() * words, 0);
-    simd([&](auto registers) __attribute__((always_inline)) {
+    simd([&](auto registers) REVCHAIN_INLINED {
         using V = Pack<double, registers.doubles>;
         constexpr std::size_t together = sample_packs * V::size;
         double padded[together];

@@ -119,7 +119,7 @@ inline std::vector<double> interpolated(const Window& window, const Sample* samp
     for (std::size_t i = 0; i < n; ++i)  // the large exponents cancel before anything is rounded
         values[i] *= std::exp2((exponents[i] - level) - (t1 * nodes[i] + t2 * (2 * nodes[i] * nodes[i] - 1)));
     std::vector<double> roots;
-    simd([&](auto registers) __attribute__((always_inline)) {
+    simd([&](auto registers) REVCHAIN_INLINED {
         // As many at a time as the latency of one fused multiply-add has room for and registers can hold.
         using V = Pack<double, registers.doubles, registers.bytes / 16>;
         const Chebyshev p = interpolant<V>(values);

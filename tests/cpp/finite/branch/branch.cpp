@@ -246,7 +246,7 @@ TEST_CASE("branches that end next to the vertical: there is always the vertical,
 }
 
 TEST_CASE("as many points as asked for, at the most", "[finite]") {
-    for (const std::size_t most : {1, 2, 3, 7}) {
+    for (const std::size_t most : {1u, 2u, 3u, 7u}) {
         const Branch branch = revchain::branch(plummets(3), 1, 0.1, {.most_points = most});
         CHECK(branch.size() == most);
         CHECK(branch.end == BranchEnd::budget);

@@ -135,7 +135,7 @@ TEST_CASE("small spectra: every eigenvalue within its bound, the bound within th
 TEST_CASE("small spectra of every size", "[linalg]") {
     support::Random random(8);
     for (const bool rigid : {false, true})
-        for (std::size_t n : {15, 16, 17, 31, 32, 33, 48, 64, 100, 127, 128}) {
+        for (std::size_t n : {15u, 16u, 17u, 31u, 32u, 33u, 48u, 64u, 100u, 127u, 128u}) {
             CAPTURE(rigid, n);
             std::vector<Body> bodies = random_bodies(random, n, 1.0);
             for (std::size_t m = 0; m < n; ++m) bodies[m].stiffness = static_cast<double>(m + 1);

@@ -106,7 +106,7 @@ TEST_CASE("all eigenvalues of every kind of chain are the nearest doubles", "[li
 }
 
 TEST_CASE("long chains to the last digit", "[linalg]") {
-    for (const std::size_t family : {0, 1, 2, 3, 4, 5, 9}) {
+    for (const std::size_t family : {0u, 1u, 2u, 3u, 4u, 5u, 9u}) {
         const Worst worst = worst_of(support::families()[family].make(1500), 61);
         CAPTURE(family);
         CHECK(worst.error <= 0.501);
@@ -179,7 +179,7 @@ TEST_CASE("a chain that takes the bound at its word", "[linalg]") {
 }
 
 TEST_CASE("a range to the last digit", "[linalg]") {
-    for (const std::size_t family : {0, 1, 2, 3}) {
+    for (const std::size_t family : {0u, 1u, 2u, 3u}) {
         const auto chain = support::families()[family].make(300);
         const auto assembled = revchain::assemble(chain);
         const auto all = pencil::all_eigenvalues(assembled.pencil, Index(0), Index(300), Index(300), 2 * ulp);
@@ -236,9 +236,12 @@ TEST_CASE("what a fine quotient says of its errors is so", "[linalg]") {
             CHECK(error <= bound + 1e-24);
             largest = std::max(largest, error / bound);
             ++said;
-            if (rough[s].residual < 1e-9)
+            if (rough[s].residual < 1e-9) {
+                // Its vector may be a better one: joined at another pin, where other shifts share its packs.
+                const double of_fine = q.residual < 1e-9 ? 0.0 : bound;
                 CHECK(std::abs(rough[s].ratio - 1 - q.excess) <=
-                      spectrum::rounding_quotient(lumped, shifts[s]) + 1e-18 / gap);
+                      spectrum::rounding_quotient(lumped, shifts[s]) + 1e-18 / gap + of_fine);
+            }
         }
     }
     CHECK(said > 2000);
@@ -253,7 +256,7 @@ TEST_CASE("products are exact in packs of every kind", "[linalg]") {
             x[k] = (random() - 0.5) * std::pow(2.0, random.between(-90, 90));
             y[k] = (random() - 0.5) * std::pow(2.0, random.between(-90, 90));
         }
-        revchain::simd([&](auto registers) __attribute__((always_inline)) {
+        revchain::simd([&](auto registers) REVCHAIN_INLINED {
             using V = revchain::Pack<double, registers.doubles>;
             for (std::size_t k = 0; k < 8; k += V::size) {
                 const V a = V::load(&x[k]), b = V::load(&y[k]);

@@ -3,8 +3,12 @@
 
 #include <cstddef>
 
-#if !defined(__GNUC__)
-#error "revchain: packs are compiler vectors, of GCC and Clang"
+#include "revchain/numeric/compiler.hpp"
+
+// Whether there is an instruction set to choose at run time: the flags do not name the largest one already.
+#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) && \
+    !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
+#define REVCHAIN_SEVERAL_TARGETS
 #endif
 
 namespace revchain {
@@ -37,8 +41,7 @@ auto for_own(const F& f) {
     return f(OwnRegisters{});
 }
 
-#if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && \
-    !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
+#if defined(REVCHAIN_SEVERAL_TARGETS)
 template <class F>
 [[gnu::flatten, gnu::target("avx2,fma")]] auto for_avx2(const F& f) {
     return f(Registers<32, true>{});
