@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -102,13 +103,16 @@ class Chain {
     Wide<T> weight_below(Index m) const {
         const Index whole = m / segment_size, rest = m % segment_size;
         if (weight_.is_scalar()) return times(weight_[0], m);
-        if (m == size_) return partial_weights_.back();
-        const Wide<T>& below = partial_weights_[static_cast<std::size_t>(whole)];
+        if (m == size_) return partial_weights().back();
+        const Wide<T>& below = partial_weights()[static_cast<std::size_t>(whole)];
         return rest == 0 ? below : below + summary(weight_.data() + whole * segment_size, rest).sum;
     }
     /// Weights hung below links 0, `segment_size`, 2 `segment_size` ... and, last, of all links; empty where one weight
     /// serves all links.
-    const std::vector<Wide<T>>& partial_weights() const { return partial_weights_; }
+    const std::vector<Wide<T>>& partial_weights() const {
+        static const std::vector<Wide<T>> none;
+        return partial_weights_ ? *partial_weights_ : none;
+    }
     /// Whether the ratio of the weights (up to 1e123 in double) lets one unit serve them all.
     bool has_one_weight_unit() const { return one_weight_unit_; }
     /// Straight length from the support to the free end.
@@ -161,7 +165,7 @@ class Chain {
     Column<T> length_;
     Column<T> centroid_;
     Column<Wide<T>> gyration_ratio_;
-    std::vector<Wide<T>> partial_weights_;  // see partial_weights()
+    std::shared_ptr<const std::vector<Wide<T>>> partial_weights_;
     Index mode_count_ = 0;
     T total_weight_{};
     T total_length_{};
@@ -204,7 +208,9 @@ void Chain<T>::check() {
     check_stored(centroid_.stored(), centroid_.is_scalar(), "centroid");
     check_stored(gyration_ratio_.stored(), gyration_ratio_.is_scalar(), "gyration_ratio");
 
-    const Summary<T> weights = summary(weight_, size_, &partial_weights_);
+    std::vector<Wide<T>> partial;
+    const Summary<T> weights = summary(weight_, size_, &partial);
+    if (!partial.empty()) partial_weights_ = std::make_shared<const std::vector<Wide<T>>>(std::move(partial));
     const Summary<T> lengths = summary(length_, size_);
     const Summary<T> centroids = summary(centroid_, size_);
     bool radii = true, all_turn = true;

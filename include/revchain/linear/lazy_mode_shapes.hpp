@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,12 +20,11 @@ namespace detail {
 template <Real T>
 class LazyModeShapes {
    public:
-    /// Shapes of `count` modes from index `first` of the result on.
-    using Find = std::function<ModeShapes<T>(Index first, Index count, Progress* progress)>;
-
     LazyModeShapes() = default;
-    explicit LazyModeShapes(Find find) : state_(std::make_shared<State>()) { state_->find = std::move(find); }
-    explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<State>()) {
+    /// `find(first, count, progress)`: the shapes of `count` modes from index `first` of the result on.
+    template <class Find>
+    explicit LazyModeShapes(Find find) : state_(std::make_shared<FoundBy<Find>>(std::move(find))) {}
+    explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<FoundBy<Nothing>>(Nothing{})) {
         state_->known = std::move(known);
     }
 
@@ -53,9 +51,21 @@ class LazyModeShapes {
 
    private:
     struct State {
-        Find find;
+        virtual ~State() = default;
+        virtual ModeShapes<T> find(Index first, Index count, Progress* progress) const = 0;
         std::optional<ModeShapes<T>> known;
         std::mutex mutex;
+    };
+    template <class Find>
+    struct FoundBy final : State {
+        explicit FoundBy(Find by) : found(std::move(by)) {}
+        ModeShapes<T> find(Index first, Index count, Progress* progress) const override {
+            return found(first, count, progress);
+        }
+        Find found;
+    };
+    struct Nothing {
+        ModeShapes<T> operator()(Index, Index, Progress*) const { return {}; }
     };
     State& state() const {
         if (!state_) throw_invalid("Modes", "shapes need modes that `modes` has found");

@@ -21,7 +21,7 @@ struct CoarseChain {
     static constexpr std::string_view name = "coarse chain";
 
     Fit applies(const ChainKind& kind, const Question& question) const {
-        if (kind.size < 24) return Fit::no("fewer than 24 links");
+        if (kind.size < ChainKind::least_sampled) return Fit::no("fewer than 24 links");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
         if (!kind.centroids_below) return Fit::no("a centroid above its pin");
         if (question.rtol <= 0) return Fit::no("no tolerance to spend");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "revchain/chain.hpp"
+#include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/numeric/progress.hpp"
 
 namespace revchain {
@@ -58,7 +59,8 @@ struct ChainKind {
     bool short_pendulums = false;  ///< all are plummets, or all pendulum lengths below the links'
     bool point_masses = true;      ///< all are plummets
     double long_pendulums = 0;     ///< share of links whose pendulum is longer than they, or whose centroid is above
-    // of unlike links
+    // of unlike links, `least_sampled` and more
+    static constexpr Index least_sampled = 24;
     bool negative_pins = false;  ///< of two neighbours looked at, so much weight lies beyond their pin that less than
                                  ///< nothing is left on it
     double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
@@ -102,6 +104,7 @@ struct ChainKind {
     /// Samples the weights along the chain. Up to 255 links are all read. For longer chains weights come from the
     /// stored sums, and lengths are taken as spread evenly.
     void look_at_stretches(const Chain<double>& chain) {
+        const FloatingPointStateGuard quiet;  // ratios may be infinite
         const bool few = size < segment_size;
         const Index pieces = few ? size : (size - 1) / segment_size + 1, most = static_cast<Index>(phase.size());
         const Index step = ((pieces - 1) / most + 1) * (few ? 1 : segment_size);
@@ -158,7 +161,7 @@ struct ChainKind {
                 growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
             }
             light = light_links(chain);
-            look_at_stretches(chain);
+            if (size >= least_sampled) look_at_stretches(chain);
             return;
         }
         const Link<double> link = chain.link(0);

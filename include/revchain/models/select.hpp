@@ -126,9 +126,8 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
 /// Throws InvalidArgument for modes that are not there, a tolerance that is negative or NaN, a budget that is not
 /// positive.
 template <Model... Models>
-Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chain<double>& chain,
-                                 const Question& question, std::optional<double> time_budget = std::nullopt) {
-    const ChainKind kind(chain);
+Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind, const Question& question,
+                                 std::optional<double> time_budget = std::nullopt) {
     detail::check(kind, question);
     if (time_budget) detail::require_positive("select", "time budget", *time_budget);
     Choice<sizeof...(Models)> choice{detail::estimates(models, kind, question), 0, false};
@@ -144,6 +143,11 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
                              choice.estimates[*chosen].cost <= budget;
     return choice;
 }
+template <Model... Models>
+Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chain<double>& chain,
+                                 const Question& question, std::optional<double> time_budget = std::nullopt) {
+    return select(models, ChainKind(chain), question, time_budget);
+}
 
 /// The heights asked for, by the model chosen. One that finds that it has no answer after all, or a worse bound than it
 /// foresaw and than is asked for, is left out and the next one asked. Status `tolerance_not_met` where nothing keeps
@@ -154,7 +158,7 @@ template <Model... Models>
 Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, const Question& question,
                std::optional<double> time_budget = std::nullopt) {
     const ChainKind kind(chain);
-    const auto choice = select(models, chain, question, time_budget);
+    const auto choice = select(models, kind, question, time_budget);
     const double rtol = detail::goal(question), budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     std::array<bool, sizeof...(Models)> out{};
     Solution best{Answer::none(), {}, Status::tolerance_not_met};

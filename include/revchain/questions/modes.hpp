@@ -8,7 +8,6 @@
 #include "revchain/linear/mode_shapes.hpp"
 #include "revchain/models/for_modes.hpp"
 #include "revchain/modes.hpp"
-#include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/system/converted.hpp"
 
 namespace revchain {
@@ -129,7 +128,6 @@ inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, 
 
 /// Heights by the cheapest model, or by the method asked for; by bisection where that has none.
 inline Solution solved(const Chain<double>& chain, const ModeRange& range, const ModesOptions<double>& options) {
-    const FloatingPointStateGuard quiet;  // costs and bounds of models may be infinite
     const Question question{range.first, range.count, options.rtol.value_or(0.0), 0, options.progress};
     if (options.method == ModesMethod::automatic)
         return question.rtol > 0 ? solve(models::for_tolerance, chain, question)
@@ -155,13 +153,17 @@ inline Modes<double> modes_by_models(const Chain<double>& chain, const ModesOpti
         result.lazy_shapes = LazyModeShapes<double>(room_for_shapes(chain, 0));
         return result;
     }
-    const Solution found = solved(chain, range, options);
+    Solution found = solved(chain, range, options);
     result.method = found.model;
     for (Index j = 0; j < range.count; ++j)
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options);
     const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
-    result.lazy_shapes = LazyModeShapes<double>(ShapeFinder<double>(
-        chain, range.first, heights_in_units(chain, found.answer), loose, options.method != ModesMethod::bisection));
+    result.lazy_shapes = LazyModeShapes<double>(
+        [chain, first = range.first, answer = std::move(found.answer), loose,
+         condense = options.method != ModesMethod::bisection](Index from, Index count, Progress* progress) {
+            return ShapeFinder<double>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count,
+                                                                                                       progress);
+        });
     for (Index j = 0; options.certify && j < range.count; ++j) {
         look();
         certify(result, j, assembled.pencils(), chain.mode_count());
