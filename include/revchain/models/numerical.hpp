@@ -143,8 +143,8 @@ struct Aberth {
         if (kind.size > 100) return Fit::no("more than 100 links");
         if (!kind.short_pendulums) return Fit::no("pendulums as long as their links or longer, or of two kinds");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
-        // Measured with one heavy tip and weights graded from the tip up: numbers then leave the range of double. Chains
-        // of few links find that out in less time than it takes to foresee it.
+        // Measured with one heavy tip and weights graded from the tip up: numbers then leave the range of double.
+        // Chains of few links find that out in less time than it takes to foresee it.
         if (kind.equal || kind.size < ChainKind::least_sampled) return {};
         const double n = detail::real(kind.size);
         const bool far_apart =
