@@ -9,9 +9,11 @@ namespace revchain {
 
 /// All models for conical heights, in the order in which they are listed: those of `modes`, and those for inclinations
 /// that are not small and for tolerances below what a double holds. The last always answers.
-inline constexpr auto height_models =
-    std::tuple_cat(std::tuple<models::ConicalPendulum, models::DoubleDoubleBisection, models::FiniteAmplitude>{},
-                   models::for_tolerance);
+inline constexpr std::tuple<models::ClosedForms, models::ConicalPendulum, models::EqualPlummets,
+                            models::ContinuousChain, models::TaperedChain, models::CoarseChain, models::SinglePrecision,
+                            models::Aberth, models::Interpolated, models::Condensed, models::DoubleDoubleBisection,
+                            models::FiniteAmplitude, models::Bisection>
+    height_models{};
 
 /// `select` and `solve` among all of them.
 inline auto select(const Chain<double>& chain, const Question& question,
