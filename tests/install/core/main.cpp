@@ -15,7 +15,7 @@ int main() {
     revchain::Chain<double> chain(links);
     auto m = revchain::modes(chain, {.count = 3});
     std::printf("height %.15g, error below %.1g, speed %.15g, tip %.15g; rods %.15g\n", m.conical_height[0],
-                m.error_bound[0], m.angular_speed(9.80665)[0], m.shape(0, 0), slowest_height_of_rods(10));
+                m.error_bound[0], m.angular_speed(9.80665)[0], m.shape(0)[0], slowest_height_of_rods(10));
     // The exact value for many rods is 4 / j01^2 = 0.6917; ten rods are 1 % from it.
     return m.conical_height[0] > m.conical_height[1] && slowest_height_of_rods(10) > 0.68 ? 0 : 1;
 }
