@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "revchain/finite/balance/support_end.hpp"
 #include "revchain/finite/shapes/monotone_branch.hpp"
 
 namespace revchain::finite {
