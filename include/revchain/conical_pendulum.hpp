@@ -103,12 +103,18 @@ T height_from_seconds_pendulum(const T& seconds_pendulum, const T& period) {
 
 namespace detail {
 
+/// Throws InvalidArgument unless options give exactly one of conical height and angular speed.
+template <class Options>
+void require_one_speed(std::string_view place, const Options& options) {
+    if (options.conical_height.has_value() == options.angular_speed.has_value())
+        throw_invalid(place, "give either conical_height or angular_speed");
+}
+
 /// The conical height that options give, or that of the angular speed they give.
 /// Throws InvalidArgument unless they give exactly one of the two, positive and finite.
 template <class Options>
 double height_given(std::string_view place, const Options& options) {
-    if (options.conical_height.has_value() == options.angular_speed.has_value())
-        throw_invalid(place, "give either conical_height or angular_speed");
+    require_one_speed(place, options);
     const double height = options.conical_height ? *options.conical_height
                                                  : conical_pendulum::height(*options.angular_speed, options.gravity);
     require_positive(place, options.conical_height ? "conical height" : "gravity / angular_speed^2", height);

@@ -168,8 +168,7 @@ struct CountOptions {
 /// Cost: 0.1 microseconds a link. Throws InvalidArgument unless exactly one of the two is given, positive and finite.
 template <Real T>
 Index count_modes(const Chain<T>& chain, const CountOptions<T>& options) {
-    if (options.conical_height.has_value() == options.angular_speed.has_value())
-        detail::throw_invalid("count_modes", "give either conical_height or angular_speed");
+    detail::require_one_speed("count_modes", options);
     const ModeCounter<T> counter(chain);
     return options.conical_height ? counter.above_height(*options.conical_height)
                                   : counter.below_speed(*options.angular_speed, options.gravity);

@@ -16,13 +16,13 @@
 #include "revchain/finite/cord/continuous_chain.hpp"   // IWYU pragma: export
 #include "revchain/held.hpp"                           // IWYU pragma: export
 #include "revchain/hoop.hpp"                           // IWYU pragma: export
-#include "revchain/sensitivity.hpp"         // IWYU pragma: export
 #include "revchain/models/heights.hpp"                 // IWYU pragma: export
 #include "revchain/modes.hpp"                          // IWYU pragma: export
 #include "revchain/numeric/double_double.hpp"          // IWYU pragma: export
 #include "revchain/recurrence.hpp"                     // IWYU pragma: export
 #include "revchain/response.hpp"                       // IWYU pragma: export
 #include "revchain/rig.hpp"                            // IWYU pragma: export
+#include "revchain/sensitivity.hpp"                    // IWYU pragma: export
 #include "revchain/statics.hpp"                        // IWYU pragma: export
 #include "revchain/steady_shapes.hpp"                  // IWYU pragma: export
 #include "revchain/swing.hpp"                          // IWYU pragma: export

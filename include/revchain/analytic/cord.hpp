@@ -24,7 +24,7 @@ struct HeavyChainMode {
     Vector<double> nodes() const { return analytic::heavy_chain::nodes(mode, length); }
 };
 
-/// Where the modes of a cord come from.
+/// The method that finds the modes of a cord, and its accuracy.
 struct CordMethod {
     std::string_view name;
     double error_bound;

@@ -9,7 +9,7 @@
 
 namespace revchain::detail {
 
-/// Stage 1 of `modes` for many modes; nothing for chains that `pencil::all_eigenvalues` has no fast way for.
+/// Heights of many modes at once; nothing for chains that `pencil::all_eigenvalues` cannot serve.
 /// Cost: 1 to 3 ns per link and mode, 3 to 6 to the last digit.
 inline std::optional<Heights<double>> heights_by_interpolation(LazyCounter<double>& assembled, const ModeRange& range,
                                                                Index mode_count,

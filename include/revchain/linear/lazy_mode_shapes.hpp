@@ -24,7 +24,7 @@ class LazyModeShapes {
     /// `find(first, count, progress)`: the shapes of `count` modes from index `first` of the result on.
     template <class Find>
     explicit LazyModeShapes(Find find) : state_(std::make_shared<FoundBy<Find>>(std::move(find))) {}
-    explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<FoundBy<Nothing>>(Nothing{})) {
+    explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<State>()) {
         state_->known = std::move(known);
     }
 
@@ -52,7 +52,7 @@ class LazyModeShapes {
    private:
     struct State {
         virtual ~State() = default;
-        virtual ModeShapes<T> find(Index first, Index count, Progress* progress) const = 0;
+        virtual ModeShapes<T> find(Index, Index, Progress*) const { return {}; }  // where they are known already
         std::optional<ModeShapes<T>> known;
         std::mutex mutex;
     };
@@ -63,9 +63,6 @@ class LazyModeShapes {
             return found(first, count, progress);
         }
         Find found;
-    };
-    struct Nothing {
-        ModeShapes<T> operator()(Index, Index, Progress*) const { return {}; }
     };
     State& state() const {
         if (!state_) throw_invalid("Modes", "shapes need modes that `modes` has found");

@@ -6,7 +6,8 @@
 #include "revchain/linear/interpolated_heights.hpp"
 #include "revchain/models/model.hpp"
 
-/// The four numerical methods of `modes` (docs/design.md), each as a model. All bounds are proved.
+/// The four numerical methods of `modes` (docs/design.md), each as a model. All bounds are proved. `solve` is a
+/// template, so that an include alone compiles no method.
 /// Costs: fitted to `bench_models` (x86-64, AVX2, 2 cores, GCC 12), flat within a factor of 2.
 namespace revchain::models {
 
@@ -65,7 +66,8 @@ struct SinglePrecision {
         return 2.5e-7 + 2e-7 * detail::real(question.count) +
                detail::real(kind.size) * detail::loose_cost(error_bound(kind, question), question.count, 5.7e-9);
     }
-    Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
+    template <std::same_as<double> T>
+    Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
         const auto found = revchain::detail::loose_heights<float>(chain, detail::range_of(question),
                                                                   error_bound(kind, question) * (1 - 1e-6));
         return detail::answered(chain, found);
@@ -88,7 +90,8 @@ struct Bisection {
                    detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9);
         return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
     }
-    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+    template <std::same_as<double> T>
+    Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
         revchain::detail::LazyCounter<double> assembled(chain);
         return detail::answered(chain,
                                 revchain::detail::heights_by_bisection(chain, assembled, detail::range_of(question),
@@ -125,7 +128,8 @@ struct Condensed {
                few *
                    (5e-5 * count * (1 + count / 20) + 7.5e-5 * skipped / (1 + 150 * skipped / detail::real(kind.size)));
     }
-    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+    template <std::same_as<double> T>
+    Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
         const auto found =
             revchain::detail::heights_by_condensation(chain, detail::range_of(question), detail::options_for(question));
         return found ? detail::answered(chain, found->found) : Answer::none();
@@ -157,7 +161,8 @@ struct Aberth {
         const double n = detail::real(kind.size);
         return 5e-7 + 3.2e-8 * n + 5e-9 * n * n;
     }
-    Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
+    template <std::same_as<double> T>
+    Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
         Question loose = question;
         loose.rtol = std::max(question.rtol, bound);
         return detail::answered(
@@ -184,7 +189,8 @@ struct Interpolated {
         const double each = question.rtol >= loose ? 2.5e-9 : 5e-9;
         return 2.5e-5 + detail::real(kind.size) * (5e-7 + each * detail::real(question.count));
     }
-    Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
+    template <std::same_as<double> T>
+    Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {
         revchain::detail::LazyCounter<double> assembled(chain);
         return detail::answered(
             chain, revchain::detail::heights_by_interpolation(assembled, detail::range_of(question), kind.mode_count,

@@ -11,6 +11,7 @@
 #include "revchain/explain.hpp"
 #include "revchain/models/for_modes.hpp"
 #include "revchain/numeric/compiled.hpp"
+#include "revchain/questions/mode_range.hpp"
 
 namespace revchain {
 
@@ -70,9 +71,9 @@ REVCHAIN_INLINE std::string Explanation::text() const {
 REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options) {
     if (options.conical_height || options.angular_speed)
         detail::throw_invalid("explain", "a window is decided by counting modes; give first and count");
-    const Index left = std::max<Index>(1, chain.mode_count() - options.first + 1), few = std::min<Index>(left, 10);
-    const Index count = !options.count ? few : *options.count == all_modes ? left : *options.count;
-    const Question question{options.first, count, options.rtol.value_or(0.0)};
+    const auto no_window = [](const auto&) { return ModeRange{}; };
+    const ModeRange range = detail::chosen(chain.mode_count(), options, no_window, no_window);
+    const Question question{range.first, range.count, options.rtol.value_or(0.0)};
     return question.rtol > 0 ? detail::explained(select(models::for_tolerance, chain, question))
                              : detail::explained(select(models::for_full_accuracy, chain, question));
 }

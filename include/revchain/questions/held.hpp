@@ -25,8 +25,7 @@ inline Wide<double> height_asked(const HeldBy& by, const HeldShapesOptions& opti
             throw_invalid(place, "without gravity the shape under a tension depends on the speed; give angular_speed");
         return Wide<double>(0);
     }
-    if (options.conical_height.has_value() == options.angular_speed.has_value())
-        throw_invalid(place, "give either conical_height or angular_speed");
+    require_one_speed(place, options);
     if (options.conical_height) {
         require_positive(place, "conical height", *options.conical_height);
         return Wide<double>(*options.conical_height);
@@ -119,7 +118,7 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Modes
                 shapes.offset.row(j) = offset.transpose();
                 shapes.residual[j] = taut.residual(height, offset);
                 shapes.nodes.push_back(taut.nodes(offset));
-                detail::advance(progress, static_cast<double>(j + 1) / static_cast<double>(count));
+                detail::advance(progress, 1.0);  // may be cancelled
             }
             return shapes;
         });

@@ -8,43 +8,12 @@
 #include "revchain/linear/mode_shapes.hpp"
 #include "revchain/models/for_modes.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/questions/mode_range.hpp"
 #include "revchain/system/converted.hpp"
 
 namespace revchain {
 
 namespace detail {
-
-template <Real T>
-void check(const ModesOptions<T>& options) {
-    if (options.rtol && !(*options.rtol >= T(0)))
-        throw_invalid("modes", "rtol must not be negative or NaN", *options.rtol);
-}
-
-/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those in a window.
-template <Real T, class InHeights, class InSpeeds>
-ModeRange chosen(Index all, const ModesOptions<T>& options, const InHeights& in_heights, const InSpeeds& in_speeds) {
-    const bool numbered = options.first != 1 || options.count.has_value();
-    if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
-        throw_invalid("modes",
-                      "give one of mode numbers (first, count), conical_height and angular_speed, not several");
-    if (options.conical_height) return in_heights(*options.conical_height);
-    if (options.angular_speed) return in_speeds(*options.angular_speed);
-    const std::string of = std::to_string(all) + " modes of this chain";
-    if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
-    if (options.first > all) throw_invalid("modes", "first must not exceed the " + of, options.first);
-    const Index left = all - options.first + 1;
-    const Index few = std::min<Index>(left, 10);
-    const Index count = !options.count ? few : *options.count == all_modes ? left : *options.count;
-    if (count < 1) throw_invalid("modes", "count must be at least 1", count);
-    if (count > left)
-        throw_invalid(
-            "modes",
-            "count must not exceed the " + (left == all ? of
-                                                        : std::to_string(left) + " from number " +
-                                                              std::to_string(options.first) + " on of the " + of),
-            count);
-    return {options.first, count};
-}
 
 template <Real T>
 ModeRange chosen(const Chain<T>& chain, LazyCounter<T>& assembled, const ModesOptions<T>& options) {
@@ -126,8 +95,10 @@ inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, 
     return heights;
 }
 
-/// Heights by the cheapest model, or by the method asked for; by bisection where that has none.
-inline Solution solved(const Chain<double>& chain, const ModeRange& range, const ModesOptions<double>& options) {
+/// Heights by the cheapest model, or by the method asked for; by bisection where that has none. Like `modes_by_models`
+/// a template, so that only a program that asks for modes compiles the models.
+template <std::same_as<double> T>
+Solution solved(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
     const Question question{range.first, range.count, options.rtol.value_or(0.0), 0, options.progress};
     if (options.method == ModesMethod::automatic)
         return question.rtol > 0 ? solve(models::for_tolerance, chain, question)
@@ -144,26 +115,26 @@ inline Solution solved(const Chain<double>& chain, const ModeRange& range, const
 }
 
 /// A chain of doubles: every method is open.
-inline Modes<double> modes_by_models(const Chain<double>& chain, const ModesOptions<double>& options) {
-    LazyCounter<double> assembled(chain);
+template <std::same_as<double> T>
+Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) {
+    LazyCounter<T> assembled(chain);
     const ModeRange range = chosen(chain, assembled, options);
-    Modes<double> result = room_for_modes(range, options);
+    Modes<T> result = room_for_modes(range, options);
     result.method = "bisection";
     if (range.count == 0) {
-        result.lazy_shapes = LazyModeShapes<double>(room_for_shapes(chain, 0));
+        result.lazy_shapes = LazyModeShapes<T>(room_for_shapes(chain, 0));
         return result;
     }
     Solution found = solved(chain, range, options);
     result.method = found.model;
     for (Index j = 0; j < range.count; ++j)
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options);
-    const bool loose = is_loose(chain, HeightsOptions<double>{options.rtol});
-    result.lazy_shapes = LazyModeShapes<double>(
-        [chain, first = range.first, answer = std::move(found.answer), loose,
-         condense = options.method != ModesMethod::bisection](Index from, Index count, Progress* progress) {
-            return ShapeFinder<double>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count,
-                                                                                                       progress);
-        });
+    const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
+    result.lazy_shapes = LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
+                                            condense = options.method != ModesMethod::bisection](
+                                               Index from, Index count, Progress* progress) {
+        return ShapeFinder<T>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count, progress);
+    });
     for (Index j = 0; options.certify && j < range.count; ++j) {
         look();
         certify(result, j, assembled.pencils(), chain.mode_count());

@@ -11,6 +11,7 @@
 #include "revchain/linear/rig_counts.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/spectrum.hpp"
+#include "revchain/questions/mode_range.hpp"
 #include "revchain/rig_modes.hpp"
 
 namespace revchain {
@@ -23,7 +24,7 @@ inline ModeRange chosen(const ModesOptions<double>& options, Index available) {
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
     if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
     const Index left = std::max<Index>(0, available - options.first + 1);
-    return {options.first, std::min(left, options.count.value_or(10))};
+    return {options.first, std::min(left, options.count.value_or(default_count))};
 }
 
 inline void make_room(WhirlModes& modes, const ModeRange& range, Index available) {

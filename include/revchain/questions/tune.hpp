@@ -166,8 +166,7 @@ inline Search search(const Tuning& tuning, double from, double to, Tuned& seen) 
 
 REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& options) {
     constexpr std::string_view place = "tune";
-    if (options.conical_height.has_value() == options.angular_speed.has_value())
-        detail::throw_invalid(place, "give either conical_height or angular_speed (not both)");
+    detail::require_one_speed(place, options);
     if (options.mode < 1 || options.mode > chain.size())
         detail::throw_invalid(place, "mode must be from 1 to " + std::to_string(chain.size()), options.mode);
     if (options.link < 1 || options.link > chain.size())

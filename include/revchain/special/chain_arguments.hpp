@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/status.hpp"
 
 namespace revchain::analytic::detail {
@@ -15,6 +16,19 @@ inline void check_number_and_length(std::string_view where, std::string_view nam
 inline void check_place(std::string_view where, double x, double length) {
     if (!(x >= 0 && x <= length))
         revchain::detail::throw_invalid(where, "x must lie between 0 (free end) and the length", x);
+}
+
+/// Places length (zero(i) / end)^2, i = 1 ... mode - 1: where mode `mode`, whose argument is `end` at the support,
+/// passes the zeros of a Bessel function.
+template <class Zero>
+Vector<double> places_of_zeros(Index mode, double length, double end, const Zero& zero) {
+    Vector<double> places(mode - 1);
+    for (Index i = 1; i < mode; ++i) {
+        revchain::detail::look();
+        const double ratio = zero(i) / end;
+        places[i - 1] = length * (ratio * ratio);
+    }
+    return places;
 }
 
 }  // namespace revchain::analytic::detail

@@ -78,28 +78,14 @@ inline double potential_energy(Index mode, double amplitude) { return kinetic_en
 /// Accuracy: 5 ulp.
 inline Vector<double> nodes(Index mode, double length) {
     detail::check("nodes", "mode", mode, length);
-    const double end = zero_of_j0(mode);
-    Vector<double> points(mode - 1);
-    for (Index i = 1; i < mode; ++i) {
-        revchain::detail::look();
-        const double ratio = zero_of_j0(i) / end;
-        points[i - 1] = length * (ratio * ratio);
-    }
-    return points;
+    return analytic::detail::places_of_zeros(mode, length, zero_of_j0(mode), [](Index i) { return zero_of_j0(i); });
 }
 
 /// Where mode `mode` runs vertical, so that the chain below has its centre of gravity on the axis, the free end left
 /// out: length (j_{1,i} / j_{0,mode})^2, i < mode. §4 (13)-(14). Accuracy: 5 ulp.
 inline Vector<double> vertical_points(Index mode, double length) {
     detail::check("vertical_points", "mode", mode, length);
-    const double end = zero_of_j0(mode);
-    Vector<double> points(mode - 1);
-    for (Index i = 1; i < mode; ++i) {
-        revchain::detail::look();
-        const double ratio = zero_of_j1(i) / end;
-        points[i - 1] = length * (ratio * ratio);
-    }
-    return points;
+    return analytic::detail::places_of_zeros(mode, length, zero_of_j0(mode), [](Index i) { return zero_of_j1(i); });
 }
 
 /// R = N z / 2 revolutions per second for the `count` slowest modes, ascending: N is the speed of the conical pendulum

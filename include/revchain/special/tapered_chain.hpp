@@ -61,15 +61,7 @@ class Mode {
 
     /// Where the chain crosses the axis, ascending, the support left out: length (j_{p,i} / j_{p,mode})^2, i < mode.
     /// Accuracy: 3 ulp.
-    Vector<double> nodes() const {
-        Vector<double> points(mode_ - 1);
-        for (Index i = 1; i < mode_; ++i) {
-            revchain::detail::look();
-            const double ratio = zeros_(i) / end_;
-            points[i - 1] = length_ * (ratio * ratio);
-        }
-        return points;
-    }
+    Vector<double> nodes() const { return analytic::detail::places_of_zeros(mode_, length_, end_, zeros_); }
 
    private:
     double place(double x, std::string_view name) const {

@@ -53,8 +53,8 @@ struct Held {
 template <class End>
 inline constexpr bool is_held = !std::is_same_v<End, OnAxis>;
 
-/// Of a chain: its support, its posture unless any is asked for, its links as the sweep needs them, and whether all
-/// links may stand (no: then nothing bears the load). `RiggedLinks` has the same functions for a rig.
+/// The sweep needs four facts of a system. For a chain they are: the support, the posture in which all links hang, the
+/// links, and that not all links can stand, since nothing would bear the load. `RiggedLinks` has the same functions.
 inline OnAxis support_of(const Links<Wide<double>>&) { return {}; }
 inline std::vector<Posture> posture_of(const Links<Wide<double>>& chain) {
     return std::vector<Posture>(chain.links.size(), Posture::hangs);

@@ -6,7 +6,7 @@
 
 namespace revchain::finite {
 
-/// What the upward sweep comes to: the offset of the topmost pin and H, lambda times the sideways pull on it.
+/// Result of the upward sweep: the offset of the topmost pin, and H, which is lambda times the sideways pull on it.
 template <class F>
 struct SweepEnd {
     F offset{}, sum{};

@@ -82,7 +82,7 @@ class Cell {
         x.slope[0] = x.centre_slope[0] = Interval<T>(T(1));
         return x;
     }
-    /// The same function, made narrower by Taylor's formula about the centre, to first and to second order.
+    /// A narrower enclosure of `f`, from Taylor's formula about the centre to first and to second order.
     Taylor<T, D> centred(Taylor<T, D> f) const {
         auto slope = f.centre_slope;
         each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) {
@@ -185,7 +185,7 @@ struct TaylorSweep {
 };
 
 /// Offset of the support over a cell of tangents of the lowest link: zero for every steady shape. `height` is lambda.
-/// Of a support that is not a firm point on the axis: how far it is off where it is held.
+/// Where the support yields or is carried round, the result is its distance from the place where it is held.
 template <Real T, class End = OnAxis>
 Taylor<T, 1> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
                             const Cell<T, 1>& cell, const End& support = {}) {

@@ -6,8 +6,8 @@
 
 namespace revchain::finite {
 
-/// What is given beside the balance: one condition on the shape and the height, in double-double, and its derivatives
-/// along the links' reaches a sin delta and along log lambda.
+/// One condition on the shape and the height, in double-double, that is solved together with the balance of forces. It
+/// knows its derivatives along the links' reaches a sin delta and along log lambda.
 template <class S>
 struct Condition {
     virtual ~Condition() = default;

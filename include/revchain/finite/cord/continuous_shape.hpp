@@ -39,7 +39,7 @@ struct ContinuousShape {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
 
-    // What the places are computed from: steps of the path, scaled, and the density that `kind` points to.
+    // Data of `operator()`: the scaled steps of the path, and the density that `kind` points to.
     std::shared_ptr<const LineDensity> density;
     finite::PathKind kind;
     std::vector<finite::Path::Step> steps;

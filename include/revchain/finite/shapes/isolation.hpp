@@ -58,7 +58,7 @@ class Cutting {
     std::minstd_rand random_{1};
 };
 
-/// Of a range of tangents: nothing is left to show there; splitting it may show more; rounding lets it show no more.
+/// State of a range of tangents: all its shapes are known; splitting it may decide more; rounding prevents more.
 enum class Seen { settled, open, ruled_by_rounding };
 
 /// Splits `whole` until `classify(part, cells)` finds every part settled. Calls `leave_open(part)` for parts ruled by

@@ -7,7 +7,7 @@
 
 namespace revchain::finite {
 
-/// What is left open: tangents of the lowest link along one choice of branches.
+/// A range of tangents of the lowest link, along one choice of branches, that could not be decided.
 template <class T>
 struct OpenPart {
     std::vector<MonotoneBranch> choice;

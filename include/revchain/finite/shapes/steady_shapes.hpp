@@ -96,8 +96,7 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
 
 /// Whether the speed is given as a conical height, and not as an angular speed.
 inline bool height_is_given(const SteadyShapesOptions& options) {
-    if (options.conical_height.has_value() == options.angular_speed.has_value())
-        revchain::detail::throw_invalid("steady_shapes", "give either conical_height or angular_speed");
+    revchain::detail::require_one_speed("steady_shapes", options);
     if (options.conical_height)
         revchain::detail::require_positive("steady_shapes", "conical height", *options.conical_height);
     revchain::detail::require_positive("steady_shapes", "gravity", options.gravity);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "revchain/modes.hpp"
+
+/// Which modes the options of a question mean.
+namespace revchain::detail {
+
+/// Modes found where no count is given and there are as many.
+inline constexpr Index default_count = 10;
+
+template <Real T>
+void check(const ModesOptions<T>& options) {
+    if (options.rtol && !(*options.rtol >= T(0)))
+        throw_invalid("modes", "rtol must not be negative or NaN", *options.rtol);
+}
+
+/// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those in a window.
+template <Real T, class InHeights, class InSpeeds>
+ModeRange chosen(Index all, const ModesOptions<T>& options, const InHeights& in_heights, const InSpeeds& in_speeds) {
+    const bool numbered = options.first != 1 || options.count.has_value();
+    if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
+        throw_invalid("modes",
+                      "give one of mode numbers (first, count), conical_height and angular_speed, not several");
+    if (options.conical_height) return in_heights(*options.conical_height);
+    if (options.angular_speed) return in_speeds(*options.angular_speed);
+    const std::string of = std::to_string(all) + " modes of this chain";
+    if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
+    if (options.first > all) throw_invalid("modes", "first must not exceed the " + of, options.first);
+    const Index left = all - options.first + 1;
+    const Index wanted = options.count.value_or(std::min(left, default_count));
+    const Index count = wanted == all_modes ? left : wanted;
+    if (count < 1) throw_invalid("modes", "count must be at least 1", count);
+    if (count > left)
+        throw_invalid(
+            "modes",
+            "count must not exceed the " + (left == all ? of
+                                                        : std::to_string(left) + " from number " +
+                                                              std::to_string(options.first) + " on of the " + of),
+            count);
+    return {options.first, count};
+}
+
+}  // namespace revchain::detail
