@@ -143,8 +143,7 @@ class Chain {
 
     static Chain repeated(std::string_view place, Index count, T length, T weight, Link<T> (*make)(T, T)) {
         if (count < 1) detail::throw_invalid(place, "count must be at least 1", count);
-        detail::require_positive(place, "length", length);
-        detail::require_positive(place, "weight", weight);
+        detail::require_positive(place, "length", length, "weight", weight);
         const Link<T> one = make(weight / T(count), length / T(count));
         return Chain(count, one.weight, one.length, one.centroid, one.gyration_ratio);
     }
@@ -263,12 +262,10 @@ void Chain<T>::check_each_link() const {
     Wide<T> below(T(0)), straight(T(0));
     for (Index m = 0; m < distinct_links(); ++m) {
         const Link<T> it = link(m);
-        if (!isfinite(it.weight) || it.weight < T(0))
-            detail::throw_invalid(at(m), "weight must be finite and not negative", it.weight);
+        detail::require_not_negative(at(m), "weight", it.weight);
         if (m == 0 && it.weight == T(0)) detail::throw_invalid(at(m), "the lowest link must have weight", it.weight);
-        if (!isfinite(it.length) || !(it.length > T(0)))
-            detail::throw_invalid(at(m), "length must be positive and finite", it.length);
-        if (!isfinite(it.centroid)) detail::throw_invalid(at(m), "centroid must be finite", it.centroid);
+        detail::require_positive(at(m), "length", it.length);
+        detail::require_finite(at(m), "centroid", it.centroid);
         if (!is_normalised(it.gyration_ratio) || it.gyration_ratio < Wide<T>(T(0)))
             detail::throw_invalid(at(m), "(radius of gyration / length)^2 must be finite and not negative",
                                   static_cast<T>(it.gyration_ratio));

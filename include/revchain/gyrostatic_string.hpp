@@ -57,10 +57,8 @@ template <Real T>
 void check(std::string_view place, const GyrostaticString<T>& s) {
     using std::isfinite;
     require_positive(place, "weight", s.weight, "length", s.length, "tension", s.tension, "gravity", s.gravity);
-    if (!isfinite(s.momentum)) throw_invalid(place, "momentum must be finite", s.momentum);
-    if (!isfinite(s.centroid)) throw_invalid(place, "centroid must be finite", s.centroid);
-    if (!isfinite(s.radius_of_gyration) || s.radius_of_gyration < T(0))
-        throw_invalid(place, "radius of gyration must be finite and not negative", s.radius_of_gyration);
+    require_finite(place, "momentum", s.momentum, "centroid", s.centroid);
+    require_not_negative(place, "radius of gyration", s.radius_of_gyration);
     if (!isfinite(share_across(s)))
         throw_invalid(place,
                       "length must not be so small that centroid or radius of gyration over it, squared, overflow",
@@ -90,9 +88,9 @@ std::array<Product<T>, 2> half_phase(const GyrostaticString<T>& s, const T& n) {
 /// Also throws InvalidArgument for a speed that is not finite.
 template <Real T>
 LinkPhase<T> link_phase(const GyrostaticString<T>& string, const T& angular_speed) {
-    using std::asinh, std::atan2, std::isfinite;
+    using std::asinh, std::atan2;
     detail::check("link_phase", string);
-    if (!isfinite(angular_speed)) detail::throw_invalid("link_phase", "angular speed must be finite", angular_speed);
+    detail::require_finite("link_phase", "angular speed", angular_speed);
     const auto [sine, cosine] = detail::half_phase(string, angular_speed);
     if (sine.fraction < T(0)) return {T(0), T(2) * asinh(sine.times(T(-1)).root().value())};
     if (cosine.fraction < T(0)) return {detail::pi<T>, T(2) * asinh(cosine.times(T(-1)).root().value())};

@@ -28,16 +28,14 @@ struct Support {
 /// that hangs from it. Throws InvalidArgument unless stiffness > 0 and carriage weight >= 0, both finite.
 inline Support horizontal_spring(double stiffness, double carriage_weight = 0) {
     detail::require_positive("horizontal_spring", "stiffness", stiffness);
-    if (!(carriage_weight >= 0) || !std::isfinite(carriage_weight))
-        detail::throw_invalid("horizontal_spring", "carriage weight must be finite and not negative", carriage_weight);
+    detail::require_not_negative("horizontal_spring", "carriage weight", carriage_weight);
     return {stiffness, carriage_weight, 0};
 }
 
 /// A pin carried round the axis: a chair on the arm of a carousel, a hand, Greenhill (1908) §1 (9).
 /// Throws InvalidArgument unless radius >= 0 and finite.
 inline Support carried_round(double radius) {
-    if (!(radius >= 0) || !std::isfinite(radius))
-        detail::throw_invalid("carried_round", "radius must be finite and not negative", radius);
+    detail::require_not_negative("carried_round", "radius", radius);
     return {.radius = radius};
 }
 
@@ -55,12 +53,8 @@ struct Flywheel {
 namespace detail {
 inline Flywheel turned_flywheel(std::string_view place, double weight, double radius_of_gyration, double spin,
                                 double gravity) {
-    const auto not_negative = [&](std::string_view name, double x) {
-        if (!(x >= 0) || !std::isfinite(x))
-            throw_invalid(place, std::string(name) + " must be finite and not negative", x);
-    };
-    not_negative("weight", weight), not_negative("radius of gyration", radius_of_gyration);
-    if (!std::isfinite(spin)) throw_invalid(place, "spin must be finite", spin);
+    require_not_negative(place, "weight", weight, "radius of gyration", radius_of_gyration);
+    require_finite(place, "spin", spin);
     require_positive(place, "gravity", gravity);
     const double moment = weight * radius_of_gyration * radius_of_gyration, momentum = moment / gravity * spin;
     if (!std::isfinite(moment) || !std::isfinite(momentum))
@@ -164,10 +158,6 @@ class Rig {
 };
 
 inline void Rig::check() const {
-    const auto need = [](bool good, std::string_view place, std::string_view sentence, double value) {
-        if (!good) detail::throw_invalid(place, sentence, value);
-    };
-    const auto not_negative = [](double x) { return x >= 0 && std::isfinite(x); };
     const auto as_long = [&](std::size_t stored, std::string_view name) {
         if (stored != 0 && stored != static_cast<std::size_t>(size()))
             detail::throw_invalid("Rig",
@@ -178,24 +168,21 @@ inline void Rig::check() const {
     as_long(with_.posture.size(), "posture"), as_long(with_.flywheels.size(), "flywheels");
     as_long(with_.displaced.size(), "displaced");
     const Support& support = with_.support;
-    need(support.stiffness > 0, "Rig", "the stiffness of the support must be positive", support.stiffness);
-    need(not_negative(support.carriage_weight), "Rig", "carriage weight must be finite and not negative",
-         support.carriage_weight);
-    need(not_negative(support.radius), "Rig", "radius of the support must be finite and not negative", support.radius);
+    if (!(support.stiffness > 0))
+        detail::throw_invalid("Rig", "the stiffness of the support must be positive", support.stiffness);
+    detail::require_not_negative("Rig", "carriage weight", support.carriage_weight, "radius of the support",
+                                 support.radius);
     for (Index m = 0; m < size(); ++m) {
         const std::string place = "Rig: link " + std::to_string(m + 1);
         const Flywheel wheel = flywheel(m);
-        need(std::isfinite(wheel.momentum), place, "momentum must be finite", wheel.momentum);
-        need(not_negative(wheel.axial_moment), place, "axial moment must be finite and not negative",
-             wheel.axial_moment);
+        detail::require_finite(place, "momentum", wheel.momentum);
+        detail::require_not_negative(place, "axial moment", wheel.axial_moment);
         const Displaced fluid = displaced(m);
-        need(not_negative(fluid.weight), place, "weight displaced must be finite and not negative", fluid.weight);
-        need(std::isfinite(fluid.centroid), place, "centre of buoyancy must be finite", fluid.centroid);
-        need(not_negative(fluid.added_weight), place, "added weight must be finite and not negative",
-             fluid.added_weight);
-        need(not_negative(static_cast<double>(fluid.gyration_ratio)), place,
-             "(radius of gyration / length)^2 of the fluid displaced must be finite and not negative",
-             static_cast<double>(fluid.gyration_ratio));
+        detail::require_not_negative(place, "weight displaced", fluid.weight);
+        detail::require_finite(place, "centre of buoyancy", fluid.centroid);
+        detail::require_not_negative(place, "added weight", fluid.added_weight,
+                                     "(radius of gyration / length)^2 of the fluid displaced",
+                                     static_cast<double>(fluid.gyration_ratio));
     }
 }
 

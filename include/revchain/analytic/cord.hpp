@@ -16,10 +16,7 @@ struct HeavyChainMode {
     Index mode;
     double length;
 
-    double conical_height() const {
-        const double half = 0.5 * zero_of_j0(mode);
-        return length / (half * half);
-    }
+    double conical_height() const { return analytic::heavy_chain::detail::height(mode, length); }
     double shape(double s) const { return analytic::heavy_chain::shape(s, mode, length); }
     Vector<double> nodes() const { return analytic::heavy_chain::nodes(mode, length); }
 };

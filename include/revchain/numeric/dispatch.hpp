@@ -60,18 +60,6 @@ inline Processor processor() {
     }();
     return found;
 }
-template <class F>
-auto for_this(const F& f) {
-    const Processor found = processor();
-    if (found == Processor::avx512) return for_avx512(f);
-    if (found == Processor::avx2) return for_avx2(f);
-    return for_own(f);
-}
-#else
-template <class F>
-auto for_this(const F& f) {
-    return for_own(f);
-}
 #endif
 
 }  // namespace detail
@@ -85,7 +73,12 @@ auto for_this(const F& f) {
 /// packs must not be handed across that border by value.
 template <class F>
 auto simd(const F& f) {
-    return detail::for_this(f);
+#if defined(REVCHAIN_SEVERAL_TARGETS)
+    const detail::Processor found = detail::processor();
+    if (found == detail::Processor::avx512) return detail::for_avx512(f);
+    if (found == detail::Processor::avx2) return detail::for_avx2(f);
+#endif
+    return detail::for_own(f);
 }
 
 }  // namespace revchain

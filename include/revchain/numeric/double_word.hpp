@@ -183,21 +183,13 @@ template <IsPack V>
 
 namespace detail {
 template <class T>
-struct Wider {
-    using type = T;
-};
+struct Wider : std::type_identity<T> {};
 template <>
-struct Wider<float> {
-    using type = double;
-};
+struct Wider<float> : std::type_identity<double> {};
 template <>
-struct Wider<double> {
-    using type = DoubleWord<double>;
-};
+struct Wider<double> : std::type_identity<DoubleWord<double>> {};
 template <>
-struct Wider<long double> {
-    using type = DoubleWord<long double>;
-};
+struct Wider<long double> : std::type_identity<DoubleWord<long double>> {};
 }  // namespace detail
 
 /// The arithmetic in which results in T are certified: double for float, a double word for double and long double,
@@ -212,13 +204,9 @@ template <class T>
 inline constexpr bool is_double_word<DoubleWord<T>> = true;
 
 template <class S>
-struct Narrower {
-    using type = S;
-};
+struct Narrower : std::type_identity<S> {};
 template <class T>
-struct Narrower<DoubleWord<T>> {
-    using type = T;
-};
+struct Narrower<DoubleWord<T>> : std::type_identity<T> {};
 }  // namespace detail
 
 /// The type in which sizes and errors of numbers of type S are kept: T for a double word of T, S itself otherwise.

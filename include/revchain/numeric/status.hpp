@@ -35,20 +35,20 @@ namespace detail {
 
 template <class T>
 std::string in_digits(const T& value) {
-    std::ostringstream text;
-    text.precision(std::numeric_limits<T>::is_specialized ? std::numeric_limits<T>::max_digits10 : 17);
-    text << value;
-    // 17 digits where 6 say the same number: people should read back what they wrote.
-    if constexpr (std::is_floating_point_v<T>) {
-        for (int digits = 6; digits < std::numeric_limits<T>::max_digits10; ++digits) {
-            std::ostringstream shorter;
-            shorter.precision(digits);
-            shorter << value;
+    const auto written = [&](int digits) {
+        std::ostringstream text;
+        text.precision(digits);
+        text << value;
+        return text.str();
+    };
+    using Limits = std::numeric_limits<T>;
+    // The fewest digits that say the same number: people should read back what they wrote.
+    if constexpr (std::is_floating_point_v<T>)
+        for (int digits = 6; digits < Limits::max_digits10; ++digits) {
             T back{};
-            if (std::istringstream(shorter.str()) >> back && back == value) return shorter.str();
+            if (std::istringstream(written(digits)) >> back && back == value) return written(digits);
         }
-    }
-    return text.str();
+    return written(Limits::is_specialized ? Limits::max_digits10 : 17);
 }
 
 template <class T>
@@ -61,13 +61,28 @@ template <class T>
     throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence));
 }
 
-/// Throws InvalidArgument unless the value is positive and finite; then the same for further pairs of name and value.
-template <Real T, class... Rest>
-void require_positive(std::string_view function, std::string_view name, const T& value, const Rest&... rest) {
+/// Throws InvalidArgument unless `good(value)`, for each pair of name and value. `rule` says what a value must be.
+template <class Good, Real T, class... Rest>
+void require(const Good& good, std::string_view rule, std::string_view function, std::string_view name, const T& value,
+             const Rest&... rest) {
     using std::isfinite;
-    if (!isfinite(value) || !(value > T(0)))
-        throw_invalid(function, std::string(name) + " must be positive and finite", value);
-    if constexpr (sizeof...(rest) > 0) require_positive(function, rest...);
+    if (!isfinite(value) || !good(value))
+        throw_invalid(function, std::string(name) + " must be " + std::string(rule), value);
+    if constexpr (sizeof...(rest) > 0) require(good, rule, function, rest...);
+}
+
+/// These throw InvalidArgument unless each value is as the name says, and finite. Names and values come in pairs.
+template <class... Pairs>
+void require_finite(std::string_view function, const Pairs&... pairs) {
+    require([](const auto&) { return true; }, "finite", function, pairs...);
+}
+template <class... Pairs>
+void require_positive(std::string_view function, const Pairs&... pairs) {
+    require([]<class T>(const T& x) { return x > T(0); }, "positive and finite", function, pairs...);
+}
+template <class... Pairs>
+void require_not_negative(std::string_view function, const Pairs&... pairs) {
+    require([]<class T>(const T& x) { return !(x < T(0)); }, "finite and not negative", function, pairs...);
 }
 
 }  // namespace detail

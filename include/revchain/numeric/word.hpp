@@ -15,9 +15,7 @@ namespace revchain {
 namespace detail {
 /// Specialised for packs, in simd/pack.hpp.
 template <class V>
-struct LaneOf {
-    using type = V;
-};
+struct LaneOf : std::type_identity<V> {};
 }  // namespace detail
 
 /// The number a pack consists of; a number itself.
@@ -56,5 +54,4 @@ template <Word T>
 }
 
 }  // namespace detail
-
 }  // namespace revchain

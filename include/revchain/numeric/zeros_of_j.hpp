@@ -20,82 +20,71 @@ namespace revchain {
 class ZerosOfJ {
    public:
     /// Throws InvalidArgument for an order not above -1 or not finite.
-    explicit ZerosOfJ(double order);
+    explicit ZerosOfJ(double order) : order_(order), far_(order) {
+        if (!(order > -1 && std::isfinite(order)))
+            detail::throw_invalid("ZerosOfJ", "order must be above -1 and finite", order);
+    }
 
     /// j_{order,k}. Throws InvalidArgument for k < 1.
-    double operator()(Index k) const;
+    double operator()(Index k) const {
+        if (k < 1) detail::throw_invalid("ZerosOfJ", "the zeros are numbered from 1", k);
+        const detail::TwoDoubles turns = two_sum(static_cast<double>(k) - 0.25, 0.5 * order_);
+        const detail::TwoDoubles place = turns * detail::two_word_pi;  // the zero itself but for the lag
+        if (place.high >= detail::PhaseSeries::first(order_)) return far_out(place);
+        const double z = order_ < 0 && k == 1 ? near_first() : near(k);
+        const detail::TwoDoubles ratio = detail::bessel_ratio<detail::TwoDoubles>(order_, z);
+        return z + ratio.high / (1 - order_ / z * ratio.high);
+    }
 
    private:
-    double far_out(const detail::TwoDoubles& place) const;
-    double start(Index k) const;
-
-    double order_;
-    detail::PhaseSeries far_;
-};
-
-inline ZerosOfJ::ZerosOfJ(double order) : order_(order), far_(order) {
-    if (!(order > -1 && std::isfinite(order)))
-        detail::throw_invalid("ZerosOfJ", "order must be above -1 and finite", order);
-}
-
-inline double ZerosOfJ::operator()(Index k) const {
-    if (k < 1) detail::throw_invalid("ZerosOfJ", "the zeros are numbered from 1", k);
-    const detail::TwoDoubles turns = two_sum(static_cast<double>(k) - 0.25, 0.5 * order_);
-    const detail::TwoDoubles place = turns * detail::two_word_pi;  // the zero itself but for the lag
-    if (place.high >= detail::PhaseSeries::first(order_)) return far_out(place);
-    const double z = start(k);
-    const detail::TwoDoubles ratio = detail::bessel_ratio<detail::TwoDoubles>(order_, z);
-    return z + ratio.high / (1 - order_ / z * ratio.high);
-}
-
-inline double ZerosOfJ::far_out(const detail::TwoDoubles& place) const {
-    double z = place.high, moved = 0;
-    for (int round = 0; round < 8; ++round) {
-        const double lag = far_.lag(z);
-        moved = place.low + lag;
-        const double step = (z - place.high - moved) / (1 + lag / z);  // lag' is -lag/z but for a (order/z)^4
-        z -= step;
-        if (std::abs(step) <= 1e-16 * z) break;
+    double far_out(const detail::TwoDoubles& place) const {
+        double z = place.high;
+        for (int round = 0; round < 8; ++round) {
+            const double lag = far_.lag(z);
+            const double step = (z - place.high - (place.low + lag)) / (1 + lag / z);  // lag' is nearly -lag/z
+            z -= step;
+            if (std::abs(step) <= 1e-16 * z) break;
+        }
+        return place.high + (place.low + far_.lag(z));
     }
-    return place.high + (place.low + far_.lag(z));
-}
-
-inline double ZerosOfJ::start(Index k) const {
-    double z;
-    if (order_ < 0 && k == 1) {  // sum over the zeros of j^-6, DLMF 10.21(vii): j < (...)^-1/6
+    /// The first zero of an order below 0, from the sum over the zeros of j^-6, DLMF 10.21(vii): j < (...)^-1/6.
+    double near_first() const {
         const double a = order_ + 1, x = std::cbrt(32 * a * a * a * (order_ + 2) * (order_ + 3));
-        z = std::sqrt(x);
+        double z = std::sqrt(x);
         for (int round = 0; round < 30; ++round) {
-            const double step = 2 * z * detail::bessel_ratio<double>(order_, z);
-            const double next = std::sqrt(z * z + step);
+            const double step = 2 * z * detail::bessel_ratio<double>(order_, z), next = std::sqrt(z * z + step);
             if (!(next > z * (1 + 1e-13))) return next;
             z = next;
         }
         return z;
     }
-    const double phase = (static_cast<double>(k) - 0.25) * std::numbers::pi;
-    const double n2 = order_ * order_;
-    z = phase + 0.5 * order_ * std::numbers::pi;  // at or beyond the zero of Debye's leading phase, which is convex
-    double q = 0;
-    const auto leading = [&] {
-        q = std::sqrt((z - order_) * (z + order_));
-        return q - order_ * std::acos(order_ / z);
-    };
-    for (int round = 0; round < 20; ++round) {
-        const double step = (leading() - phase) * z / q;
-        z -= step;
-        if (std::abs(step) <= 1e-3 * z / q) break;
+    double near(Index k) const {
+        const double phase = (static_cast<double>(k) - 0.25) * std::numbers::pi;
+        // at or beyond the zero of Debye's leading phase, which is convex
+        double z = phase + 0.5 * order_ * std::numbers::pi, q = 0;
+        const auto leading = [&] {
+            q = std::sqrt((z - order_) * (z + order_));
+            return q - order_ * std::acos(order_ / z);
+        };
+        for (int round = 0; round < 20; ++round) {
+            const double step = (leading() - phase) * z / q;
+            z -= step;
+            if (std::abs(step) <= 1e-3 * z / q) break;
+        }
+        const double off = leading() - (1 + 5 * (order_ * order_) / (3 * q * q)) / (8 * q) - phase;
+        z -= off * z / q;
+        for (int round = 0; round < 8; ++round) {
+            const double rate = std::sqrt(1 - (order_ - 0.5) / z * ((order_ + 0.5) / z));
+            const double ratio = detail::bessel_ratio<double>(order_, z);
+            const double step = std::atan(rate * ratio / ((order_ + 0.5) / z * ratio - 1)) / rate;
+            z -= step;
+            if (std::abs(step) <= 1e-5 * z) break;  // of fourth order
+        }
+        return z;
     }
-    const double off = leading() - (1 + 5 * n2 / (3 * q * q)) / (8 * q) - phase;
-    z -= off * z / q;
-    for (int round = 0; round < 8; ++round) {
-        const double rate = std::sqrt(1 - (order_ - 0.5) / z * ((order_ + 0.5) / z));
-        const double ratio = detail::bessel_ratio<double>(order_, z);
-        const double step = std::atan(rate * ratio / ((order_ + 0.5) / z * ratio - 1)) / rate;
-        z -= step;
-        if (std::abs(step) <= 1e-5 * z) break;  // of fourth order
-    }
-    return z;
-}
+
+    double order_;
+    detail::PhaseSeries far_;
+};
 
 }  // namespace revchain

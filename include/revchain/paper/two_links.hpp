@@ -80,14 +80,12 @@ struct JointedNumbers {
 
 template <Real T>
 JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>& links) {
-    using std::abs, std::isfinite, std::max;
+    using std::abs, std::max;
     require_positive(place, "lower weight", links.lower_weight);
     check(place, links.lower);
     require_positive(place, "upper weight", links.upper_weight, "upper length", links.upper_length);
-    if (!isfinite(links.upper_centroid)) throw_invalid(place, "upper centroid must be finite", links.upper_centroid);
-    if (!(links.upper_radius_of_gyration >= T(0)) || !isfinite(links.upper_radius_of_gyration))
-        throw_invalid(place, "upper radius of gyration must be finite and not negative",
-                      links.upper_radius_of_gyration);
+    require_finite(place, "upper centroid", links.upper_centroid);
+    require_not_negative(place, "upper radius of gyration", links.upper_radius_of_gyration);
     const T unit = inverse_power_near(max(max(links.lower.pendulum_length(), links.upper_length),
                                           max(abs(links.upper_centroid), links.upper_radius_of_gyration)));
     const T by = inverse_power_near(max(links.lower_weight, links.upper_weight));

@@ -18,17 +18,23 @@ inline void check_place(std::string_view where, double x, double length) {
         revchain::detail::throw_invalid(where, "x must lie between 0 (free end) and the length", x);
 }
 
+/// f(1) ... f(count).
+template <class F>
+Vector<double> for_numbers(Index count, const F& f) {
+    return Vector<double>::NullaryExpr(count, [&](Index i) {
+        revchain::detail::look();
+        return f(i + 1);
+    });
+}
+
 /// Places length (zero(i) / end)^2, i = 1 ... mode - 1: where mode `mode`, whose argument is `end` at the support,
 /// passes the zeros of a Bessel function.
 template <class Zero>
 Vector<double> places_of_zeros(Index mode, double length, double end, const Zero& zero) {
-    Vector<double> places(mode - 1);
-    for (Index i = 1; i < mode; ++i) {
-        revchain::detail::look();
+    return for_numbers(mode - 1, [&](Index i) {
         const double ratio = zero(i) / end;
-        places[i - 1] = length * (ratio * ratio);
-    }
-    return places;
+        return length * (ratio * ratio);
+    });
 }
 
 }  // namespace revchain::analytic::detail

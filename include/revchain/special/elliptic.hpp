@@ -13,6 +13,7 @@
 namespace revchain::analytic {
 
 namespace detail {
+using revchain::detail::require_finite;
 using revchain::detail::require_positive;
 using revchain::detail::throw_invalid;
 }  // namespace detail

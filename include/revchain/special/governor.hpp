@@ -57,11 +57,8 @@ struct GovernorMotion::Quartic {
 
 inline GovernorMotion::GovernorMotion(const Governor& given) : angle_(given.angle) {
     constexpr std::string_view place = detail::governor_motion;
-    const auto check = [](std::string_view name, double value) {
-        if (!std::isfinite(value)) detail::throw_invalid(place, std::string(name) + " must be finite", value);
-    };
-    check("angular speed", given.angular_speed), check("gravity", given.gravity);
-    check("angle", given.angle), check("angle rate", given.angle_rate);
+    detail::require_finite(place, "angular speed", given.angular_speed, "gravity", given.gravity, "angle", given.angle,
+                           "angle rate", given.angle_rate);
     detail::require_positive(place, "pendulum length", given.pendulum_length);
     if (!(given.axial_inertia >= 0 && given.axial_inertia <= 1))
         detail::throw_invalid(place, "axial inertia must lie between 0 and 1", given.axial_inertia);
@@ -179,7 +176,7 @@ inline GovernorMotion::Half GovernorMotion::half_at(double u) const {
 }
 
 inline GovernorState GovernorMotion::operator()(double time) const {
-    if (!std::isfinite(time)) detail::throw_invalid(detail::governor_motion, "time must be finite", time);
+    detail::require_finite(detail::governor_motion, "time", time);
     if (form_ == Form::constant) return {angle_, 0};
     const auto require_finite = [&](double x) {
         if (!std::isfinite(x))

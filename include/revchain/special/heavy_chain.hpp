@@ -2,7 +2,6 @@
 #pragma once
 
 #include "revchain/conical_pendulum.hpp"
-#include "revchain/numeric/progress.hpp"
 #include "revchain/special/bessel_zero.hpp"
 #include "revchain/special/chain_arguments.hpp"
 
@@ -17,8 +16,14 @@ inline void check(std::string_view place, std::string_view name, Index number, d
     analytic::detail::check_number_and_length("analytic::heavy_chain::" + std::string(place), name, number, length);
 }
 
-inline void check_place(std::string_view place, double x, double length) {
+inline void check_place(std::string_view place, double x, Index mode, double length) {
+    check(place, "mode", mode, length);
     analytic::detail::check_place("analytic::heavy_chain::" + std::string(place), x, length);
+}
+
+inline double height(Index mode, double length) {
+    const double half = 0.5 * zero_of_j0(mode);
+    return length / (half * half);
 }
 }  // namespace detail
 
@@ -26,28 +31,20 @@ inline void check_place(std::string_view place, double x, double length) {
 /// Accuracy: 3 ulp (measured 2, k up to 1e6). Cost: 10 ns each.
 inline Vector<double> conical_heights(Index count, double length) {
     detail::check("conical_heights", "count", count, length);
-    Vector<double> heights(count);
-    for (Index k = 1; k <= count; ++k) {
-        revchain::detail::look();
-        const double half = 0.5 * zero_of_j0(k);
-        heights[k - 1] = length / (half * half);
-    }
-    return heights;
+    return analytic::detail::for_numbers(count, [&](Index mode) { return detail::height(mode, length); });
 }
 
 /// Offset J_0(2 sqrt(x / lambda_k)) at x, 1 at the free end. §4 (9).
 /// Accuracy: absolute error 4e-16 (1 + j_{0,k}), the rounding of the argument.
 inline double shape(double x, Index mode, double length) {
-    detail::check("shape", "mode", mode, length);
-    detail::check_place("shape", x, length);
+    detail::check_place("shape", x, mode, length);
     return analytic::detail::gsl_value(gsl_sf_bessel_J0_e, zero_of_j0(mode) * std::sqrt(x / length));
 }
 
 /// dy/dx = -J_1(z) / sqrt(x lambda_k), z = 2 sqrt(x/lambda_k), of that shape: -1/lambda_k at the free end. §4 (9).
 /// Accuracy: absolute error 4e-16 (1 + j_{0,k}) / lambda_k.
 inline double slope(double x, Index mode, double length) {
-    detail::check("slope", "mode", mode, length);
-    detail::check_place("slope", x, length);
+    detail::check_place("slope", x, mode, length);
     const double half_end = 0.5 * zero_of_j0(mode), half = half_end * std::sqrt(x / length);
     const double part = half > 0 ? analytic::detail::gsl_value(gsl_sf_bessel_J1_e, 2 * half) / half : 1.0;
     return -part / (length / (half_end * half_end));
@@ -55,8 +52,7 @@ inline double slope(double x, Index mode, double length) {
 
 /// Tension at x, to first order in the offsets: the length of chain that hangs below. §4 (1).
 inline double tension(double x, double length) {
-    detail::check("tension", "mode", 1, length);
-    detail::check_place("tension", x, length);
+    detail::check_place("tension", x, 1, length);
     return x;
 }
 
@@ -71,7 +67,7 @@ inline double kinetic_energy(Index mode, double amplitude) {
     return 0.125 * part * part;
 }
 
-/// The same number.
+/// Equal to the kinetic energy.
 inline double potential_energy(Index mode, double amplitude) { return kinetic_energy(mode, amplitude); }
 
 /// Where mode `mode` crosses the axis, the support left out: length (j_{0,i} / j_{0,mode})^2, i < mode. §4 (12).
@@ -94,9 +90,7 @@ inline Vector<double> revolutions_per_second(Index count, double length,
                                              double gravity = conical_pendulum::standard_gravity) {
     detail::check("revolutions_per_second", "count", count, length);
     const double pendulum = conical_pendulum::revolutions_per_second(length, gravity);
-    Vector<double> revolutions(count);
-    for (Index k = 1; k <= count; ++k) revolutions[k - 1] = 0.5 * pendulum * zero_of_j0(k);
-    return revolutions;
+    return analytic::detail::for_numbers(count, [&](Index mode) { return 0.5 * pendulum * zero_of_j0(mode); });
 }
 
 }  // namespace revchain::analytic::heavy_chain

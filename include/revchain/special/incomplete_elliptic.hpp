@@ -103,8 +103,7 @@ struct IncompleteIntegrals {
 /// The three integrals. Accuracy: 2e-15 relative for the amplitude as given. Cost: 0.5 microseconds. For kappa = 1, F
 /// and D are infinite at a quarter turn and beyond. Throws InvalidArgument unless the amplitude is finite.
 inline IncompleteIntegrals incomplete_integrals(double amplitude, const EllipticModulus& modulus) {
-    if (!std::isfinite(amplitude))
-        detail::throw_invalid("analytic::incomplete_integrals", "amplitude must be finite", amplitude);
+    detail::require_finite("analytic::incomplete_integrals", "amplitude", amplitude);
     const detail::Amplitude a(amplitude, modulus);
     const double k2 = modulus.modulus() * modulus.modulus();
     const double c2 = modulus.complementary_modulus() * modulus.complementary_modulus();
@@ -161,8 +160,7 @@ inline double complete_pi(double n, const EllipticModulus& modulus) {
 /// relative. Cost: 0.7 microseconds.
 inline double incomplete_pi(double n, double amplitude, const EllipticModulus& modulus) {
     detail::check_characteristic("analytic::incomplete_pi", n);
-    if (!std::isfinite(amplitude))
-        detail::throw_invalid("analytic::incomplete_pi", "amplitude must be finite", amplitude);
+    detail::require_finite("analytic::incomplete_pi", "amplitude", amplitude);
     return detail::pi_of(n, detail::Amplitude(amplitude, modulus), modulus);
 }
 inline double incomplete_pi(double n, const JacobiValues& u, const EllipticModulus& modulus) {

@@ -40,7 +40,7 @@ class JacobiFunctions {
 
     /// Throws InvalidArgument unless u is finite.
     JacobiValues operator()(double u) const {
-        if (!std::isfinite(u)) detail::throw_invalid("analytic::JacobiFunctions", "u must be finite", u);
+        detail::require_finite("analytic::JacobiFunctions", "u", u);
         double within = u;
         int half_periods = 0;  // its last bits are right
         if (std::abs(u) > complete_.K) within = std::remquo(u, 2 * complete_.K, &half_periods);

@@ -156,12 +156,7 @@ struct Ends {
 inline Vector<double> conical_heights(Index count, double length, double tip) {
     detail::check("conical_heights", "count", count, length, tip);
     const detail::Ends ends(length, tip);
-    Vector<double> heights(count);
-    for (Index k = 1; k <= count; ++k) {
-        revchain::detail::look();
-        heights[k - 1] = ends.height(ends.apart(k), length);
-    }
-    return heights;
+    return analytic::detail::for_numbers(count, [&](Index mode) { return ends.height(ends.apart(mode), length); });
 }
 
 /// One mode of the chain with a particle. Cost: that of its height.

@@ -50,8 +50,7 @@ class Cord {
             if (!options.weight) weight_ = density_->total();
         }
         detail::require_positive("Cord", "weight", weight_);
-        if (!(tip_weight_ >= 0 && std::isfinite(tip_weight_)))
-            detail::throw_invalid("Cord", "tip weight must be finite and not negative", tip_weight_);
+        detail::require_not_negative("Cord", "tip weight", tip_weight_);
     }
 
     double length() const { return length_; }

@@ -21,7 +21,8 @@ namespace revchain {
 class LineDensity {
    public:
     static constexpr int degree = 12;
-    static constexpr double rounding = 8e-15;  // below what functions of a dozen operations give
+    using Coefficients = std::array<double, degree + 1>;  ///< of powers, from the constant on
+    static constexpr double rounding = 8e-15;             // below what functions of a dozen operations give
     static constexpr int least_halvings = 2, max_halvings = 46, max_at_tip = 40;
     static constexpr std::size_t max_pieces = 20'000;
 
@@ -31,14 +32,11 @@ class LineDensity {
         detail::require_positive("LineDensity", "length", length);
         divide(weight_per_length, 0, length, 0);
         std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
-        if (pieces_.front().power == 0) at_tip_ = about(0);
+        if (pieces_.front().power == 0) at_tip_ = integrated(about(0));
         for (Piece& piece : pieces_) {
             piece.below = total_;
-            if (piece.power == 0) {
-                total_ += weight_within(piece, 1);
-            } else {
-                total_ += piece.factor[0] * 2 * piece.half / (piece.power + 1);
-            }
+            total_ += piece.power == 0 ? weight_within(piece, 1)
+                                       : piece.factor[0] * 2 * piece.half / (piece.power + 1);
         }
     }
 
@@ -52,22 +50,14 @@ class LineDensity {
         return nudged(s) >= length_ ? std::numeric_limits<double>::infinity() : end(piece_at(s));
     }
     /// Coefficients of the density about s in powers of (distance from s): the piece to its right.
-    std::array<double, degree + 1> about(double s) const {
-        std::array<double, degree + 1> c{};
-        if (nudged(s) >= length_) {
-            c[0] = mean();
-            return c;
-        }
+    Coefficients about(double s) const {
+        if (nudged(s) >= length_) return {mean()};
         const Piece& piece = piece_at(s);
-        if (piece.power != 0) {
-            c[0] = piece.factor[0] * std::pow(s / end(piece), piece.power);
-            return c;
-        }
+        if (piece.power != 0) return {piece.factor[0] * std::pow(s / end(piece), piece.power)};
         const double t = (s - piece.middle) / piece.half;
-        c = piece.factor;
-        for (int i = 0; i < degree; ++i)
-            for (int k = degree - 1; k >= i; --k)
-                c[static_cast<std::size_t>(k)] += t * c[static_cast<std::size_t>(k) + 1];
+        Coefficients c = piece.factor;
+        for (std::size_t i = 0; i < degree; ++i)
+            for (std::size_t k = degree; k-- > i;) c[k] += t * c[k + 1];
         double scale = 1;
         for (double& x : c) x *= scale, scale /= piece.half;
         return c;
@@ -78,12 +68,8 @@ class LineDensity {
         if (s == 0) return 0;
         const Piece& piece = piece_at(s);
         if (piece.power != 0) return piece.factor[0] * s / (piece.power + 1) * std::pow(s / end(piece), piece.power);
-        if (&piece ==
-            &pieces_.front()) {  // in powers of s: near the free end the weight must be right relative to itself
-            double sum = 0;
-            for (std::size_t k = degree + 1; k-- > 0;) sum = sum * s + at_tip_[k] / static_cast<double>(k + 1);
-            return sum * s;
-        }
+        // near the free end the weight must be right relative to itself
+        if (&piece == &pieces_.front()) return polynomial(at_tip_, s) * s;
         return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
     }
     /// Up to where the density is no polynomial but a power of s; mostly 0.
@@ -98,9 +84,9 @@ class LineDensity {
    private:
     struct Piece {
         double middle, half;
-        std::array<double, degree + 1> factor;  // of powers of (s - middle)/half
-        double power = 0;                       // not 0: this much of a power law, factor[0] its value at the right end
-        double below = 0;                       // weight of the chain below the piece
+        Coefficients factor;  // of powers of (s - middle)/half
+        double power = 0;     // not 0: this much of a power law, factor[0] its value at the right end
+        double below = 0;     // weight of the chain below the piece
     };
 
     static double end(const Piece& piece) { return piece.middle + piece.half; }
@@ -111,26 +97,26 @@ class LineDensity {
                                             [](double x, const Piece& piece) { return x < end(piece); });
         return after == pieces_.end() ? pieces_.back() : *after;
     }
-    static double value(const Piece& piece, double t) {
+    static double polynomial(const Coefficients& factor, double t) {
         double sum = 0;
-        for (std::size_t k = degree + 1; k-- > 0;) sum = sum * t + piece.factor[k];
+        for (std::size_t k = degree + 1; k-- > 0;) sum = sum * t + factor[k];
         return sum;
+    }
+    /// Those of the integral from 0 over t.
+    static Coefficients integrated(Coefficients factor) {
+        for (std::size_t k = 0; k <= degree; ++k) factor[k] /= static_cast<double>(k + 1);
+        return factor;
     }
     /// Of the piece, from its left end to t.
     static double weight_within(const Piece& piece, double t) {
-        double right = 0, left = 0;
-        for (std::size_t k = degree + 1; k-- > 0;) {
-            const double c = piece.factor[k] / static_cast<double>(k + 1);
-            right = right * t + c;
-            left = -left + c;
-        }
-        return piece.half * (right * t + left);
+        const Coefficients mean = integrated(piece.factor);
+        return piece.half * (polynomial(mean, t) * t + polynomial(mean, -1));
     }
 
     void divide(const std::function<double(double)>& f, double low, double high, int halvings) {
         constexpr std::size_t count = degree + 1;
         Piece piece{low + (high - low) / 2, (high - low) / 2, {}};
-        std::array<double, count> sample{}, chebyshev{};
+        Coefficients sample{}, chebyshev{};
         double largest = 0, least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < count; ++i) {
             const double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / count);
@@ -158,7 +144,8 @@ class LineDensity {
             piece.factor = in_powers(chebyshev);
             for (std::size_t i = 1; i < count; ++i) {  // what is narrow may lie between
                 const double x = std::cos(std::numbers::pi * static_cast<double>(i) / count);
-                good = good && std::abs(value(piece, x) - f(piece.middle + piece.half * x)) <= 10 * rounding * largest;
+                good = good && std::abs(polynomial(piece.factor, x) - f(piece.middle + piece.half * x)) <=
+                                   10 * rounding * largest;
             }
         }
         if (!good && halvings < (low == 0 ? max_at_tip : max_halvings)) {
@@ -169,8 +156,7 @@ class LineDensity {
         if (pieces_.size() == max_pieces)
             detail::throw_invalid("LineDensity", "weight per length is rough at too many places");
         if (low == 0 && !good) {
-            piece.factor.fill(0);
-            piece.factor[0] = f(high);
+            piece.factor = {f(high)};
             piece.power = std::log2(f(high) / f(high / 2));
             if (!(piece.power > -1))
                 detail::throw_invalid("LineDensity",
@@ -178,23 +164,20 @@ class LineDensity {
                                       piece.power);
             if (piece.power == 0) piece.power = 1e-30;
         } else if (!good) {  // a jump, within rounding of where it is
-            piece.factor.fill(0);
-            piece.factor[0] = f(piece.middle);
+            piece.factor = {f(piece.middle)};
         }
         pieces_.push_back(piece);
     }
 
     /// From Chebyshev polynomials to powers: stable enough at this degree, as the coefficients fall.
-    static std::array<double, degree + 1> in_powers(const std::array<double, degree + 1>& chebyshev) {
-        constexpr std::size_t count = degree + 1;
-        std::array<double, count> sum{}, before{}, now{};
-        before[0] = 1, now[1] = 1;
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto& t = k == 0 ? before : now;
-            for (std::size_t i = 0; i < count; ++i) sum[i] += chebyshev[k] * t[i];
-            if (k == 0) continue;
-            std::array<double, count> next{};
-            for (std::size_t i = 0; i < count; ++i) next[i] = (i > 0 ? 2 * now[i - 1] : 0.0) - before[i];
+    static Coefficients in_powers(const Coefficients& chebyshev) {
+        Coefficients sum{chebyshev[0]}, before{1}, now{0, 1};
+        for (std::size_t k = 1; k <= degree; ++k) {
+            Coefficients next{};
+            for (std::size_t i = 0; i <= degree; ++i) {
+                sum[i] += chebyshev[k] * now[i];
+                next[i] = (i > 0 ? 2 * now[i - 1] : 0.0) - before[i];
+            }
             before = now, now = next;
         }
         return sum;
@@ -202,7 +185,7 @@ class LineDensity {
 
     double length_, total_ = 0;
     std::vector<Piece> pieces_;
-    std::array<double, degree + 1> at_tip_{};
+    Coefficients at_tip_{};  // of the weight below s, over s
 };
 
 }  // namespace revchain

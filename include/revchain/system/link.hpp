@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "revchain/numeric/double_word.hpp"
+#include "revchain/numeric/product.hpp"
 #include "revchain/numeric/status.hpp"
 
 namespace revchain {
@@ -31,23 +32,15 @@ namespace detail {
 /// x / length in twice the digits, whatever their unit.
 template <Real T>
 Wide<T> in_lengths(const Wide<T>& x, const T& length) {
-    using std::frexp;
-    using std::ldexp;
-    int exponent = 0, of_length = 0;
-    const Wide<T> digits = frexp(x, &exponent);
-    const T unit = frexp(length, &of_length);
-    return ldexp(digits / Wide<T>(unit), exponent - of_length);
+    return Product<Wide<T>>::of(x).over(length).value();
 }
 
 /// x lengths, rounded once, whatever the unit.
 template <Real T>
 T times_length(const Wide<T>& x, const T& length) {
-    using std::frexp;
     using std::ldexp;
-    int exponent = 0, of_length = 0;
-    const Wide<T> digits = frexp(x, &exponent);
-    const T unit = frexp(length, &of_length);
-    return ldexp(static_cast<T>(digits * Wide<T>(unit)), exponent + of_length);
+    const auto product = Product<Wide<T>>::of(x).times(length);
+    return ldexp(static_cast<T>(product.fraction), product.exponent);
 }
 
 /// How far apart the lengths of a chain may be, a, |h| and rho: 1e77 in double. Beyond, products leave the range of T.
@@ -96,9 +89,7 @@ namespace detail {
 /// (rho/a)^2 from rho; refuses a negative or missing rho.
 template <Real T>
 Wide<T> gyration_from_radius(std::string_view place, T length, T radius) {
-    using std::isfinite;
-    if (!isfinite(radius) || radius < T(0))
-        throw_invalid(place, "radius of gyration must be finite and not negative", radius);
+    require_not_negative(place, "radius of gyration", radius);
     require_positive(place, "length", length);
     if (radius == T(0)) return Wide<T>(T(0));
     const Wide<T> ratio = in_lengths<T>(radius, length);
@@ -108,9 +99,7 @@ Wide<T> gyration_from_radius(std::string_view place, T length, T radius) {
 /// rho^2 = h (l - h), §8 (1), over a^2; refuses an imaginary rho, and h = 0 where l says nothing.
 template <Real T>
 Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centroid, T pendulum_length) {
-    using std::isfinite;
-    if (!isfinite(centroid)) throw_invalid(place, "centroid must be finite", centroid);
-    if (!isfinite(pendulum_length)) throw_invalid(place, "pendulum length must be finite", pendulum_length);
+    require_finite(place, "centroid", centroid, "pendulum length", pendulum_length);
     if (centroid == T(0))
         throw_invalid(place, "a centroid at the upper pin has no pendulum length; give the radius of gyration instead");
     require_positive(place, "length", length);
