@@ -32,13 +32,8 @@ template <Real T>
 class Chain {
    public:
     explicit Chain(const std::vector<Link<T>>& links)
-        : size_(static_cast<Index>(links.size())),
-          weight_(column(links, &Link<T>::weight)),
-          length_(column(links, &Link<T>::length)),
-          centroid_(column(links, &Link<T>::centroid)),
-          gyration_ratio_(column(links, &Link<T>::gyration_ratio)) {
-        check();
-    }
+        : Chain(static_cast<Index>(links.size()), column(links, &Link<T>::weight), column(links, &Link<T>::length),
+                column(links, &Link<T>::centroid), column(links, &Link<T>::gyration_ratio)) {}
 
     /// `size` links from columns, each of `size` numbers or one. `taper`: of links that `tapered` made; it is believed.
     Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio,
@@ -175,13 +170,14 @@ class Chain {
 
 namespace detail {
 
-/// The least |value(m)| that is not 0, m < count.
-template <Real T, class Value>
-T least_size(Index count, Value value) {
+/// The least |x| that is not 0 in a column, whose least x is given.
+template <Real T>
+T least_size(const Column<T>& column, const T& given) {
     using std::abs;
+    if (given > T(0)) return given;
     T least = std::numeric_limits<T>::infinity();
-    for (Index m = 0; m < count; ++m) {
-        const T x = abs(value(m));
+    for (std::size_t m = 0; m < column.stored(); ++m) {
+        const T x = abs(column.data()[m]);
         if (x > T(0) && x < least) least = x;
     }
     return least;
@@ -195,17 +191,15 @@ void Chain<T>::check() {
     using std::isfinite;
     using std::ldexp;
     if (size_ < 1) detail::throw_invalid("Chain", "a chain needs at least one link", size_);
-    const auto check_stored = [&](std::size_t stored, bool is_scalar, std::string_view name) {
-        if (!is_scalar && stored != static_cast<std::size_t>(size_))
+    const auto check_stored = [&](const auto& column, std::string_view name) {
+        if (!column.is_scalar() && column.stored() != static_cast<std::size_t>(size_))
             detail::throw_invalid("Chain",
                                   std::string(name) + " must have one number for each of the " + std::to_string(size_) +
                                       " links or be a single number",
-                                  stored);
+                                  column.stored());
     };
-    check_stored(weight_.stored(), weight_.is_scalar(), "weight");
-    check_stored(length_.stored(), length_.is_scalar(), "length");
-    check_stored(centroid_.stored(), centroid_.is_scalar(), "centroid");
-    check_stored(gyration_ratio_.stored(), gyration_ratio_.is_scalar(), "gyration_ratio");
+    check_stored(weight_, "weight"), check_stored(length_, "length");
+    check_stored(centroid_, "centroid"), check_stored(gyration_ratio_, "gyration_ratio");
 
     std::vector<Wide<T>> partial;
     const Summary<T> weights = summary(weight_, size_, &partial);
@@ -230,14 +224,10 @@ void Chain<T>::check() {
 
     total_weight_ = static_cast<T>(weights.sum);
     total_length_ = static_cast<T>(lengths.sum);
-    const T least_weight = weights.least > T(0)
-                               ? weights.least
-                               : detail::least_size<T>(distinct_links(), [&](Index m) { return weight_[m]; });
-    one_weight_unit_ = total_weight_ * ldexp(T(1), -2 * std::numeric_limits<T>::max_exponent / 5) <= least_weight;
-    const T least_centroid = centroids.least > T(0)
-                                 ? centroids.least
-                                 : detail::least_size<T>(distinct_links(), [&](Index m) { return centroid_[m]; });
-    const T least_length = std::min(lengths.least, least_centroid), span = detail::length_span<T>();
+    one_weight_unit_ = total_weight_ * ldexp(T(1), -2 * std::numeric_limits<T>::max_exponent / 5) <=
+                       detail::least_size(weight_, weights.least);
+    const T least_length = std::min(lengths.least, detail::least_size(centroid_, centroids.least));
+    const T span = detail::length_span<T>();
     largest_length_ = std::max(largest_size(length_), largest_size(centroid_));
     if (largest_length_ / span > least_length)
         detail::throw_invalid("Chain", "the lengths span too wide a ratio for this scalar, from " +

@@ -178,10 +178,8 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     using S = Wide<T>;
     int unit = 0, short_unit = 0;
     frexp(a, &unit), frexp(distance, &short_unit);
-    const auto wide = [](const T& x, int power) { return S(static_cast<Narrow<S>>(ldexp(x, power))); };
-    const S u = wide(upper_thread, -unit), l = wide(lower_thread, -unit), d = wide(distance, -unit),
-            x = wide(height, 0);
-    const S rise = ldexp(wide(upper_thread, 0) - wide(lower_thread, 0), -short_unit) / wide(distance, -short_unit);
+    const S u(ldexp(upper_thread, -unit)), l(ldexp(lower_thread, -unit)), d(ldexp(distance, -unit)), x(height);
+    const S rise = ldexp(S(upper_thread) - S(lower_thread), -short_unit) / S(ldexp(distance, -short_unit));
     const S along = rise * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
     const T upper = upper_thread / distance * (static_cast<T>(S(x - above_lower)) / height);
     const T lower = lower_thread / distance * (static_cast<T>(S(depth - x)) / height);

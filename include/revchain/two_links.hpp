@@ -61,8 +61,7 @@ HeightPair<T> two_plummets_from_the_middle(const T& half_length, const T& x, con
     if (weight_ratio < T(0)) {  // a difference: formed in two words
         using S = Wide<T>;
         const T unit = detail::inverse_power_near(half_length);
-        const S half(static_cast<Narrow<S>>(T(half_length * unit))), at(static_cast<Narrow<S>>(T(x * unit)));
-        const S ratio(static_cast<Narrow<S>>(weight_ratio));
+        const S half(half_length * unit), at(x * unit), ratio(weight_ratio);
         square = static_cast<T>(S((ratio * half * half + at * at) / (half * half))) / whole;
     }
     if (square < T(0))
@@ -239,7 +238,7 @@ std::vector<PairShape<T>> jointed_links_shapes(const JointedLinks<T>& links, con
     detail::require_positive(place, "height", height);
     const S scale(T(1) / n.unit);
     auto pair = detail::pair_of<T>(place, n.l1 * scale, n.p * scale, n.share, n.other, height);
-    pair.upper = detail::over_height(S(links.upper_length), height);
+    pair.upper = detail::in_lengths<T>(links.upper_length, height);
     auto shapes = detail::hanging_shapes(pair);
     const T whole = links.lower_weight + links.upper_weight;
     const T w1 = links.lower_weight / whole, w2 = links.upper_weight / whole;

@@ -19,22 +19,20 @@ inline revchain::detail::HeightsOptions<double> options_for(const Question& ques
 }
 inline ModeRange range_of(const Question& question) { return {question.first, question.count}; }
 
-/// A way is asked alone, not through `modes`: where it has no heights, no other does the work.
-inline Answer answered(const Chain<double>& chain, const revchain::detail::Heights<double>& found) {
-    const Index count = static_cast<Index>(found.size());
+/// The heights that a method found, as an answer. Where it found none, no other method does the work.
+inline Answer answered(const Chain<double>& chain, const std::optional<revchain::detail::Heights<double>>& found) {
+    if (!found) return Answer::none();
+    const Index count = static_cast<Index>(found->size());
     const int exponent = chain.units().length_exponent;
     Answer answer{Vector<double>(count), Vector<double>(count)};
-    answer.unrounded.reserve(found.size());
+    answer.unrounded.reserve(found->size());
     for (Index j = 0; j < count; ++j) {
-        const auto& height = found[static_cast<std::size_t>(j)];
+        const auto& height = (*found)[static_cast<std::size_t>(j)];
         answer.conical_height[j] = std::ldexp(height.eigenvalue, exponent);
         answer.error_bound[j] = height.error_bound;
         answer.unrounded.push_back(height.unrounded);
     }
     return answer;
-}
-inline Answer answered(const Chain<double>& chain, const std::optional<revchain::detail::Heights<double>>& found) {
-    return found ? answered(chain, *found) : Answer::none();
 }
 
 inline double real(Index x) { return static_cast<double>(x); }
@@ -130,9 +128,9 @@ struct Condensed {
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
-        const auto found =
+        auto found =
             revchain::detail::heights_by_condensation(chain, detail::range_of(question), detail::options_for(question));
-        return found ? detail::answered(chain, found->found) : Answer::none();
+        return found ? detail::answered(chain, std::move(found->found)) : Answer::none();
     }
 };
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "revchain/numeric/double_word.hpp"
-#include "revchain/numeric/status.hpp"
 #include "revchain/numeric/zero_between.hpp"
+#include "revchain/system/link.hpp"
 
 /// Two links at any inclination: all shapes at a given speed, and the proof that there are no others.
 /// Greenhill (1908) §2 (4), (8), §6 (10).
@@ -204,20 +204,12 @@ std::vector<PairShape<T>> hanging_shapes(const Pair<T>& pair) {
     return shapes;
 }
 
-template <Real T>
-Wide<T> over_height(const Wide<T>& length, const T& height) {
-    using std::frexp, std::ldexp;
-    int power = 0;
-    const T digits = frexp(height, &power);
-    return ldexp(length, -power) / Wide<T>(digits);
-}
-
 /// A pair from lengths in the unit of the height. Throws InvalidArgument where cubes of them would leave the range.
 template <Real T>
 Pair<T> pair_of(std::string_view place, const Wide<T>& lower, const Wide<T>& upper, const Wide<T>& share,
                 const Wide<T>& other, const T& height) {
     using std::ldexp;
-    const Pair<T> pair{over_height(lower, height), over_height(upper, height), share, other, height};
+    const Pair<T> pair{in_lengths<T>(lower, height), in_lengths<T>(upper, height), share, other, height};
     const T limit = ldexp(T(1), std::numeric_limits<T>::max_exponent / 3 - 2);
     if (!(static_cast<T>(pair.l1) <= limit && static_cast<T>(pair.l2) <= limit))
         throw_invalid(place, "height must not be smaller than the lengths by more than a third of the range", height);

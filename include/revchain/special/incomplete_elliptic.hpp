@@ -125,24 +125,21 @@ inline void check_characteristic(std::string_view place, double n) {
     if (!(n < 1)) throw_invalid(place, "the characteristic must be less than 1", n);
 }
 
-/// The integral within a quarter turn; F is the first kind's.
-inline double pi_within(double n, const Amplitude& a, const EllipticModulus& modulus, double F) {
-    const double s = a.sine, x = a.cosine * a.cosine, y = a.delta * a.delta;
+inline double pi_of(double n, const Amplitude& a, const EllipticModulus& modulus) {
+    const double s = a.sine, x = a.cosine * a.cosine, y = a.delta * a.delta, F = s * carlson_rf(x, y, 1);
+    const double c = modulus.complementary_modulus();
     const auto of_positive = [&](double characteristic, double rest) {
         return F + characteristic / 3 * (s * s * s) * carlson_rj(x, y, 1, x + rest * s * s);
     };
-    if (n >= 0) return of_positive(n, 1 - n);
-    // DLMF 19.7.9: a characteristic between kappa^2 and 1, and no differences.
-    const double k2 = modulus.modulus() * modulus.modulus();
-    const double c2 = modulus.complementary_modulus() * modulus.complementary_modulus();
-    const double g = -n, share = g / (k2 + g), ratio = (k2 + g) / (1 + g);
-    return share * c2 / (1 + g) * of_positive(ratio, c2 / (1 + g)) + k2 / (k2 + g) * F +
-           std::sqrt(share / (1 + g)) * std::atan(std::sqrt(g) * std::sqrt(ratio) * s * a.cosine / a.delta);
-}
-
-inline double pi_of(double n, const Amplitude& a, const EllipticModulus& modulus) {
-    const double F = a.sine * carlson_rf(a.cosine * a.cosine, a.delta * a.delta, 1);
-    const double within = pi_within(n, a, modulus, F), c = modulus.complementary_modulus();
+    double within;  // a quarter turn
+    if (n >= 0) {
+        within = of_positive(n, 1 - n);
+    } else {  // DLMF 19.7.9: a characteristic between kappa^2 and 1, and no differences
+        const double k2 = modulus.modulus() * modulus.modulus(), c2 = c * c;
+        const double g = -n, share = g / (k2 + g), ratio = (k2 + g) / (1 + g);
+        within = share * c2 / (1 + g) * of_positive(ratio, c2 / (1 + g)) + k2 / (k2 + g) * F +
+                 std::sqrt(share / (1 + g)) * std::atan(std::sqrt(g) * std::sqrt(ratio) * s * a.cosine / a.delta);
+    }
     return a.half_turns == 0 || c == 0 ? within : within + 2 * a.half_turns * complete_integral(c, 1 - n, 1, 1);
 }
 

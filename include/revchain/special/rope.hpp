@@ -148,7 +148,7 @@ inline double SkippingRope::moment_of_inertia() const {
         }
         mixed *= std::numbers::pi / 16;
     }
-    return 2 * waves() * sag() * sag() * (quarter_ / c.K) * (c.D + 2 * kappa() * slope_at_ends() / 2 * mixed);
+    return 2 * waves() * sag() * sag() * (quarter_ / c.K) * (c.D + kappa() * slope_at_ends() * mixed);
 }
 
 inline RopePoint SkippingRope::at_argument(double u) const {

@@ -25,6 +25,7 @@ namespace revchain::analytic::tip_mass {
 namespace detail {
 
 using analytic::detail::Cylinders;
+using analytic::detail::gsl_value;
 using analytic::detail::PhaseSeries;
 using analytic::detail::two_word_pi;
 using analytic::detail::TwoDoubles;
@@ -189,11 +190,7 @@ class Mode {
         if (end_.is_far())
             return -0.5 * end_.z * std::sqrt(density(0, z) * density(2, end_.z) * (end_.z / z)) *
                    std::sin(w - (lag(0, z) - lag(2, end_.z)));
-        if (cancels(z)) {
-            const detail::Cylinders f(place_ + w);
-            return (a_ * f.J0 + b_ * f.Y0).high;
-        }
-        return a_.high * value(gsl_sf_bessel_J0_e, z) + (b_.high != 0 ? b_.high * value(gsl_sf_bessel_Y0_e, z) : 0.0);
+        return cylinder(0, w);
     }
 
     /// dy/dx, -1/lambda at the free end. Accuracy: as `shape`, times the largest slope.
@@ -202,13 +199,7 @@ class Mode {
         if (end_.is_far())
             return -std::sqrt(density(1, z) * density(2, end_.z) * (end_.z / z)) * (end_.z / z) *
                    std::cos(w - (lag(1, z) - lag(2, end_.z))) / height_;
-        if (cancels(z)) {
-            const detail::Cylinders f(place_ + w);
-            return -(a_ * f.J1 + b_ * f.Y1).high / (0.5 * z) / height_;
-        }
-        if (!(z > 0)) return -1 / height_;
-        const double second = b_.high != 0 ? b_.high * value(gsl_sf_bessel_Y1_e, z) : 0.0;
-        return -(a_.high * value(gsl_sf_bessel_J1_e, z) + second) / (0.5 * z) / height_;
+        return z > 0 ? -cylinder(1, w) / (0.5 * z) / height_ : -1 / height_;
     }
 
     /// (mode - 1) distances x where the chain crosses the axis, ascending: theta_0(z) - theta_2(z_0) = i pi, i < mode.
@@ -229,14 +220,20 @@ class Mode {
     }
 
    private:
-    static double value(int (*function)(double, gsl_sf_result*), double z) {
-        return analytic::detail::gsl_value(function, z);
-    }
     static double lag(int order, double z) { return detail::series(order).lag(z); }
     static double density(int order, double z) { return detail::series(order).density(z); }
 
-    /// Whether the two terms of the offset nearly cancel in double.
-    bool cancels(double z) const { return end_.z > 1 && z < 45; }
+    /// a J + b Y of order 0 or 1 at z_0 + w.
+    double cylinder(int order, double w) const {
+        const double z = end_.z + w;
+        if (end_.z > 1 && z < 45) {  // the two terms nearly cancel in double
+            const detail::Cylinders f(place_ + w);
+            return (order == 0 ? a_ * f.J0 + b_ * f.Y0 : a_ * f.J1 + b_ * f.Y1).high;
+        }
+        const double second =
+            b_.high != 0 ? b_.high * detail::gsl_value(order == 0 ? gsl_sf_bessel_Y0_e : gsl_sf_bessel_Y1_e, z) : 0.0;
+        return a_.high * detail::gsl_value(order == 0 ? gsl_sf_bessel_J0_e : gsl_sf_bessel_J1_e, z) + second;
+    }
 
     /// z - z_0 at x, without a difference.
     double apart_at(double x, std::string_view place) const {
