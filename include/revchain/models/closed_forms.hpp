@@ -44,7 +44,7 @@ struct ClosedForms {
         return answer;
     }
 
-    /// With lengths in the unit of the chain, a power of two.
+    /// Link m with its lengths in the unit of the chain, a power of two.
     static Link<double> link_in_unit(const Chain<double>& chain, Index m) {
         Link<double> link = chain.link(m);
         const int to_unit = -chain.units().length_exponent;
@@ -60,7 +60,7 @@ struct ClosedForms {
     static double turning_ratio(const Link<double>& link) { return static_cast<double>(link.gyration_ratio); }
 };
 
-/// One link at any inclination: lambda = l cos delta. Greenhill (1908) §1, §6. Error bound and cost as of
+/// One link at any inclination: lambda = l cos delta. Greenhill (1908) §1, §6. Error bound and cost are those of
 /// `ClosedForms`.
 struct ConicalPendulum {
     static constexpr std::string_view name = "conical pendulum";

@@ -14,9 +14,9 @@ namespace revchain::models {
 
 /// Groups of neighbouring links, each merged into one equivalent link that hangs between its two pins as the links
 /// would without inertia. That lowers every conical height, and by no more than the largest height that a group has
-/// between held pins (pencil/grouped.hpp): all heights are proved to lie between the coarse ones and those with
-/// that added. Groups are as long as the tolerance lets them be: short at the free end, long above. Heights of the
-/// coarse chain by bisection and two proved counts. Cost: 17 ns a link, and the coarse chain.
+/// between held pins (pencil/grouped.hpp). All heights are proved to lie between the coarse ones and the coarse ones
+/// plus that height. Groups are as long as the tolerance permits: short at the free end, long above. Heights of the
+/// coarse chain are found by bisection and proved by two counts. Cost: 17 ns a link, and the coarse chain.
 struct CoarseChain {
     static constexpr std::string_view name = "coarse chain";
 
@@ -29,7 +29,7 @@ struct CoarseChain {
             return Fit::no("as many groups as links, for that tolerance");
         return {};
     }
-    /// As asked: unlike links may need groups of one.
+    /// The tolerance asked for, which unlike links may need groups of one link to meet.
     double error_bound(const ChainKind&, const Question& question) const { return detail::goal(question); }
     double cost(const ChainKind& kind, const Question& question) const {
         const double attempts = 1 + std::clamp(kind.growth / 30, 0.0, 0.5);
@@ -68,7 +68,8 @@ struct CoarseChain {
     }
 
    private:
-    /// About the least height asked for: a wave's phase from end to end. Under a heavy tip the first mode has none.
+    /// Estimate of the least height asked for, from the phase of a wave from end to end. Under a heavy tip the first
+    /// mode has no wave.
     static double last_height(const ChainKind& kind, const Question& question) {
         const Index last = question.last();
         const bool heavy_tip = kind.tip_share > 0.5;
@@ -78,7 +79,8 @@ struct CoarseChain {
             phase / (heavy_tip && last > 1 ? std::numbers::pi * detail::real(last - 1) : zero_of_j0(last));
         return last == 1 ? std::max(kind.tilt, wave * wave) : wave * wave;
     }
-    /// A group of phase x has a height of x^2/6 between held ends at most, which may be 1.2 rtol of the least height.
+    /// Estimate of the number of groups. A group of phase x has a height of x^2/6 between held ends at most, which may
+    /// be 1.2 rtol of the least height.
     static double groups(const ChainKind& kind, const Question& question) {
         const double spread = 1.2 * std::max(detail::goal(question), 1e-30) * last_height(kind, question);
         const double each = std::sqrt(6 * spread);

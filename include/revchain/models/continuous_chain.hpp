@@ -10,10 +10,10 @@
 
 namespace revchain::models {
 
-/// The limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4 (9), (10). From how chains of N
-/// links tend to it, with J = J_1(j): the error bound of plummets, (1/2)/N and the terms of order 1/N^2; of rods what
-/// is taken off, (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4, and the bound of what that leaves, of the order log N/N^4
-/// (straight_links.hpp). Measured: tests/cpp/models/models.cpp, tapered.cpp. Cost: 5 ns a mode, of rods 30.
+/// The limit of many equal links: lambda = 4 L/j^2, j = j_{0,k}. Greenhill (1908) §4 (9), (10). The error bound follows
+/// from the limit of N links, with J = J_1(j). For plummets it is (1/2)/N and the terms of order 1/N^2. For rods
+/// (q (1/24 J^2 - 1/12) - 1/24)/N^2, q = j^2/4, is subtracted, and a bound of order log N/N^4 remains
+/// (straight_links.hpp). Measured: tests/cpp/models/models.cpp, tapered.cpp. Cost: 5 ns a mode, 30 for rods.
 struct ContinuousChain {
     static constexpr std::string_view name = "continuous chain";
 
@@ -27,8 +27,8 @@ struct ContinuousChain {
         return kind.rods && question.first == 1 ? std::max(bound, answer(kind, 1).error_bound) : bound;
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        return kind.rods ? 1.5e-7 + 2.8e-8 * static_cast<double>(question.count)
-                         : 1.2e-7 + 1.2e-8 * static_cast<double>(question.count);
+        return kind.rods ? 1.5e-7 + 2.8e-8 * detail::real(question.count)
+                         : 1.2e-7 + 1.2e-8 * detail::real(question.count);
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
         return answer_of_each(question, [&](Index k) { return answer(kind, k); });
@@ -36,7 +36,7 @@ struct ContinuousChain {
 
    private:
     static Enclosed answer(const ChainKind& kind, Index k) {
-        const double n = static_cast<double>(kind.size), j = zero_of_j0(k), half = j / 2;
+        const double n = detail::real(kind.size), j = zero_of_j0(k), half = j / 2;
         const double cord = kind.length / (half * half), rounding = 4 * epsilon<double>();
         if (kind.plummets) {
             const double share = j / n;  // the wave's phase from link to link at the support

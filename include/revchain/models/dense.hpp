@@ -8,10 +8,10 @@
 
 namespace revchain::models {
 
-/// What a textbook does: both matrices assembled, Cholesky and the symmetric QR algorithm for all modes. Assembling
-/// adds neighbouring stiffnesses up, which loses the slowest modes of long or unlike chains; how much is lost is proved
-/// by counts on the chain's elements, as for every other way. For comparison: it is never the cheapest. A header of its
-/// own: it takes seconds to compile. Cost: 1.4 ns N^3 or so.
+/// The textbook method, for comparison: both matrices assembled, Cholesky and the symmetric QR algorithm for all modes.
+/// Assembling adds neighbouring stiffnesses, which loses the slowest modes of long or unlike chains; counts on the
+/// chain's elements prove how much. It is never the cheapest, and a header of its own because it takes seconds to
+/// compile. Cost: about 1.4 ns N^3.
 struct Dense {
     static constexpr std::string_view name = "dense";
     static constexpr Index most_links = 300;
@@ -21,7 +21,7 @@ struct Dense {
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
         return {};
     }
-    /// Foreseen for like links, whose stiffness has a condition of about N^2; no bound of others.
+    /// Predicted for like links, whose stiffness has a condition of about N^2; no bound for others.
     double error_bound(const ChainKind& kind, const Question&) const {
         const double n = detail::real(kind.size);
         return 2e-16 * (6 + n) * (6 + n);

@@ -8,8 +8,8 @@
 
 namespace revchain::models {
 
-/// Bisection in double-double, for tolerances below what one can hold: `Answer::conical_height_low` is what the heights
-/// rounded to double leave. Bounds are proved, 1e-28 and more: they grow with N.
+/// Bisection in double-double, for tolerances that double cannot hold: `Answer::conical_height_low` is what rounding
+/// the heights to double leaves. Bounds are proved; they grow with N, from 1e-28 on.
 struct DoubleDoubleBisection {
     static constexpr std::string_view name = "double-double";
 
@@ -19,13 +19,13 @@ struct DoubleDoubleBisection {
             return Fit::no("double holds that tolerance");
         return {};
     }
-    /// Foreseen, as it was measured (N = 1 to 3000, ten kinds of chain); the answer's own is proved.
+    /// Predicted from measurements (N = 1 to 3000, ten kinds of chain); the bound of the answer is proved.
     double error_bound(const ChainKind& kind, const Question&) const {
-        const double n = static_cast<double>(kind.size);
+        const double n = detail::real(kind.size);
         return 1e-29 * (30 + n) * (10 + n);
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        return 2e-5 + static_cast<double>(kind.size) * (2e-6 + 1.2e-5 * static_cast<double>(question.count));
+        return 2e-5 + detail::real(kind.size) * (2e-6 + 1.2e-5 * detail::real(question.count));
     }
     Answer solve(const Chain<double>& chain, const ChainKind&, const Question& question) const {
         const auto wide = converted<DoubleDouble>(chain);

@@ -6,8 +6,8 @@
 
 namespace revchain::models {
 
-/// N equal plummets at distances a: a/lambda are the zeros of the Laguerre polynomial L_N, and of these, with j =
-/// j_{0,k} and nu = 4 N + 2, Tricomi's expansion (DLMF 18.16(v)) is taken four terms farther,
+/// N equal plummets at distances a: a/lambda are the zeros of the Laguerre polynomial L_N. Tricomi's expansion of them
+/// (DLMF 18.16(v)), with j = j_{0,k} and nu = 4 N + 2, is taken four terms farther,
 ///
 ///     (j^2/nu) (1 + (j^2 - 2)/(3 nu^2) + (11 j^4 - 57 j^2 + 94)/(45 nu^4) + ...),
 ///
@@ -26,14 +26,13 @@ struct EqualPlummets {
         return bound(terms(kind, question.last()));
     }
     double cost(const ChainKind&, const Question& question) const {
-        return 1.1e-7 + 2e-8 * static_cast<double>(question.count);
+        return 1.1e-7 + 2e-8 * detail::real(question.count);
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         return answer_of_each(question, [&](Index k) {
             const Terms t = terms(kind, k);
             const double half = zero_of_j0(k) / 2;
-            return Enclosed{chain.length()[0] * (static_cast<double>(kind.size) + 0.5) / (half * half) / t.sum,
-                            bound(t)};
+            return Enclosed{chain.length()[0] * (detail::real(kind.size) + 0.5) / (half * half) / t.sum, bound(t)};
         });
     }
 
@@ -41,7 +40,7 @@ struct EqualPlummets {
     struct Terms {
         double sum, last;
     };
-    static double nu(const ChainKind& kind) { return 4 * static_cast<double>(kind.size) + 2; }
+    static double nu(const ChainKind& kind) { return 4 * detail::real(kind.size) + 2; }
     static double bound(const Terms& terms) { return 2 * std::abs(terms.last) + 4 * epsilon<double>(); }
     static Terms terms(const ChainKind& kind, Index k) {
         const double j = zero_of_j0(k), p = j * j, e = 1 / (nu(kind) * nu(kind));

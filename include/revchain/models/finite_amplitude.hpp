@@ -7,9 +7,9 @@
 namespace revchain::models {
 
 /// The conical height at which the shape that grows out of a mode has its lowest link at a given inclination: the exact
-/// equations, along the branch. Bounds are estimates, from the shape's own: twice its inclinations' error over that of
-/// the lowest link, and 4 ulp. Cost: 8 microseconds a link and mode (bench_tradeoff: 2 to 1000 links, within a factor
-/// of 1.6).
+/// equations, along the branch. Bounds are estimates: twice the error of the shape's inclinations over the inclination
+/// of the lowest link, and 4 ulp. Cost: 8 microseconds a link and mode (bench_tradeoff: 2 to 1000 links, within a
+/// factor of 1.6).
 struct FiniteAmplitude {
     static constexpr std::string_view name = "finite amplitude";
     static constexpr bool is_linear = false;
@@ -24,7 +24,7 @@ struct FiniteAmplitude {
         return 1e-15 * (1 + 1 / std::max(question.inclination, 1e-30));
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        return static_cast<double>(question.count) * (6e-6 + 8.2e-6 * static_cast<double>(kind.size));
+        return detail::real(question.count) * (6e-6 + 8.2e-6 * detail::real(kind.size));
     }
     Answer solve(const Chain<double>& chain, const ChainKind& kind, const Question& question) const {
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};

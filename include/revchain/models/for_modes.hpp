@@ -15,7 +15,7 @@ namespace revchain::models {
 /// The last always answers.
 inline constexpr std::tuple<Aberth, Interpolated, Condensed, Bisection> for_full_accuracy{};
 
-/// Those among which it chooses for a tolerance.
+/// The models among which `modes` chooses for a tolerance.
 inline constexpr auto for_tolerance = std::tuple_cat(
     std::tuple<ClosedForms, EqualPlummets, ContinuousChain, TaperedChain, CoarseChain, SinglePrecision>{},
     for_full_accuracy);

@@ -16,25 +16,23 @@
 
 namespace revchain {
 
-/// What is asked of a chain: the conical heights of modes number `first`, ..., each to a relative tolerance; 0: as
-/// accurate as there is.
+/// The modes whose conical heights are wanted, and the relative tolerance of each height; 0: full accuracy.
 struct Question {
     Index first = 1;  ///< number of the slowest mode wanted, from 1
     Index count = 1;
     double rtol = 0;
-    double inclination = 0;  ///< of the lowest link, rad, below a right angle: of the shape that grows out of the mode
+    double inclination = 0;  ///< rad, below a right angle, of the lowest link of the shape that grows out of the mode
     Progress* progress = nullptr;
 
     Index last() const { return first - 1 + count; }
 };
 
-/// Heights and what bounds their relative errors.
+/// Heights and bounds of their relative errors.
 struct Answer {
     Vector<double> conical_height;
     Vector<double> error_bound;
-    /// Whether the model had an answer after all.
-    bool found = true;
-    Vector<double> conical_height_low{};  ///< what a double cannot hold of the heights; empty where it is not known
+    bool found = true;                    ///< false where the model turned out to have no answer
+    Vector<double> conical_height_low{};  ///< exact heights minus `conical_height`; empty where they are not known
     /// The heights before they were rounded, in units of 2^length_exponent of the chain: for shapes; may be empty.
     std::vector<Wide<double>> unrounded{};
 
@@ -44,8 +42,8 @@ struct Answer {
     }
 };
 
-/// The properties of a chain that the models need before they are asked. Cost O(log N). Equal links that are stored one
-/// by one are compared, which costs O(N).
+/// The properties of a chain from which a model is chosen. Cost O(log N), or O(N) where equal links are stored one by
+/// one, because they are compared.
 struct ChainKind {
     Index size = 0;
     Index mode_count = 0;
@@ -54,26 +52,25 @@ struct ChainKind {
     bool rods = false;            ///< equal uniform rods
     double length = 0;            ///< of the whole chain
     std::optional<double> taper;  ///< `Chain::taper`
-    // of the links looked at
+    // The next five are read from a sample of the links.
     bool centroids_below = true;   ///< none lies above its pin
     bool short_pendulums = false;  ///< all are plummets, or all pendulum lengths below the links'
     bool point_masses = true;      ///< all are plummets
     double long_pendulums = 0;     ///< share of links whose pendulum is longer than they, or whose centroid is above
-    // of unlike links, `least_sampled` and more
+    bool negative_pins = false;    ///< two neighbours carry so much weight beyond their pin that less than 0 is on it
+    // The rest is 0 for equal links, and for fewer unlike links than `least_sampled`.
     static constexpr Index least_sampled = 24;
-    bool negative_pins = false;  ///< of two neighbours looked at, so much weight lies beyond their pin that less than
-                                 ///< nothing is left on it
-    double growth = 0;  ///< log2 of what the upper half of the links weighs over what the lower does; 256 and more
-    Index light = 0;    ///< links at the top that weigh less than 2e-14 of what hangs below them, about
-    /// Up to 32 stretches of the chain, lowest first: the phase that a wave of conical height 1 passes through in each,
-    /// the integral of sqrt(dW ds / S), S the weight below.
+    double growth = 0;  ///< log2 of the weight of the upper half of at least 256 links over that of the lower half
+    Index light = 0;    ///< number of links at the top that weigh less than about 2e-14 of the weight below them
+    /// Phase of a wave of conical height 1 in each of up to 32 stretches of the chain, lowest first: the integral of
+    /// sqrt(dW ds / S), S the weight below.
     std::array<double, 32> phase{};
     Index stretches = 0;
     double links_per_stretch = 0;
     double tip_share = 0;      ///< weight of the lowest link over that of the chain
-    double greatest_pull = 0;  ///< largest S / W of a link, of means over stretches
-    double range = 0;          ///< mean of log2 of greatest_pull W / S
-    double tilt = 0;  ///< conical height of the chain turning as if it were one rigid link: less than the largest
+    double greatest_pull = 0;  ///< largest S / W of a link, from means over stretches
+    double range = 0;          ///< mean of log2(greatest_pull W / S)
+    double tilt = 0;           ///< conical height of the chain as one rigid link: less than its largest height
 
    private:
     template <class V>
@@ -82,7 +79,7 @@ struct ChainKind {
         return std::all_of(numbers, numbers + column.stored(), [&](const V& x) { return x == numbers[0]; });
     }
 
-    /// All of at most 100 links, of more a sample spread over the chain; of equal ones the first.
+    /// Reads one link of equal ones, all of up to 100 unlike links, and a sample spread over a longer chain.
     void look_at_links(const Chain<double>& chain) {
         const Index looked_at = equal ? 1 : size <= 100 ? size : 32;
         bool points = true, shorter = true;
@@ -108,7 +105,7 @@ struct ChainKind {
         const bool few = size < segment_size;
         const Index pieces = few ? size : (size - 1) / segment_size + 1, most = static_cast<Index>(phase.size());
         const Index step = ((pieces - 1) / most + 1) * (few ? 1 : segment_size);
-        const double tip = chain.weight()[0], total = static_cast<double>(chain.total_weight());
+        const double tip = chain.weight()[0], total = chain.total_weight();
         links_per_stretch = static_cast<double>(step), tip_share = tip / total;
         double below = 0, at = 0, inertia = 0, stiffness = 0, exponents = 0;
         for (Index first = 0; first < size; first += step, ++stretches) {
@@ -120,7 +117,7 @@ struct ChainKind {
             } else {
                 above = static_cast<double>(chain.weight_below(end));
             }
-            // the lowest link is a weight at the tip
+            // The lowest link counts as a weight at the tip.
             const double least = std::max(below, tip), weight = above - least, links = static_cast<double>(end - first);
             phase[static_cast<std::size_t>(stretches)] =
                 2 * std::sqrt(run * weight) / (std::sqrt(above) + std::sqrt(least));
@@ -133,7 +130,7 @@ struct ChainKind {
         range = std::log2(greatest_pull) - exponents / static_cast<double>(stretches);
         tilt = inertia / stiffness * length * length;
     }
-    /// As if they grew lighter upwards: a search among the sums at hand.
+    /// Searches the stored sums as if links grew lighter upwards.
     static Index light_links(const Chain<double>& chain) {
         const auto& below = chain.partial_weights();
         if (below.size() < 3) return 0;
@@ -158,7 +155,7 @@ struct ChainKind {
         if (!equal) {
             if (size >= segment_size) {
                 const double half = static_cast<double>(chain.weight_below(size / 2));
-                growth = std::log2(static_cast<double>(chain.total_weight()) / half - 1);
+                growth = std::log2(chain.total_weight() / half - 1);
             }
             light = light_links(chain);
             if (size >= least_sampled) look_at_stretches(chain);
@@ -170,12 +167,18 @@ struct ChainKind {
     }
 };
 
+namespace models::detail {
+inline double real(Index x) { return static_cast<double>(x); }
+/// 2 ulp: the relative error bound that the methods in double can prove for any chain.
+inline constexpr double full_accuracy = 2.001 * std::numeric_limits<double>::epsilon();
+}  // namespace models::detail
+
 /// A height and what bounds its relative error.
 struct Enclosed {
     double height, error_bound;
 };
 
-/// Whatever `enclosed(number)` says of every mode asked for.
+/// The answer that consists of `enclosed(number)` for every mode asked for.
 template <class F>
 Answer answer_of_each(const Question& question, const F& enclosed) {
     Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
@@ -186,7 +189,7 @@ Answer answer_of_each(const Question& question, const F& enclosed) {
     return answer;
 }
 
-/// Whether a model can answer, and if not why: a sentence that lives for ever.
+/// Whether a model can answer; if not, `reason` is a string literal that says why.
 struct Fit {
     bool applies = true;
     std::string_view reason{};
@@ -194,9 +197,9 @@ struct Fit {
     static Fit no(std::string_view why) { return {false, why}; }
 };
 
-/// One theory or method: whether it applies to a question, how large its error can be (relative, of every height asked
-/// for; a bound, before anything is computed), what it costs (seconds, predicted), and its answer, with the bounds
-/// reached.
+/// One theory or method. `applies` says whether it can answer a question. Before anything is computed, `error_bound`
+/// bounds the relative errors of all heights asked for, and `cost` predicts the time in seconds. `solve` returns the
+/// answer with the bounds reached.
 template <class M>
 concept Model = requires(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
     { M::name } -> std::convertible_to<std::string_view>;
@@ -206,7 +209,7 @@ concept Model = requires(const M& model, const Chain<double>& chain, const Chain
     { model.solve(chain, kind, question) } -> std::same_as<Answer>;
 };
 
-/// Whether a model is of the theory of small inclinations, as all are that do not say otherwise.
+/// Whether a model belongs to the theory of small inclinations: `M::is_linear`, or true where a model does not say.
 template <class M>
 constexpr bool is_linear() {
     if constexpr (requires { M::is_linear; })

@@ -35,12 +35,11 @@ inline Answer answered(const Chain<double>& chain, const std::optional<revchain:
     return answer;
 }
 
-inline double real(Index x) { return static_cast<double>(x); }
-
-/// Heights are proved to a half at least.
+/// The tolerance asked for, but at most 1/2: every height is proved at least to a half.
 inline double goal(const Question& question) { return std::min(question.rtol, 0.5); }
 
-/// Of bisection without double words, for each link: passes over all links for each digit, and a proof a mode.
+/// Seconds for each link of bisection without double words: passes over all links for each digit, and one proof for
+/// each mode.
 inline double loose_cost(double rtol, Index count, double pass) {
     const double digits = std::max(0.0, -std::log10(rtol));
     const double each = count == 1 ? 1.05 : count == 2 ? 1.6 : 3.3 * std::ceil(real(count) / 8);
@@ -49,7 +48,7 @@ inline double loose_cost(double rtol, Index count, double pass) {
 }  // namespace detail
 
 /// Counts in single precision, eight to a register, and two of each height in double for the proof: loose tolerances.
-/// Bound foreseen: what was found to be proved (tests/cpp/models/models.cpp).
+/// The predicted bound is one that was always proved in tests/cpp/models/models.cpp.
 struct SinglePrecision {
     static constexpr std::string_view name = "single precision";
 
@@ -75,11 +74,10 @@ struct SinglePrecision {
 /// Halving between counts, one mode after the other: any chain, any modes, to the tolerance or 2 ulp.
 struct Bisection {
     static constexpr std::string_view name = "bisection";
-    static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind&, const Question&) const { return {}; }
     double error_bound(const ChainKind& kind, const Question& question) const {
-        return is_loose(kind, question) ? detail::goal(question) : bound;
+        return is_loose(kind, question) ? detail::goal(question) : detail::full_accuracy;
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count);
@@ -97,7 +95,7 @@ struct Bisection {
     }
 
    private:
-    /// Where counts in double suffice, no digit more than asked is found.
+    /// Whether counts in double suffice. No more digits than asked for are then computed.
     static bool is_loose(const ChainKind& kind, const Question& question) {
         return detail::goal(question) > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);
     }
@@ -107,14 +105,13 @@ struct Bisection {
 /// to nothing beside what hangs below them join one by one.
 struct Condensed {
     static constexpr std::string_view name = "condensed";
-    static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (kind.size < 256) return Fit::no("fewer than 256 links");
         if (question.last() > kind.size / 8) return Fit::no("more than an eighth of the modes");
         return {};
     }
-    double error_bound(const ChainKind&, const Question&) const { return bound; }
+    double error_bound(const ChainKind&, const Question&) const { return detail::full_accuracy; }
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count), skipped = detail::real(question.first - 1);
         // Long pendulums are not condensed. Light links above leave little to condense. Light links below, and modes of
@@ -134,9 +131,9 @@ struct Condensed {
     }
 };
 
-/// All modes of a small chain at once in SIMD lanes. Plummets, or links whose pendulum length is less than their
-/// length: others are found out at once, as those of whom 1e-14 or the tolerance cannot be proved. Bound foreseen: that
-/// of most chains; of looser tolerances up to 3e-11 was found to be proved of links far apart.
+/// All modes of a small chain at once in SIMD lanes, for plummets and for links whose pendulum length is less than
+/// their length. Other chains, and those for which 1e-14 or the tolerance cannot be proved, are refused at once. The
+/// predicted bound holds for most chains; with looser tolerances, up to 3e-11 was proved for links far apart.
 struct Aberth {
     static constexpr std::string_view name = "aberth";
     static constexpr double bound = 1e-14;
@@ -145,8 +142,8 @@ struct Aberth {
         if (kind.size > 100) return Fit::no("more than 100 links");
         if (!kind.short_pendulums) return Fit::no("pendulums as long as their links or longer, or of two kinds");
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
-        // Measured with one heavy tip and weights graded from the tip up: numbers then leave the range of double.
-        // Chains of few links find that out in less time than it takes to foresee it.
+        // Limits measured with one heavy tip and with weights graded from the tip up, where numbers leave the range of
+        // double. For chains of few links, trying costs less time than predicting that.
         if (kind.equal || kind.size < ChainKind::least_sampled) return {};
         const double n = detail::real(kind.size);
         const bool far_apart =
@@ -168,11 +165,11 @@ struct Aberth {
     }
 };
 
-/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. Foreseen as that of
-/// `Aberth`.
+/// The characteristic polynomial interpolated: many modes, to the last digit or 1e-14. As for `Aberth`, the predicted
+/// bound holds for most chains.
 struct Interpolated {
     static constexpr std::string_view name = "interpolated";
-    static constexpr double fine = 2.001 * std::numeric_limits<double>::epsilon(), loose = 1e-14;
+    static constexpr double loose = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (kind.size < 12) return Fit::no("fewer than 12 links");
@@ -181,7 +178,7 @@ struct Interpolated {
         return {};
     }
     double error_bound(const ChainKind&, const Question& question) const {
-        return question.rtol >= loose ? loose : fine;
+        return question.rtol >= loose ? loose : detail::full_accuracy;
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double each = question.rtol >= loose ? 2.5e-9 : 5e-9;

@@ -14,7 +14,7 @@
 
 namespace revchain {
 
-/// What is known of a model before it is asked.
+/// A model's properties for one question, before it is solved.
 struct Estimate {
     std::string_view name;
     Fit fit;
@@ -22,8 +22,8 @@ struct Estimate {
     double cost = std::numeric_limits<double>::infinity();         ///< seconds, predicted
 };
 
-/// What `select` chose: `model` is an index into `estimates`, past the last where none applies. `meets_tolerance`
-/// false: none does (within the budget), and this is the most accurate.
+/// The choice of `select`: `model` is an index into `estimates`, past the last where none applies. Where
+/// `meets_tolerance` is false, no model within the budget meets it, and this is the most accurate.
 template <std::size_t N>
 struct Choice {
     std::array<Estimate, N> estimates;
@@ -31,7 +31,7 @@ struct Choice {
     bool meets_tolerance = false;
 };
 
-/// An answer and who gave it.
+/// An answer and the name of the model that gave it.
 struct Solution {
     Answer answer;
     std::string_view model;
@@ -53,8 +53,10 @@ inline void check(const ChainKind& kind, const Question& question) {
         throw_invalid("select", "inclination must be at least 0 and less than a right angle", question.inclination);
 }
 
-/// The tolerance to be kept; where none is said, what any chain's heights can be had to in double: 2 ulp.
-inline double goal(const Question& question) { return question.rtol > 0 ? question.rtol : 2.001 * epsilon<double>(); }
+/// The tolerance to be kept: the one asked for, or full accuracy.
+inline double goal(const Question& question) {
+    return question.rtol > 0 ? question.rtol : models::detail::full_accuracy;
+}
 
 template <Model M>
 Estimate estimate(const M& model, const ChainKind& kind, const Question& question) {
@@ -78,7 +80,7 @@ std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& m
         models);
 }
 
-/// Of those left: the cheapest that keeps the tolerance, else the most accurate, the cheaper of equals.
+/// The cheapest model, of those not `out`, that keeps the tolerance, else the most accurate, the cheaper of equals.
 template <std::size_t N>
 std::optional<std::size_t> best(const std::array<Estimate, N>& estimates, const std::array<bool, N>& out, double rtol,
                                 double budget) {
@@ -105,7 +107,7 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
         if (i++ != number) return;
         answer = model.solve(chain, kind, question);
         constexpr double least = std::numeric_limits<double>::denorm_min();
-        for (Index j = 0; j < answer.conical_height.size(); ++j)  // what a number below the normal ones cannot hold
+        for (Index j = 0; j < answer.conical_height.size(); ++j)  // a number below the normal ones holds fewer digits
             if (!(answer.conical_height[j] >= std::numeric_limits<double>::min()))
                 answer.error_bound[j] += 4 * least / std::max(0.0, answer.conical_height[j]);
             else if (!std::isfinite(answer.conical_height[j]))
@@ -120,11 +122,10 @@ Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chai
 
 }  // namespace detail
 
-/// Which model answers: the cheapest whose bound keeps the tolerance; with a `time_budget` in seconds the most accurate
-/// within it if none does both, and the cheapest, which then does not meet the tolerance, if none is as cheap. Cost:
-/// 0.2 microseconds; no link is looked at.
-/// Throws InvalidArgument for modes that are not there, a tolerance that is negative or NaN, a budget that is not
-/// positive.
+/// Chooses the cheapest model whose bound keeps the tolerance. With a `time_budget` in seconds it must be within that
+/// too; if none is, the choice is the most accurate within the budget, or else the cheapest. Cost: 0.2 microseconds; no
+/// link is read. Throws InvalidArgument for modes that do not exist, a tolerance that is negative or NaN, and a budget
+/// that is not positive.
 template <Model... Models>
 Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const ChainKind& kind, const Question& question,
                                  std::optional<double> time_budget = std::nullopt) {
@@ -133,7 +134,7 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
     Choice<sizeof...(Models)> choice{detail::estimates(models, kind, question), 0, false};
     const double budget = time_budget.value_or(std::numeric_limits<double>::infinity());
     auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, detail::goal(question), budget);
-    if (!chosen)  // nothing is as cheap: the cheapest there is
+    if (!chosen)  // no model is within the budget
         for (std::size_t i = 0; i < sizeof...(Models); ++i)
             if (choice.estimates[i].fit.applies &&
                 (!chosen || choice.estimates[i].cost < choice.estimates[*chosen].cost))
@@ -149,11 +150,10 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
     return select(models, ChainKind(chain), question, time_budget);
 }
 
-/// The heights asked for, by the model chosen. One that finds that it has no answer after all, or a worse bound than it
-/// foresaw and than is asked for, is left out and the next one asked. Status `tolerance_not_met` where nothing keeps
-/// the tolerance (within the budget); the bounds are then the best there are. Without any answer there are no heights:
-/// of unlike links without inertia at an inclination, where no model applies, or of a model list without one that
-/// always has one.
+/// The heights asked for, by the model chosen. Where a model turns out to have no answer, or a worse bound than
+/// predicted and asked for, the next best is tried. The status is `tolerance_not_met` where no model within the budget
+/// keeps the tolerance; the bounds are then the best available. There are no heights where no model applies, as for
+/// unlike links without inertia at an inclination, and where none of the list has an answer.
 template <Model... Models>
 Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, const Question& question,
                std::optional<double> time_budget = std::nullopt) {
@@ -177,8 +177,8 @@ Solution solve(const std::tuple<Models...>& models, const Chain<double>& chain, 
     return best;
 }
 
-/// By the model of that name, whatever others would cost. No heights, and `tolerance_not_met`, where it does not apply
-/// or finds no answer; that status, too, where its bound is larger than the tolerance.
+/// The heights by the model of that name, whatever others would cost. There are no heights where it does not apply or
+/// finds no answer. The status is then `tolerance_not_met`, as it is where the bound exceeds the tolerance.
 /// Throws InvalidArgument as `select`, and for a name that no model has.
 template <Model... Models>
 Solution solve_by(const std::tuple<Models...>& models, std::string_view model, const Chain<double>& chain,

@@ -7,8 +7,8 @@
 #include "revchain/models/model.hpp"
 #include "revchain/numeric/bessel_ratio.hpp"
 
-/// How the heights of N equally long links, cut out of a cord whose line density is as x^p, fall short of the cord's.
-/// Links are the cord held straight piece by piece, so that each height is below the cord's (Rayleigh, Ritz):
+/// Heights of N equally long links, cut out of a cord whose line density is as x^p. The links are the cord held
+/// straight piece by piece, so that each height is below the cord's (Rayleigh, Ritz):
 ///
 ///     cord/chain = 1 + c/N^2 (1 - d),   c = j^2 I/(24 J^2),   J = J_{p+1}(j),   I = int_0^j J_{p+2}(t)^2 dt/t,
 ///
@@ -30,8 +30,8 @@ inline double second_order(double exponent, double zero) {
     return zero * zero / 48 * (sum / (order + 1) / here / here);
 }
 
-/// A bound of d from the length of a link over the height, `share`; measured: 0.94 of it at most for exponents from
-/// -0.98 to 100, N = 2 k and more (tests/cpp/models/tapered.cpp).
+/// A bound of d from `share`, the length of a link over the height. Measured: d is at most 0.94 of it for exponents
+/// from -0.98 to 100 and N >= 2 k (tests/cpp/models/tapered.cpp).
 inline double next_order(double exponent, Index mode, double share) {
     const double u = std::min(share, 1.0), q = exponent + 1;
     const double end = exponent == 0 ? -std::log(u) : -std::expm1(exponent * std::log(u)) / exponent;
@@ -42,8 +42,8 @@ inline double next_order(double exponent, Index mode, double share) {
     return std::min(1.0, 1.15 * x / (1 + x));
 }
 
-/// The middle of the interval left open, and half its width relative to the middle. `cord`: height of the cord to
-/// within `rounding`, `lost`: c/N^2 to 1e-9, `next`: of d.
+/// The middle of the interval that holds the height, and half its width relative to the middle. `cord` is the height of
+/// the cord to within `rounding`, `lost` is c/N^2 to 1e-9, `next` a bound of d.
 inline Enclosed enclosed(double cord, double lost, double next, double rounding) {
     const double most = lost * (1 + 1e-9), least = lost * (1 - 1e-9) * (1 - next);
     const double middle = (most + least) / 2, half = (most - least) / 2;

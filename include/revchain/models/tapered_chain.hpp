@@ -9,10 +9,10 @@
 
 namespace revchain::models {
 
-/// Chains made by `Chain::tapered`: the cord that they are cut from, lambda = 4 (p+1) L/j^2, j = j_{p,k}, Greenhill
-/// (1908) §4, and what its links being straight takes away, to the order 1/N^2 (straight_links.hpp). Error bound: half
-/// of how much the next order can be, and roundings. Measured: tests/cpp/models/tapered.cpp. Cost: 1 to 5 microseconds
-/// a mode at first, less far out.
+/// Chains made by `Chain::tapered`: the height of the cord that they are cut from, lambda = 4 (p+1) L/j^2, j = j_{p,k},
+/// Greenhill (1908) §4, less what straight links take away, to the order 1/N^2 (straight_links.hpp). Error bound: half
+/// of a bound of the next order, and roundings. Measured: tests/cpp/models/tapered.cpp. Cost: 1 to 5 microseconds for
+/// each of the first modes, less for later ones.
 struct TaperedChain {
     static constexpr std::string_view name = "tapered chain";
 
@@ -30,10 +30,10 @@ struct TaperedChain {
         return question.first == 1 && k > 1 ? std::max(bound, foreseen(kind, p, 1)) : bound;
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        const double p = *kind.taper, first = static_cast<double>(question.first);
-        // nearer than the phase series serve, Bessel functions by recurrence
+        const double p = *kind.taper, first = detail::real(question.first);
+        // Modes before number `series` need Bessel functions by recurrence.
         const double series = std::max(30.0, 8 * p) / std::numbers::pi + 0.25 - p / 2;
-        const double count = static_cast<double>(question.count), near = std::clamp(series - first + 1, 0.0, count);
+        const double count = detail::real(question.count), near = std::clamp(series - first + 1, 0.0, count);
         const auto steps = [&](double k) {
             const double turns = std::numbers::pi * k;
             return 12 + turns + 10 * std::cbrt(std::max(0.0, p) + turns);
@@ -42,7 +42,7 @@ struct TaperedChain {
                (count - near) * (1.5e-7 + 2.2e-9 * steps(first + near + (count - near) / 2));
     }
     Answer solve(const Chain<double>&, const ChainKind& kind, const Question& question) const {
-        const double p = *kind.taper, n = static_cast<double>(kind.size);
+        const double p = *kind.taper, n = detail::real(kind.size);
         const ZerosOfJ zeros(p);
         return answer_of_each(question, [&](Index k) {
             const double j = zeros(k), half = j / 2, cord = (p + 1) * (kind.length / half / half);
@@ -54,28 +54,29 @@ struct TaperedChain {
    private:
     /// Length of a link over the height of the cord.
     static double share(const ChainKind& kind, double p, double j) {
-        return j * j / (4 * (p + 1) * static_cast<double>(kind.size));
+        return j * j / (4 * (p + 1) * detail::real(kind.size));
     }
-    /// Of the zero, of this, and of the links: three roundings in each stiffness and mass; where almost all weight is
-    /// in the lowest link its radius of gyration is the small difference of two lengths.
+    /// Rounding errors of the zero, of this function, and of the links: three in each stiffness and mass. Where almost
+    /// all weight is in the lowest link, its radius of gyration is the small difference of two lengths.
     static double rounding(double p) { return epsilon<double>() * (6 + (p < 0 ? 1 / std::sqrt(p + 1) : 1)); }
 
-    /// The bound before the zero is known: from above, with no Bessel function.
+    /// The error bound before the zero is known, from above and without Bessel functions.
     static double foreseen(const ChainKind& kind, double p, Index k) {
-        const double n = static_cast<double>(kind.size), j = zero_at_most(p, k);
+        const double n = detail::real(kind.size), j = zero_at_most(p, k);
         const double lost = second_order_at_most(p, k, j) / (n * n);
         return detail::enclosed(1, lost, detail::next_order(p, k, share(kind, p, j)), rounding(p)).error_bound *
                (1 + 1e-12);
     }
     /// |a_k|, the k-th zero of Ai, to within 2e-3 from above: DLMF 9.9.18, one correction.
     static double airy_zero(Index k) {
-        const double t = 3 * std::numbers::pi / 8 * (4 * static_cast<double>(k) - 1);
+        const double t = 3 * std::numbers::pi / 8 * (4 * detail::real(k) - 1);
         return std::cbrt(t * t) * (1 + 5.0 / 48 / (t * t));
     }
-    /// McMahon's leading term, from above for |p| > 1/2, with the next for smaller ones (DLMF 10.21.19); j^2 <= 4
-    /// (p+1)(p+2), of Rayleigh's sums, near -1; Qu and Wong's bound (doi:10.1090/S0002-9947-99-02165-0) for large p.
+    /// An upper bound of j_{p,k}: McMahon's leading term, for |p| <= 1/2 with the next one (DLMF 10.21.19);
+    /// j^2 <= 4 (p+1)(p+2) from Rayleigh's sums, near -1; Qu and Wong's bound (doi:10.1090/S0002-9947-99-02165-0) for
+    /// large p.
     static double zero_at_most(double p, Index k) {
-        const double beta = std::numbers::pi * (static_cast<double>(k) + p / 2 - 0.25);
+        const double beta = std::numbers::pi * (detail::real(k) + p / 2 - 0.25);
         double j = std::abs(p) <= 0.5 ? beta + (1 - 4 * p * p) / (8 * beta) : beta;
         if (p < 0 && k == 1) j = std::min(j, 2 * std::sqrt((p + 1) * (p + 2)));
         if (p > 0.5) {
@@ -84,10 +85,10 @@ struct TaperedChain {
         }
         return j * (1 + 4 * epsilon<double>());
     }
-    /// c with 1/J^2 < (pi j/2)/sqrt(1 - p^2/j^2), without the root for |p| < 1/2 (Watson, §13.74: z (J^2 + Y^2)), and I
-    /// <= arccos(p/j)/(pi (p + 2)), I <= 1/(2 (p + 2)) for p < 0; and c <= 0.09 (p + 1)^2 of the first mode. The last
-    /// two of p > 0 are measured, to be 1.06 to 2.2 of c (bounds so foreseen: up to twice those found,
-    /// tests/cpp/models/tapered.cpp).
+    /// An upper bound of c, from 1/J^2 < (pi j/2)/sqrt(1 - p^2/j^2), without the root for |p| < 1/2 (Watson, §13.74:
+    /// z (J^2 + Y^2)), and I <= arccos(p/j)/(pi (p + 2)), I <= 1/(2 (p + 2)) for p < 0. For the first mode
+    /// c <= 0.09 (p + 1)^2. The last two are measured for p > 0: they give 1.06 to 2.2 of c, and error bounds up to
+    /// twice those of the answer (tests/cpp/models/tapered.cpp).
     static double second_order_at_most(double p, Index k, double j) {
         const double first = 0.09 * (p + 1) * (p + 1);
         if (p < 0 && k == 1) return first;
@@ -96,7 +97,7 @@ struct TaperedChain {
             const double ratio = p / (p + (airy_zero(k) - 0.01) * std::cbrt(p / 2));  // j from below, Qu and Wong
             inverse /= std::sqrt((1 - ratio) * (1 + ratio));
         } else if (p < -0.5) {
-            const double ratio = p / (std::numbers::pi * (static_cast<double>(k) - 0.75));  // j_{-1,k} > ..., k > 1
+            const double ratio = p / (std::numbers::pi * (detail::real(k) - 0.75));  // j_{-1,k} > ..., k > 1
             inverse /= std::sqrt((1 - ratio) * (1 + ratio));
         }
         const double part = (p > 0 ? std::acos(p / j) / std::numbers::pi : 0.5) / (p + 2);

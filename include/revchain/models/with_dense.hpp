@@ -6,7 +6,7 @@
 
 namespace revchain {
 
-/// `height_models`, and what no one chooses but some compare with: `models::Dense`, which takes seconds to compile.
+/// `height_models` and, for comparison, `models::Dense`, which takes seconds to compile.
 /// `select(height_models_with_dense, ...)`, `solve(...)`, `solve_by(...)`.
 inline constexpr auto height_models_with_dense = std::tuple_cat(height_models, std::tuple<models::Dense>{});
 

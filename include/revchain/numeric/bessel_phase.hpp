@@ -30,7 +30,7 @@ class PhaseSeries {
         }
     }
 
-    /// Where the series may begin to be used.
+    /// The least z for which the series are accurate.
     static double first(double order) { return std::max(30.0, 8 * order); }
 
     double lag(double z) const { return sum(lag_, 1 / z / z) / z; }

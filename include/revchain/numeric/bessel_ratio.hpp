@@ -8,7 +8,7 @@
 
 namespace revchain::detail {
 
-/// How many orders above `order` Miller's recurrence begins: what is left out is 1e-20 and less.
+/// The number of orders above `order` at which Miller's recurrence begins; it leaves out at most 1e-20.
 inline Index steps_above(double order, double z) {
     return static_cast<Index>(std::max(0.0, z - order) + 9 * std::cbrt(std::max(z, 1.0)) + 12);
 }

@@ -5,7 +5,7 @@
 
 namespace revchain {
 
-/// Sum of numbers, or of packs lane by lane, in two words: what rounding takes from the first is added to the second.
+/// Sum of numbers, or of packs lane by lane, in two words: the second is the sum of the rounding errors of the first.
 /// Relative error of n terms of one sign: u + (n u)^2, u = epsilon/2.
 template <Word V>
 struct CompensatedSum {
@@ -16,7 +16,7 @@ struct CompensatedSum {
         high = total.high;
         low += total.low;
     }
-    /// The same where x is no larger than what there is, or the first.
+    /// Adds x where |x| <= |high|, or where it is the first number.
     [[gnu::always_inline]] void add_smaller(const V& x) {
         const DoubleWord<V> total = fast_two_sum(high, x);
         high = total.high;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-// All that the library needs of a compiler beyond the standard, and what stands in for it elsewhere. (Unknown pragmas
-// and attributes with a namespace, as [[gnu::always_inline]], are standard: compilers ignore them.)
+// Compiler extensions that the library uses, and replacements for compilers without them. (Unknown pragmas and
+// attributes with a namespace, such as [[gnu::always_inline]], are standard: compilers ignore them.)
 
 /// Define REVCHAIN_NO_VECTOR_EXTENSIONS, for a whole program, to make packs of plain arrays instead of the vector types
 /// of GCC and Clang (simd/registers.hpp). Compilers without those types get arrays anyway.
@@ -19,12 +19,11 @@
 
 namespace revchain::detail {
 
-/// x itself. The compiler must not fuse the operation that computed x with the one
-/// that uses it. Error-free transformations need this: GCC fuses a product with every sum that uses it, also across
-/// functions that it inlines into one compiled for a processor with fused operations. Clang fuses within one
-/// expression, and under -ffp-contract=fast only a product that is used once: the transformations use each argument
-/// more than once.
-/// Any other compiler must not fuse across statements: MSVC does not, unless /fp:contract or /fp:fast tells it to.
+/// x itself. The compiler must not fuse the operation that computed x with the one that uses it. Error-free
+/// transformations need this: GCC fuses a product with every sum that uses it, also across functions that it inlines
+/// into one compiled for a processor with fused operations. Clang fuses within one expression, and under
+/// -ffp-contract=fast only a product that is used once; the transformations use each argument more than once. Other
+/// compilers must not fuse across statements: MSVC does so only under /fp:contract or /fp:fast.
 template <class T>
 [[gnu::always_inline]] constexpr T unfused(const T& x) {
 #if defined(__clang__) || !defined(__GNUC__)

@@ -5,7 +5,7 @@
 
 #include "revchain/numeric/compiler.hpp"
 
-// Whether there is an instruction set to choose at run time: the flags do not name the largest one already.
+// Defined where an instruction set is to be chosen at run time: the flags do not name the largest one already.
 #if defined(REVCHAIN_DISPATCH) && defined(__x86_64__) && !defined(REVCHAIN_NO_VECTOR_EXTENSIONS) && \
     !(defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
 #define REVCHAIN_SEVERAL_TARGETS
@@ -13,7 +13,7 @@
 
 namespace revchain {
 
-/// How large the SIMD registers are that a piece of code is compiled for, and whether it may fuse products with sums.
+/// The size of the SIMD registers that code is compiled for, and whether it may fuse products with sums.
 template <std::size_t Bytes, bool Fused>
 struct Registers {
     static constexpr bool fused = Fused;
@@ -69,8 +69,8 @@ inline Processor processor() {
 /// of one for the machine, and takes twice as long to compile. The Python module and revchain::compiled are built that
 /// way. Another kind of processor may change last digits (products and sums are fused where the compiler may do so).
 ///
-/// f and all it calls that handles packs have to be always_inline: what is not stays code for the oldest processor, and
-/// packs must not be handed across that border by value.
+/// f and everything it calls that handles packs must be always_inline. Other functions stay code for the oldest
+/// processor, and packs must not be passed to them by value.
 template <class F>
 auto simd(const F& f) {
 #if defined(REVCHAIN_SEVERAL_TARGETS)

@@ -17,7 +17,8 @@ namespace revchain {
 /// larger than `operation_error<DoubleWord<T>>()`, which leaves a factor of two for compilers that contract a product
 /// and a sum into one fused operation. Valid while no low part underflows.
 /// Algorithms: Joldes, Muller, Popescu (2017), doi:10.1145/3121432, numbers 4, 6, 9, 12, 15, 17.
-/// Own type because no header-only library that is kept up offers one without Boost: the core needs Eigen alone.
+/// It is a type of its own because no maintained header-only library offers one without Boost; the core needs only
+/// Eigen.
 template <Word T>
 struct DoubleWord {
     static_assert(std::numeric_limits<Lane<T>>::is_iec559, "double words need correctly rounded sums");
@@ -69,10 +70,10 @@ inline constexpr bool has_fast_fma =
 }  // namespace detail
 
 /// x y = high + low exactly, while x y 2^-digits is normal and |x|, |y| are below half the largest number.
-/// With `fused` by one fused multiply-add, which must be fast where this is compiled; else by Dekker's product. (A
-/// library call of fma costs more.) Without `fused` the result is right on every target: the halves of float and double
+/// `fused` uses one fused multiply-add, which must be an instruction of the target: a library call costs more than
+/// Dekker's product, which is used otherwise. Dekker's product is right on every target: the halves of float and double
 /// are cut from the bits, so all their products are exact, and fusing them with sums changes nothing. Veltkamp's split,
-/// which would not survive fusing, serves long double alone.
+/// which fusing would spoil, serves long double alone.
 template <bool fused, Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     const T p = detail::rounded(T(x * y));
@@ -89,7 +90,7 @@ template <bool fused, Word T>
     }
 }
 
-/// The same, fused where the whole program is compiled for a machine that has it.
+/// x y = high + low, fused where the whole program is compiled for a machine with fused multiply-add.
 template <Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     return two_product<detail::has_fast_fma<Lane<T>>, T>(x, y);

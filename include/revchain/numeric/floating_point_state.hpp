@@ -5,8 +5,8 @@
 
 namespace revchain {
 
-/// While this lives, nothing raises a floating-point flag or traps: for code whose infinities and NaNs are answers
-/// ("nothing proved") and none of the caller's business.
+/// While this lives, no floating-point flag is raised and nothing traps: for code in which infinities and NaNs are
+/// valid results ("nothing proved").
 class FloatingPointStateGuard {
    public:
     FloatingPointStateGuard() { std::feholdexcept(&before_); }

@@ -5,12 +5,12 @@
 
 #include "revchain/numeric/double_word.hpp"
 
-/// Numbers known to lie between two others: what a proof computes with.
+/// Interval arithmetic for proofs.
 ///
-/// Every result is rounded to nearest and then widened by three times what an operation may be off, so that it holds in
-/// any rounding mode's absence, with or without contraction. Libraries that switch the rounding mode (Boost.Numeric.
-/// Interval) need -frounding-math in whatever program includes them, which a header-only library cannot ask for; the
-/// digit and a half that widening costs is returned by wider numbers where it matters.
+/// Every result is rounded to nearest and then widened by three times the error of one operation, so that it holds
+/// without directed rounding, with or without contraction. Libraries that switch the rounding mode (Boost.Numeric.
+/// Interval) need -frounding-math in the program that includes them, which a header-only library cannot ask for. Where
+/// the digit and a half that widening costs matters, wider numbers are used.
 namespace revchain {
 
 /// low <= number <= high. NaN where nothing is known (an overflow), so that comparisons with it decide nothing.
@@ -24,7 +24,7 @@ struct Interval {
 
     bool positive() const { return low > T(0); }
     bool negative() const { return high < T(0); }
-    /// Also where nothing is known.
+    /// True also where nothing is known.
     bool may_vanish() const { return !(positive() || negative()); }
     bool contains(const T& x) const { return low <= x && x <= high; }
     /// 1 or -1, or 0 where it may vanish.
@@ -48,7 +48,7 @@ namespace detail {
 template <Real T>
 inline constexpr auto underflow = 16 * std::numeric_limits<T>::denorm_min();
 
-/// Not above, and not below, what was rounded to x.
+/// Bounds, from below and from above, of the exact result that was rounded to x.
 template <Real T>
 T down(const T& x) {
     using std::abs;
@@ -60,8 +60,8 @@ T up(const T& x) {
     return x + (abs(x) * (T(3) * operation_error<T>()) + underflow<T>);
 }
 
-/// Quotients and roots of two words lose digits where the number they divide or take the root of is below 2^-960: an
-/// interval that holds x, its ends 0 or not so small. Other scalars are rounded correctly.
+/// An interval that holds x, with ends that are 0 or at least 2^-960. Quotients and roots of smaller double words lose
+/// digits. Other scalars are rounded correctly.
 template <Real T>
 Interval<T> without_faint_ends(const Interval<T>& x) {
     if constexpr (std::numeric_limits<T>::is_iec559) {
@@ -119,7 +119,7 @@ Interval<T> square(const Interval<T>& x) {
     const T low = x.may_vanish() ? T(0) : std::min(a, b);
     return {std::max(T(0), detail::down(T(low * low))), detail::up(T(high * high))};
 }
-/// Of what is not negative.
+/// The root of a number that is not negative.
 template <Real T>
 Interval<T> sqrt(const Interval<T>& radicand) {
     using std::sqrt;
@@ -127,7 +127,7 @@ Interval<T> sqrt(const Interval<T>& radicand) {
     return {std::max(T(0), detail::down(T(sqrt(std::max(T(0), x.low))))), detail::up(T(sqrt(x.high)))};
 }
 
-/// Of two that hold the same number, what they agree on.
+/// The intersection of two intervals that hold the same number.
 template <Real T>
 Interval<T> common(const Interval<T>& x, const Interval<T>& y) {
     return {x.low > y.low || !(y.low == y.low) ? x.low : y.low,

@@ -7,10 +7,10 @@
 
 namespace revchain {
 
-/// What a long computation shares with another thread: how far it is, and whether it should stop.
+/// State that a long computation shares with another thread: its progress, and whether it should stop.
 class Progress {
    public:
-    /// From 0 to 1; a hint, not a promise about time.
+    /// Part of the work that is done, 0 to 1: a hint, not a promise about time.
     double fraction() const { return fraction_.load(std::memory_order_relaxed); }
     void report(double fraction) { fraction_.store(fraction, std::memory_order_relaxed); }
     /// The computation throws `Cancelled` at its next look.
@@ -24,13 +24,13 @@ class Progress {
 
 namespace detail {
 /// A function that a program may set before it computes. Every loop that can take longer than 0.1 s calls it at least
-/// so often, on the thread that runs it. What it throws ends the computation and reaches the caller.
+/// every 0.1 s, on the thread that runs the loop. An exception from it ends the computation and reaches the caller.
 inline std::atomic<void (*)()> interrupt = nullptr;
 inline void look() {
     if (void (*const call)() = interrupt.load(std::memory_order_relaxed)) call();
 }
 
-/// Nothing where nobody looks on.
+/// Calls `look` and reports the fraction to `progress`, if there is one. Throws Cancelled if that was cancelled.
 inline void advance(Progress* progress, double fraction) {
     look();
     if (progress == nullptr) return;

@@ -10,8 +10,8 @@
 
 namespace revchain {
 
-/// A wrong call: function, sentence and value, as in "revchain::Chain: link 3: length must be positive, got -0.5".
-/// The arguments are left as they were. (In Python: ValueError.)
+/// A wrong call. The message has function, rule and value: "revchain::Chain: link 3: length must be positive, got
+/// -0.5". The arguments are left unchanged. (In Python: ValueError.)
 class InvalidArgument : public std::invalid_argument {
    public:
     using std::invalid_argument::invalid_argument;
@@ -23,10 +23,10 @@ class Cancelled : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Outcome of a computation; the figures reached stand beside it in the result.
+/// Outcome of a computation.
 enum class Status {
-    success,            ///< the tolerance asked for is met by a proved bound
-    tolerance_not_met,  ///< it is not; `error_bound` says what was reached
+    success,            ///< a proved bound meets the tolerance asked for
+    tolerance_not_met,  ///< it does not; `error_bound` says what was reached
 };
 
 inline std::string_view to_string(Status status) { return status == Status::success ? "success" : "tolerance_not_met"; }

@@ -25,7 +25,7 @@ using Lane = typename detail::LaneOf<V>::type;
 template <class V>
 concept IsPack = !std::same_as<V, Lane<V>>;
 
-/// What rounds as IEEE 754 says: a number, or a pack of such.
+/// A number, or a pack of numbers, that rounds as IEEE 754 says.
 template <class V>
 concept Word = std::floating_point<V> || IsPack<V>;
 
@@ -44,7 +44,7 @@ template <std::floating_point T>
 
 namespace detail {
 
-/// x itself, kept from being fused (`unfused`).
+/// x itself, which the compiler does not fuse with other operations (`unfused`).
 template <Word T>
 [[gnu::always_inline]] constexpr T rounded(const T& x) {
     if constexpr (IsPack<T>)

@@ -9,8 +9,8 @@
 namespace revchain::detail {
 
 /// The zero of a function that grows through it once between `low` and `high`: Newton's method, held within the bracket
-/// by halving. `value_and_slope(x)` returns a pair. For scalars of which a library of roots knows nothing; cost about
-/// ten evaluations, and one a halving where Newton's method does not serve.
+/// by halving. `value_and_slope(x)` returns a pair. It serves all scalars, unlike root finders of other libraries.
+/// Cost: about ten evaluations, and one for each halving where Newton's method fails.
 template <Real T, class F>
 T zero_between(T low, T high, const F& value_and_slope) {
     constexpr int most = 2 * (std::numeric_limits<T>::max_exponent - std::numeric_limits<T>::min_exponent);
