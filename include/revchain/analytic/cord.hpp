@@ -36,7 +36,7 @@ inline CordMethod method_for(const Cord& cord) {
     return {"power series", 4e-15, false};
 }
 
-/// `f` of one mode in closed form.
+/// The result of `f` for one mode in closed form.
 template <class F>
 auto in_closed_form(const Cord& cord, Index mode, const F& f) {
     namespace forms = analytic;
@@ -49,7 +49,7 @@ inline double closed_height(const Cord& cord, Index mode) {
     return in_closed_form(cord, mode, [](const auto& form) { return form.conical_height(); });
 }
 
-/// `f` of the mode at index j.
+/// The result of `f` for the mode at index j.
 template <class F>
 auto with_mode(std::string_view place, const CordModes& modes, Index j, const F& f) {
     if (j < 0 || j >= modes.size())
@@ -58,7 +58,7 @@ auto with_mode(std::string_view place, const CordModes& modes, Index j, const F&
     return f(finite::CordModeShape(finite::ContinuousChain(modes.cord), modes.conical_height[j], modes.first + j));
 }
 
-/// How many conical heights exceed `height`; heights in closed form fall with their number.
+/// The number of conical heights that exceed `height`. Heights in closed form fall with the number of the mode.
 inline Index modes_above(const Cord& cord, double height) {
     if (!method_for(cord).is_closed) return finite::critical_heights_above(finite::ContinuousChain(cord), height);
     constexpr Index most = 1'000'000'000'000'000;

@@ -23,7 +23,7 @@ inline CarriageState BufferImpact::Phase::at(double t) const {
 }
 
 /// The first time after 0, at most `end`, at which the front carriage returns to 0 from the side `sign`; infinity if
-/// there is none. No return is missed: each step is what the largest acceleration would need to bring it there.
+/// there is none. No return is missed: each step is the time in which the largest acceleration would bring it there.
 inline double BufferImpact::Phase::first_zero(double sign, double end, long& steps) const {
     constexpr long most_steps = 10'000'000;
     double largest = 0, t = 0;
@@ -114,7 +114,7 @@ inline void BufferImpact::find_blows() {
         time += lasts;
         phases_.push_back(freedom(time, state));
         const Phase& free = phases_.back();
-        // It comes back while it swings farther than it has drifted, or within a period if it does not drift away.
+        // It returns while it swings farther than it has drifted, or within a period if it does not drift away.
         const double reach = std::hypot(free.cosine[0], free.sine[0]) + free.centre;
         const double until = free.drift < 0 ? std::max(0.0, reach / -free.drift) : 7 / free.frequency[0];
         const double away = free.first_zero(-1, free.drift > 0 ? infinity : until, steps);

@@ -30,7 +30,7 @@ std::array<T, 2> coupled_roots(const T& p, const T& q, const T& coupling, const 
     return {larger, rest / larger};
 }
 
-/// The same for numbers whose products may overflow or underflow.
+/// The same roots, for numbers whose products may overflow or underflow.
 template <Real T>
 std::array<T, 2> coupled_roots(std::string_view place, const T& p, const T& q, const Product<Wide<T>>& coupling,
                                const Product<Wide<T>>& rest) {
@@ -112,7 +112,7 @@ JointedNumbers<T> jointed_numbers(std::string_view place, const JointedLinks<T>&
             (turn + pull * (lower.square_over_centroid() / l1)) / (turn + pull)};
 }
 
-/// Two plummets, at a speed. The names are checked by the callers.
+/// Two plummets at the speed with this conical height. Callers check the numbers.
 template <Real T>
 Pair<T> plummet_pair(std::string_view place, const T& lower_weight, const T& lower_thread, const T& upper_weight,
                      const T& upper_thread, const T& height) {
@@ -122,6 +122,7 @@ Pair<T> plummet_pair(std::string_view place, const T& lower_weight, const T& low
     return pair_of(place, S(lower_thread), S(upper_thread), S(w1 / both), S(w2 / both), height);
 }
 
+/// A compound link on a thread at the speed with this conical height.
 template <Real T>
 Pair<T> link_pair(std::string_view place, const T& thread, const CompoundLink<T>& link, const T& height) {
     using S = Wide<T>;

@@ -195,7 +195,7 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
     }
 }
 
-/// All shapes that hang, in the order of the public lists.
+/// All shapes that hang, sorted as the public functions return them.
 template <Real T>
 std::vector<PairShape<T>> hanging_shapes(const Pair<T>& pair) {
     std::vector<PairShape<T>> shapes;

@@ -14,7 +14,7 @@ using revchain::detail::two_word_pi;
 using revchain::detail::TwoDoubles;
 
 /// Gamma(order+1) (z/2)^-order J_order(z), which is 1 at z = 0, for -1 < order <= 1e4, z >= 0. Method: power series
-/// where it is short, phase and modulus for large z, Miller's recurrence with Neumann's sum for (z/2)^order between.
+/// where it is short, phase and modulus for large z, else Miller's recurrence with Neumann's sum for (z/2)^order.
 /// Accuracy: absolute error 2e-16 (1 + z) times the largest value at z and beyond. Cost: 3 ns a step of `bessel_ratio`.
 class ScaledBessel {
    public:
@@ -53,8 +53,7 @@ class ScaledBessel {
         return here / total * weight;
     }
     double far_out(double z) const {
-        const double quarters = 0.5 * order_ + 0.25;  // of half turns
-        const TwoDoubles phase = TwoDoubles(z) - two_word_pi * quarters - far_.lag(z);
+        const TwoDoubles phase = TwoDoubles(z) - two_word_pi * (0.5 * order_ + 0.25) - far_.lag(z);
         const double cosine = std::cos(phase.high) - phase.low * std::sin(phase.high);
         const double scale = order_ < 100 ? std::tgamma(order_ + 1) / std::pow(0.5 * z, order_)
                                           : std::exp(std::lgamma(order_ + 1) - order_ * std::log(0.5 * z));

@@ -27,8 +27,8 @@ Vector<double> for_numbers(Index count, const F& f) {
     });
 }
 
-/// Places length (zero(i) / end)^2, i = 1 ... mode - 1: where mode `mode`, whose argument is `end` at the support,
-/// passes the zeros of a Bessel function.
+/// Places length (zero(i) / end)^2, i = 1 ... mode - 1, at which mode `mode`, with the argument `end` at the support,
+/// has a zero of a Bessel function.
 template <class Zero>
 Vector<double> places_of_zeros(Index mode, double length, double end, const Zero& zero) {
     return for_numbers(mode - 1, [&](Index i) {

@@ -19,7 +19,7 @@ inline constexpr std::string_view governor_motion = "analytic::GovernorMotion";
 
 }  // namespace detail
 
-/// Coefficients e, 2 b, f of 4 tau'^2 at the start, in units of `pace`, in which everything is about 1.
+/// Coefficients e, 2 b, f of 4 tau'^2 at the start, in units of `pace`, so that all numbers are about 1.
 struct GovernorMotion::Quartic {
     double s, c, w, n;  ///< sine and cosine of theta/2, theta', axis
     double off;         ///< n^2 (cos theta - lambda/l)
@@ -36,16 +36,16 @@ struct GovernorMotion::Quartic {
             std::swap(s, c);
             if (c < 0) s = -s, c = -c;
         }
-        // G - n^2 in two words: it alone tells pendulums of about the conical height apart.
+        // G - n^2 in two words, because only it distinguishes pendulum lengths near the conical height.
         using Two = DoubleWord<double>;
         const Two speed(given.angular_speed), held = (Two(1.0) - Two(given.axial_inertia)) * speed * speed;
         const double excess = static_cast<double>((Two(std::abs(given.gravity)) / Two(given.pendulum_length) - held) /
                                                   Two(pace) / Two(pace));
-        const bool near_by = std::abs(excess) < 0.5 * n2;  // then the first forms, else the second have no differences
+        const bool near_by = std::abs(excess) < 0.5 * n2;  // the first forms then have no differences, else the second
         const double cosine = (c - s) * (c + s);
         off = near_by ? -(excess + 2 * n2 * s * s) : n2 * cosine - G;
         e = w * w + 4 * s * s * (near_by ? excess + n2 * s * s : G - n2 * c * c);
-        if (G == 0 && std::abs(e) <= 1e-15 * w * w) e = 0;  // within what is known of the start
+        if (G == 0 && std::abs(e) <= 1e-15 * w * w) e = 0;  // within the rounding of the start
         f = G == 0 ? e : w * w - 4 * c * c * (G + n2 * s * s);
         b = w * w + (near_by ? 4 * n2 * s * s * s * s - 2 * excess * cosine
                              : 2 * n2 * (s * s * s * s + c * c * c * c) - 2 * G * cosine);

@@ -58,8 +58,8 @@ inline double tension(double x, double length) {
 
 /// Energies of the steady whirl of the chain of any length whose free end is `amplitude` off the axis, to the second
 /// order in it, over the chain's weight per length: kinetic (1/(2 lambda)) int y^2 dx and potential (1/2) int x y'^2
-/// dx, both amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. (The chain's angular momentum times the angular speed is 2 of
-/// either.) Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9): neither is in the paper.
+/// dx, both amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. (The chain's angular momentum times the angular speed is
+/// twice either.) Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9); neither is in the paper.
 inline double kinetic_energy(Index mode, double amplitude) {
     detail::check("kinetic_energy", "mode", mode, 1.0);
     revchain::detail::require_positive("analytic::heavy_chain::kinetic_energy", "amplitude", amplitude);
@@ -70,15 +70,15 @@ inline double kinetic_energy(Index mode, double amplitude) {
 /// Equal to the kinetic energy.
 inline double potential_energy(Index mode, double amplitude) { return kinetic_energy(mode, amplitude); }
 
-/// Where mode `mode` crosses the axis, the support left out: length (j_{0,i} / j_{0,mode})^2, i < mode. §4 (12).
-/// Accuracy: 5 ulp.
+/// Distances x at which mode `mode` crosses the axis, without the support: length (j_{0,i} / j_{0,mode})^2, i < mode.
+/// §4 (12). Accuracy: 5 ulp.
 inline Vector<double> nodes(Index mode, double length) {
     detail::check("nodes", "mode", mode, length);
     return analytic::detail::places_of_zeros(mode, length, zero_of_j0(mode), [](Index i) { return zero_of_j0(i); });
 }
 
-/// Where mode `mode` runs vertical, so that the chain below has its centre of gravity on the axis, the free end left
-/// out: length (j_{1,i} / j_{0,mode})^2, i < mode. §4 (13)-(14). Accuracy: 5 ulp.
+/// Distances x at which mode `mode` runs vertical, so that the chain below has its centre of gravity on the axis,
+/// without the free end: length (j_{1,i} / j_{0,mode})^2, i < mode. §4 (13)-(14). Accuracy: 5 ulp.
 inline Vector<double> vertical_points(Index mode, double length) {
     detail::check("vertical_points", "mode", mode, length);
     return analytic::detail::places_of_zeros(mode, length, zero_of_j0(mode), [](Index i) { return zero_of_j1(i); });

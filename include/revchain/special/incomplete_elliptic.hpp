@@ -67,8 +67,8 @@ struct Amplitude {
     double sine, cosine, delta, half_turns;
 
     Amplitude(double angle, const EllipticModulus& modulus) : half_turns(std::nearbyint(angle / std::numbers::pi)) {
-        // In two words: near an odd number of quarter turns the cosine is a difference. Beyond 2^60 half turns the rest
-        // is below the last digit of the amplitude.
+        // Two words, because the cosine is a difference near an odd number of quarter turns. Beyond 2^60 half turns the
+        // rest is below the last digit of the amplitude.
         DoubleDouble within(0);
         if (std::abs(half_turns) < 0x1p60)
             within = DoubleDouble(angle) - DoubleDouble(half_turns) * std::numbers::pi_v<DoubleDouble>;

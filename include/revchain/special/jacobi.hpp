@@ -60,7 +60,7 @@ class JacobiFunctions {
         double first, second, third, fourth, w;
     };
 
-    /// In powers of q times 2 cos 2nz = q^-n w_n. These cannot overflow, and underflow is harmless.
+    /// The series in powers of q times 2 cos 2nz = q^-n w_n. These cannot overflow, and underflow is harmless.
     Theta theta(double w) const {
         const double q = q_, q2 = q * q, q4 = q2 * q2, q9 = q4 * q4 * q;
         const double w2 = w * w - 2 * q2, w3 = w * (w2 - q2);

@@ -13,7 +13,7 @@
 
 namespace revchain::analytic::detail {
 
-/// A zero of `f` between `low` and `high` to the last digit of the argument, by Brent's method (GSL); empty where f has
+/// A zero of `f` between `low` and `high` to the last digit of the argument, by Brent's method (GSL). Empty where f has
 /// the same sign at both ends or is NaN there. f must not throw.
 template <class F>
 std::optional<double> root_between(const F& f, double low, double high) {
@@ -21,7 +21,7 @@ std::optional<double> root_between(const F& f, double low, double high) {
     if (at_low == 0) return low;
     if (at_high == 0) return high;
     if (!(at_low < 0 && at_high > 0) && !(at_low > 0 && at_high < 0)) return std::nullopt;
-    const auto finite = [](double x, void* context) {  // GSL ends the process where f is not
+    const auto finite = [](double x, void* context) {  // GSL ends the process otherwise
         const double y = (*static_cast<const F*>(context))(x);
         return std::isnan(y) ? 0.0
                              : std::clamp(y, -std::numeric_limits<double>::max(), std::numeric_limits<double>::max());

@@ -134,7 +134,7 @@ struct Ends {
             const LowerEnd end(place * ratio);
             const Excess e(end, place, TwoDoubles(at), mode);
             if (!end.is_far()) return ValueAndRate{e.value, (e.rate - r * end.rate) / g};
-            // the same without cancellation
+            // without cancellation
             const double a0 = series(0).density_above_one(place.high), a2 = series(2).density_above_one(end.z);
             return ValueAndRate{e.value, (a2 - a0) / ((1 + a0) * (1 + a2)) / g + 1 / (1 + a2)};
         });

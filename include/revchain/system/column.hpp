@@ -12,8 +12,8 @@
 
 namespace revchain {
 
-/// A quantity of every link: one number each, or a single number that serves all of them (and is stored once). Copies
-/// share the numbers, which never change.
+/// A quantity of every link: one number each, or a single number that serves all links and is stored once. Copies share
+/// the numbers, which never change.
 template <class V>
 class Column {
    public:
@@ -23,8 +23,8 @@ class Column {
         numbers_ = owned_->data();
     }
 
-    /// Numbers that stay where they are, and must stay what they are while this column, or a chain made of it or a
-    /// copy, is used: of a million links, copying them takes half as long as the ten slowest modes.
+    /// A column that refers to the caller's numbers. They must stay in place and unchanged while this column, a chain
+    /// made of it, or a copy is used. For a million links, copying them takes half as long as the ten slowest modes.
     static Column borrowed(const V* numbers, std::size_t count) {
         Column column{V{}};
         column.numbers_ = numbers, column.count_ = count, column.stride_ = 1;
@@ -47,10 +47,10 @@ class Column {
     Index stride_ = 0;
 };
 
-/// How many numbers of a column are summed at a time.
+/// The number of links in a segment. Columns are summed by segments.
 inline constexpr Index segment_size = 256;
 
-/// Sum and least of some numbers. A number that is not finite leaves a sum that is not.
+/// Sum and least of some numbers. The sum is not finite where a number is not.
 template <Real T>
 struct Summary {
     Wide<T> sum{T(0)};
@@ -66,8 +66,8 @@ inline constexpr std::size_t sum_lanes = 16;
 template <class T>
 concept Compensated = Real<T> && std::floating_point<T> && !std::floating_point<Wide<T>>;
 
-/// Sum of non-negative numbers with one word more than they have: what is left over is about one rounding, however
-/// many are added.
+/// Sum of non-negative numbers with one word more than they have. Its error is about one rounding, however many are
+/// added.
 template <Real S>
 class RunningSum {
    public:
@@ -97,8 +97,8 @@ class RunningSum {
 
 /// Summary of `count` numbers, 1 to a segment. Relative error of a sum of non-negative numbers: 12 operations of
 /// `Wide<T>` at worst where that is a double word (measured: 0.27), else 20. For double words the lanes, and the tree
-/// that joins them, carry the rounding errors of their 20 sums along; what is rounded there is 19 u of 20 u of the sum
-/// of sizes at most.
+/// that joins them, add up the rounding errors of their 20 sums, with an error of at most 19 u times 20 u of the sum of
+/// sizes.
 template <Real T>
 Summary<T> summary(const T* x, Index count) {
     using S = std::conditional_t<detail::Compensated<T>, T, Wide<T>>;

@@ -7,7 +7,7 @@ namespace revchain {
 
 namespace detail {
 
-/// One or two words as another scalar: rounded, or exact where there is room.
+/// A number of one or two words as another scalar: rounded, or exact where the other one is as wide.
 template <class To, class From>
 To from_words(const From& x) {
     if constexpr (std::is_same_v<To, From>) {

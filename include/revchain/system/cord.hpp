@@ -11,8 +11,8 @@
 
 namespace revchain {
 
-/// How the weight of a cord is spread along it: the exponent p of s^p, s the distance from the free end; a function of
-/// s; or such a function held as polynomials, which several cords may share.
+/// Weight per length of a cord, s the distance from the free end: the exponent p of s^p; a function of s; or such a
+/// function as polynomials, which several cords may share.
 using CordDensity = std::variant<double, std::function<double(double)>, std::shared_ptr<const LineDensity>>;
 
 /// The weights of a cord. Where `weight` is given, only the proportions of `density` count.
@@ -63,7 +63,8 @@ class Cord {
     /// The exponent of the density; nothing where it was given as a function.
     std::optional<double> exponent() const { return exponent_; }
     bool is_uniform() const { return exponent_ == 0.0; }
-    /// The density as polynomials, in proportion; nothing for a uniform cord. Those of a power are found at each call.
+    /// The proportions of the density as polynomials; nothing for a uniform cord. Those of a power are computed at each
+    /// call.
     /// Throws InvalidArgument for an exponent above 20: s^p would underflow close to the free end.
     std::shared_ptr<const LineDensity> line_density() const {
         if (!exponent_ || is_uniform()) return density_;

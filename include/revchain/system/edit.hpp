@@ -6,8 +6,8 @@
 #include "revchain/chain.hpp"
 
 /// Chains made from others: a weight attached, a thread put in between, two links clamped together.
-/// What two bodies are as one is formed in two words; weight and centroid are then rounded once, as every link keeps
-/// them, and (rho/a)^2 is kept in two. Conical heights are those of the exact body within 3 ulp, measured
+/// Two joined bodies are computed in two words. Weight and centroid are then rounded once, as every link stores them,
+/// and (rho/a)^2 stays in two words. Conical heights are those of the exact body within 3 ulp, measured
 /// (tests/cpp/system/edit.cpp). Cost O(N).
 namespace revchain {
 
@@ -57,8 +57,8 @@ std::vector<Link<T>> links_of(const Chain<T>& chain) {
 /// The chain with a body fixed to the link above `pin`, its centre of gravity in that pin: 0 the free end, else the pin
 /// that links number `pin` and `pin` + 1 share. A point weight leaves `radius_of_gyration` 0; it moves as one on the
 /// pin itself, a body turns as the link above does.
-/// Throws InvalidArgument for a pin that is none or the support, a weight not positive, a radius of gyration that is
-/// negative, and where no chain comes of it.
+/// Throws InvalidArgument for a pin that does not exist or is the support, a weight that is not positive, a negative
+/// radius of gyration, and where the result is not a valid chain.
 template <Real T>
 Chain<T> with_weight(const Chain<T>& chain, const T& weight, Index pin = 0, const T& radius_of_gyration = T(0)) {
     constexpr std::string_view place = "with_weight";

@@ -35,8 +35,7 @@ class LineDensity {
         if (pieces_.front().power == 0) at_tip_ = integrated(about(0));
         for (Piece& piece : pieces_) {
             piece.below = total_;
-            total_ += piece.power == 0 ? weight_within(piece, 1)
-                                       : piece.factor[0] * 2 * piece.half / (piece.power + 1);
+            total_ += piece.power == 0 ? weight_within(piece, 1) : piece.factor[0] * 2 * piece.half / (piece.power + 1);
         }
     }
 
@@ -45,7 +44,7 @@ class LineDensity {
     double mean() const { return total_ / length_; }
     std::size_t pieces() const { return pieces_.size(); }
 
-    /// Where the piece that holds s ends; beyond the chain: infinity.
+    /// The end of the piece that holds s; infinity beyond the chain.
     double end_of_piece(double s) const {
         return nudged(s) >= length_ ? std::numeric_limits<double>::infinity() : end(piece_at(s));
     }
@@ -62,7 +61,7 @@ class LineDensity {
         for (double& x : c) x *= scale, scale /= piece.half;
         return c;
     }
-    /// Weight of what hangs below s; beyond the chain it goes on with its mean density.
+    /// Weight of the chain below s. Beyond its end the chain continues with its mean density.
     double weight_below(double s) const {
         if (nudged(s) >= length_) return total_ + mean() * (s - length_);
         if (s == 0) return 0;
@@ -72,10 +71,10 @@ class LineDensity {
         if (&piece == &pieces_.front()) return polynomial(at_tip_, s) * s;
         return piece.below + weight_within(piece, (s - piece.middle) / piece.half);
     }
-    /// Up to where the density is no polynomial but a power of s; mostly 0.
+    /// The place below which the density is a power of s instead of a polynomial; mostly 0.
     double end_of_power() const { return pieces_.front().power != 0 ? end(pieces_.front()) : 0.0; }
-    /// First moment of the chain below s about the free end, over weight below times s, as of a power of s: to first
-    /// order near the free end.
+    /// First moment of the chain below s about the free end, over weight below times s, as if the density were a power
+    /// of s: to first order near the free end.
     double first_moment(double s) const {
         const double power = about(s)[0] * s / weight_below(s) - 1;
         return (power + 1) / (power + 2);
@@ -90,7 +89,7 @@ class LineDensity {
     };
 
     static double end(const Piece& piece) { return piece.middle + piece.half; }
-    /// A place at the end of a piece to rounding belongs to the next, so that paths go on.
+    /// A place that is the end of a piece to rounding belongs to the next piece, so that paths continue.
     static double nudged(double s) { return s * (1 + 0x1p-48); }
     const Piece& piece_at(double s) const {
         const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), nudged(s),
@@ -102,12 +101,12 @@ class LineDensity {
         for (std::size_t k = degree + 1; k-- > 0;) sum = sum * t + factor[k];
         return sum;
     }
-    /// Those of the integral from 0 over t.
+    /// Coefficients of the integral from 0 to t, over t.
     static Coefficients integrated(Coefficients factor) {
         for (std::size_t k = 0; k <= degree; ++k) factor[k] /= static_cast<double>(k + 1);
         return factor;
     }
-    /// Of the piece, from its left end to t.
+    /// Weight of the piece from its left end to t.
     static double weight_within(const Piece& piece, double t) {
         const Coefficients mean = integrated(piece.factor);
         return piece.half * (polynomial(mean, t) * t + polynomial(mean, -1));
@@ -142,7 +141,7 @@ class LineDensity {
             for (std::size_t k = count; k-- > 1 && std::abs(chebyshev[k]) <= 0.25 * rounding * largest;)
                 chebyshev[k] = 0;
             piece.factor = in_powers(chebyshev);
-            for (std::size_t i = 1; i < count; ++i) {  // what is narrow may lie between
+            for (std::size_t i = 1; i < count; ++i) {  // a narrow feature may lie between
                 const double x = std::cos(std::numbers::pi * static_cast<double>(i) / count);
                 good = good && std::abs(polynomial(piece.factor, x) - f(piece.middle + piece.half * x)) <=
                                    10 * rounding * largest;
@@ -169,7 +168,7 @@ class LineDensity {
         pieces_.push_back(piece);
     }
 
-    /// From Chebyshev polynomials to powers: stable enough at this degree, as the coefficients fall.
+    /// Coefficients of powers from those of Chebyshev polynomials. Stable enough at this degree, because they fall.
     static Coefficients in_powers(const Coefficients& chebyshev) {
         Coefficients sum{chebyshev[0]}, before{1}, now{0, 1};
         for (std::size_t k = 1; k <= degree; ++k) {
@@ -185,7 +184,7 @@ class LineDensity {
 
     double length_, total_ = 0;
     std::vector<Piece> pieces_;
-    Coefficients at_tip_{};  // of the weight below s, over s
+    Coefficients at_tip_{};  // those of (weight below s)/s on the lowest piece
 };
 
 }  // namespace revchain

@@ -16,9 +16,9 @@ struct Link {
     T weight{};    ///< W >= 0 (0: a massless thread or wire)
     T length{};    ///< a > 0, pin to pin
     T centroid{};  ///< h, from the UPPER pin to the centre of gravity, positive towards the lower pin; any sign
-    /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity. Kept instead of the pendulum length l =
-    /// h + rho^2/h because h = 0 is allowed; as a ratio, which no unit of length takes out of the range of T; and in
-    /// twice the digits: the answers then belong to the numbers the user gave to some 1e-31, not to a rounding of them.
+    /// (rho/a)^2 >= 0, rho the radius of gyration about the centre of gravity. It replaces the pendulum length l =
+    /// h + rho^2/h because h = 0 is allowed. It is a ratio, so that no unit of length takes it out of the range of T.
+    /// It has twice the digits, so that results belong to the given numbers to some 1e-31, not to rounded ones.
     Wide<T> gyration_ratio{};
 
     friend bool operator==(const Link&, const Link&) = default;
@@ -43,14 +43,15 @@ T times_length(const Wide<T>& x, const T& length) {
     return ldexp(static_cast<T>(product.fraction), product.exponent);
 }
 
-/// How far apart the lengths of a chain may be, a, |h| and rho: 1e77 in double. Beyond, products leave the range of T.
+/// The largest ratio of two lengths a, |h|, rho of a chain: 1e77 in double. With larger ones products leave the range
+/// of T.
 template <Real T>
 T length_span() {
     using std::ldexp;
     return ldexp(T(1), std::numeric_limits<T>::max_exponent / 4);
 }
 
-/// Refuses (rho/a)^2 where rho and a are more than `length_span` apart.
+/// Returns `ratio` = (rho/a)^2. Throws InvalidArgument where rho and a are more than `length_span` apart.
 template <Real T>
 Wide<T> in_reach(std::string_view place, const Wide<T>& ratio, const T& length) {
     const Wide<T> largest(length_span<T>() * length_span<T>());
@@ -74,7 +75,7 @@ Link<T> uniform_rod(T weight, T length) {
     return {weight, length, length / T(2), Wide<T>(T(1)) / Wide<T>(T(12))};
 }
 
-/// What is known of a rigid link; exactly one of `pendulum_length` and `radius_of_gyration` is given.
+/// The data of a rigid link: exactly one of `pendulum_length` and `radius_of_gyration` is given.
 template <Real T>
 struct CompoundPendulum {
     T weight{};
@@ -86,7 +87,7 @@ struct CompoundPendulum {
 
 namespace detail {
 
-/// (rho/a)^2 from rho; refuses a negative or missing rho.
+/// (rho/a)^2 from rho. Throws InvalidArgument for a negative rho or one that is not finite.
 template <Real T>
 Wide<T> gyration_from_radius(std::string_view place, T length, T radius) {
     require_not_negative(place, "radius of gyration", radius);
@@ -96,7 +97,8 @@ Wide<T> gyration_from_radius(std::string_view place, T length, T radius) {
     return in_reach(place, ratio * ratio, length);
 }
 
-/// rho^2 = h (l - h), §8 (1), over a^2; refuses an imaginary rho, and h = 0 where l says nothing.
+/// (rho/a)^2 from rho^2 = h (l - h), §8 (1). Throws InvalidArgument for an imaginary rho, and for h = 0, where l does
+/// not determine rho.
 template <Real T>
 Wide<T> gyration_from_pendulum_length(std::string_view place, T length, T centroid, T pendulum_length) {
     require_finite(place, "centroid", centroid, "pendulum length", pendulum_length);

@@ -11,7 +11,7 @@
 
 namespace revchain::detail {
 
-/// What the links of a tapered chain weigh, and where: columns for `Chain`, lowest first.
+/// Columns of the links of a tapered chain, for `Chain`, lowest first.
 template <Real T>
 struct TaperedLinks {
     std::vector<T> weight, centroid;
@@ -25,8 +25,8 @@ bool is_lost(const S& term, const S& sum) {
     return static_cast<Narrow<S>>(abs(term)) <= operation_error<S>() / 4 * static_cast<Narrow<S>>(abs(sum));
 }
 
-/// e^-x - 1 and e^-x, x >= 0: Taylor's series of x/2^n, then doubled, which loses nothing of the one and 2^n of the
-/// other.
+/// e^-x - 1 and e^-x, x >= 0: Taylor's series of x/2^n, then n doublings, which keep the accuracy of the first and
+/// multiply the error of the second by 2^n.
 template <class S>
 std::pair<S, S> decay(S x) {
     using std::ldexp;
@@ -39,8 +39,8 @@ std::pair<S, S> decay(S x) {
     return {fall, rest};
 }
 
-/// Moments of the density (1 + u t)^exponent over -1 < t < 1, 0 < u <= 1/3: mean and variance of t. The binomial
-/// series, all of whose even terms, and all of whose odd ones, have one sign while they count.
+/// Mean and variance of t for the density (1 + u t)^exponent over -1 < t < 1, 0 < u <= 1/3, by the binomial series. As
+/// far as they matter, all its even terms have one sign, and so have all odd ones.
 template <class S>
 std::pair<S, S> mean_and_variance(double exponent, const S& u) {
     S term(1), whole(2), first(0), second = S(2) / S(3);
