@@ -73,11 +73,7 @@ Estimate estimate(const M& model, const ChainKind& kind, const Question& questio
 template <Model... Models>
 std::array<Estimate, sizeof...(Models)> estimates(const std::tuple<Models...>& models, const ChainKind& kind,
                                                   const Question& question) {
-    return std::apply(
-        [&](const Models&... each) {
-            return std::array<Estimate, sizeof...(Models)>{estimate(each, kind, question)...};
-        },
-        models);
+    return std::apply([&](const Models&... each) { return std::array{estimate(each, kind, question)...}; }, models);
 }
 
 /// The cheapest model, of those not `out`, that keeps the tolerance, else the most accurate, the cheaper of equals.
@@ -132,13 +128,11 @@ Choice<sizeof...(Models)> select(const std::tuple<Models...>& models, const Chai
     detail::check(kind, question);
     if (time_budget) detail::require_positive("select", "time budget", *time_budget);
     Choice<sizeof...(Models)> choice{detail::estimates(models, kind, question), 0, false};
-    const double budget = time_budget.value_or(std::numeric_limits<double>::infinity());
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double budget = time_budget.value_or(infinity);
     auto chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, detail::goal(question), budget);
-    if (!chosen)  // no model is within the budget
-        for (std::size_t i = 0; i < sizeof...(Models); ++i)
-            if (choice.estimates[i].fit.applies &&
-                (!chosen || choice.estimates[i].cost < choice.estimates[*chosen].cost))
-                chosen = i;
+    if (!chosen)  // no model is within the budget: the cheapest one
+        chosen = detail::best<sizeof...(Models)>(choice.estimates, {}, infinity, infinity);
     choice.model = chosen.value_or(sizeof...(Models));
     choice.meets_tolerance = chosen && choice.estimates[*chosen].error_bound <= detail::goal(question) &&
                              choice.estimates[*chosen].cost <= budget;

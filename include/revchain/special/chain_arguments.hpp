@@ -7,7 +7,7 @@
 namespace revchain::analytic::detail {
 
 /// Throws InvalidArgument unless the mode or count called `name` is at least 1 and the length positive and finite.
-inline void check_number_and_length(std::string_view where, std::string_view name, Index number, double length) {
+inline void check(std::string_view where, std::string_view name, Index number, double length) {
     if (number < 1) revchain::detail::throw_invalid(where, std::string(name) + " must be at least 1", number);
     revchain::detail::require_positive(where, "length", length);
 }

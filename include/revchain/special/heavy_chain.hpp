@@ -12,13 +12,13 @@
 namespace revchain::analytic::heavy_chain {
 
 namespace detail {
-inline void check(std::string_view place, std::string_view name, Index number, double length) {
-    analytic::detail::check_number_and_length("analytic::heavy_chain::" + std::string(place), name, number, length);
-}
+using analytic::detail::check;
+using analytic::detail::for_numbers;
+using analytic::detail::gsl_value;
 
-inline void check_place(std::string_view place, double x, Index mode, double length) {
-    check(place, "mode", mode, length);
-    analytic::detail::check_place("analytic::heavy_chain::" + std::string(place), x, length);
+inline void check_place(std::string_view where, double x, Index mode, double length) {
+    check(where, "mode", mode, length);
+    analytic::detail::check_place(where, x, length);
 }
 
 inline double height(Index mode, double length) {
@@ -30,29 +30,29 @@ inline double height(Index mode, double length) {
 /// Conical heights lambda_k = 4 length / j_{0,k}^2 of the `count` slowest modes, descending. §4 (9)-(10).
 /// Accuracy: 3 ulp (measured 2, k up to 1e6). Cost: 10 ns each.
 inline Vector<double> conical_heights(Index count, double length) {
-    detail::check("conical_heights", "count", count, length);
-    return analytic::detail::for_numbers(count, [&](Index mode) { return detail::height(mode, length); });
+    detail::check("analytic::heavy_chain::conical_heights", "count", count, length);
+    return detail::for_numbers(count, [&](Index mode) { return detail::height(mode, length); });
 }
 
 /// Offset J_0(2 sqrt(x / lambda_k)) at x, 1 at the free end. §4 (9).
 /// Accuracy: absolute error 4e-16 (1 + j_{0,k}), the rounding of the argument.
 inline double shape(double x, Index mode, double length) {
-    detail::check_place("shape", x, mode, length);
-    return analytic::detail::gsl_value(gsl_sf_bessel_J0_e, zero_of_j0(mode) * std::sqrt(x / length));
+    detail::check_place("analytic::heavy_chain::shape", x, mode, length);
+    return detail::gsl_value(gsl_sf_bessel_J0_e, zero_of_j0(mode) * std::sqrt(x / length));
 }
 
 /// dy/dx = -J_1(z) / sqrt(x lambda_k), z = 2 sqrt(x/lambda_k), of that shape: -1/lambda_k at the free end. §4 (9).
 /// Accuracy: absolute error 4e-16 (1 + j_{0,k}) / lambda_k.
 inline double slope(double x, Index mode, double length) {
-    detail::check_place("slope", x, mode, length);
+    detail::check_place("analytic::heavy_chain::slope", x, mode, length);
     const double half_end = 0.5 * zero_of_j0(mode), half = half_end * std::sqrt(x / length);
-    const double part = half > 0 ? analytic::detail::gsl_value(gsl_sf_bessel_J1_e, 2 * half) / half : 1.0;
+    const double part = half > 0 ? detail::gsl_value(gsl_sf_bessel_J1_e, 2 * half) / half : 1.0;
     return -part / (length / (half_end * half_end));
 }
 
 /// Tension at x, to first order in the offsets: the length of chain that hangs below. §4 (1).
 inline double tension(double x, double length) {
-    detail::check_place("tension", x, 1, length);
+    detail::check_place("analytic::heavy_chain::tension", x, 1, length);
     return x;
 }
 
@@ -61,9 +61,9 @@ inline double tension(double x, double length) {
 /// dx, both amplitude^2 (j J_1(j))^2 / 8, j = j_{0,mode}. (The chain's angular momentum times the angular speed is
 /// twice either.) Accuracy: 4e-16 (1 + j/4) relative. Derived from §4 (4), (9); neither is in the paper.
 inline double kinetic_energy(Index mode, double amplitude) {
-    detail::check("kinetic_energy", "mode", mode, 1.0);
+    detail::check("analytic::heavy_chain::kinetic_energy", "mode", mode, 1.0);
     revchain::detail::require_positive("analytic::heavy_chain::kinetic_energy", "amplitude", amplitude);
-    const double j = zero_of_j0(mode), part = amplitude * (j * analytic::detail::gsl_value(gsl_sf_bessel_J1_e, j));
+    const double j = zero_of_j0(mode), part = amplitude * (j * detail::gsl_value(gsl_sf_bessel_J1_e, j));
     return 0.125 * part * part;
 }
 
@@ -73,14 +73,14 @@ inline double potential_energy(Index mode, double amplitude) { return kinetic_en
 /// Distances x at which mode `mode` crosses the axis, without the support: length (j_{0,i} / j_{0,mode})^2, i < mode.
 /// §4 (12). Accuracy: 5 ulp.
 inline Vector<double> nodes(Index mode, double length) {
-    detail::check("nodes", "mode", mode, length);
+    detail::check("analytic::heavy_chain::nodes", "mode", mode, length);
     return analytic::detail::places_of_zeros(mode, length, zero_of_j0(mode), [](Index i) { return zero_of_j0(i); });
 }
 
 /// Distances x at which mode `mode` runs vertical, so that the chain below has its centre of gravity on the axis,
 /// without the free end: length (j_{1,i} / j_{0,mode})^2, i < mode. §4 (13)-(14). Accuracy: 5 ulp.
 inline Vector<double> vertical_points(Index mode, double length) {
-    detail::check("vertical_points", "mode", mode, length);
+    detail::check("analytic::heavy_chain::vertical_points", "mode", mode, length);
     return analytic::detail::places_of_zeros(mode, length, zero_of_j0(mode), [](Index i) { return zero_of_j1(i); });
 }
 
@@ -88,9 +88,9 @@ inline Vector<double> vertical_points(Index mode, double length) {
 /// of the chain's own length, z the zeros of J_0. §4 (11). Accuracy: 4 ulp.
 inline Vector<double> revolutions_per_second(Index count, double length,
                                              double gravity = conical_pendulum::standard_gravity) {
-    detail::check("revolutions_per_second", "count", count, length);
+    detail::check("analytic::heavy_chain::revolutions_per_second", "count", count, length);
     const double pendulum = conical_pendulum::revolutions_per_second(length, gravity);
-    return analytic::detail::for_numbers(count, [&](Index mode) { return 0.5 * pendulum * zero_of_j0(mode); });
+    return detail::for_numbers(count, [&](Index mode) { return 0.5 * pendulum * zero_of_j0(mode); });
 }
 
 }  // namespace revchain::analytic::heavy_chain

@@ -12,9 +12,8 @@
 namespace revchain::analytic::tapered_chain {
 
 namespace detail {
-inline void check(std::string_view place, std::string_view name, Index number, double length, double exponent) {
-    const std::string where = "analytic::tapered_chain::" + std::string(place);
-    analytic::detail::check_number_and_length(where, name, number, length);
+inline void check(std::string_view where, std::string_view name, Index number, double length, double exponent) {
+    analytic::detail::check(where, name, number, length);
     if (!(exponent > -1 && exponent <= 1e4))
         revchain::detail::throw_invalid(where, "exponent must be above -1 and at most 1e4", exponent);
 }
@@ -27,7 +26,7 @@ inline double height(double zero, double length, double exponent) {
 /// Conical heights 4 (p+1) length / j_{p,k}^2 of the `count` slowest modes, descending.
 /// Accuracy: 3 ulp (measured 1.84). Cost: that of `ZerosOfJ`.
 inline Vector<double> conical_heights(Index count, double length, double exponent) {
-    detail::check("conical_heights", "count", count, length, exponent);
+    detail::check("analytic::tapered_chain::conical_heights", "count", count, length, exponent);
     const ZerosOfJ zeros(exponent);
     return analytic::detail::for_numbers(count,
                                          [&](Index mode) { return detail::height(zeros(mode), length, exponent); });
@@ -37,7 +36,7 @@ inline Vector<double> conical_heights(Index count, double length, double exponen
 class Mode {
    public:
     Mode(Index mode, double length, double exponent)
-        : mode_((detail::check("Mode", "mode", mode, length, exponent), mode)),
+        : mode_((detail::check("analytic::tapered_chain::Mode", "mode", mode, length, exponent), mode)),
           length_(length),
           exponent_(exponent),
           zeros_(exponent),
@@ -49,19 +48,19 @@ class Mode {
 
     /// Offset Gamma(p+1) (z/2)^-p J_p(z) at x, 1 at the free end.
     /// Accuracy: absolute error 4e-16 (1 + z) of the largest offset, which exceeds 1 for p < -1/2.
-    double shape(double x) const { return offset_(place(x, "shape")); }
+    double shape(double x) const { return offset_(place(x, "analytic::tapered_chain::Mode::shape")); }
 
     /// dy/dx of that: -Gamma(p+2) (z/2)^-(p+1) J_{p+1}(z) / lambda, -1/lambda at the free end. Accuracy: absolute error
     /// 4e-16 (1 + z) of the largest slope.
-    double slope(double x) const { return -next_(place(x, "slope")) / conical_height(); }
+    double slope(double x) const { return -next_(place(x, "analytic::tapered_chain::Mode::slope")) / conical_height(); }
 
     /// Distances x at which the chain crosses the axis, ascending, without the support: length (j_{p,i} /
     /// j_{p,mode})^2, i < mode. Accuracy: 3 ulp.
     Vector<double> nodes() const { return analytic::detail::places_of_zeros(mode_, length_, end_, zeros_); }
 
    private:
-    double place(double x, std::string_view name) const {
-        analytic::detail::check_place("analytic::tapered_chain::Mode::" + std::string(name), x, length_);
+    double place(double x, std::string_view where) const {
+        analytic::detail::check_place(where, x, length_);
         return end_ * std::sqrt(x / length_);
     }
 

@@ -25,6 +25,7 @@ namespace revchain::analytic::tip_mass {
 namespace detail {
 
 using analytic::detail::Cylinders;
+using analytic::detail::for_numbers;
 using analytic::detail::gsl_value;
 using analytic::detail::PhaseSeries;
 using analytic::detail::two_word_pi;
@@ -99,9 +100,8 @@ struct Excess : ValueAndRate {
     }
 };
 
-inline void check(std::string_view place, std::string_view name, Index number, double length, double tip) {
-    const std::string where = "analytic::tip_mass::" + std::string(place);
-    analytic::detail::check_number_and_length(where, name, number, length);
+inline void check(std::string_view where, std::string_view name, Index number, double length, double tip) {
+    analytic::detail::check(where, name, number, length);
     if (!(tip >= 0 && tip / length <= 1e250))
         revchain::detail::throw_invalid(where, "tip must lie between 0 and 1e250 lengths", tip);
 }
@@ -155,16 +155,16 @@ struct Ends {
 /// Accuracy: 2 ulp (measured 1.04). Cost of each: 0.15 microseconds where z_0 > 30, 10 to 15 where z_L < 45, else 3 to
 /// 5.
 inline Vector<double> conical_heights(Index count, double length, double tip) {
-    detail::check("conical_heights", "count", count, length, tip);
+    detail::check("analytic::tip_mass::conical_heights", "count", count, length, tip);
     const detail::Ends ends(length, tip);
-    return analytic::detail::for_numbers(count, [&](Index mode) { return ends.height(ends.apart(mode), length); });
+    return detail::for_numbers(count, [&](Index mode) { return ends.height(ends.apart(mode), length); });
 }
 
 /// One mode of the chain with a particle. Cost: that of its height.
 class Mode {
    public:
     Mode(Index mode, double length, double tip)
-        : mode_((detail::check("Mode", "mode", mode, length, tip), mode)),
+        : mode_((detail::check("analytic::tip_mass::Mode", "mode", mode, length, tip), mode)),
           length_(length),
           ends_(length, tip),
           apart_(ends_.apart(mode)),
@@ -186,7 +186,7 @@ class Mode {
     /// Accuracy: absolute error 6e-16 (1 + z_L - z_0) times the largest offset, which is 1 for mode 1 and up to
     /// sqrt(1 + tip/lambda) for others. Cost: 0.1 to 0.3 microseconds, 2 where z_0 > 1 and z < 45.
     double shape(double x) const {
-        const double w = apart_at(x, "shape"), z = end_.z + w;
+        const double w = apart_at(x, "analytic::tip_mass::Mode::shape"), z = end_.z + w;
         if (end_.is_far())
             return -0.5 * end_.z * std::sqrt(density(0, z) * density(2, end_.z) * (end_.z / z)) *
                    std::sin(w - (lag(0, z) - lag(2, end_.z)));
@@ -195,7 +195,7 @@ class Mode {
 
     /// dy/dx, -1/lambda at the free end. Accuracy: as `shape`, times the largest slope.
     double slope(double x) const {
-        const double w = apart_at(x, "slope"), z = end_.z + w;
+        const double w = apart_at(x, "analytic::tip_mass::Mode::slope"), z = end_.z + w;
         if (end_.is_far())
             return -std::sqrt(density(1, z) * density(2, end_.z) * (end_.z / z)) * (end_.z / z) *
                    std::cos(w - (lag(1, z) - lag(2, end_.z))) / height_;
@@ -236,8 +236,8 @@ class Mode {
     }
 
     /// z - z_0 at x, without a difference.
-    double apart_at(double x, std::string_view place) const {
-        analytic::detail::check_place("analytic::tip_mass::Mode::" + std::string(place), x, length_);
+    double apart_at(double x, std::string_view where) const {
+        analytic::detail::check_place(where, x, length_);
         const double r = ends_.ratio.high, share = x / length_;
         if (!(share > 0)) return 0;
         const double root = std::sqrt(r * r + share * ends_.share.high);
