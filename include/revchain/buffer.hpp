@@ -60,7 +60,6 @@ class BufferImpact {
         CarriageState at(double t) const;
         double first_zero(double sign, double end, long& steps) const;
     };
-    void set_modes();
     void find_blows();
     Phase contact(double start, const CarriageState& from) const;
     Phase freedom(double start, const CarriageState& from) const;

@@ -14,7 +14,7 @@
 
 namespace revchain {
 
-/// What the uppermost pin is held by. As it stands: a firm point on the axis.
+/// What holds the uppermost pin; by default a firm point on the axis.
 struct Support {
     double stiffness = std::numeric_limits<double>::infinity();  ///< sideways, force over length; infinite where firm
     double carriage_weight = 0;  ///< of what moves sideways with the pin, on a support that yields
@@ -39,8 +39,8 @@ inline Support carried_round(double radius) {
     return {.radius = radius};
 }
 
-/// Angular momentum that a link carries along its own axis, counted from its lower pin to its upper one: for a hanging
-/// link the sense of a positive bodily rotation. What of it is kept and what turns with the link are two numbers,
+/// Angular momentum that a link carries along its own axis, positive from its lower pin to its upper one: for a hanging
+/// link the sense of a positive bodily rotation. One part is kept, the other turns with the link:
 ///     p = momentum + axial_moment n cos(inclination) / g.
 /// The flywheel's weight, and its inertia across the axis, belong to the link's own numbers.
 struct Flywheel {
@@ -91,12 +91,12 @@ struct Displaced {
     friend bool operator==(const Displaced&, const Displaced&) = default;
 };
 
-/// Of a body of one density throughout, whose fluid it displaces has its centre and radius of gyration.
+/// The fluid that a body of one density displaces: it has the centre and the radius of gyration of the body.
 inline Displaced displaced_by(const Link<double>& link, double weight, double added_weight = 0) {
     return {weight, link.centroid, link.gyration_ratio, added_weight};
 }
 
-/// What a chain may be rigged with; each list has one entry for each link, lowest first, or is empty.
+/// The rigging of a chain. Each list has one entry for each link, lowest first, or is empty.
 struct Rigging {
     Support support{};
     std::vector<Posture> posture{};  ///< in which the straight chain balances
@@ -107,8 +107,8 @@ struct Rigging {
     friend bool operator==(const Rigging&, const Rigging&) = default;
 };
 
-/// A chain and what it is rigged with: a support that yields or is carried round, links that stand, flywheels, a fluid
-/// that bears part of the weight. A chain without any of it is a `Chain` and pays for none of it.
+/// A chain and its rigging: a support that yields or is carried round, links that stand, flywheels, a fluid that bears
+/// part of the weight. A chain without rigging is a `Chain` and has no cost from it.
 ///
 /// Throws InvalidArgument, naming the link, for lists that are neither empty nor as long as the chain, numbers that are
 /// not finite, a support without stiffness, and a negative carriage weight, radius, axial moment, weight displaced or
@@ -186,7 +186,7 @@ inline void Rig::check() const {
     }
 }
 
-/// What a rigged link is at its two pins, in the units of `Rig::chain().units()`.
+/// Coefficients of a rigged link at its two pins, in the units of `Rig::chain().units()`.
 ///
 /// Greenhill (1908) §8 with weights that bear (less what the fluid does) apart from those that move (with what it
 /// adds). At any inclination, y the offsets, t and s tangent and sine, R the moment about the upper pin as if the link

@@ -69,18 +69,13 @@ inline BufferImpact::Phase BufferImpact::freedom(double start, const CarriageSta
 }
 
 inline BufferImpact::BufferImpact(const Carriages& given) : given_(given) {
-    detail::require_positive("BufferImpact", "front mass", given.front_mass, "rear mass", given.rear_mass,
-                             "buffer stiffness", given.buffer_stiffness, "coupling stiffness", given.coupling_stiffness,
-                             "speed", given.speed);
-    set_modes();
-    find_blows();
-}
-
-/// Frequencies and ratios in contact: two plummets with g = 1, on threads as long as the deflections of the springs
-/// under the weights they carry, §2 (7).
-inline void BufferImpact::set_modes() {
-    const double front = given_.front_mass, rear = given_.rear_mass;
-    const double l1 = rear / given_.coupling_stiffness, l2 = (front + rear) / given_.buffer_stiffness;
+    const double front = given.front_mass, rear = given.rear_mass;
+    detail::require_positive("BufferImpact", "front mass", front, "rear mass", rear, "buffer stiffness",
+                             given.buffer_stiffness, "coupling stiffness", given.coupling_stiffness, "speed",
+                             given.speed);
+    // Frequencies and ratios in contact: two plummets with g = 1, on threads as long as the deflections of the springs
+    // under the weights they carry, §2 (7).
+    const double l1 = rear / given.coupling_stiffness, l2 = (front + rear) / given.buffer_stiffness;
     detail::require_positive("BufferImpact", "rear mass over coupling stiffness", l1, "masses over buffer stiffness",
                              l2);
     const HeightPair<double> height = two_plummets(rear, l1, front, l2);
@@ -90,6 +85,7 @@ inline void BufferImpact::set_modes() {
     const double ratio = height[0] / above;                                               // l / (l - l1)
     ratio_ = {ratio, -(front / rear) / ratio};  // modes are orthogonal in the masses
     frequency_ = {1 / std::sqrt(height[0]), 1 / std::sqrt(height[1])};
+    find_blows();
 }
 
 inline void BufferImpact::find_blows() {

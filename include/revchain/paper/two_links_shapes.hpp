@@ -182,17 +182,12 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
         low = {x, S(width - x)}, high = {S(width - versed), versed};
     }
     const auto value = [&](const Place<S>& place) { return at(place.x, place.left).first; };
-    if (!(low.x < high.x)) {
-        add_between(start, end, -1);
-    } else if (!(value(low) < S(0))) {
-        add_between(high, end, -1);
-    } else if (!(value(high) > S(0))) {
-        add_between(start, low, -1);
-    } else {
-        add_between(high, end, -1);
-        add_between(low, high, 1);
-        add_between(start, low, -1);
-    }
+    if (!(low.x < high.x)) return add_between(start, end, -1);
+    const bool zero_before = value(low) < S(0);
+    const bool zero_after = value(high) > S(0) || !zero_before;
+    if (zero_after) add_between(high, end, -1);
+    if (zero_before && zero_after) add_between(low, high, 1);
+    if (zero_before) add_between(start, low, -1);
 }
 
 /// All shapes that hang, sorted as the public functions return them.

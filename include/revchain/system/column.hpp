@@ -62,10 +62,6 @@ namespace detail {
 /// Lanes that are summed side by side, so that compilers turn the loops into SIMD code (0.5 ns a number with SSE2).
 inline constexpr std::size_t sum_lanes = 16;
 
-/// Numbers whose sums are kept in double words.
-template <class T>
-concept Compensated = Real<T> && std::floating_point<T> && !std::floating_point<Wide<T>>;
-
 /// Sum of non-negative numbers with one word more than they have. Its error is about one rounding, however many are
 /// added.
 template <Real S>
@@ -101,7 +97,8 @@ class RunningSum {
 /// sizes.
 template <Real T>
 Summary<T> summary(const T* x, Index count) {
-    using S = std::conditional_t<detail::Compensated<T>, T, Wide<T>>;
+    constexpr bool compensated = detail::is_double_word<Wide<T>>;
+    using S = std::conditional_t<compensated, T, Wide<T>>;
     return simd([&](auto) REVCHAIN_INLINED {
         S sum[detail::sum_lanes]{}, error[detail::sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
         T least[detail::sum_lanes];
@@ -109,7 +106,7 @@ Summary<T> summary(const T* x, Index count) {
         const auto take = [&](const T* y, const T* z) REVCHAIN_INLINED {
             for (std::size_t i = 0; i < detail::sum_lanes; ++i) {
                 const S s = sum[i] + S(y[i]);
-                if constexpr (detail::Compensated<T>) {  // two_sum
+                if constexpr (compensated) {  // two_sum
                     const S v = s - sum[i];
                     error[i] += (sum[i] - (s - v)) + (y[i] - v);
                 }
@@ -129,14 +126,14 @@ Summary<T> summary(const T* x, Index count) {
         for (std::size_t half = detail::sum_lanes / 2; half > 0; half /= 2)
             for (std::size_t i = 0; i < half; ++i) {
                 const S s = sum[i] + sum[i + half];
-                if constexpr (detail::Compensated<T>) {
+                if constexpr (compensated) {
                     const S v = s - sum[i];
                     error[i] += error[i + half] + ((sum[i] - (s - v)) + (sum[i + half] - v));
                 }
                 sum[i] = s;
             }
         Summary<T> result{{}, *std::min_element(least, least + detail::sum_lanes)};
-        if constexpr (detail::Compensated<T>)
+        if constexpr (compensated)
             result.sum = two_sum(sum[0], error[0]);
         else
             result.sum = sum[0];
