@@ -35,7 +35,8 @@ class Chain {
         : Chain(static_cast<Index>(links.size()), column(links, &Link<T>::weight), column(links, &Link<T>::length),
                 column(links, &Link<T>::centroid), column(links, &Link<T>::gyration_ratio)) {}
 
-    /// `size` links from columns, each of `size` numbers or one. `taper`: of links that `tapered` made; it is believed.
+    /// `size` links from columns, each of `size` numbers or one. `taper` is the exponent of links that `tapered` made;
+    /// it is not checked.
     Chain(Index size, Column<T> weight, Column<T> length, Column<T> centroid, Column<Wide<T>> gyration_ratio,
           std::optional<double> taper = std::nullopt)
         : size_(size),
@@ -76,10 +77,10 @@ class Chain {
         return Chain(count, std::move(links.weight), link, std::move(links.centroid), std::move(links.gyration_ratio),
                      exponent);
     }
-    /// Whether a chain can taper so.
+    /// Whether `tapered` accepts this exponent.
     static bool is_taper(double exponent) { return exponent > -1 && exponent <= 1000; }
 
-    /// The exponent of the line density, of a chain that `tapered` made (or a copy of it); nothing of others.
+    /// The exponent of the line density of a chain that `tapered` made, or of a copy of it; nothing for others.
     std::optional<double> taper() const { return taper_; }
 
     Index size() const { return size_; }
@@ -89,7 +90,7 @@ class Chain {
     const Column<T>& centroid() const { return centroid_; }
     const Column<Wide<T>>& gyration_ratio() const { return gyration_ratio_; }
 
-    /// How many finite conical heights the chain has: N, less one for each coordinate that carries no inertia.
+    /// The number of finite conical heights: N, less one for each coordinate that carries no inertia.
     Index mode_count() const { return mode_count_; }
     T total_weight() const { return total_weight_; }
     /// Weight hung below link m, 0 <= m <= size(), as `Wide<T>`: within 14 of its operations where it is a double word
@@ -120,7 +121,7 @@ class Chain {
         return units;
     }
 
-    /// The same links, however they are stored or were made.
+    /// Whether the links are the same, however they are stored or were made.
     friend bool operator==(const Chain& x, const Chain& y) {
         if (x.size_ != y.size_) return false;
         for (Index m = 0; m < std::max(x.distinct_links(), y.distinct_links()); ++m)
@@ -147,7 +148,7 @@ class Chain {
     void check_each_link() const;
     void check_that_links_hang(const Summary<T>& centroids) const;
     Index inertialess_coordinates() const;
-    /// Links that a check has to look at: one where one number of each kind serves all.
+    /// The number of links that a check has to read: one where one number of each kind serves all.
     Index distinct_links() const {
         const bool uniform =
             weight_.is_scalar() && length_.is_scalar() && centroid_.is_scalar() && gyration_ratio_.is_scalar();
@@ -165,7 +166,7 @@ class Chain {
     T total_length_{};
     T largest_length_{};  // a or |h|
     bool one_weight_unit_ = true;
-    std::optional<double> taper_;  // the links' numbers cannot change, so that it stays true
+    std::optional<double> taper_;  // stays true, because the numbers cannot change
 };
 
 namespace detail {
@@ -185,7 +186,8 @@ T least_size(const Column<T>& column, const T& given) {
 
 }  // namespace detail
 
-/// One pass over each column in loops that compilers vectorise; only what fails there is looked at link by link.
+/// One pass over each column in loops that compilers vectorise. Links are read one by one only where that finds a
+/// fault.
 template <Real T>
 void Chain<T>::check() {
     using std::isfinite;
@@ -244,7 +246,7 @@ void Chain<T>::check() {
     mode_count_ = all_hold || distinct_links() < size_ ? size_ : size_ - inertialess_coordinates();
 }
 
-/// Names the first link that is at fault, if one is.
+/// Throws InvalidArgument that names the first link at fault, if there is one.
 template <Real T>
 void Chain<T>::check_each_link() const {
     using std::isfinite;
@@ -292,8 +294,8 @@ void Chain<T>::check_that_links_hang(const Summary<T>& centroids) const {
     }
 }
 
-/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), read off the links from the support down: `free` says
-/// whether the pin reached so far can move with no inertia noticing.
+/// Nullity of the mass matrix M = sum W (y_G^2 + rho^2 s^2), from the links, from the support down: `free` says whether
+/// the pin reached so far can move without inertia.
 /// A massless thread between two rods costs no mode (the rods' own inertia holds its pins); above a plummet it does.
 template <Real T>
 Index Chain<T>::inertialess_coordinates() const {

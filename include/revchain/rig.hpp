@@ -17,8 +17,8 @@ namespace revchain {
 /// What holds the uppermost pin; by default a firm point on the axis.
 struct Support {
     double stiffness = std::numeric_limits<double>::infinity();  ///< sideways, force over length; infinite where firm
-    double carriage_weight = 0;  ///< of what moves sideways with the pin, on a support that yields
-    double radius = 0;           ///< of the circle in which the support's place of rest is carried round; 0 on the axis
+    double carriage_weight = 0;  ///< weight that moves sideways with the pin, on a support that yields
+    double radius = 0;           ///< radius of the circle in which the support's place of rest runs; 0 on the axis
 
     bool is_firm() const { return std::isinf(stiffness); }
     friend bool operator==(const Support&, const Support&) = default;
@@ -81,12 +81,12 @@ inline Flywheel driven_flywheel(double weight, double radius_of_gyration, double
 /// The fluid around a chain: at rest, or turning bodily with it.
 enum class Fluid { still, turning };
 
-/// What a link displaces. Its centre of buoyancy and radius of gyration are those of the fluid that would fill it.
+/// The fluid that a link displaces. Centre of buoyancy and radius of gyration are those of the fluid in its place.
 struct Displaced {
     double weight = 0;                 ///< B >= 0, of the fluid displaced
-    double centroid = 0;               ///< of it, from the upper pin, positive towards the lower
+    double centroid = 0;               ///< centre of buoyancy, from the upper pin, positive towards the lower
     Wide<double> gyration_ratio{0.0};  ///< (radius of gyration / length of the link)^2, about that centroid
-    double added_weight = 0;           ///< of fluid that has to move with the link, in still fluid; spread as B is
+    double added_weight = 0;           ///< fluid at rest that has to move with the link; spread as B is
 
     friend bool operator==(const Displaced&, const Displaced&) = default;
 };
@@ -193,7 +193,7 @@ inline void Rig::check() const {
 /// hung vertically over the distance between the pins, n the speed and lambda = g/n^2:
 ///     R = H_below + moment y_below,    lambda (tension + n spin) t + length cross s = R,
 ///     y = y_below - length s,          H = R + rest y.
-/// Of small inclinations the stiffness is (tension + n spin)/length, negative where the link stands, the mass
+/// For small inclinations the stiffness is (tension + n spin)/length, negative where the link stands, the mass
 /// [lower cross; cross upper].
 struct RigLink {
     using S = Wide<double>;

@@ -13,15 +13,14 @@ namespace revchain {
 
 /// The weight of a chain per unit of length as a function of the distance from its free end, held as polynomials.
 ///
-/// Method: the length is halved, and the halves, until a polynomial of degree 12 through Chebyshev points gives the
-/// function to its rounding, looked at between them too, or a piece is 2^-46 of the length: so a jump or a corner costs
-/// about fifty pieces. At the free end a piece of 2^-40 stands for c s^p, as a power law has it, whose weight grows
-/// like s^(p+1).
-/// Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp).
+/// Method: the length is halved, and the halves again, until a polynomial of degree 12 through Chebyshev points gives
+/// the function to its rounding, also between them, or a piece is 2^-46 of the length. A jump or a corner costs about
+/// fifty pieces. At the free end a piece of 2^-40 of the length holds a power law c s^p, whose weight grows like
+/// s^(p+1). Accuracy: relative, 1e-14 of the largest value on a piece (tests/cpp/finite/cord/continuous_chain.cpp).
 class LineDensity {
    public:
     static constexpr int degree = 12;
-    using Coefficients = std::array<double, degree + 1>;  ///< of powers, from the constant on
+    using Coefficients = std::array<double, degree + 1>;  ///< those of powers, the constant first
     static constexpr double rounding = 8e-15;             // below what functions of a dozen operations give
     static constexpr int least_halvings = 2, max_halvings = 46, max_at_tip = 40;
     static constexpr std::size_t max_pieces = 20'000;
