@@ -2,6 +2,7 @@
 #include "revchain/finite/branch/diagram_proof.hpp"
 
 #include "revchain/branches.hpp"
+#include "revchain/finite/shapes/list.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
