@@ -23,6 +23,7 @@ struct Question {
     double rtol = 0;
     double inclination = 0;  ///< rad, below a right angle, of the lowest link of the shape that grows out of the mode
     Progress* progress = nullptr;
+    bool proved = false;  ///< whether only models whose bounds are proved by counts may answer
 
     Index last() const { return first - 1 + count; }
 };
@@ -212,10 +213,13 @@ concept Model = requires(const M& model, const Chain<double>& chain, const Chain
 /// Whether a model belongs to the theory of small inclinations: `M::is_linear`, or true where a model does not say.
 template <class M>
 constexpr bool is_linear() {
-    if constexpr (requires { M::is_linear; })
-        return M::is_linear;
-    else
-        return true;
+    return !requires { requires !M::is_linear; };
+}
+
+/// Whether the bounds of a model are proved by counts.
+template <class M>
+constexpr bool is_proved() {
+    return requires { requires M::is_proved; };
 }
 
 /// How far the theory of small inclinations is off where the lowest link has one that is not: at most 1/cos - 1, if no

@@ -51,6 +51,7 @@ inline double loose_cost(double rtol, Index count, double pass) {
 /// The predicted bound is one that was always proved in tests/cpp/models/models.cpp.
 struct SinglePrecision {
     static constexpr std::string_view name = "single precision";
+    static constexpr bool is_proved = true;
 
     Fit applies(const ChainKind& kind, const Question&) const {
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
@@ -74,6 +75,7 @@ struct SinglePrecision {
 /// Halving between counts, one mode after the other: any chain, any modes, to the tolerance or 2 ulp.
 struct Bisection {
     static constexpr std::string_view name = "bisection";
+    static constexpr bool is_proved = true;
 
     Fit applies(const ChainKind&, const Question&) const { return {}; }
     double error_bound(const ChainKind& kind, const Question& question) const {
@@ -105,6 +107,7 @@ struct Bisection {
 /// to nothing beside what hangs below them join one by one.
 struct Condensed {
     static constexpr std::string_view name = "condensed";
+    static constexpr bool is_proved = true;
 
     Fit applies(const ChainKind& kind, const Question& question) const {
         if (kind.size < 256) return Fit::no("fewer than 256 links");
@@ -136,6 +139,7 @@ struct Condensed {
 /// predicted bound holds for most chains; with looser tolerances, up to 3e-11 was proved for links far apart.
 struct Aberth {
     static constexpr std::string_view name = "aberth";
+    static constexpr bool is_proved = true;
     static constexpr double bound = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question&) const {
@@ -169,6 +173,7 @@ struct Aberth {
 /// bound holds for most chains.
 struct Interpolated {
     static constexpr std::string_view name = "interpolated";
+    static constexpr bool is_proved = true;
     static constexpr double loose = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question& question) const {
