@@ -74,31 +74,28 @@ TwoDoubles newton_between(double low, double high, double w, const F& value_and_
 }
 
 /// theta_0 - theta_2(z_0) - i pi at z_0 + apart, and theta_0' there.
-struct Excess : ValueAndRate {
-    Excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart, Index i) {
-        const double z = place.high, turns = static_cast<double>(i);
-        if (end.is_far()) {
-            rate = 1 / series(0).density(z);
-            value = (apart - two_word_pi * (turns - 1)).high + (series(2).lag(end.z) - series(0).lag(z));
-            return;
-        }
-        TwoDoubles J0, Y0;
-        if (z < 45) {
-            const Cylinders f(z < LowerEnd::nothing_below ? TwoDoubles(LowerEnd::nothing_below) : place);
-            J0 = f.J0, Y0 = f.Y0;
-            rate = 2 / (std::numbers::pi * z * (J0.high * J0.high + Y0.high * Y0.high));
-        } else {
-            rate = 1 / series(0).density(z);
-            const TwoDoubles phase = place - two_word_pi * 0.25 - series(0).lag(z);
-            const double c = std::cos(phase.high), s = std::sin(phase.high);
-            J0 = two_sum(c, -s * phase.low), Y0 = two_sum(s, c * phase.low);
-        }
-        const TwoDoubles sine = end.J2 * Y0 - end.Y2 * J0, cosine = end.J2 * J0 + end.Y2 * Y0;
-        value = std::atan(sine.high / cosine.high);
-        const double rough = std::max(z - 0.25 * std::numbers::pi - 0.125 / z, -0.5 * std::numbers::pi);
-        value += std::numbers::pi * std::round((rough - end.rough - value) / std::numbers::pi - turns);
+inline ValueAndRate excess(const LowerEnd& end, const TwoDoubles& place, const TwoDoubles& apart, Index i) {
+    const double z = place.high, turns = static_cast<double>(i);
+    if (end.is_far())
+        return {(apart - two_word_pi * (turns - 1)).high + (series(2).lag(end.z) - series(0).lag(z)),
+                1 / series(0).density(z)};
+    TwoDoubles J0, Y0;
+    double rate;
+    if (z < 45) {
+        const Cylinders f(z < LowerEnd::nothing_below ? TwoDoubles(LowerEnd::nothing_below) : place);
+        J0 = f.J0, Y0 = f.Y0;
+        rate = 2 / (std::numbers::pi * z * (J0.high * J0.high + Y0.high * Y0.high));
+    } else {
+        rate = 1 / series(0).density(z);
+        const TwoDoubles phase = place - two_word_pi * 0.25 - series(0).lag(z);
+        const double c = std::cos(phase.high), s = std::sin(phase.high);
+        J0 = two_sum(c, -s * phase.low), Y0 = two_sum(s, c * phase.low);
     }
-};
+    const TwoDoubles sine = end.J2 * Y0 - end.Y2 * J0, cosine = end.J2 * J0 + end.Y2 * Y0;
+    const double value = std::atan(sine.high / cosine.high);
+    const double rough = std::max(z - 0.25 * std::numbers::pi - 0.125 / z, -0.5 * std::numbers::pi);
+    return {value + std::numbers::pi * std::round((rough - end.rough - value) / std::numbers::pi - turns), rate};
+}
 
 inline void check(std::string_view where, std::string_view name, Index number, double length, double tip) {
     analytic::detail::check(where, name, number, length);
@@ -132,7 +129,7 @@ struct Ends {
         return newton_between(low, high, w, [&](double at) {
             const TwoDoubles place = TwoDoubles(at) / gap;
             const LowerEnd end(place * ratio);
-            const Excess e(end, place, TwoDoubles(at), mode);
+            const ValueAndRate e = excess(end, place, TwoDoubles(at), mode);
             if (!end.is_far()) return ValueAndRate{e.value, (e.rate - r * end.rate) / g};
             // without cancellation
             const double a0 = series(0).density_above_one(place.high), a2 = series(2).density_above_one(end.z);
@@ -212,7 +209,7 @@ class Mode {
             double w = std::max(high - std::numbers::pi, 0.5 * high);
             if (i == 1 && end_.is_far()) w = lag(0, end_.z) - lag(2, end_.z);  // near a heavy particle
             w = high = detail::newton_between(0, high, w, [&](double at) {
-                           return detail::Excess(end_, place_ + at, detail::TwoDoubles(at), i);
+                           return detail::excess(end_, place_ + at, detail::TwoDoubles(at), i);
                        }).high;
             points[i - 1] = length_ * (w / apart_.high) * ((w + 2 * end_.z) / (apart_.high + 2 * end_.z));
         }
