@@ -31,7 +31,8 @@ class LineDensity {
         detail::require_positive("LineDensity", "length", length);
         divide(weight_per_length, 0, length, 0);
         std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
-        if (pieces_.front().power == 0) at_tip_ = integrated(about(0));
+        if (pieces_.front().power == 0) at_tip_ = about(0);
+        for (std::size_t k = 0; k <= degree; ++k) at_tip_[k] /= static_cast<double>(k + 1);
         for (Piece& piece : pieces_) {
             piece.below = total_;
             total_ += piece.power == 0 ? weight_within(piece, 1) : piece.factor[0] * 2 * piece.half / (piece.power + 1);
@@ -100,15 +101,15 @@ class LineDensity {
         for (std::size_t k = degree + 1; k-- > 0;) sum = sum * t + factor[k];
         return sum;
     }
-    /// Coefficients of the integral from 0 to t, over t.
-    static Coefficients integrated(Coefficients factor) {
-        for (std::size_t k = 0; k <= degree; ++k) factor[k] /= static_cast<double>(k + 1);
-        return factor;
-    }
     /// Weight of the piece from its left end to t.
     static double weight_within(const Piece& piece, double t) {
-        const Coefficients mean = integrated(piece.factor);
-        return piece.half * (polynomial(mean, t) * t + polynomial(mean, -1));
+        double right = 0, left = 0;
+        for (std::size_t k = degree + 1; k-- > 0;) {
+            const double c = piece.factor[k] / static_cast<double>(k + 1);
+            right = right * t + c;
+            left = -left + c;
+        }
+        return piece.half * (right * t + left);
     }
 
     void divide(const std::function<double(double)>& f, double low, double high, int halvings) {
