@@ -61,17 +61,22 @@ template <class T>
     throw InvalidArgument("revchain::" + std::string(function) + ": " + std::string(sentence));
 }
 
-/// Throws InvalidArgument unless `good(value)`, for each pair of name and value. `rule` says what a value must be.
+template <class T>
+[[noreturn]] void throw_rule(std::string_view function, std::string_view name, std::string_view rule, const T& value) {
+    throw_invalid(function, std::string(name) + " must be " + std::string(rule), value);
+}
+
+/// Throws InvalidArgument unless every value is finite and `good`. Names and values come in pairs; `rule` says what a
+/// value must be.
 template <class Good, Real T, class... Rest>
 void require(const Good& good, std::string_view rule, std::string_view function, std::string_view name, const T& value,
              const Rest&... rest) {
     using std::isfinite;
-    if (!isfinite(value) || !good(value))
-        throw_invalid(function, std::string(name) + " must be " + std::string(rule), value);
+    if (!isfinite(value) || !good(value)) throw_rule(function, name, rule, value);
     if constexpr (sizeof...(rest) > 0) require(good, rule, function, rest...);
 }
 
-/// These throw InvalidArgument unless each value is as the name says, and finite. Names and values come in pairs.
+/// These throw InvalidArgument unless every value is finite and as the name says. Names and values come in pairs.
 template <class... Pairs>
 void require_finite(std::string_view function, const Pairs&... pairs) {
     require([](const auto&) { return true; }, "finite", function, pairs...);

@@ -184,7 +184,7 @@ void add_opposite_sides(const Pair<T>& pair, std::vector<PairShape<T>>& shapes) 
     const auto value = [&](const Place<S>& place) { return at(place.x, place.left).first; };
     if (!(low.x < high.x)) return add_between(start, end, -1);
     const bool zero_before = value(low) < S(0);
-    const bool zero_after = value(high) > S(0) || !zero_before;
+    const bool zero_after = !zero_before || value(high) > S(0);
     if (zero_after) add_between(high, end, -1);
     if (zero_before && zero_after) add_between(low, high, 1);
     if (zero_before) add_between(start, low, -1);

@@ -32,7 +32,10 @@ namespace detail {
 /// x / length in twice the digits, whatever their unit.
 template <Real T>
 Wide<T> in_lengths(const Wide<T>& x, const T& length) {
-    return Product<Wide<T>>::of(x).over(length).value();
+    using std::frexp, std::ldexp;
+    int exponent = 0;
+    const T digits = frexp(length, &exponent);
+    return Product<Wide<T>>::of(x).over(Product<Wide<T>>{digits, exponent}).value();
 }
 
 /// x lengths, rounded once, whatever the unit.
