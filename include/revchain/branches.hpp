@@ -2,6 +2,7 @@
 #pragma once
 
 #include <concepts>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,12 +17,12 @@
 ///     const auto chain = revchain::Chain<double>::uniform_plummets(3, 3.0);
 ///     const auto second = revchain::branch(chain, {.mode = 2, .max_angular_speed = 15.0});
 ///     second.end == revchain::BranchEnd::height;   // true: it was followed to that speed
-///     second.tip_radius[second.size() - 1];        // 0.505342 m there, from the axis
+///     second.tip_radius[second.size() - 1];        // 0.524717 m there, from the axis
 ///     const auto all = revchain::branches(chain, {.max_angular_speed = 15.0});
 ///     all.branches.size();                         // 4 branches: those of three modes, and an isolated one
 ///     all.complete;                                // true: proved, there are no others
 ///     const auto shape = revchain::steady_shape(chain, {.mode = 1, .tip_radius = 2.0});
-///     shape.angular_speed();                       // 2.48218 rad/s: the free end goes 2 m from the axis
+///     shape.angular_speed();                       // 2.34160 rad/s: the free end goes 2 m from the axis
 ///
 /// The branch of a mode leaves the vertical at the mode's critical speed. It may turn back (at a fold) and pass one
 /// speed several times. An isolated branch is born in a fold and never reaches the vertical.
@@ -155,6 +156,7 @@ struct SteadyShapeOptions {
     double gravity = conical_pendulum::standard_gravity;
     /// How far down to look; left out: 1e-6 of the height of the mode, and half of a conical height that is given.
     std::optional<double> min_conical_height{};
+    std::size_t max_shapes = std::numeric_limits<std::size_t>::max();  ///< of `shapes_on_branch`
 };
 
 /// States of one branch, in the order of its arc.
@@ -179,7 +181,8 @@ struct ShapesOnBranch {
 /// where the number is not met.
 SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& options);
 
-/// All of those shapes; none where the number is not met. Otherwise as `steady_shape`.
+/// Those shapes in the order of the arc, the first `max_shapes` of them; none where the number is not met. Otherwise as
+/// `steady_shape`.
 ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options);
 
 namespace detail {

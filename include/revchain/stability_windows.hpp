@@ -14,7 +14,7 @@
 ///     windows.size();                                                // 2 windows
 ///     windows[0].verdict == revchain::Verdict::spectrally_stable;    // true, from the vertical on
 ///     windows[1].verdict == revchain::Verdict::unstable;             // true: faster than that
-///     windows[1].height_from;                                        // 0.135703 m: the conical height of the edge
+///     windows[1].height_from;                                        // 0.135704 m: the conical height of the edge
 namespace revchain {
 
 /// A part of a branch throughout which a small disturbance is seen to fare alike.

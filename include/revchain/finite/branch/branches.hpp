@@ -277,11 +277,13 @@ REVCHAIN_INLINE Branches branches(const Chain<double>& chain, const BranchesOpti
 }
 
 REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options) {
-    return finite::search_branch<ShapesOnBranch>(chain, options, true);
+    return finite::search_branch<ShapesOnBranch>(chain, options);
 }
 
 REVCHAIN_INLINE SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& options) {
-    ShapesOnBranch found = finite::search_branch<ShapesOnBranch>(chain, options, false);
+    SteadyShapeOptions first = options;
+    first.max_shapes = 1;
+    ShapesOnBranch found = shapes_on_branch(chain, first);
     if (found.shapes.empty())
         detail::throw_invalid(
             "steady_shape",

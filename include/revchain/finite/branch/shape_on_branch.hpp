@@ -16,8 +16,8 @@ class BranchSearch {
     BranchSearch(BranchRoot& root, const Measure& measure, const Condition<S>& condition, double amplitude)
         : root_(root), measure_(measure), condition_(condition), amplitude_(amplitude) {}
 
-    /// Down to a log of conical height; the first state, or all.
-    Found run(double log_end, bool all) {
+    /// Down to a log of conical height, at most `max_shapes` states.
+    Found run(double log_end, std::size_t max_shapes) {
         Found result;
         result.searched_to = root_.height;
         const BranchOnset& onset = root_.onset;
@@ -28,7 +28,7 @@ class BranchSearch {
             if (auto shape = close(near, amplitude_ * onset.steepest)) {
                 result.shapes.push_back(std::move(*shape));
                 result.searched_to = result.shapes.back().conical_height;
-                if (!all) return result;
+                if (result.shapes.size() >= max_shapes) return result;
             }
             // past the state; farther out where double tells the branch from the vertical, what is wanted growing all
             // along
@@ -44,7 +44,7 @@ class BranchSearch {
                 result.end = End::stuck;
                 return result;
             }
-            Found walked = walked_from(*start, result, log_end, all);
+            Found walked = walked_from(*start, result, log_end, max_shapes);
             if (walked.end != End::stuck || walked.shapes.size() > result.shapes.size() || !(from > 1e-6))
                 return walked;
         }
@@ -53,7 +53,7 @@ class BranchSearch {
    private:
     static constexpr int max_steps = 100'000;
 
-    Found walked_from(const BranchPoint& start, Found result, double log_end, bool all) {
+    Found walked_from(const BranchPoint& start, Found result, double log_end, std::size_t max_shapes) {
         BranchWalk walk(root_.corrector, start, start.arc);
         const HeightMeasure to_end{log_end};
         for (int step = 0; step < max_steps; ++step) {
@@ -64,7 +64,7 @@ class BranchSearch {
                 const double reach = walk.here().arc - walk.before().arc;
                 if (auto shape = close(each.point.state, std::min(0.1, reach))) {
                     result.shapes.push_back(std::move(*shape));
-                    if (!all) return stopped(result, walk, End::height);
+                    if (result.shapes.size() >= max_shapes) return stopped(result, walk, End::height);
                 }
             }
             if (!last.empty()) return stopped(result, walk, End::height);
@@ -106,9 +106,9 @@ double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
     return small * wanted / std::abs(measure({state, state}).value + wanted);
 }
 
-/// The first state on the branch at which the number given is met, or all states.
+/// The states on the branch at which the number given is met.
 template <class Found, class Options>
-Found search_branch(const Chain<double>& chain, const Options& given, bool all) {
+Found search_branch(const Chain<double>& chain, const Options& given) {
     using revchain::detail::in_digits, revchain::detail::require_positive, revchain::detail::throw_invalid;
     constexpr std::string_view place = "steady_shape";
     const Index mode = given.mode;
@@ -131,7 +131,7 @@ Found search_branch(const Chain<double>& chain, const Options& given, bool all) 
     const auto* links = &root.corrector.links();
     const auto search = [&](const auto& measure, const auto& condition, double amplitude, double log_end) {
         using Search = BranchSearch<Found, std::decay_t<decltype(measure)>>;
-        return Search(root, measure, condition, amplitude).run(log_end, all);
+        return Search(root, measure, condition, amplitude).run(log_end, given.max_shapes);
     };
     if (given.conical_height || given.angular_speed) {
         S height;
