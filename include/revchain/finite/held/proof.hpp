@@ -12,9 +12,8 @@ using Span = Interval<DoubleDouble>;
 
 inline double largest(const Span& x) { return static_cast<double>(x.size()) * 1.0000001; }
 
-/// Encloses the direction of a link under a load, about one found for it;
-/// returns the derivative of its moment with the inclination, not positive
-/// where the link may be slack or settle elsewhere.
+/// Encloses the direction of a link under a load, about one found for it. Returns the derivative of its moment with the
+/// inclination, which is not positive where the link may be slack or settle elsewhere.
 inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<DoubleDouble>& found,
                    Direction<Span>& way) {
     const Span unknown(DoubleDouble(0));
@@ -60,7 +59,7 @@ struct HeldBox {
             turned = std::max(turned, turn);
             return growth;
         };
-        end = held_sweep<2>(links, {about(0), about(1), height}, settle_near, [](std::size_t, const auto&...) {});
+        end = held_sweep<2>(links, {about(0), about(1), height}, settle_near);
     }
 };
 
@@ -79,16 +78,16 @@ inline double held_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
     const HeldBox centre(links, height, forces, {0, 0}, found);
     if (!centre.end.known) return unproved;
     const auto slope = [](const Span& x) { return static_cast<double>(x.middle()); };
-    const std::array<double, 4> J{slope(centre.end.offset_change[0]), slope(centre.end.offset_change[1]),
-                                  slope(centre.end.rise_change[0]), slope(centre.end.rise_change[1])};
-    const double determinant = J[0] * J[3] - J[1] * J[2];
+    const double a = slope(centre.end.offset_change[0]), b = slope(centre.end.offset_change[1]),
+                 c = slope(centre.end.rise_change[0]), d = slope(centre.end.rise_change[1]),
+                 determinant = a * d - b * c;
     if (!(std::abs(determinant) > 0)) return unproved;
-    const std::array<DoubleDouble, 4> inverse{DoubleDouble(J[3] / determinant), DoubleDouble(-J[1] / determinant),
-                                              DoubleDouble(-J[2] / determinant), DoubleDouble(J[0] / determinant)};
+    const auto entry = [&](double x) { return Span(DoubleDouble(x / determinant)); };
+    const std::array<Span, 4> inverse{entry(d), entry(-b), entry(-c), entry(a)};
     const Span missed = centre.end.rise - span;
     std::array<double, 2> step, radius;
     for (std::size_t i = 0; i < 2; ++i)
-        step[i] = detail::largest(Span(inverse[2 * i]) * centre.end.offset + Span(inverse[2 * i + 1]) * missed);
+        step[i] = detail::largest(inverse[2 * i] * centre.end.offset + inverse[2 * i + 1] * missed);
     radius = {2 * step[0] + 1e-290, 2 * step[1] + 1e-290};
     for (int round = 0; round < 4; ++round) {
         const HeldBox box(links, height, forces, radius, found);
@@ -99,7 +98,7 @@ inline double held_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
             image[i] = step[i];
             for (std::size_t j = 0; j < 2; ++j) {
                 const Span product =
-                    Span(inverse[2 * i]) * box.end.offset_change[j] + Span(inverse[2 * i + 1]) * box.end.rise_change[j];
+                    inverse[2 * i] * box.end.offset_change[j] + inverse[2 * i + 1] * box.end.rise_change[j];
                 image[i] += detail::largest(Span(DoubleDouble(i == j ? 1.0 : 0.0)) - product) * radius[j];
             }
             inside = inside && image[i] < radius[i];
