@@ -50,12 +50,10 @@ class CordSeries {
     double reach(double tolerance) const {
         const PathSeries& x = series_[0];
         const double size = std::abs(x.offset[0]) + std::sqrt(x.tension[0]);
-        const auto of = [&](std::size_t k) {
-            const double largest = std::max({std::abs(x.offset[k]) / size, std::abs(x.tension[k]) / x.tension[0],
-                                             std::abs(x.height[k]) / size, std::numeric_limits<double>::min()});
-            return std::pow(tolerance / largest, 1.0 / static_cast<double>(k));
-        };
-        return std::min(of(PathSeries::order), of(PathSeries::order - 1));
+        return PathSeries::reach(tolerance, [&](std::size_t k) {
+            return std::max({std::abs(x.offset[k]) / size, std::abs(x.tension[k]) / x.tension[0],
+                             std::abs(x.height[k]) / size, std::numeric_limits<double>::min()});
+        });
     }
     double arc_at(double t) const { return PathSeries::at(series_[0].arc, t); }
     /// The time at which the arc is reached; it grows with the time.
