@@ -14,6 +14,23 @@ template <class T>
 struct Bracket {
     T low, high;
 };
+template <class T>
+bool goes_on(const Bracket<T>& part, const Bracket<T>& next) {
+    return part.high == next.low;
+}
+
+/// Parts in their order, those that touch as one.
+template <class Part>
+std::vector<Part> joined(const std::vector<Part>& parts) {
+    std::vector<Part> result;
+    for (const Part& part : parts) {
+        if (!result.empty() && goes_on(result.back(), part))
+            result.back().high = part.high;
+        else
+            result.push_back(part);
+    }
+    return result;
+}
 
 /// Steady shapes isolated by proof.
 template <class T>

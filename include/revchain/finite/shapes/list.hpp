@@ -58,22 +58,15 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     const auto wide = swept_links<Far>(chain);
     const Interval<Far> height_wide = enclosed<Far>(height);
     const auto support_wide = enclosed<Far>(support_of(chain));
-    const std::size_t count = first.undecided.size();
-    for (std::size_t i = 0, end = 0; i < count; i = end) {
-        for (end = i + 1; end < count && first.undecided[end].low == first.undecided[end - 1].high;) ++end;
-        const Far low(first.undecided[i].low), high(first.undecided[end - 1].high);  // cells that touch are one
-        const auto again = detail::isolate<Far>(wide, height_wide, {low, high}, Far(1e-26),
+    for (const Bracket<double>& open : joined(first.undecided)) {
+        const auto again = detail::isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
                                                 std::max(0L, budget - found.cells), support_wide);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
-        for (const Bracket<Far>& b : again.undecided) {
-            if (!found.undecided.empty() && found.undecided.back().high == b.low)
-                found.undecided.back().high = b.high;
-            else
-                found.undecided.push_back(b);
-        }
+        found.undecided.insert(found.undecided.end(), again.undecided.begin(), again.undecided.end());
     }
     if (found.undecided.empty()) return found;
+    found.undecided = joined(found.undecided);
     const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
         const int sign = detail::sign_at(narrow, lambda, static_cast<double>(t), support);
         return sign != 0 ? sign : detail::sign_at(wide, height_wide, t, support_wide);
@@ -82,16 +75,10 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     return found;
 }
 
-/// A shape and the tangent of its lowest link.
-struct Finished {
-    Balanced<Wide<double>> shape;
-    Wide<double> tangent;
-};
-
 /// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
 template <class AnyLinks>
-std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& height,
-                                 const Bracket<DoubleDouble>& bracket) {
+std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide<double>& height,
+                                               const Bracket<DoubleDouble>& bracket) {
     using S = Wide<double>;
     const std::vector<Link<S>>& links = chain.links;
     const auto support = support_of(chain);
@@ -104,11 +91,10 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
         return middle;
     };
     for (int round = 0; round < 16; ++round) {
-        auto found = balance(links, height, swept(links, height, halve()), 60, {}, support);
+        auto found = balance(links, height, swept(links, height, halve()), {}, support);
         if (found.converged) {
             const S tangent = detail::tangent_in(found, links, 0);
-            if (bracket.low.word() < tangent && tangent < bracket.high.word())
-                return Finished{std::move(found), tangent};
+            if (bracket.low.word() < tangent && tangent < bracket.high.word()) return found;
         }
         for (int i = 0; i < 6; ++i) halve();
     }
@@ -120,11 +106,11 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
 /// may do.
 template <class End>
 double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
-                         const Bracket<DoubleDouble>& bracket, const Finished& found,
+                         const Bracket<DoubleDouble>& bracket, const Balanced<Wide<double>>& found,
                          const std::vector<Link<Wide<double>>>& middle, const End& support) {
     using Far = DoubleDouble;
     const Interval<Far> lambda = enclosed<Far>(height);
-    const Far tangent(found.tangent);
+    const Far tangent(detail::tangent_in(found, middle, 0));
     Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
     for (int round = 0;; ++round, reach = reach * Far(16)) {
         const bool far = round == 300;  // 16^300 overflows
@@ -137,7 +123,7 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
         detail::support_offset(links, lambda, Interval<Far>(low, high), OnAxis{}, &tangents);
         double worst = 0;
         for (std::size_t m = 0; m < tangents.size(); ++m) {
-            const Far t(detail::tangent_in(found.shape, middle, m));
+            const Far t(detail::tangent_in(found, middle, m));
             const Interval<Far> both = hull(tangents[m], Interval<Far>(t));
             const double near = both.may_vanish() ? 0.0 : static_cast<double>(std::min(abs(both.low), abs(both.high)));
             const double change =
@@ -207,14 +193,14 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
         const std::size_t before = result.shapes.size();
         if (auto found = finished(links, height, bracket)) {
             Shape& shape = result.shapes.emplace_back(
-                verified_shape<Shape>(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
+                verified_shape<Shape>(links, narrow, height, enclosed<DoubleDouble>(height), *found, true));
             if (shape.error_bound <= 0x1.8p-52) continue;
             // all but horizontal, or all but critical: the sweep may say more
             const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
             if (error < shape.error_bound) {
                 const double condition = shape.condition;
-                turn_outwards(found->shape, support);
-                shape = described<Shape>(links, height, found->shape);
+                turn_outwards(*found, support);
+                shape = described<Shape>(links, height, *found);
                 shape.error_bound = error, shape.condition = condition;
             }
             if (shape.error_bound < 0x1p-48) continue;

@@ -95,7 +95,7 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
     }
     Settled result;
     result.condition = *condition;
-    result.shape = finite::balance(links, height, offset, 60, balance.posture(), support_of(chain));
+    result.shape = finite::balance(links, height, offset, balance.posture(), support_of(chain));
     if (!result.shape.converged || !agrees(links, result.shape, *box)) {
         result.shape = {std::move(offset), balance.posture(), true, {}};
         for (const DoubleDouble& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
@@ -137,18 +137,10 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
         result.cells += first.search({choice, 0.0, last}, last, 1e-14, budget - result.cells);
     } while (result.cells < budget && first.next_choice(choice));
     if (result.cells >= budget) result.open.push_back({posture[0], 0.0, last});
-    // In double-double, parts that touch are one.
-    PostureSearch second(wide, enclosed<Far>(height), first, enclosed<Far>(support));
-    for (std::size_t i = 0, end = 0; i < first.open().size(); i = end) {
-        const auto& part = first.open()[i];
-        double high = part.high;
-        for (end = i + 1; end < first.open().size() && first.open()[end].choice == part.choice; ++end) {
-            if (first.open()[end].low != high) break;
-            high = first.open()[end].high;
-        }
+    PostureSearch second(wide, enclosed<Far>(height), posture, enclosed<Far>(support), first);
+    for (const auto& part : joined(first.open()))
         result.cells +=
-            second.search({part.choice, Far(part.low), Far(high)}, Far(last), Far(1e-26), budget - result.cells);
-    }
+            second.search({part.choice, Far(part.low), Far(part.high)}, Far(last), Far(1e-26), budget - result.cells);
     const auto leave_open = [&](const Far& low, const Far& high) {
         result.open.push_back({posture[0], static_cast<double>(low), static_cast<double>(high)});
     };
