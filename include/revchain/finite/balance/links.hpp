@@ -61,15 +61,18 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     return result;
 }
 
-/// The same, rounded.
-template <class To, class From>
-std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
+/// Links whose numbers are `of` those given.
+template <class To, class From, class Of>
+std::vector<Link<To>> converted(const std::vector<Link<From>>& links, const Of& of) {
     std::vector<Link<To>> result;
     result.reserve(links.size());
     for (const Link<From>& l : links)
-        result.push_back({static_cast<To>(l.length), static_cast<To>(l.pull), static_cast<To>(l.cross),
-                          static_cast<To>(l.moment), static_cast<To>(l.rest)});
+        result.push_back({of(l.length), of(l.pull), of(l.cross), of(l.moment), of(l.rest)});
     return result;
+}
+template <class To, class From>
+std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
+    return converted<To>(links, [](const From& x) { return static_cast<To>(x); });
 }
 
 /// A number known in S to some of its last digits, enclosed in T; one that T holds exactly is taken as exact if T is
@@ -89,12 +92,7 @@ Interval<T> enclosed(const S& x) {
 }
 template <class T, class S>
 std::vector<Link<Interval<T>>> enclosed(const std::vector<Link<S>>& links) {
-    std::vector<Link<Interval<T>>> result;
-    result.reserve(links.size());
-    for (const Link<S>& l : links)
-        result.push_back({enclosed<T>(l.length), enclosed<T>(l.pull), enclosed<T>(l.cross), enclosed<T>(l.moment),
-                          enclosed<T>(l.rest)});
-    return result;
+    return converted<Interval<T>>(links, [](const S& x) { return enclosed<T>(x); });
 }
 
 namespace detail {

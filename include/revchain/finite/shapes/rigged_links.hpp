@@ -21,9 +21,6 @@ struct RiggedLinks : Links<Wide<double>> {
     double total_weight = 0;         ///< of the chain
 
     bool turned(std::size_t m) const { return links[m].pull < Wide<double>(0); }
-    bool any_turned() const {
-        return std::any_of(links.begin(), links.end(), [](const auto& link) { return link.pull < Wide<double>(0); });
-    }
     /// From swept links to given ones, or back.
     template <class T>
     void turn(std::vector<Interval<T>>& tangents) const {
@@ -91,22 +88,14 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
     return far.high;
 }
 
-namespace detail {
-
-struct BearingWeights {
-    const RiggedLinks& rig;
-    double total = rig.total_weight;
-    double bearing_on(std::size_t m, const Link<Wide<double>>&) const { return static_cast<double>(rig.given[m].hung); }
-};
-
-}  // namespace detail
-
 /// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy
 /// holds the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
 template <class Shape = SteadyShape>
 Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
     using S = Wide<double>;
-    Shape shape = described<Shape>(rig, height, found, detail::BearingWeights{rig});
+    std::vector<double> hung;
+    for (const RigLink& link : rig.given) hung.push_back(static_cast<double>(link.hung));
+    Shape shape = described<Shape>(rig, height, found, hung, rig.total_weight);
     const S top = found.offset.back();
     double last = 0;
     for (const double y : shape.offset.head(shape.offset.size() - 1))

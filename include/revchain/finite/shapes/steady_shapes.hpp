@@ -22,9 +22,9 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 }
 
 inline bool hangs_at_one_inclination(const RiggedLinks& rig, const Interval<double>& height) {
-    const bool hangs =
-        std::all_of(rig.posture.begin(), rig.posture.end(), [](Posture posture) { return posture == Posture::hangs; });
-    return hangs && !rig.any_turned() && single_valued(swept_links<double>(rig), height);
+    for (std::size_t m = 0; m < rig.links.size(); ++m)
+        if (rig.posture[m] == Posture::stands || rig.turned(m)) return false;
+    return single_valued(swept_links<double>(rig), height);
 }
 
 inline SteadyShape mirrored(SteadyShape shape) {
