@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "revchain/chain.hpp"
+#include "revchain/numeric/double_double.hpp"
 #include "revchain/numeric/interval.hpp"
 
 namespace revchain::finite {
@@ -25,6 +26,13 @@ struct Link {
 /// The sine of a link that hangs (stands) is + (-) that of its tangent t, and its balance
 ///     lambda pull t +- length cross t/sqrt(1 + t^2) = R.
 using revchain::Posture;
+
+/// Links each of whose numbers lies within an interval.
+template <class T>
+using EnclosedLinks = std::vector<Link<Interval<T>>>;
+
+/// What double leaves open is proved in this.
+using Far = DoubleDouble;
 
 /// Links in units of 2^length_exponent and 2^weight_exponent.
 template <class S>
@@ -91,7 +99,7 @@ Interval<T> enclosed(const S& x) {
     }
 }
 template <class T, class S>
-std::vector<Link<Interval<T>>> enclosed(const std::vector<Link<S>>& links) {
+EnclosedLinks<T> enclosed(const std::vector<Link<S>>& links) {
     return converted<Interval<T>>(links, [](const S& x) { return enclosed<T>(x); });
 }
 

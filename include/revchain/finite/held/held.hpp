@@ -86,11 +86,10 @@ class HeldChain {
         }
         HeldShape shape = described(wide_, forces, span, direction);
         if (prove) {
-            std::vector<Direction<DoubleDouble>> found;
-            for (const Direction<S>& d : direction) found.push_back({DoubleDouble(d.sine), DoubleDouble(d.cosine)});
-            const double error = held_error(enclosed<DoubleDouble>(wide_.links), enclosed<DoubleDouble>(height),
-                                            enclosed<DoubleDouble>(span),
-                                            {DoubleDouble(forces.across), DoubleDouble(forces.along)}, found);
+            std::vector<Direction<Far>> found;
+            for (const Direction<S>& d : direction) found.push_back({Far(d.sine), Far(d.cosine)});
+            const double error = held_error(enclosed<Far>(wide_.links), enclosed<Far>(height), enclosed<Far>(span),
+                                            {Far(forces.across), Far(forces.along)}, found);
             shape.proved = error < 1e-3;
             // and an inclination rounded once
             if (shape.proved) shape.error_bound = error + 1.001 * 0x1p-53 * shape.inclination.cwiseAbs().maxCoeff();

@@ -2,21 +2,20 @@
 #pragma once
 
 #include "revchain/finite/held/sweep.hpp"
-#include "revchain/numeric/double_double.hpp"
 
 namespace revchain::finite {
 
 namespace detail {
 
-using Span = Interval<DoubleDouble>;
+using Span = Interval<Far>;
 
 inline double largest(const Span& x) { return static_cast<double>(x.size()) * 1.0000001; }
 
 /// Encloses the direction of a link under a load, about one found for it. Returns the derivative of its moment with the
 /// inclination, which is not positive where the link may be slack or settle elsewhere.
-inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<DoubleDouble>& found,
+inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,
                    Direction<Span>& way) {
-    const Span unknown(DoubleDouble(0));
+    const Span unknown(Far(0));
     if (is_zero(link.cross)) {
         const Span sum = square(R) + square(V);
         if (!sum.positive()) return unknown;
@@ -30,7 +29,7 @@ inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const D
     const Span left = V * s + turn * s * c - R * c;
     double reach = 1e-28;
     for (int round = 0; round < 60; ++round, reach *= 8) {
-        const Span within(DoubleDouble(-reach), DoubleDouble(reach));
+        const Span within(Far(-reach), Far(reach));
         way = {s + within, c + within};
         const Span growth = V * way.cosine + turn * (square(way.cosine) - square(way.sine)) + R * way.sine;
         if (!growth.positive()) return unknown;
@@ -45,17 +44,16 @@ struct HeldBox {
     double turned = 0;  ///< sine of the largest turn of a link away from the directions given
 
     /// Forces up to `radius` from those of a state, `found` the directions there.
-    HeldBox(const std::vector<Link<Span>>& links, const Span& height, const std::array<DoubleDouble, 2>& forces,
-            const std::array<double, 2>& radius, const std::vector<Direction<DoubleDouble>>& found) {
+    HeldBox(const EnclosedLinks<Far>& links, const Span& height, const std::array<Far, 2>& forces,
+            const std::array<double, 2>& radius, const std::vector<Direction<Far>>& found) {
         const auto about = [&](std::size_t i) {
-            const DoubleDouble off(radius[i]);
-            return Span(revchain::detail::down(DoubleDouble(forces[i] - off)),
-                        revchain::detail::up(DoubleDouble(forces[i] + off)));
+            const Far off(radius[i]);
+            return Span(revchain::detail::down(Far(forces[i] - off)), revchain::detail::up(Far(forces[i] + off)));
         };
         const auto settle_near = [&](std::size_t m, const Span& R, const Span& V, Direction<Span>& way) {
             const Span growth = settle(links[m], R, V, found[m], way);
             const double turn = largest(way.sine * Span(found[m].cosine) - way.cosine * Span(found[m].sine));
-            if (!(turn < 1)) return Span(DoubleDouble(0));
+            if (!(turn < 1)) return Span(Far(0));
             turned = std::max(turned, turn);
             return growth;
         };
@@ -69,9 +67,8 @@ struct HeldBox {
 /// the axis, `span` up, there being one and one alone so near: Krawczyk's test on the two forces at the lower end
 /// (doi:10.1007/ BF02234767). Infinite where it decides nothing: intervals grow along the chain by e^pi, about, for
 /// each half wave.
-inline double held_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
-                         const Interval<DoubleDouble>& span, const std::array<DoubleDouble, 2>& forces,
-                         const std::vector<Direction<DoubleDouble>>& found) {
+inline double held_error(const EnclosedLinks<Far>& links, const Interval<Far>& height, const Interval<Far>& span,
+                         const std::array<Far, 2>& forces, const std::vector<Direction<Far>>& found) {
     using detail::HeldBox;
     using detail::Span;
     constexpr double unproved = std::numeric_limits<double>::infinity();
@@ -82,7 +79,7 @@ inline double held_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
                  c = slope(centre.end.rise_change[0]), d = slope(centre.end.rise_change[1]),
                  determinant = a * d - b * c;
     if (!(std::abs(determinant) > 0)) return unproved;
-    const auto entry = [&](double x) { return Span(DoubleDouble(x / determinant)); };
+    const auto entry = [&](double x) { return Span(Far(x / determinant)); };
     const std::array<Span, 4> inverse{entry(d), entry(-b), entry(-c), entry(a)};
     const Span missed = centre.end.rise - span;
     std::array<double, 2> step, radius;
@@ -99,7 +96,7 @@ inline double held_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
             for (std::size_t j = 0; j < 2; ++j) {
                 const Span product =
                     inverse[2 * i] * box.end.offset_change[j] + inverse[2 * i + 1] * box.end.rise_change[j];
-                image[i] += detail::largest(Span(DoubleDouble(i == j ? 1.0 : 0.0)) - product) * radius[j];
+                image[i] += detail::largest(Span(Far(i == j ? 1.0 : 0.0)) - product) * radius[j];
             }
             inside = inside && image[i] < radius[i];
         }

@@ -111,7 +111,7 @@ long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budg
 
 /// Splits `whole` until each part is seen to hold no shape or one. The straight chain, at 0, is left out.
 template <Real T, class End = OnAxis>
-Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Bracket<T>& whole,
+Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height, const Bracket<T>& whole,
                      const T& narrowest, long budget, const End& support = {}) {
     Isolation<T> found;
     const auto classify = [&](const Bracket<T>& part, long&) {

@@ -13,7 +13,6 @@
 #include "revchain/finite/shapes/scan.hpp"
 #include "revchain/finite/shapes/several_inclinations.hpp"
 #include "revchain/finite/shapes/verification.hpp"
-#include "revchain/numeric/double_double.hpp"
 
 /// The list of all steady shapes at a height. `Result` and `Options` are those of revchain/steady_shapes.hpp.
 namespace revchain::finite {
@@ -21,8 +20,7 @@ namespace revchain::finite {
 /// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the
 /// chain reaches.  y0 = lambda t + (a X/moment) s.
 template <class T>
-T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool either_posture = false,
-                   OnAxis = {}) {
+T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool either_posture = false, OnAxis = {}) {
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
@@ -32,7 +30,7 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
 
 /// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
 template <class T>
-bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
+bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
     return std::all_of(links.begin() + 1, links.end(),
                        [&](const Link<Interval<T>>& link) { return grows_fast(height * link.pull, turning_of(link)); });
 }
@@ -43,9 +41,7 @@ inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Int
 
 /// Isolated in double, where that leaves cells open in double-double; what the proof leaves open is scanned.
 template <class AnyLinks>
-Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, double last,
-                                 long links_to_look_at) {
-    using Far = DoubleDouble;
+Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, double last, long links_to_look_at) {
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
@@ -78,7 +74,7 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
 /// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
 template <class AnyLinks>
 std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide<double>& height,
-                                               const Bracket<DoubleDouble>& bracket) {
+                                               const Bracket<Far>& bracket) {
     using S = Wide<double>;
     const std::vector<Link<S>>& links = chain.links;
     const auto support = support_of(chain);
@@ -105,10 +101,9 @@ std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide
 /// the support's offset on both sides of its lowest tangent, as near as double-double can tell, and what all links then
 /// may do.
 template <class End>
-double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
-                         const Bracket<DoubleDouble>& bracket, const Balanced<Wide<double>>& found,
-                         const std::vector<Link<Wide<double>>>& middle, const End& support) {
-    using Far = DoubleDouble;
+double inclination_error(const EnclosedLinks<Far>& links, const Wide<double>& height, const Bracket<Far>& bracket,
+                         const Balanced<Wide<double>>& found, const std::vector<Link<Wide<double>>>& middle,
+                         const End& support) {
     const Interval<Far> lambda = enclosed<Far>(height);
     const Far tangent(detail::tangent_in(found, middle, 0));
     Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
@@ -136,10 +131,8 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
 
 /// A bracket of a shape, halved by proved signs until rounding leaves a sign open.
 template <class End>
-Bracket<DoubleDouble> narrowed(const std::vector<Link<Interval<DoubleDouble>>>& links,
-                               const Interval<DoubleDouble>& lambda, const End& support,
-                               Bracket<DoubleDouble> bracket) {
-    using Far = DoubleDouble;
+Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Interval<Far>& lambda, const End& support,
+                      Bracket<Far> bracket) {
     const int low_sign = detail::sign_at(links, lambda, bracket.low, support);
     for (int round = 0; round < 200; ++round) {
         const Far middle = Interval<Far>(bracket.low, bracket.high).middle();
@@ -154,8 +147,7 @@ Bracket<DoubleDouble> narrowed(const std::vector<Link<Interval<DoubleDouble>>>& 
 /// the bracket. Nothing if it cannot be proved.
 template <class AnyLinks>
 std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
-                                            const Bracket<DoubleDouble>& bracket, const Bracket<DoubleDouble>& part) {
-    using Far = DoubleDouble;
+                                            const Bracket<Far>& bracket, const Bracket<Far>& part) {
     const auto links = swept_links<Far>(chain);
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
@@ -180,12 +172,12 @@ void add(const AnyLinks& links, const Wide<double>& height, const Settled& settl
 template <class AnyLinks, class Result>
 void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
-    const auto narrow = swept_links<DoubleDouble>(links);
-    const auto support = enclosed<DoubleDouble>(support_of(links));
+    const auto narrow = swept_links<Far>(links);
+    const auto support = enclosed<Far>(support_of(links));
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
-    const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
-        const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
+    const auto leave_open = [&](const Bracket<Far>& b) {
+        const auto inclination = [](const Far& t) { return std::atan(static_cast<double>(t)); };
         result.undecided.push_back({inclination(b.low), inclination(b.high)});
     };
     for (const auto& bracket : isolation.undecided) leave_open(bracket);
@@ -193,7 +185,7 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
         const std::size_t before = result.shapes.size();
         if (auto found = finished(links, height, bracket)) {
             Shape& shape = result.shapes.emplace_back(
-                verified_shape<Shape>(links, narrow, height, enclosed<DoubleDouble>(height), *found, true));
+                verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
             if (shape.error_bound <= 0x1.8p-52) continue;
             // all but horizontal, or all but critical: the sweep may say more
             const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
@@ -206,7 +198,7 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
             if (shape.error_bound < 0x1p-48) continue;
         }
         // or the tangents
-        const auto part = narrowed(narrow, enclosed<DoubleDouble>(height), support, bracket);
+        const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
         if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
             result.shapes.resize(before);
             add(links, height, *settled, result);

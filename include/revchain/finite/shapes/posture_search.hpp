@@ -27,8 +27,8 @@ class PostureSearch {
    public:
     /// `fewer_digits`: if any, the same search in fewer digits, whose zeros are known.
     template <class... Search>
-    PostureSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-                  const std::vector<Posture>& posture, const End& support, const Search&... fewer_digits)
+    PostureSearch(const EnclosedLinks<T>& links, const Interval<T>& height, const std::vector<Posture>& posture,
+                  const End& support, const Search&... fewer_digits)
         : links_(links),
           support_(support),
           balance_(links, height, posture, support),
@@ -140,7 +140,7 @@ class PostureSearch {
         void pass(std::size_t m, const Taylor<T, 1>& t, const Taylor<T, 1>&) { search.box_[m] = t.value; }
     };
 
-    const std::vector<Link<Interval<T>>>& links_;
+    const EnclosedLinks<T>& links_;
     [[no_unique_address]] End support_;
     WholeBalance<T, End> balance_;
     KrawczykList<T, End> zeros_;

@@ -73,7 +73,7 @@ inline bool invert(std::vector<double>& a, std::size_t size) {
 template <Real T, class End = OnAxis>
 class WholeBalance {
    public:
-    WholeBalance(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, std::vector<Posture> posture,
+    WholeBalance(const EnclosedLinks<T>& links, const Interval<T>& height, std::vector<Posture> posture,
                  const End& support = {})
         : size_(links.size()), posture_(std::move(posture)), matrix_(size_ * size_) {
         std::vector<Interval<T>> moving;  // sigma of the weights that move
@@ -169,7 +169,7 @@ class WholeBalance {
 
    private:
     /// Sets what is known of the topmost pin of a rig; returns the sigma of its weights that move.
-    std::vector<Interval<T>> hold(const std::vector<Link<Interval<T>>>& links, const End& support) {
+    std::vector<Interval<T>> hold(const EnclosedLinks<T>& links, const End& support) {
         Interval<T> below(T(0));
         std::vector<Interval<T>> moving;
         for (const Link<Interval<T>>& link : links) {
