@@ -67,15 +67,6 @@ inline Path path_at_rest(const ContinuousChain& chain, double height, Path::Opti
     return {kind_of(chain, height, 0), 1, options};
 }
 
-/// Places of the crossings of the chain at small amplitude up to `farthest`, over the conical height.
-inline std::vector<double> crossings_at_rest(const ContinuousChain& chain, double height, double farthest) {
-    const Path path = path_at_rest(chain, height, {.farthest = farthest});
-    std::vector<double> places;
-    for (const Path::Crossing& crossing : path.crossings())
-        if (crossing.arc <= farthest) places.push_back(crossing.arc);
-    return places;
-}
-
 /// The shape next to a path all but right; none where no path could be followed that far.
 inline std::optional<ContinuousShape> finished(const PathKind& kind, double tip_offset, int crossing, double length,
                                                double height) {
@@ -114,12 +105,14 @@ inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::siz
 
 inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
     const double undecided = 32 * epsilon<double>();  // of a length: on which side of a critical height, nobody can say
-    const double length = chain.length / height;
+    const double length = chain.length / height, farthest = length * (1 + undecided);
     const PathKind kind = kind_of(chain, height, 1);
-    const std::vector<double> at_rest = crossings_at_rest(chain, height, length * (1 + undecided));
-    const auto decided = [&](double place) { return place < length * (1 - undecided); };
+    const Path small = path_at_rest(chain, height, {.farthest = farthest});
+    std::vector<double> at_rest;
+    for (const Path::Crossing& crossing : small.crossings())
+        if (crossing.arc <= farthest) at_rest.push_back(crossing.arc);
     std::size_t count = at_rest.size();
-    while (count > 0 && !decided(at_rest[count - 1])) --count;
+    while (count > 0 && !(at_rest[count - 1] < length * (1 - undecided))) --count;
     ContinuousShapes result;
     const bool theorem = kind.is_bare() || at_rest.size() <= 1;
     result.complete = theorem && count == at_rest.size();

@@ -22,8 +22,7 @@ class Path {
     };
     struct Crossing {
         double arc, rate;  ///< rate: change of arc with the tip's offset
-        std::size_t step;
-        double time;
+        double time;       ///< since the start of its step
     };
     static constexpr std::size_t max_steps = 50'000;
 
@@ -144,7 +143,7 @@ class Path {
             }
             return std::pair(sign * value, sign * slope);
         });
-        Crossing crossing{PathSeries::at(series.arc, t), 0, steps_.size(), t};
+        Crossing crossing{PathSeries::at(series.arc, t), 0, t};
         if (with_change) {
             const PathChange change = series.change(t);
             crossing.rate =
