@@ -31,7 +31,7 @@ using revchain::Posture;
 template <class T>
 using EnclosedLinks = std::vector<Link<Interval<T>>>;
 
-/// What double leaves open is proved in this.
+/// The arithmetic of proofs that double leaves open.
 using Far = DoubleDouble;
 
 /// Links in units of 2^length_exponent and 2^weight_exponent.
@@ -69,13 +69,13 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     return result;
 }
 
-/// Links whose numbers are `of` those given.
-template <class To, class From, class Of>
-std::vector<Link<To>> converted(const std::vector<Link<From>>& links, const Of& of) {
+/// Links with every number x replaced by `to(x)`.
+template <class To, class From, class Convert>
+std::vector<Link<To>> converted(const std::vector<Link<From>>& links, const Convert& to) {
     std::vector<Link<To>> result;
     result.reserve(links.size());
     for (const Link<From>& l : links)
-        result.push_back({of(l.length), of(l.pull), of(l.cross), of(l.moment), of(l.rest)});
+        result.push_back({to(l.length), to(l.pull), to(l.cross), to(l.moment), to(l.rest)});
     return result;
 }
 template <class To, class From>

@@ -14,6 +14,11 @@ struct Balanced {
     std::vector<S> tangent{};      ///< of the links, where they are too near the horizontal for offsets; else empty
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
+    /// Turns the shape into its mirror image.
+    void mirror() {
+        for (S& y : offset) y = -y;
+        for (S& t : tangent) t = -t;
+    }
 };
 
 namespace detail {
@@ -41,8 +46,8 @@ S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::s
     return d / (links[m].length * cosine_of(links[m].length, d, shape.stands(m)));
 }
 
-/// Solves a symmetric tridiagonal system: `x` is its right side, then the solution. `upper[m]` couples rows m and m + 1;
-/// the last is not used. The diagonal is left as the pivots.
+/// Solves a symmetric tridiagonal system: `x` is its right side, then the solution. `upper[m]` couples rows m and
+/// m + 1; the last is not used. The diagonal becomes the pivots.
 inline void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper, std::vector<double>& x) {
     for (std::size_t m = 0; m < x.size(); ++m) {
         if (m > 0) {

@@ -51,7 +51,7 @@ class HeldCord {
     using S = double;
 
     HeldEnd<double> operator()(const HeldForces<double>& forces, bool) const {
-        return CordPath::end(forces, [](const CordSeries&, double) {});
+        return cord_end(forces, [](const CordSeries&, double) {});
     }
     /// A path has no memory.
     struct Nothing {};
@@ -84,7 +84,7 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     std::vector<std::pair<CordPlace, CordChange>> samples;
     double largest_tension = 0, steepest = 0;
     CordPlace last;
-    const HeldEnd<double> end = CordPath::end(state.forces, [&](const CordSeries& series, double duration) {
+    const HeldEnd<double> end = cord_end(state.forces, [&](const CordSeries& series, double duration) {
         shape.steps.push_back(series.place(0));
         for (int i = 0; i < per_step; ++i) {
             const double t = duration * i / per_step;
@@ -172,7 +172,7 @@ inline HeldCordPlace HeldCordShape::operator()(double arc) const {
     const auto after = std::upper_bound(steps.begin() + 1, steps.end(), scaled,
                                         [](double x, const finite::CordPlace& step) { return x < step.arc; });
     const finite::CordSeries series(*(after - 1), conical_height / length);
-    const double duration = 1.05 * series.reach(finite::CordPath::tolerance);
+    const double duration = 1.05 * series.reach();
     HeldCordPlace place = finite::place_of(*this, series.place(series.time_at(scaled, duration)));
     place.arc_length = arc;
     return place;

@@ -99,10 +99,7 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
     }
     const S tip = result.shape.offset[0];
     const bool inwards = abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0);
-    if (inwards && balance.is_symmetric()) {
-        for (S& y : result.shape.offset) y = -y;
-        for (S& t : result.shape.tangent) t = -t;
-    }
+    if (inwards && balance.is_symmetric()) result.shape.mirror();
     for (std::size_t m = 0; m < n; ++m) {
         const double middle = static_cast<double>((*box)[m].middle()), width = static_cast<double>((*box)[m].width());
         const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;  // of an angle below pi, below pi/2

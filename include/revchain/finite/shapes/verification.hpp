@@ -227,8 +227,7 @@ Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, 
 /// Of mirror images, where there are, the one with its free end at a positive offset.
 template <class End>
 void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
-    if (shape.offset[0] < Wide<double>(0) && support.is_symmetric())
-        for (Wide<double>& offset : shape.offset) offset = -offset;
+    if (shape.offset[0] < Wide<double>(0) && support.is_symmetric()) shape.mirror();
 }
 
 /// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of
