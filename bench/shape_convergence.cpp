@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "revchain/finite/branch/shape_on_branch.hpp"
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "support/cuttings.hpp"
 
@@ -22,7 +21,7 @@ constexpr double ratio = 10;  // length over conical height
 double difference(const support::Cutting<double>& cutting, Index count, const revchain::ContinuousShape& uncut) {
     const auto chain = cutting.make(count);
     const double length = static_cast<double>(count) + cutting.excess;  // a link is 1 long
-    const auto shape = revchain::steady_shape(chain, uncut.half_waves, {.conical_height = length / ratio});
+    const auto shape = revchain::steady_shape(chain, {.mode = uncut.half_waves, .conical_height = length / ratio});
     double worst = 0, below_support = 0;
     for (Index m = chain.size(); m-- > 0;) {
         below_support += chain.link(m).length;

@@ -6,7 +6,6 @@
 #include <functional>
 #include <string>
 
-#include "revchain/finite/branch/shape_on_branch.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "support/chains.hpp"
@@ -113,7 +112,7 @@ int main() {
     const auto long_chain = Chain<double>::uniform_rods(100'000, 1.0, 1.0);
     const double first = revchain::modes(long_chain, {.count = 1}).conical_height[0];
     const double start = bench::cpu_seconds();
-    const auto shape = revchain::steady_shape(long_chain, 1, {.conical_height = first / 4});
+    const auto shape = revchain::steady_shape(long_chain, {.mode = 1, .conical_height = first / 4});
     std::printf("rods 100000 on branch 1 at twice the first speed,%d,,,%.3g,%.2g\n", shape.half_waves,
                 1e3 * (bench::cpu_seconds() - start), shape.error_bound);
 }

@@ -2,8 +2,7 @@
 #include "bindings.hpp"
 #include "interrupt.hpp"
 #include "revchain/branches.hpp"
-#include "revchain/finite/branch/shape_on_branch.hpp"
-#include "revchain/finite/stability/windows.hpp"
+#include "revchain/stability_windows.hpp"
 
 namespace {
 
@@ -24,21 +23,15 @@ py::array whole_numbers(const std::vector<Whole>& values) {
     return frozen(std::move(result));
 }
 
-revchain::ShapeGiven given(const std::string& name, double value, double gravity, std::optional<double> down_to,
-                           bool all) {
-    revchain::ShapeGiven result{.gravity = gravity, .down_to = down_to, .all = all};
+revchain::SteadyShapeOptions given(Index mode, const std::string& name, double value, double gravity,
+                                   std::optional<double> lowest) {
+    revchain::SteadyShapeOptions result{.mode = mode, .gravity = gravity, .min_conical_height = lowest};
     if (name == "conical_height") result.conical_height = value;
     if (name == "angular_speed") result.angular_speed = value;
     if (name == "tip_inclination") result.tip_inclination = value;
     if (name == "tip_radius") result.tip_radius = value;
     if (name == "top_tension") result.top_tension = value;
     return result;
-}
-
-std::vector<revchain::SteadyShape> states_at(const Branch& branch, double height) {
-    if (branch.size() == 0) return {};
-    revchain::finite::Corrector corrector(revchain::finite::rounded<double>(branch.links->links));
-    return revchain::finite::states_at(branch, corrector, height);
 }
 
 }  // namespace
@@ -60,7 +53,7 @@ void bind_branches(py::module_& module) {
         .def_property_readonly("folds", [](const Branch& b) { return whole_numbers(b.folds); })
         .def_property_readonly("end", [](const Branch& b) { return std::string(to_string(b.end)); })
         .def("shape", &Branch::shape, "point"_a)
-        .def("states_at", &states_at, "height"_a);
+        .def("states_at", &Branch::shapes_at, "height"_a);
     py::class_<Branches>(module, "Branches", "All branches found above one conical height.")
         .def_readonly("branches", &Branches::branches)
         .def_readonly("consistent", &Branches::consistent)
@@ -69,34 +62,36 @@ void bind_branches(py::module_& module) {
         .def_readonly("remark", &Branches::remark);
     module.def(
         "branch",
-        [](const Chain& chain, Index mode, double height, std::size_t most_points, double longest_step) {
+        [](const Chain& chain, Index mode, double height, std::size_t max_points, double max_step) {
             const py::gil_scoped_release release;
-            return revchain::branch(chain, mode, height, {.most_points = most_points, .longest_step = longest_step});
+            return revchain::branch(
+                chain, {.mode = mode, .min_conical_height = height, .max_points = max_points, .max_step = max_step});
         },
-        "chain"_a, "mode"_a, "height"_a, "most_points"_a, "longest_step"_a);
+        "chain"_a, "mode"_a, "height"_a, "max_points"_a, "max_step"_a);
     module.def(
         "branches",
         [](const Chain& chain, double height, int lists, long budget, long proof_budget) {
             const py::gil_scoped_release release;
-            return revchain::branches(chain, height, {.lists = lists, .budget = budget, .proof_budget = proof_budget});
+            return revchain::branches(
+                chain, {.min_conical_height = height, .lists = lists, .budget = budget, .proof_budget = proof_budget});
         },
         "chain"_a, "height"_a, "lists"_a, "budget"_a, "proof_budget"_a);
     module.def(
         "shapes_on_branch",
         [](const Chain& chain, Index mode, const std::string& name, double value, double gravity,
-           std::optional<double> down_to) {
+           std::optional<double> min_conical_height) {
             const py::gil_scoped_release release;
-            return revchain::shapes_on_branch(chain, mode, given(name, value, gravity, down_to, true)).shapes;
+            return revchain::shapes_on_branch(chain, given(mode, name, value, gravity, min_conical_height)).shapes;
         },
-        "chain"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "down_to"_a);
+        "chain"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "min_conical_height"_a);
     module.def(
         "steady_shape",
         [](const Chain& chain, Index mode, const std::string& name, double value, double gravity,
-           std::optional<double> down_to) {
+           std::optional<double> min_conical_height) {
             const py::gil_scoped_release release;
-            return revchain::steady_shape(chain, mode, given(name, value, gravity, down_to, false));
+            return revchain::steady_shape(chain, given(mode, name, value, gravity, min_conical_height));
         },
-        "chain"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "down_to"_a);
+        "chain"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a, "min_conical_height"_a);
     module.def(
         "stability_windows",
         [](const Chain& chain, const Branch& branch, bool driven, double tolerance, int samples) {

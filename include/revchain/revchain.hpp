@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-// Everything that needs Eigen alone, except what solves dense eigenproblems, which costs seconds of compile time:
-// questions/dense_reference.hpp, rig_modes.hpp, finite/stability/*.hpp, models/with_dense.hpp. What needs GSL is in
-// revchain/analytic.hpp.
+// The public headers that need Eigen alone, and the scalar DoubleDouble. Left out, because they cost seconds of compile
+// time: batch.hpp, rig_modes.hpp, stability.hpp and stability_windows.hpp. What needs GSL is in revchain/analytic.hpp.
 
-#include "revchain/bell.hpp"                           // IWYU pragma: export
-#include "revchain/branches.hpp"                       // IWYU pragma: export
-#include "revchain/buffer.hpp"                         // IWYU pragma: export
-#include "revchain/chain.hpp"                          // IWYU pragma: export
-#include "revchain/conical_pendulum.hpp"               // IWYU pragma: export
-#include "revchain/count.hpp"                          // IWYU pragma: export
-#include "revchain/explain.hpp"                        // IWYU pragma: export
-#include "revchain/finite/branch/shape_on_branch.hpp"  // IWYU pragma: export
-#include "revchain/finite/cord/continuous_chain.hpp"   // IWYU pragma: export
-#include "revchain/held.hpp"                           // IWYU pragma: export
-#include "revchain/hoop.hpp"                           // IWYU pragma: export
-#include "revchain/models/heights.hpp"                 // IWYU pragma: export
-#include "revchain/modes.hpp"                          // IWYU pragma: export
-#include "revchain/numeric/double_double.hpp"          // IWYU pragma: export
-#include "revchain/recurrence.hpp"                     // IWYU pragma: export
-#include "revchain/response.hpp"                       // IWYU pragma: export
-#include "revchain/rig.hpp"                            // IWYU pragma: export
-#include "revchain/sensitivity.hpp"                    // IWYU pragma: export
-#include "revchain/statics.hpp"                        // IWYU pragma: export
-#include "revchain/steady_shapes.hpp"                  // IWYU pragma: export
-#include "revchain/swing.hpp"                          // IWYU pragma: export
-#include "revchain/system/edit.hpp"                    // IWYU pragma: export
-#include "revchain/tune.hpp"                           // IWYU pragma: export
-#include "revchain/two_links.hpp"                      // IWYU pragma: export
+#include "revchain/bell.hpp"                   // IWYU pragma: export
+#include "revchain/branches.hpp"               // IWYU pragma: export
+#include "revchain/buffer.hpp"                 // IWYU pragma: export
+#include "revchain/chain.hpp"                  // IWYU pragma: export
+#include "revchain/compound_link.hpp"          // IWYU pragma: export
+#include "revchain/conical_pendulum.hpp"       // IWYU pragma: export
+#include "revchain/count.hpp"                  // IWYU pragma: export
+#include "revchain/explain.hpp"                // IWYU pragma: export
+#include "revchain/gyrostatic_string.hpp"      // IWYU pragma: export
+#include "revchain/held.hpp"                   // IWYU pragma: export
+#include "revchain/hoop.hpp"                   // IWYU pragma: export
+#include "revchain/modes.hpp"                  // IWYU pragma: export
+#include "revchain/numeric/double_double.hpp"  // IWYU pragma: export
+#include "revchain/recurrence.hpp"             // IWYU pragma: export
+#include "revchain/response.hpp"               // IWYU pragma: export
+#include "revchain/rig.hpp"                    // IWYU pragma: export
+#include "revchain/sensitivity.hpp"            // IWYU pragma: export
+#include "revchain/statics.hpp"                // IWYU pragma: export
+#include "revchain/steady_shapes.hpp"          // IWYU pragma: export
+#include "revchain/swing.hpp"                  // IWYU pragma: export
+#include "revchain/tune.hpp"                   // IWYU pragma: export
+#include "revchain/two_links.hpp"              // IWYU pragma: export

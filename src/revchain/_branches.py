@@ -118,7 +118,7 @@ class Branch(Result[_core.Branch, Chain]):
         """Why it was not followed farther.
 
         ``height``: at the one asked for; ``closed``: back where it began; ``vertical``: back at the
-        straight chain; ``budget``: after `most_points`; ``stuck``: no step passed every check.
+        straight chain; ``budget``: after `max_points`; ``stuck``: no step passed every check.
         """
         return self._compiled.end
 
@@ -389,8 +389,8 @@ def branch(
     conical_height: float | None = None,
     angular_speed: float | None = None,
     gravity: float = STANDARD_GRAVITY,
-    most_points: int = 10_000,
-    longest_step: float = 0.1,
+    max_points: int = 10_000,
+    max_step: float = 0.1,
 ) -> Branch:
     """Follow the branch of shapes that leaves the vertical at one critical speed, through every fold.
 
@@ -406,9 +406,9 @@ def branch(
         Instead of `conical_height`: the speed in rad/s at which to stop.
     gravity : float, optional
         For `angular_speed`; standard gravity, in metres, if left out.
-    most_points : int, optional
+    max_points : int, optional
         After which to stop in any case.
-    longest_step : float, optional
+    max_step : float, optional
         Between two points, along the arc.
 
     Returns
@@ -440,8 +440,8 @@ def branch(
     place = "revchain.branch"
     number = count(place, "mode", mode)
     height = height_of(place, conical_height, angular_speed, gravity)
-    points = count(place, "most_points", most_points)
-    step = one_positive(place, "longest_step", longest_step)
+    points = count(place, "max_points", max_points)
+    step = one_positive(place, "max_step", max_step)
     return Branch._wrap(_core.branch(compiled(place, chain), number, height, points, step), chain)
 
 
@@ -526,7 +526,7 @@ def steady_shape(
     top_tension: float | None = ...,
     gravity: float = ...,
     all: Literal[False] = ...,
-    down_to: float | None = ...,
+    min_conical_height: float | None = ...,
 ) -> SteadyShape: ...
 @overload
 def steady_shape(
@@ -540,7 +540,7 @@ def steady_shape(
     top_tension: float | None = ...,
     gravity: float = ...,
     all: Literal[True],
-    down_to: float | None = ...,
+    min_conical_height: float | None = ...,
 ) -> tuple[SteadyShape, ...]: ...
 def steady_shape(
     chain: Chain,
@@ -553,7 +553,7 @@ def steady_shape(
     top_tension: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     all: bool = False,  # noqa: A002: the word the question is asked in
-    down_to: float | None = None,
+    min_conical_height: float | None = None,
 ) -> SteadyShape | tuple[SteadyShape, ...]:
     """Find the shape on the branch of one mode at a speed, or the speed at which the shape is as wanted.
 
@@ -578,7 +578,7 @@ def steady_shape(
     all : bool, optional
         All states met along the branch, in a tuple, not the first from the vertical alone; the tuple
         is empty where none is met.
-    down_to : float, optional
+    min_conical_height : float, optional
         The conical height at which the search ends, less than that of the mode; 1e-6 of that of the mode if
         left out, with `all` and a speed the half of its height.
 
@@ -591,9 +591,9 @@ def steady_shape(
     Raises
     ------
     ValueError
-        If there is no such mode, if not exactly one number is given or it is out of its range, if `down_to` is
-        not below the height of the mode, if the branch does not exist yet at that speed, or, unless `all`, if what is
-        given is not met on it.
+        If there is no such mode, if not exactly one number is given or it is out of its range, if
+        `min_conical_height` is not below the height of the mode, if the branch does not exist yet at that speed, or,
+        unless `all`, if what is given is not met on it.
     TypeError
         If `all` is not a bool.
 
@@ -624,7 +624,7 @@ def steady_shape(
     )
     g = one_positive(place, "gravity", gravity)
     every = boolean(place, "all", all)
-    lowest = None if down_to is None else one_positive(place, "down_to", down_to)
+    lowest = None if min_conical_height is None else one_positive(place, "min_conical_height", min_conical_height)
     core = compiled(place, chain)
     if not every:
         return SteadyShape._wrap(_core.steady_shape(core, number, name, value, g, lowest), core)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/branches.hpp"
 
-#include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/held.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -21,11 +21,10 @@ Chain<double> plummets(Index n) { return Chain<double>::uniform_plummets(n, stat
 void check_at(const Chain<double>& chain, const Branches& found, double height) {
     const auto list = revchain::steady_shapes(chain, {.conical_height = height});
     REQUIRE(list.complete);
-    revchain::finite::Corrector corrector(revchain::finite::rounded<double>(revchain::finite::links_of(chain).links));
     std::vector<int> met(list.shapes.size(), 0);
     std::size_t crossings = 0;
     for (const Branch& branch : found.branches)
-        for (const SteadyShape& state : revchain::finite::states_at(branch, corrector, height)) {
+        for (const SteadyShape& state : branch.shapes_at(height)) {
             ++crossings;
             for (std::size_t j = 0; j < met.size(); ++j)
                 met[j] += (list.shapes[j].inclination - state.inclination).cwiseAbs().maxCoeff() <=
@@ -39,7 +38,7 @@ void check_at(const Chain<double>& chain, const Branches& found, double height) 
 }  // namespace
 
 TEST_CASE("three equal plummets: the third branch's companions are born at n = 3.90376215692 sqrt(g/a)", "[finite]") {
-    const auto found = revchain::branches(plummets(3), 1 / 25.0);
+    const auto found = revchain::branches(plummets(3), {.min_conical_height = 1 / 25.0});
     CHECK(found.consistent);
     CHECK(found.complete);
     REQUIRE(found.branches.size() == 4);
@@ -73,7 +72,7 @@ TEST_CASE("branches and proved lists agree, at heights that were not looked at b
                                                             : revchain::plummet<double>(weight, length);
                                       });
         const double lowest = chain.total_length() * random.log_between(3e-3, 1e-2);
-        const Branches found = revchain::branches(chain, lowest);
+        const Branches found = revchain::branches(chain, {.min_conical_height = lowest});
         CAPTURE(i, n, lowest);
         CHECK(found.consistent);
         CHECK(found.complete);
@@ -93,10 +92,11 @@ TEST_CASE("a loop between the heights looked at: the proof finds it, lists do no
     const auto chain = support::chain_of(4, [&](Index m) { return revchain::plummet<double>(weights[m], lengths[m]); });
     const double lowest = 0.0057 * chain.total_length();
     for (const int lists : {1, 16}) {
-        const auto unproved = revchain::branches(chain, lowest, {.lists = lists, .proof_budget = 0});
+        const auto unproved =
+            revchain::branches(chain, {.min_conical_height = lowest, .lists = lists, .proof_budget = 0});
         CHECK(unproved.consistent);
         CHECK_FALSE(unproved.complete);
-        const auto found = revchain::branches(chain, lowest, {.lists = lists});
+        const auto found = revchain::branches(chain, {.min_conical_height = lowest, .lists = lists});
         CHECK(found.complete);
         CHECK(found.remark == "proved complete: no branch is missing");
         REQUIRE(found.branches.size() == unproved.branches.size() + 1);
@@ -121,7 +121,7 @@ TEST_CASE("a loop between the heights looked at: the proof finds it, lists do no
 }
 
 TEST_CASE("where the proof's budget ends, or a link hangs at several inclinations, it says so", "[finite]") {
-    const auto some = revchain::branches(plummets(4), 0.02, {.proof_budget = 8000});
+    const auto some = revchain::branches(plummets(4), {.min_conical_height = 0.02, .proof_budget = 8000});
     CHECK(some.consistent);
     CHECK_FALSE(some.complete);
     CHECK(some.remark.find("between the heights 0.02 and ") != std::string::npos);
@@ -129,14 +129,14 @@ TEST_CASE("where the proof's budget ends, or a link hangs at several inclination
         return revchain::compound_pendulum<double>(
             {.weight = 1.0, .length = 1.0, .centroid = 0.5, .pendulum_length = 2.0});
     });
-    const auto open = revchain::branches(several, 0.05);
+    const auto open = revchain::branches(several, {.min_conical_height = 0.05});
     CHECK_FALSE(open.complete);
     CAPTURE(open.remark);
     CHECK((!open.consistent || open.remark.find("several inclinations") != std::string::npos));
 }
 
 TEST_CASE("eight plummets at n = 5.95 sqrt(g/a): all 84 shapes are on 8 branches and 38 isolated ones", "[finite]") {
-    const auto found = revchain::branches(plummets(8), 1 / 35.4025, {.lists = 4});
+    const auto found = revchain::branches(plummets(8), {.min_conical_height = 1 / 35.4025, .lists = 4});
     CHECK(found.consistent);
     Index ends = 0;
     for (const Branch& branch : found.branches) ends += branch.mode > 0 ? 1 : 2;
@@ -149,33 +149,34 @@ TEST_CASE("states of a branch next to the vertical", "[finite]") {
             for (const double down : {0.5, 1e-3, 1e-8}) {
                 const auto chain = plummets(n);
                 const double critical = revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0];
-                const Branch branch = revchain::branch(chain, mode, critical * (1 - down));
-                revchain::finite::Corrector corrector(revchain::finite::rounded<double>(branch.links->links));
+                const Branch branch =
+                    revchain::branch(chain, {.mode = mode, .min_conical_height = critical * (1 - down)});
                 for (const double gap : {1e-2, 1e-4, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12, 1e-14}) {
                     CAPTURE(n, mode, down, gap);
-                    const auto found = revchain::finite::states_at(branch, corrector, critical * (1 - gap));
+                    const auto found = branch.shapes_at(critical * (1 - gap));
                     REQUIRE(found.size() == (gap <= down ? 1 : 0));
                     if (found.empty()) continue;
                     CHECK(found[0].half_waves == mode);
-                    const auto same = revchain::steady_shape(chain, mode, {.conical_height = critical * (1 - gap)});
+                    const auto same =
+                        revchain::steady_shape(chain, {.mode = mode, .conical_height = critical * (1 - gap)});
                     CHECK((found[0].inclination - same.inclination).cwiseAbs().maxCoeff() <= 1e-15);
                 }
                 for (const double none : {critical, std::nextafter(critical, 9.0), critical * (1 + 1e-9), 2 * critical})
-                    CHECK(revchain::finite::states_at(branch, corrector, none).empty());
+                    CHECK(branch.shapes_at(none).empty());
             }
 }
 
 TEST_CASE("weights 1e12 apart: three modes within 1.5e-6 of one height, each with its own branch", "[finite]") {
     const Chain<double> chain(
         {revchain::plummet(1e-12, 1.0), revchain::plummet(1.0, 1.0), revchain::plummet(1e12, 1.0)});
-    const Branches found = revchain::branches(chain, 0.1);
+    const Branches found = revchain::branches(chain, {.min_conical_height = 0.1});
     CHECK(found.consistent);
     REQUIRE(found.branches.size() == 3);
     for (Index mode = 1; mode <= 3; ++mode) {
         const Branch& branch = found.branches[static_cast<std::size_t>(mode - 1)];
         CHECK(branch.mode == mode);
         CHECK(branch.end == BranchEnd::height);
-        const auto shape = revchain::steady_shape(chain, mode, {.conical_height = 0.1});
+        const auto shape = revchain::steady_shape(chain, {.mode = mode, .conical_height = 0.1});
         CHECK(std::abs(shape.inclination[0] - std::abs(branch.tip_inclination.back())) <= 1e-12);
     }
 }
@@ -187,7 +188,8 @@ TEST_CASE("diagrams that end next to a critical height", "[finite]") {
                 const auto chain = plummets(n);
                 const double critical = revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0];
                 CAPTURE(n, mode, gap);
-                const Branches found = revchain::branches(chain, critical * (1 - gap), {.lists = 2});
+                const Branches found =
+                    revchain::branches(chain, {.min_conical_height = critical * (1 - gap), .lists = 2});
                 if (gap >= 1e-15) CHECK(static_cast<Index>(found.branches.size()) == mode);
                 for (const Branch& branch : found.branches) CHECK(branch.size() >= 1);
                 if (gap >= 1e-12) CHECK(found.consistent);
@@ -195,18 +197,49 @@ TEST_CASE("diagrams that end next to a critical height", "[finite]") {
 }
 
 TEST_CASE("no branch at all; errors", "[finite]") {
-    const auto none = revchain::branches(plummets(3), 3.0);
+    const auto none = revchain::branches(plummets(3), {.min_conical_height = 3.0});
     CHECK(none.branches.empty());
     CHECK(none.remark == "no shape leaves the vertical at this height or above");
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double bad : {0.0, -1.0, nan})
-        CHECK_THROWS_AS(revchain::branches(plummets(3), bad), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::branches(plummets(3), 0.1, {.lists = 0}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::branches(plummets(3), {.min_conical_height = bad}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::branches(plummets(3), {.min_conical_height = 0.1, .lists = 0}),
+                    revchain::InvalidArgument);
 }
 
-TEST_CASE("branches of a rig are refused with what to ask instead", "[finite]") {
-    const revchain::Rig rig(plummets(2), {});
+TEST_CASE("the end of a branch is given as a speed or as a height", "[finite]") {
+    const auto chain = plummets(3);
+    const double gravity = 1.62, speed = 2.0, height = gravity / speed / speed;
+    const Branch fast = revchain::branch(chain, {.mode = 1, .max_angular_speed = speed, .gravity = gravity}),
+                 low = revchain::branch(chain, {.mode = 1, .min_conical_height = height});
+    CHECK(fast.conical_height == low.conical_height);
+    CHECK(fast.angular_speed(fast.size() - 1, gravity) == Approx(speed).epsilon(1e-12));
+    const Branches all = revchain::branches(chain, {.max_angular_speed = speed, .lists = 2, .gravity = gravity});
+    CHECK(all.conical_height == Approx(height).epsilon(1e-15));
+    CHECK(revchain::steady_shape(chain, {.angular_speed = speed, .gravity = gravity}).inclination[0] ==
+          Approx(fast.shape(fast.size() - 1).inclination[0]).epsilon(1e-12));
     using Catch::Matchers::ContainsSubstring;
-    CHECK_THROWS_WITH(revchain::branches(rig, 0.1), ContainsSubstring("ask steady_shapes(rig)"));
-    CHECK_THROWS_WITH(revchain::branch(rig, 1, 0.1), ContainsSubstring("ask steady_shapes(rig)"));
+    const auto either = ContainsSubstring("give either min_conical_height or max_angular_speed");
+    CHECK_THROWS_WITH(revchain::branch(chain, {}), either);
+    CHECK_THROWS_WITH(revchain::branch(chain, {.min_conical_height = 0.1, .max_angular_speed = 3.0}), either);
+    CHECK_THROWS_WITH(revchain::branches(chain, {}), either);
+    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+        CHECK_THROWS_AS(revchain::branch(chain, {.max_angular_speed = bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::branches(chain, {.max_angular_speed = bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(low.shapes_at(bad), revchain::InvalidArgument);
+    }
+}
+
+TEST_CASE("branches of a rig, a cord and a held chain are refused with what to ask instead", "[finite]") {
+    const auto refused = [](const auto& system) {
+        using Catch::Matchers::ContainsSubstring;
+        const auto instead = ContainsSubstring("ask steady_shapes of it at each speed");
+        CHECK_THROWS_WITH(revchain::branches(system, {.min_conical_height = 0.1}), instead);
+        CHECK_THROWS_WITH(revchain::branch(system, {.min_conical_height = 0.1}), instead);
+        CHECK_THROWS_WITH(revchain::steady_shape(system, {.tip_radius = 0.1}), instead);
+    };
+    refused(revchain::Rig(plummets(2), {}));
+    refused(revchain::Cord(1.0));
+    refused(revchain::Held(plummets(2), {.span = 0.5}));
+    refused(revchain::Held(revchain::Cord(1.0), {.span = 0.5}));
 }

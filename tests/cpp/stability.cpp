@@ -3,7 +3,6 @@
 
 #include <Eigen/Dense>
 
-#include "revchain/finite/stability/windows.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "support/catch.hpp"
@@ -192,72 +191,4 @@ TEST_CASE("links without weight: those in line are one", "[finite][stability]") 
             check(chain({1, 0, 0, 1}, {1, 0.5, 0.5, 1}), two);
             check(chain({1, 1, 0}, {1, 1, 1}), upper);
         }
-}
-
-// Windows along a branch, here because dense eigenvalues take a minute to compile.
-namespace {
-
-double height_of(const Chain<double>& chain, revchain::Index mode) {
-    return revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0];
-}
-
-}  // namespace
-
-TEST_CASE("two links, second branch: stable down to 0.463321 (plummets) and 0.500763 (rods)", "[finite]") {
-    for (const bool rods : {false, true}) {
-        const auto chain = rods ? Chain<double>::uniform_rods(2, 2, 1) : Chain<double>::uniform_plummets(2, 2, 1);
-        const double critical = height_of(chain, 2);
-        const Branch branch = revchain::branch(chain, 2, 0.05 * critical);
-        const auto windows = revchain::stability_windows(chain, branch, {.tolerance = 1e-9});
-        REQUIRE(windows.size() == 2);
-        CHECK(windows[0].verdict == Verdict::spectrally_stable);
-        CHECK(windows[1].verdict == Verdict::unstable);
-        CHECK(windows[0].height_to == windows[1].height_from);
-        CHECK(windows[0].arc_to == windows[1].arc_from);
-        CHECK(std::abs(windows[1].height_from / critical - (rods ? 0.500763 : 0.463321)) <= 6e-7);
-        CHECK(windows[1].height_to == Approx(0.05 * critical).epsilon(1e-9));
-        // the verdict itself on either side of the edge
-        for (const double off : {-1e-7, 1e-7}) {
-            const double height = windows[1].height_from * (1 + off);
-            revchain::finite::Corrector corrector(revchain::finite::rounded<double>(branch.links->links));
-            const auto at = branch.links->units.length_exponent;
-            const revchain::finite::GivenHeight<revchain::Wide<double>> condition(
-                ldexp(revchain::Wide<double>(height), -at));
-            std::size_t near = 1;
-            while (branch.conical_height[near] > height) ++near;
-            const auto shape = revchain::finite::shape_at(*branch.links, branch.points[near].state, condition);
-            REQUIRE(shape);
-            const bool stable = revchain::stability(chain, *shape).verdict == Verdict::spectrally_stable;
-            CHECK(stable == (off > 0));
-        }
-    }
-}
-
-TEST_CASE("windows cover the branch, one after another", "[finite]") {
-    const auto chain = Chain<double>::uniform_plummets(3, 3, 1);
-    for (revchain::Index mode = 1; mode <= 3; ++mode) {
-        const Branch branch = revchain::branch(chain, mode, 0.05 * height_of(chain, mode));
-        for (const auto frame : {StabilityFrame::free, StabilityFrame::driven}) {
-            const auto windows = revchain::stability_windows(chain, branch, {.frame = frame});
-            CHECK(windows.front().arc_from == branch.arc[1]);
-            CHECK(windows.back().arc_to == branch.arc.back());
-            for (std::size_t i = 1; i < windows.size(); ++i) {
-                CHECK(windows[i].arc_from == windows[i - 1].arc_to);
-                CHECK(windows[i].verdict != windows[i - 1].verdict);
-            }
-            if (mode == 1) CHECK(windows.size() == 1);
-            if (mode == 1) CHECK(windows[0].verdict == Verdict::minimum);
-            if (mode > 1 && frame == StabilityFrame::driven) CHECK(windows[0].verdict == Verdict::unstable);
-        }
-    }
-}
-
-TEST_CASE("windows of nothing; errors", "[finite]") {
-    const auto chain = Chain<double>::uniform_plummets(2, 2, 1);
-    const Branch branch = revchain::branch(chain, 1, 0.5);
-    CHECK(revchain::stability_windows(chain, Branch{}).empty());
-    CHECK_THROWS_AS(revchain::stability_windows(chain, branch, {.tolerance = 0}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::stability_windows(chain, branch, {.samples = 0}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::stability_windows(Chain<double>::uniform_plummets(3, 2, 1), branch),
-                    revchain::InvalidArgument);
 }

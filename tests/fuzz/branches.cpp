@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "revchain/branches.hpp"
 #include "fuzz.hpp"
-#include "revchain/finite/branch/shape_on_branch.hpp"
-#include "revchain/finite/stability/windows.hpp"
+#include "revchain/stability_windows.hpp"
 
 void fuzz::branches(Random& random) {
     const Chain<double> hung = random.chain(5);
@@ -10,17 +9,18 @@ void fuzz::branches(Random& random) {
     const double height = random.number() * (random.one_in(2) ? 0.1 : 1) * hung.total_length();
     const std::uint64_t kind = random.below(3);
     if (kind == 0) {
-        (void)revchain::branches(hung, height, {.lists = 2, .budget = 3000, .proof_budget = 3000});
+        (void)revchain::branches(hung,
+                                 {.min_conical_height = height, .lists = 2, .budget = 3000, .proof_budget = 3000});
     } else if (kind == 1) {
-        const auto found = revchain::branch(hung, mode, height, {.most_points = 40});
+        const auto found = revchain::branch(hung, {.mode = mode, .min_conical_height = height, .max_points = 40});
         for (const auto& window : revchain::stability_windows(hung, found, {.tolerance = 1e-3, .samples = 1}))
             fuzz::expect_number(window.height_from + window.height_to);
     } else {
-        revchain::ShapeGiven given;
-        std::optional<double> revchain::ShapeGiven::*const what =
-            random.pick({&revchain::ShapeGiven::conical_height, &revchain::ShapeGiven::tip_inclination,
-                         &revchain::ShapeGiven::tip_radius, &revchain::ShapeGiven::top_tension});
+        revchain::SteadyShapeOptions given{.mode = mode};
+        std::optional<double> revchain::SteadyShapeOptions::*const what =
+            random.pick({&revchain::SteadyShapeOptions::conical_height, &revchain::SteadyShapeOptions::tip_inclination,
+                         &revchain::SteadyShapeOptions::tip_radius, &revchain::SteadyShapeOptions::top_tension});
         given.*what = random.number();
-        (void)revchain::steady_shape(hung, mode, given);
+        (void)revchain::steady_shape(hung, given);
     }
 }

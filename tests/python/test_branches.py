@@ -204,11 +204,11 @@ def test_wrong_calls():
     with pytest.raises(ValueError, match="tolerance must be positive"):
         rc.branch(chain, 1, conical_height=0.1).stability_windows(tolerance=0.0)
     for name, value in (("top_tension", 1e7), ("tip_inclination", 1.5707963)):
-        with pytest.raises(ValueError, match="give a smaller down_to$"):
+        with pytest.raises(ValueError, match="give a smaller min_conical_height$"):
             rc.steady_shape(chain, **{name: value})
-        assert rc.steady_shape(chain, **{name: value}, down_to=1e-12).half_waves == 1
-    with pytest.raises(ValueError, match="down_to must be less than the conical height of the mode"):
-        rc.steady_shape(chain, tip_radius=0.1, down_to=first)
+        assert rc.steady_shape(chain, **{name: value}, min_conical_height=1e-12).half_waves == 1
+    with pytest.raises(ValueError, match="min_conical_height must be less than the conical height of the mode"):
+        rc.steady_shape(chain, tip_radius=0.1, min_conical_height=first)
     for value in ("yes", 2, None):
         with pytest.raises(TypeError, match=f"all must be True or False, got {value!r}"):
             rc.steady_shape(chain, tip_radius=0.1, all=value)

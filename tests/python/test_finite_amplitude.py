@@ -317,8 +317,8 @@ def test_branch_at_its_very_beginning_has_no_straight_shape():
 
 
 @pytest.mark.parametrize("points", [1, 2, 7])
-def test_most_points(points):
-    assert len(rc.branch(plummets(3), 1, conical_height=0.1, most_points=points)) <= points
+def test_max_points(points):
+    assert len(rc.branch(plummets(3), 1, conical_height=0.1, max_points=points)) <= points
 
 
 @pytest.mark.parametrize("less", [1e-3, 1e-6, 1e-9])

@@ -15,7 +15,7 @@ CALLS = {
     "stability": "shape.stability()",
     "stability of a held shape": "held.stability()",
     "stability_windows": "branch.stability_windows()",
-    "branch": "rc.branch(rods, 1, conical_height=1e-9, longest_step=1e-3, most_points=1_000_000)",
+    "branch": "rc.branch(rods, 1, conical_height=1e-9, max_step=1e-3, max_points=1_000_000)",
     "branches": "rc.branches(rc.Chain.uniform_plummets(8), conical_height=0.01)",
     "continuous_shapes": "rc.continuous_shapes(1.0, conical_height=1e-6)",
     "dense": "rc.modes(large, method='dense')",

@@ -36,6 +36,21 @@ struct LaneRuns {
     V leaf_moment{};                                ///< largest a1^2 / (c0 b1) of a leaf
     V worst{};  ///< positive: the run is not valid (a centroid beyond the pins, an inertia beyond l = a, a weight above
         ///< all below it, a leaf too light to be told from what it carries, a lowest link too long for its spring)
+
+    /// Joins a leaf to the top of each run.
+    template <std::size_t Degree>
+    [[gnu::always_inline]] void add_leaf(const pencil::Transfer<V, Degree>& leaf, const CompensatedSum<V>& mass,
+                                         const CompensatedSum<V>& its_flexibility, bool is_first) {
+        const V phase = mass.high * its_flexibility.high;
+        leaf_phase = max(leaf_phase, phase);
+        leaf_moment = max(leaf_moment, if_less(V{}, phase, leaf.a[0] * leaf.a[0] / phase, V{}));  // no 0/0
+        moment.add(leaf.a[0] + its_flexibility.high * weight.high);
+        moment.low += its_flexibility.high * weight.low + its_flexibility.low * weight.high;
+        transfer = is_first ? pencil::extended<leaf_degree>(leaf) : pencil::merged(transfer, leaf);
+        weight.add(mass);
+        weight.normalise();
+        flexibility.add(its_flexibility);
+    }
 };
 
 /// A column to be read at every link: where one number serves all, again and again.
@@ -57,15 +72,13 @@ struct ColumnReader {
     }
 };
 
-enum class LinkKind { equal_plummets, equal_links, any_links };  // equal but for their weights
-
 /// What the condensation reads of a chain.
 template <class T>
 struct LinkColumns {
     ColumnReader<T> weight, length, centroid;
     ColumnReader<Wide<T>> gyration_ratio;
-    LinkKind kind = LinkKind::any_links;
-    T unit_length;  ///< lengths are counted in that of a link if it serves all, else in a power of two
+    bool equal = false;  ///< but for their weights
+    T unit_length;       ///< lengths are counted in that of a link if it serves all, else in a power of two
 
     explicit LinkColumns(const Chain<T>& chain)
         : weight(chain.weight()),
@@ -73,19 +86,19 @@ struct LinkColumns {
           centroid(chain.centroid()),
           gyration_ratio(chain.gyration_ratio()),
           unit_length(std::ldexp(T(1), chain.units().length_exponent)) {
-        if (!length.is_scalar() || !centroid.is_scalar() || !gyration_ratio.is_scalar()) return;
-        unit_length = *length.data;
-        const bool plummets = *centroid.data == *length.data && *gyration_ratio.data == Wide<T>(T(0));
-        kind = plummets ? LinkKind::equal_plummets : LinkKind::equal_links;
+        equal = length.is_scalar() && centroid.is_scalar() && gyration_ratio.is_scalar();
+        if (equal) unit_length = *length.data;
     }
 };
 
 /// Four neighbouring runs of `length` links from link `first` on; `below` is the weight hung below each.
 /// A link is a mass p W at its lower pin, p = h/a, a spring 1/f = (S + p W)/a + mu X and a mass (1 - p) W at its upper
-/// pin, X = W (p (1 - p) - rho^2/a^2). Roundings: weight and flexibility of a run
-/// that of a division, all else less than 0.1; moment of a leaf three times its links, other coefficients four times.
-/// Cost: 0.9 ns a plummet, 1.5 ns a link in double with AVX-512, twice and three times that with AVX2 and SSE2.
-template <LinkKind Kind, std::size_t Degree, class T, class V = Pack<T>>
+/// pin, X = W (p (1 - p) - rho^2/a^2). Roundings: weight and flexibility of a run that of a division, all else less
+/// than 0.1; moment of a leaf three times its links, other coefficients four times.
+/// `Equal` says that links are alike but for their weights. Equal links that are read one by one would cost 1.4 times
+/// as much, and leaves that are always of degree 4 cost 1.3 times as much (ten modes of 1,000,000 rods).
+/// Cost: 1.5 ns a link in double with AVX-512, twice and three times that with AVX2 and SSE2.
+template <bool Equal, std::size_t Degree, class T, class V = Pack<T>>
 LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
     return simd([&](auto) REVCHAIN_INLINED {
         LaneRuns<V> runs;
@@ -95,7 +108,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
         const auto set_link = [&](Index m) REVCHAIN_INLINED {
             a = links.length.template lanes<V>(m, length) * per_unit;
             per_length = T(1) / a;
-            if constexpr (Kind == LinkKind::equal_links)
+            if constexpr (Equal)
                 p = links.centroid.template lanes<V>(m, length) / links.length.template lanes<V>(m, length);
             else
                 p = links.centroid.template lanes<V>(m, length) * per_unit * per_length;
@@ -103,7 +116,7 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
             runs.worst = max(runs.worst, max(max(-p, p - T(1)), -coefficient - T(4) * epsilon<T>()));
             coefficient = max(coefficient, V{});
         };
-        if constexpr (Kind == LinkKind::equal_links) {
+        if constexpr (Equal) {
             set_link(first);
             a = per_length = V(T(1));
         }
@@ -120,50 +133,32 @@ LaneRuns<V> condense(const LinkColumns<T>& links, Index first, Index length, con
             const CompensatedSum<V> at_start = hung;
             V carry{};  // mass at the upper pin of the link before
             for (Index m = start; m < start + step; ++m) {
-                if constexpr (Kind == LinkKind::any_links) set_link(first + m);
+                if constexpr (!Equal) set_link(first + m);
                 const V w = links.weight.template lanes<V>(first + m, length);
                 if constexpr (!light_leaves) runs.worst = max(runs.worst, if_less(V{}, hung.high, w - hung.high, V{}));
-                if constexpr (Kind == LinkKind::equal_plummets) {
-                    pencil::append_mass(leaf, w);
-                    hung.add_smaller(w);
-                    const V f = T(1) / hung.high;
-                    pencil::append_spring(leaf, f);
+                const V at_lower = p * w;
+                pencil::append_mass(leaf, carry + at_lower);
+                carry = w - at_lower;
+                CompensatedSum<V> s = hung;
+                s.add_smaller(at_lower);
+                hung.add_smaller(w);
+                const V f = a / s.high;
+                pencil::append_spring(leaf, f, coefficient * w * f);
+                if constexpr (Equal)
                     flexibility.add_smaller(f);  // the weight at a spring grows upwards
-                    flexibility.low -= f * f * hung.low;
-                } else {
-                    const V at_lower = p * w;
-                    pencil::append_mass(leaf, carry + at_lower);
-                    carry = w - at_lower;
-                    CompensatedSum<V> s = hung;
-                    s.add_smaller(at_lower);
-                    hung.add_smaller(w);
-                    const V f = a / s.high;
-                    pencil::append_spring(leaf, f, coefficient * w * f);
-                    if constexpr (Kind == LinkKind::equal_links)
-                        flexibility.add_smaller(f);
-                    else
-                        flexibility.add(f);
-                    flexibility.low -= f * f * per_length * s.low;
-                    runs.worst = max(runs.worst, at_lower - T(0x1p-5) * s.high);  // it is rounded
-                }
+                else
+                    flexibility.add(f);
+                flexibility.low -= f * f * per_length * s.low;
+                runs.worst = max(runs.worst, at_lower - T(0x1p-5) * s.high);  // it is rounded
             }
-            if constexpr (Kind != LinkKind::equal_plummets) pencil::append_mass(leaf, carry);
+            pencil::append_mass(leaf, carry);
             CompensatedSum<V> mass{hung.high, V{}};
             mass.add(-at_start.high);
             mass.add(hung.low - at_start.low);
             runs.worst = max(runs.worst, hung.high * lost - mass.high);
             if constexpr (light_leaves) runs.worst = max(runs.worst, mass.high - at_start.high);
             flexibility.normalise();
-            const V phase = mass.high * flexibility.high;
-            runs.leaf_phase = max(runs.leaf_phase, phase);
-            runs.leaf_moment =
-                max(runs.leaf_moment, if_less(V{}, phase, leaf.a[0] * leaf.a[0] / phase, V{}));  // no 0/0
-            runs.moment.add(leaf.a[0] + flexibility.high * runs.weight.high);
-            runs.moment.low += flexibility.high * runs.weight.low + flexibility.low * runs.weight.high;
-            runs.transfer = start == 0 ? pencil::extended<leaf_degree>(leaf) : pencil::merged(runs.transfer, leaf);
-            runs.weight.add(mass);
-            runs.weight.normalise();
-            runs.flexibility.add(flexibility);
+            runs.add_leaf(leaf, mass, flexibility, start == 0);
         }
         return runs;
     });

@@ -84,16 +84,14 @@ pencil::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index
     return run;
 }
 
-/// The kind of link decides the loop.
+/// What is alike in the links, and the length of the runs, decide the loop.
 template <class T, class V>
 LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
-    const auto of = [&]<LinkKind kind>() {
-        return leaf_terms(length) == 4 ? condense<kind, 4, T, V>(links, first, length, below)
-                                       : condense<kind, 3, T, V>(links, first, length, below);
+    const auto of = [&]<bool equal>() {
+        return leaf_terms(length) == 4 ? condense<equal, 4, T, V>(links, first, length, below)
+                                       : condense<equal, 3, T, V>(links, first, length, below);
     };
-    if (links.kind == LinkKind::equal_plummets) return of.template operator()<LinkKind::equal_plummets>();
-    if (links.kind == LinkKind::equal_links) return of.template operator()<LinkKind::equal_links>();
-    return of.template operator()<LinkKind::any_links>();
+    return links.equal ? of.template operator()<true>() : of.template operator()<false>();
 }
 
 }  // namespace detail

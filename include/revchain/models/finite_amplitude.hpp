@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/branch/shape_on_branch.hpp"
+#include "revchain/branches.hpp"
 #include "revchain/models/model.hpp"
 
 namespace revchain::models {
@@ -30,7 +30,7 @@ struct FiniteAmplitude {
         Answer answer{Vector<double>(question.count), Vector<double>(question.count)};
         for (Index j = 0; j < question.count; ++j) {
             const ShapesOnBranch found =
-                shapes_on_branch(chain, question.first + j, {.tip_inclination = question.inclination});
+                shapes_on_branch(chain, {.mode = question.first + j, .tip_inclination = question.inclination});
             if (found.shapes.empty()) return Answer::none();
             answer.conical_height[j] = found.shapes.front().conical_height;
             answer.error_bound[j] =

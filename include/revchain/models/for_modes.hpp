@@ -11,13 +11,10 @@
 
 namespace revchain::models {
 
-/// The models among which `modes` chooses where no tolerance is given: full accuracy, every bound proved by counts.
-/// The last always answers.
-inline constexpr std::tuple<Aberth, Interpolated, Condensed, Bisection> for_full_accuracy{};
-
-/// Those among which it chooses for a tolerance.
-inline constexpr auto for_tolerance = std::tuple_cat(
-    std::tuple<ClosedForms, EqualPlummets, ContinuousChain, TaperedChain, CoarseChain, SinglePrecision>{},
-    for_full_accuracy);
+/// The models among which `modes` chooses; where no tolerance is given, among those whose bounds are proved. The last
+/// always answers.
+inline constexpr std::tuple<ClosedForms, EqualPlummets, ContinuousChain, TaperedChain, CoarseChain, SinglePrecision,
+                            Aberth, Interpolated, Condensed, Bisection>
+    for_modes{};
 
 }  // namespace revchain::models

@@ -24,6 +24,7 @@ struct Question {
     double rtol = 0;
     double inclination = 0;  ///< of the lowest link, rad, below a right angle: of the shape that grows out of the mode
     Progress* progress = nullptr;
+    bool proved = false;  ///< whether only models will do whose bounds are proved by counts
 
     Index last() const { return first - 1 + count; }
 };
@@ -213,6 +214,12 @@ constexpr bool is_linear() {
         return M::is_linear;
     else
         return true;
+}
+
+/// Whether the bounds of a model are proved by counts.
+template <class M>
+constexpr bool is_proved() {
+    return requires { requires M::is_proved; };
 }
 
 /// How far the theory of small inclinations is off where the lowest link has one that is not: at most 1/cos - 1, if no

@@ -54,6 +54,7 @@ inline double loose_cost(double rtol, Index count, double pass) {
 /// Bound foreseen: what was found to be proved (tests/cpp/models/models.cpp).
 struct SinglePrecision {
     static constexpr std::string_view name = "single precision";
+    static constexpr bool is_proved = true;
 
     Fit applies(const ChainKind& kind, const Question&) const {
         if (kind.mode_count < kind.size) return Fit::no("a link without inertia");
@@ -77,6 +78,7 @@ struct SinglePrecision {
 /// Halving between counts, one mode after the other: any chain, any modes, to the tolerance or 2 ulp.
 struct Bisection {
     static constexpr std::string_view name = "bisection";
+    static constexpr bool is_proved = true;
     static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind&, const Question&) const { return {}; }
@@ -109,6 +111,7 @@ struct Bisection {
 /// to nothing beside what hangs below them join one by one.
 struct Condensed {
     static constexpr std::string_view name = "condensed";
+    static constexpr bool is_proved = true;
     static constexpr double bound = 2.001 * std::numeric_limits<double>::epsilon();
 
     Fit applies(const ChainKind& kind, const Question& question) const {
@@ -141,6 +144,7 @@ struct Condensed {
 /// of most chains; of looser tolerances up to 3e-11 was found to be proved of links far apart.
 struct Aberth {
     static constexpr std::string_view name = "aberth";
+    static constexpr bool is_proved = true;
     static constexpr double bound = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question&) const {
@@ -174,6 +178,7 @@ struct Aberth {
 /// `Aberth`.
 struct Interpolated {
     static constexpr std::string_view name = "interpolated";
+    static constexpr bool is_proved = true;
     static constexpr double fine = 2.001 * std::numeric_limits<double>::epsilon(), loose = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question& question) const {

@@ -58,6 +58,7 @@ inline double goal(const Question& question) { return question.rtol > 0 ? questi
 
 template <Model M>
 Estimate estimate(const M& model, const ChainKind& kind, const Question& question) {
+    if (question.proved && !is_proved<M>()) return {model.name, Fit::no("its bound is not proved by counts")};
     Estimate estimate{model.name, model.applies(kind, question)};
     const double off = is_linear<M>() ? error_of_small_inclinations(kind, question) : 0;
     if (estimate.fit.applies && !(off < 1))

@@ -35,11 +35,6 @@ inline std::string time_text(double seconds) {
     return text.str();
 }
 
-template <std::size_t N>
-Explanation explained(const Choice<N>& choice) {
-    return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
-}
-
 }  // namespace detail
 
 REVCHAIN_INLINE std::string Explanation::text() const {
@@ -73,9 +68,10 @@ REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ModesOptio
         detail::throw_invalid("explain", "a window is decided by counting modes; give first and count");
     const auto no_window = [](const auto&) { return ModeRange{}; };
     const ModeRange range = detail::chosen(chain.mode_count(), options, no_window, no_window);
-    const Question question{range.first, range.count, options.rtol.value_or(0.0)};
-    return question.rtol > 0 ? detail::explained(select(models::for_tolerance, chain, question))
-                             : detail::explained(select(models::for_full_accuracy, chain, question));
+    const double rtol = options.rtol.value_or(0.0);
+    const Question question{range.first, range.count, rtol, 0, nullptr, !(rtol > 0)};
+    const auto choice = select(models::for_modes, chain, question);
+    return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
 }
 
 REVCHAIN_INLINE Explanation explain(const Rig&, const ModesOptions<double>&) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Truth: `modes` to the last digit (0.5 ulp, itself tested against quadruple precision). Error: relative.
-#include "revchain/modes.hpp"
 #include "revchain/models/heights.hpp"
+#include "revchain/modes.hpp"
 
 #include <map>
 
@@ -335,7 +335,8 @@ TEST_CASE("at an inclination: the theory of small ones is off by no more than it
             const auto chain = rods ? Chain<double>::uniform_rods(n, 2.0) : Chain<double>::uniform_plummets(n, 2.0);
             for (Index mode = 1; mode <= std::min<Index>(n, 4); ++mode)
                 for (const double inclination : {1e-4, 0.01, 0.1, 0.3, 0.7, 1.1, 1.4}) {
-                    const ShapesOnBranch exact = shapes_on_branch(chain, mode, {.tip_inclination = inclination});
+                    const ShapesOnBranch exact =
+                        shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination});
                     if (exact.shapes.empty()) continue;
                     const SteadyShape& shape = exact.shapes.front();
                     if (mode == 1 || (3 * mode <= n && mode * mode <= n))
@@ -371,7 +372,8 @@ TEST_CASE("at an inclination: up to mode sqrt(N) of equal links the lowest leans
             const auto last = static_cast<Index>(std::sqrt(static_cast<double>(n)));
             for (const Index mode : {last, last / 2, 2 * last})
                 for (const double inclination : {0.02, 0.3, 0.8, 1.2, 1.4}) {
-                    const ShapesOnBranch exact = shapes_on_branch(chain, mode, {.tip_inclination = inclination});
+                    const ShapesOnBranch exact =
+                        shapes_on_branch(chain, {.mode = mode, .tip_inclination = inclination});
                     if (exact.shapes.empty()) continue;
                     const double steepest = exact.shapes.front().inclination.cwiseAbs().maxCoeff() / inclination;
                     CAPTURE(rods, n, mode, inclination, steepest);

@@ -4,16 +4,9 @@
 #include <optional>
 
 #include "revchain/finite/branch/border.hpp"
+#include "revchain/finite/branch/state.hpp"
 
 namespace revchain::finite {
-
-/// A point of a branch, or a direction along one: of each link tau, tan delta = sinh tau, and log lambda. tau is the
-/// inclination where that is small and, as the link nears the horizontal, the logarithm of its tangent: branches are
-/// all but straight lines in these at both ends.
-struct BranchState {
-    std::vector<double> rise;  ///< tau, lowest link first
-    double log_height = 0;
-};
 
 /// Mean square of the tau and the square of log lambda: what arc is measured by.
 inline double inner(const BranchState& x, const BranchState& y) {
@@ -39,13 +32,6 @@ inline double largest_rise(const BranchState& x) {
     for (const double rise : x.rise) largest = std::max(largest, std::abs(rise));
     return largest;
 }
-
-/// A point with the branch's direction there.
-struct BranchPoint {
-    BranchState state, tangent;  ///< tangent: of length 1 along the arc
-    double arc = 0;
-    int half_waves = 0;  ///< sign changes of the offsets, and one; 0 where rounding leaves a sign open
-};
 
 /// Newton's method on the whole chain and its height, held to a plane across a direction. In double.
 class Corrector {

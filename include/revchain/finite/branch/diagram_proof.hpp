@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "revchain/finite/branch/branch.hpp"
+#include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/shapes/isolation.hpp"
 #include "revchain/numeric/progress.hpp"
 
@@ -174,7 +174,8 @@ class DiagramProver {
 
 /// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a
 /// point of it is in the rectangle, or it crosses there the x of `at`.
-inline bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within) {
+template <class Branch>
+bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within) {
     const auto inside = [&](const BranchState& state) {  // with what the points of a branch may be off, and more
         const double height = std::exp(state.log_height), x = height * std::abs(std::sinh(state.rise[0]));
         constexpr double off = 1e-10;

@@ -3,6 +3,7 @@
 
 #include "revchain/finite/branch/corrector.hpp"
 #include "revchain/finite/branch/polish.hpp"
+#include "revchain/linear/one_mode.hpp"
 
 namespace revchain::finite {
 
@@ -105,5 +106,25 @@ inline std::optional<BranchPoint> near_vertical(const Links<Wide<double>>& chain
     state.log_height = std::log(static_cast<double>(height));
     return onset.point(std::move(state), amplitude);
 }
+
+/// The mode a branch starts from, and its links.
+struct BranchRoot {
+    Links<Wide<double>> chain;
+    Corrector corrector;
+    BranchOnset onset;
+    double height;  ///< of the mode, in the chain's unit
+
+    static BranchRoot of(std::string_view place, const Chain<double>& chain, Index mode) {
+        if (mode < 1 || mode > chain.mode_count())
+            revchain::detail::throw_invalid(
+                place, "mode must be from 1 to the number of modes, " + std::to_string(chain.mode_count()), mode);
+        const auto found = revchain::detail::one_mode(chain, mode);
+        auto links = links_of(chain);
+        const double height = found.conical_height, unit = std::ldexp(1.0, -links.units.length_exponent);
+        auto narrow = rounded<double>(links.links);
+        BranchOnset onset(narrow, found.shape, height * unit);
+        return {std::move(links), Corrector(std::move(narrow)), std::move(onset), height};
+    }
+};
 
 }  // namespace revchain::finite

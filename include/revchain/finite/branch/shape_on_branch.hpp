@@ -1,44 +1,24 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/branch/branch.hpp"
+#include "revchain/finite/branch/crossing.hpp"
+#include "revchain/finite/branch/onset.hpp"
+#include "revchain/finite/branch/shape_at.hpp"
 
-namespace revchain {
-
-/// What is asked of a shape on a branch: exactly one of these.
-struct ShapeGiven {
-    std::optional<double> conical_height{};
-    std::optional<double> angular_speed{};    ///< rad/s, with `gravity`
-    std::optional<double> tip_inclination{};  ///< of the lowest link, rad, above 0 and below a right angle
-    std::optional<double> tip_radius{};       ///< of the free end from the axis
-    std::optional<double> top_tension{};      ///< size of the reaction at the support
-    double gravity = conical_pendulum::standard_gravity;
-    /// How far down in conical height to look; absent: 1e-6 of that of the mode, and for all states at one height its
-    /// half.
-    std::optional<double> down_to{};
-    bool all = false;  ///< else the first state from the vertical along the arc
-};
-
-/// States of one branch, in the order of its arc.
-struct ShapesOnBranch {
-    std::vector<SteadyShape> shapes;
-    BranchEnd end = BranchEnd::height;  ///< why the search ended there
-    double searched_to = 0;             ///< the conical height at which it did
-};
-
-namespace finite {
+namespace revchain::finite {
 
 /// Looks along a branch for a number measured there.
-template <class Measure>
+template <class Found, class Measure>
 class BranchSearch {
    public:
+    using End = decltype(Found::end);
     using S = Wide<double>;
     BranchSearch(BranchRoot& root, const Measure& measure, const Condition<S>& condition, double amplitude)
         : root_(root), measure_(measure), condition_(condition), amplitude_(amplitude) {}
 
     /// Down to a log of conical height; the first state, or all.
-    ShapesOnBranch run(double log_end, bool all) {
-        ShapesOnBranch result;
+    Found run(double log_end, bool all) {
+        Found result;
         result.searched_to = root_.height;
         const BranchOnset& onset = root_.onset;
         constexpr double small = 0.02;
@@ -61,11 +41,11 @@ class BranchSearch {
         for (;; from /= 16) {
             const auto start = onset.start(root_.corrector, from);
             if (!start) {
-                result.end = BranchEnd::stuck;
+                result.end = End::stuck;
                 return result;
             }
-            ShapesOnBranch walked = walked_from(*start, result, log_end, all);
-            if (walked.end != BranchEnd::stuck || walked.shapes.size() > result.shapes.size() || !(from > 1e-6))
+            Found walked = walked_from(*start, result, log_end, all);
+            if (walked.end != End::stuck || walked.shapes.size() > result.shapes.size() || !(from > 1e-6))
                 return walked;
         }
     }
@@ -73,26 +53,26 @@ class BranchSearch {
    private:
     static constexpr int max_steps = 100'000;
 
-    ShapesOnBranch walked_from(const BranchPoint& start, ShapesOnBranch result, double log_end, bool all) {
+    Found walked_from(const BranchPoint& start, Found result, double log_end, bool all) {
         BranchWalk walk(root_.corrector, start, start.arc);
         const HeightMeasure to_end{log_end};
         for (int step = 0; step < max_steps; ++step) {
-            if (!walk.advance()) return stopped(result, walk, BranchEnd::stuck);
+            if (!walk.advance()) return stopped(result, walk, End::stuck);
             const auto last = crossings_of(walk, to_end);
             for (const WithinStep& each : crossings_of(walk, measure_)) {
                 if (!last.empty() && each.share > last.front().share + 1e-9) break;
                 const double reach = walk.here().arc - walk.before().arc;
                 if (auto shape = close(each.point.state, std::min(0.1, reach))) {
                     result.shapes.push_back(std::move(*shape));
-                    if (!all) return stopped(result, walk, BranchEnd::height);
+                    if (!all) return stopped(result, walk, End::height);
                 }
             }
-            if (!last.empty()) return stopped(result, walk, BranchEnd::height);
+            if (!last.empty()) return stopped(result, walk, End::height);
         }
-        return stopped(result, walk, BranchEnd::budget);
+        return stopped(result, walk, End::budget);
     }
 
-    ShapesOnBranch stopped(ShapesOnBranch& result, const BranchWalk& walk, BranchEnd end) const {
+    Found stopped(Found& result, const BranchWalk& walk, End end) const {
         result.end = end;
         result.searched_to = std::ldexp(std::exp(walk.here().state.log_height), root_.chain.units.length_exponent);
         return std::move(result);
@@ -126,108 +106,83 @@ double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
     return small * wanted / std::abs(measure({state, state}).value + wanted);
 }
 
-}  // namespace finite
-
-/// States on the branch that leaves the vertical at mode `mode` (1 the slowest, as in `modes`) at which one number is
-/// as given: conical height, speed, tip inclination, tip radius or top tension; the first along the arc, or all.
-///
-/// Method: continuation along the arc (see `branch`), then Newton's method on all pins and the height in double-double
-/// with what is given as a condition. Next to the vertical the onset of the branch serves as a start.
-/// Accuracy: at a given height or speed inclinations to 2.3e-16 and within `error_bound`, which is proved (measured:
-/// 0.7 of it; 1 to 1000 links, modes 1 to 10, from 1e-8 above the critical speed to a conical height of 1e-4 of the
-/// length: tests/cpp/finite/branch/branch.cpp). That the state is on this branch is checked step by step, not proved.
-/// `shapes` is empty where the number is not met.
-/// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
-/// Throws InvalidArgument for a mode that is none, for anything but one number given, for one out of its range, for a
-/// `down_to` not below the height of the mode, and for a speed at which this branch does not exist yet.
-inline ShapesOnBranch shapes_on_branch(const Chain<double>& chain, Index mode, const ShapeGiven& given) {
+/// The first state on the branch at which the number given is met, or all states.
+template <class Found, class Options>
+Found search_branch(const Chain<double>& chain, const Options& given, bool all) {
+    using revchain::detail::in_digits, revchain::detail::require_positive, revchain::detail::throw_invalid;
     constexpr std::string_view place = "steady_shape";
+    const Index mode = given.mode;
     using S = Wide<double>;
     const int count = given.conical_height.has_value() + given.angular_speed.has_value() +
                       given.tip_inclination.has_value() + given.tip_radius.has_value() + given.top_tension.has_value();
     if (count != 1)
-        detail::throw_invalid(place,
-                              "give exactly one of conical height, angular speed, tip inclination, tip radius and top "
-                              "tension; given were",
-                              count);
-    if (given.down_to) detail::require_positive(place, "down_to", *given.down_to);
-    finite::BranchRoot root = finite::BranchRoot::of(place, chain, mode);
-    if (given.down_to && !(*given.down_to < root.height))
-        detail::throw_invalid(
-            place, "down_to must be less than the conical height of the mode, " + detail::in_digits(root.height),
-            *given.down_to);
+        throw_invalid(place,
+                      "give exactly one of conical height, angular speed, tip inclination, tip radius and top "
+                      "tension; given were",
+                      count);
+    if (given.min_conical_height) require_positive(place, "min_conical_height", *given.min_conical_height);
+    BranchRoot root = BranchRoot::of(place, chain, mode);
+    if (given.min_conical_height && !(*given.min_conical_height < root.height))
+        throw_invalid(place,
+                      "min_conical_height must be less than the conical height of the mode, " + in_digits(root.height),
+                      *given.min_conical_height);
     const double unit = std::ldexp(1.0, -root.chain.units.length_exponent);
-    const double lowest = given.down_to.value_or(1e-6 * root.height) * unit;
+    const double lowest = given.min_conical_height.value_or(1e-6 * root.height) * unit;
     const auto* links = &root.corrector.links();
+    const auto search = [&](const auto& measure, const auto& condition, double amplitude, double log_end) {
+        using Search = BranchSearch<Found, std::decay_t<decltype(measure)>>;
+        return Search(root, measure, condition, amplitude).run(log_end, all);
+    };
     if (given.conical_height || given.angular_speed) {
         S height;
         if (given.conical_height) {
-            detail::require_positive(place, "conical height", *given.conical_height);
+            require_positive(place, "conical height", *given.conical_height);
             height = S(*given.conical_height);
         } else {
-            detail::require_positive(place, "angular speed", *given.angular_speed);
-            detail::require_positive(place, "gravity", given.gravity);
-            height = finite::height_at_speed(*given.angular_speed, given.gravity);
-            detail::require_positive(place, "gravity / angular speed^2", static_cast<double>(height));
+            require_positive(place, "angular speed", *given.angular_speed);
+            require_positive(place, "gravity", given.gravity);
+            height = height_at_speed(*given.angular_speed, given.gravity);
+            require_positive(place, "gravity / angular speed^2", static_cast<double>(height));
         }
         const double near = static_cast<double>(height);
         if (!(near < root.height))
-            detail::throw_invalid(place,
-                                  "mode " + std::to_string(mode) + " leaves the vertical at the conical height " +
-                                      detail::in_digits(root.height) +
-                                      " and has no shape at one that is not less (it turns too slowly)",
-                                  near);
+            throw_invalid(place,
+                          "mode " + std::to_string(mode) + " leaves the vertical at the conical height " +
+                              in_digits(root.height) +
+                              " and has no shape at one that is not less (it turns too slowly)",
+                          near);
         const double log_wanted = std::log(near * unit);
-        return finite::BranchSearch(root, finite::HeightMeasure{log_wanted}, finite::GivenHeight<S>(height * S(unit)),
-                                    finite::amplitude_at(root.chain, root.onset, height * S(unit)))
-            .run(std::min(log_wanted, std::log(given.down_to.value_or(near / 2) * unit)), given.all);
+        return search(HeightMeasure{log_wanted}, GivenHeight<S>(height * S(unit)),
+                      amplitude_at(root.chain, root.onset, height * S(unit)),
+                      std::min(log_wanted, std::log(given.min_conical_height.value_or(near / 2) * unit)));
     }
     const double log_end = std::log(lowest);
     if (given.tip_inclination) {
         if (!(*given.tip_inclination > 0 && *given.tip_inclination < 1.5707963267948966))
-            detail::throw_invalid(place, "tip inclination must lie between 0 and pi/2", *given.tip_inclination);
+            throw_invalid(place, "tip inclination must lie between 0 and pi/2", *given.tip_inclination);
         const double rise = std::asinh(std::tan(*given.tip_inclination));
-        const finite::TipInclinationMeasure measure{rise};
-        return finite::BranchSearch(root, measure, finite::GivenTipInclination<S>(*given.tip_inclination),
-                                    finite::amplitude_of(root, measure, rise))
-            .run(log_end, given.all);
+        const TipInclinationMeasure measure{rise};
+        return search(measure, GivenTipInclination<S>(*given.tip_inclination), amplitude_of(root, measure, rise),
+                      log_end);
     }
     if (given.tip_radius) {
-        detail::require_positive(place, "tip radius", *given.tip_radius);
+        require_positive(place, "tip radius", *given.tip_radius);
         if (!(*given.tip_radius < chain.total_length()))
-            detail::throw_invalid(place, "tip radius must be less than the length of the chain", *given.tip_radius);
-        const finite::TipRadiusMeasure measure{links, *given.tip_radius * unit};
-        return finite::BranchSearch(root, measure, finite::GivenTipRadius<S>(S(*given.tip_radius * unit)),
-                                    finite::amplitude_of(root, measure, measure.wanted))
-            .run(log_end, given.all);
+            throw_invalid(place, "tip radius must be less than the length of the chain", *given.tip_radius);
+        const TipRadiusMeasure measure{links, *given.tip_radius * unit};
+        return search(measure, GivenTipRadius<S>(S(*given.tip_radius * unit)),
+                      amplitude_of(root, measure, measure.wanted), log_end);
     }
     const double tension = *given.top_tension;
     const S weight = chain.weight_below(chain.size());
     if (!(S(tension) > weight) || !std::isfinite(tension))
-        detail::throw_invalid(place, "top tension must be finite and more than the weight of the chain", tension);
+        throw_invalid(place, "top tension must be finite and more than the weight of the chain", tension);
     using std::sqrt;
     const S pull = ldexp(sqrt((S(tension) - weight) * (S(tension) + weight)), -root.chain.units.weight_exponent);
     const double narrow = static_cast<double>(pull);
-    const finite::TopPullMeasure measure{links, narrow};
+    const TopPullMeasure measure{links, narrow};
     const double share = std::pow(std::ldexp(tension, -root.chain.units.weight_exponent) / narrow, 2);
-    return finite::BranchSearch(root, measure, finite::GivenTopTension<S>(pull, share),
-                                finite::amplitude_of(root, measure, narrow))
-        .run(log_end, given.all);
+    return search(measure, GivenTopTension<S>(pull, share), amplitude_of(root, measure, narrow), log_end);
 }
 
-/// The first of them along the arc. Throws InvalidArgument also where the number is not met.
-inline SteadyShape steady_shape(const Chain<double>& chain, Index mode, ShapeGiven given) {
-    given.all = false;
-    auto found = shapes_on_branch(chain, mode, given);
-    if (found.shapes.empty())
-        detail::throw_invalid(
-            "steady_shape",
-            "what is given is not met on the branch of mode " + std::to_string(mode) +
-                "; looked down to the conical height, got " + detail::in_digits(found.searched_to) +
-                (found.end != BranchEnd::height                ? "; it could not be followed farther"
-                 : given.conical_height || given.angular_speed ? "; the state there did not pass every check"
-                                                               : "; to look farther give a smaller down_to"));
-    return std::move(found.shapes.front());
-}
-
-}  // namespace revchain
+}  // namespace revchain::finite

@@ -2,6 +2,7 @@
 #include "revchain/finite/branch/diagram_proof.hpp"
 
 #include "revchain/branches.hpp"
+#include "revchain/finite/shapes/list.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -122,7 +123,7 @@ TEST_CASE("the offset and its derivatives stay within their enclosures: quadrupl
 
 TEST_CASE("a branch left out is missed: three plummets without their isolated branch", "[finite]") {
     const auto chain = Chain<double>::uniform_plummets(3, 3.0, 1.0);
-    const auto found = revchain::branches(chain, 0.02, {.proof_budget = 0}).branches;
+    const auto found = revchain::branches(chain, {.min_conical_height = 0.02, .proof_budget = 0}).branches;
     REQUIRE(found.size() == 4);
     const auto whole = trial(chain, 0.02, found, false);
     CHECK(whole.proof.complete);
@@ -152,7 +153,7 @@ TEST_CASE("every isolated branch left out is missed", "[finite]") {
         const Index n = 3 + i % 3;
         const auto chain = chain_for(random, n, i % 2 == 0);
         const double lowest = chain.total_length() * 6e-3;
-        const auto found = revchain::branches(chain, lowest);
+        const auto found = revchain::branches(chain, {.min_conical_height = lowest});
         CHECK(found.complete);
         for (std::size_t j = 0; j < found.branches.size(); ++j) {
             if (found.branches[j].mode > 0) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include <random>
 
-#include "revchain/finite/stability/windows.hpp"
+#include "revchain/stability_windows.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "support/catch.hpp"
 
@@ -99,7 +99,7 @@ TEST_CASE("windows of stability down to heights of 1e-11 have heights", "[steady
     for (const Index links : {1, 2, 3}) {
         const auto chain = Chain<double>::uniform_plummets(links);
         for (Index mode = 1; mode <= links; ++mode) {
-            const Branch followed = branch(chain, mode, conical_pendulum::height(1e6));
+            const Branch followed = branch(chain, {.mode = mode, .min_conical_height = conical_pendulum::height(1e6)});
             for (const StabilityWindow& window :
                  stability_windows(chain, followed, {.frame = StabilityFrame::driven, .samples = 2})) {
                 CHECK(window.height_from >= window.height_to);

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/branch/branch.hpp"
+#include "revchain/finite/branch/onset.hpp"
+#include "revchain/finite/branch/shape_at.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/numeric/progress.hpp"
-#include "revchain/stability.hpp"
+#include "revchain/stability_windows.hpp"
 
 namespace revchain {
-
-/// A part of a branch throughout which a small disturbance is seen to fare alike.
-struct StabilityWindow {
-    double arc_from, arc_to;
-    double height_from, height_to;  ///< conical heights there; `from` is nearer to where the branch begins
-    Verdict verdict;
-};
-
-struct StabilityWindowsOptions {
-    StabilityFrame frame = StabilityFrame::free;
-    double tolerance = 1e-6;  ///< of the edges, relative in conical height and absolute in arc
-    int samples = 8;          ///< looked at between two points of the branch
-};
 
 namespace finite {
 
@@ -43,17 +32,8 @@ inline JudgedPlace judged_at(const Chain<double>& chain, const Branch& branch, C
 
 }  // namespace finite
 
-/// Where along a branch its shapes are stable and where not: windows in the order of the arc that cover it but for the
-/// vertical itself and what lies between there and the branch's first point.
-///
-/// Method: `stability` at every point of the branch and `samples - 1` places between; where the verdict changes the
-/// step is halved until it is as short as asked. A window shorter than the places are apart can be missed: nothing is
-/// proved.
-/// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the critical height). Cost:
-/// some (4 N)^3 for every place.
-/// Throws InvalidArgument for a branch of another chain, a tolerance not positive and samples below 1.
-inline std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
-                                                      const StabilityWindowsOptions& options = {}) {
+REVCHAIN_INLINE std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
+                                                               const StabilityWindowsOptions& options) {
     constexpr std::string_view place = "stability_windows";
     detail::require_positive(place, "tolerance", options.tolerance);
     if (options.samples < 1) detail::throw_invalid(place, "samples must be at least 1", options.samples);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
-#include "revchain/finite/branch/branch.hpp"
-
 #include "revchain/finite/branch/shape_on_branch.hpp"
+
+#include "revchain/branches.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "revchain/two_links.hpp"
@@ -62,7 +62,7 @@ TEST_CASE("a speed on a branch: 1 ... 1000 links, modes 1 ... 10, from the criti
                       critical * 0.02, length * 1e-3, length * 1e-4}) {
                     if (!(height < critical)) continue;
                     CAPTURE(n, kind, mode, height / critical);
-                    const SteadyShape shape = revchain::steady_shape(chain, mode, {.conical_height = height});
+                    const SteadyShape shape = revchain::steady_shape(chain, {.mode = mode, .conical_height = height});
                     CHECK(shape.conical_height == height);
                     CHECK(shape.half_waves == mode);
                     CHECK(shape.offset[0] > 0);
@@ -82,7 +82,7 @@ TEST_CASE("one link and two: the closed forms on each branch", "[finite]") {
     for (int i = 0; i < 100; ++i) {
         const double l = random.log_between(1e-3, 1e3), height = l * random.log_between(1e-3, 0.999);
         const Chain<double> one({revchain::plummet(2.0, l)});
-        const auto shape = revchain::steady_shape(one, 1, {.conical_height = height});
+        const auto shape = revchain::steady_shape(one, {.mode = 1, .conical_height = height});
         CHECK(support::error_in_ulp(shape.inclination[0], acosq(Quad(height) / l)) <= 2);
 
         const double W1 = random.log_between(0.01, 100.0), W2 = random.log_between(0.01, 100.0);
@@ -91,7 +91,7 @@ TEST_CASE("one link and two: the closed forms on each branch", "[finite]") {
         CAPTURE(W1, l, W2, l2, height);
         for (const Index mode : {1, 2}) {
             if (!(height < height_of(two, mode))) continue;
-            const auto found = revchain::steady_shape(two, mode, {.conical_height = height});
+            const auto found = revchain::steady_shape(two, {.mode = mode, .conical_height = height});
             double nearest = 1;
             for (const auto& closed : revchain::two_plummets_shapes(W1, l, W2, l2, height))
                 if (closed.half_waves() == mode)
@@ -109,7 +109,8 @@ TEST_CASE("every point of a branch is in the proved list at its speed", "[finite
         const Index n = 2 + i % 5;
         const auto chain = i < 5 ? plummets(n) : random_chain(random, n, i % 2 == 0, 100, 10);
         for (Index mode = 1; mode <= n; ++mode) {
-            const Branch branch = revchain::branch(chain, mode, 0.02 * height_of(chain, mode), {.longest_step = 0.5});
+            const Branch branch = revchain::branch(
+                chain, {.mode = mode, .min_conical_height = 0.02 * height_of(chain, mode), .max_step = 0.5});
             CAPTURE(i, n, mode);
             REQUIRE(branch.end == BranchEnd::height);
             CHECK(branch.conical_height.back() == Approx(0.02 * height_of(chain, mode)).epsilon(1e-9));
@@ -143,20 +144,20 @@ TEST_CASE("what people ask: tip inclination, tip radius and top tension come bac
         const auto chain = random_chain(random, n, i % 2 == 0, 10, 5);
         const Index mode = 1 + i / 6 % std::min<Index>(n, 4);
         const double height = height_of(chain, mode) * (1 - random.log_between(1e-7, 0.9));
-        const auto shape = revchain::steady_shape(chain, mode, {.conical_height = height});
+        const auto shape = revchain::steady_shape(chain, {.mode = mode, .conical_height = height});
         const support::QuadChain truth(chain);
         CAPTURE(i, n, mode, height);
         const double tip = shape.inclination[0], radius = shape.offset[0], tension = shape.tension[n - 1];
-        const auto by_tip = revchain::steady_shape(chain, mode, {.tip_inclination = tip});
+        const auto by_tip = revchain::steady_shape(chain, {.mode = mode, .tip_inclination = tip});
         CHECK(std::abs(by_tip.inclination[0] - tip) <= 2.3e-16);
-        const auto by_radius = revchain::steady_shape(chain, mode, {.tip_radius = radius});
+        const auto by_radius = revchain::steady_shape(chain, {.mode = mode, .tip_radius = radius});
         CHECK(support::error_in_ulp(by_radius.offset[0], radius) <= 1);
-        const auto by_tension = revchain::steady_shape(chain, mode, {.top_tension = tension});
+        const auto by_tension = revchain::steady_shape(chain, {.mode = mode, .top_tension = tension});
         CHECK(support::error_in_ulp(by_tension.tension[n - 1], tension) <= 4);
         for (const SteadyShape* each : {&by_tip, &by_radius, &by_tension}) {
             CHECK(each->half_waves == mode);
             // the height is rounded: what that changes is in the condition at a given height
-            const auto again = revchain::steady_shape(chain, mode, {.conical_height = each->conical_height});
+            const auto again = revchain::steady_shape(chain, {.mode = mode, .conical_height = each->conical_height});
             CHECK((again.inclination - each->inclination).cwiseAbs().maxCoeff() <=
                   1e-15 * std::max(1.0, again.condition));
             // what forces do at a height that is given is told exactly, and as the proved list tells it
@@ -184,7 +185,7 @@ TEST_CASE("the onset of every branch is the pitchfork's", "[finite]") {
         const double critical = height_of(rods, mode);
         double last = 0;
         for (const double gap : {1e-6, 1e-8, 1e-10, 1e-12}) {
-            const auto shape = revchain::steady_shape(rods, mode, {.conical_height = critical * (1 - gap)});
+            const auto shape = revchain::steady_shape(rods, {.mode = mode, .conical_height = critical * (1 - gap)});
             const double ratio = shape.offset[0] / std::sqrt(gap);
             if (last != 0) CHECK(ratio == Approx(last).epsilon(gap < 1e-11 ? 2e-4 : 1e-4));
             last = ratio;
@@ -194,7 +195,7 @@ TEST_CASE("the onset of every branch is the pitchfork's", "[finite]") {
 
 TEST_CASE("states of one branch at one speed, all of them", "[finite]") {
     // on branch 2 of three equal plummets the free end goes out to 0.555 and comes back to 0.5
-    const auto found = revchain::shapes_on_branch(plummets(3), 2, {.tip_radius = 0.53, .all = true});
+    const auto found = revchain::shapes_on_branch(plummets(3), {.mode = 2, .tip_radius = 0.53});
     REQUIRE(found.shapes.size() == 2);
     for (const SteadyShape& shape : found.shapes) {
         CHECK(shape.offset[0] == Approx(0.53).epsilon(1e-15));
@@ -206,10 +207,11 @@ TEST_CASE("states of one branch at one speed, all of them", "[finite]") {
 TEST_CASE("long chains: 100,000 rods, and where a mode is all but zero at the tip", "[finite]") {
     const auto rods = Chain<double>::uniform_rods(100'000, 1, 1);
     const double first = height_of(rods, 1);
-    const auto shape = revchain::steady_shape(rods, 1, {.conical_height = first / 4});
+    const auto shape = revchain::steady_shape(rods, {.mode = 1, .conical_height = first / 4});
     CHECK(shape.half_waves == 1);
     CHECK(worst_error(support::QuadChain(rods), shape, first / 4) <= 2.3e-16);
-    const auto last = revchain::branch(Chain<double>::uniform_plummets(10, 1, 1), 10, 1e-5);
+    const auto last =
+        revchain::branch(Chain<double>::uniform_plummets(10, 1, 1), {.mode = 10, .min_conical_height = 1e-5});
     CHECK(last.end == BranchEnd::height);
 }
 
@@ -223,7 +225,7 @@ TEST_CASE("branches that end next to the vertical: there is always the vertical,
             for (const double gap : {1e-2, 1e-6, 1e-8, 1e-9, 1e-10, 1e-12, 1e-13, 1e-14, 4e-15}) {
                 const double height = critical * (1 - gap);
                 CAPTURE(n, mode, gap);
-                const Branch branch = revchain::branch(chain, mode, height);
+                const Branch branch = revchain::branch(chain, {.mode = mode, .min_conical_height = height});
                 CHECK(branch.end == BranchEnd::height);
                 REQUIRE(branch.size() >= 2);
                 CHECK(branch.tip_inclination[0] == 0);
@@ -234,12 +236,13 @@ TEST_CASE("branches that end next to the vertical: there is always the vertical,
                 // from 1e-8 on the height is the one given; else told by its logarithm in double
                 const double off = gap > 2e-8 ? 1e-12 : 4e-16 / std::sqrt(gap);
                 CHECK(worst_error(truth, shape, branch.conical_height.back()) <= off);
-                const auto same = revchain::steady_shape(chain, mode, {.conical_height = height});
+                const auto same = revchain::steady_shape(chain, {.mode = mode, .conical_height = height});
                 CHECK((shape.inclination.cwiseAbs() - same.inclination.cwiseAbs()).cwiseAbs().maxCoeff() <=
                       1e-3 * same.inclination.cwiseAbs().maxCoeff());
             }
             // one digit below: there, or the vertical alone
-            const Branch least = revchain::branch(chain, mode, std::nextafter(critical, 0));
+            const Branch least =
+                revchain::branch(chain, {.mode = mode, .min_conical_height = std::nextafter(critical, 0)});
             REQUIRE(least.size() >= 1);
             CHECK((least.end == BranchEnd::height) == (least.size() == 2));
         }
@@ -247,7 +250,7 @@ TEST_CASE("branches that end next to the vertical: there is always the vertical,
 
 TEST_CASE("as many points as asked for, at the most", "[finite]") {
     for (const std::size_t most : {1u, 2u, 3u, 7u}) {
-        const Branch branch = revchain::branch(plummets(3), 1, 0.1, {.most_points = most});
+        const Branch branch = revchain::branch(plummets(3), {.mode = 1, .min_conical_height = 0.1, .max_points = most});
         CHECK(branch.size() == most);
         CHECK(branch.end == BranchEnd::budget);
     }
@@ -255,7 +258,9 @@ TEST_CASE("as many points as asked for, at the most", "[finite]") {
     const auto chain = random_chain(*std::make_unique<support::Random>(133), 4, true, 100, 10);
     for (Index mode = 1; mode <= 4; ++mode)
         for (std::size_t most = 1; most < 60; ++most)
-            CHECK(revchain::branch(chain, mode, 0.02 * height_of(chain, mode), {.most_points = most}).size() <= most);
+            CHECK(revchain::branch(
+                      chain, {.mode = mode, .min_conical_height = 0.02 * height_of(chain, mode), .max_points = most})
+                      .size() <= most);
 }
 
 TEST_CASE("the tip hardly off the axis: tip inclination and tip radius of 1e-3 ... 1e-14", "[finite]") {
@@ -265,17 +270,16 @@ TEST_CASE("the tip hardly off the axis: tip inclination and tip radius of 1e-3 .
             const double critical = height_of(chain, mode);
             for (double given = 1e-3; given > 5e-15; given /= 10) {
                 CAPTURE(n, mode, given);
-                const auto by_tip = revchain::steady_shape(chain, mode, {.tip_inclination = given});
+                const auto by_tip = revchain::steady_shape(chain, {.mode = mode, .tip_inclination = given});
                 CHECK(std::abs(by_tip.inclination[0] - given) <= 2.3e-16 * given);
-                const auto by_radius = revchain::steady_shape(chain, mode, {.tip_radius = given});
+                const auto by_radius = revchain::steady_shape(chain, {.mode = mode, .tip_radius = given});
                 CHECK(support::error_in_ulp(by_radius.offset[0], given) <= 1);
                 for (const SteadyShape* each : {&by_tip, &by_radius}) {
                     CHECK(each->half_waves == mode);
                     CHECK(each->conical_height == Approx(critical).epsilon(1e-4));
                     CHECK(each->conical_height <= critical * (1 + 0x1p-50));
                 }
-                CHECK(revchain::shapes_on_branch(chain, mode, {.tip_inclination = given, .all = true}).shapes.size() >=
-                      1);
+                CHECK(revchain::shapes_on_branch(chain, {.mode = mode, .tip_inclination = given}).shapes.size() >= 1);
             }
         }
 }
@@ -294,7 +298,7 @@ TEST_CASE("fast modes of many plummets: lowest links inclined by 1e-20 ... 1e-22
         const auto chain = plummets(n);
         const double height = part * height_of(chain, mode);
         CAPTURE(n, mode, part);
-        const auto shape = revchain::steady_shape(chain, mode, {.conical_height = height});
+        const auto shape = revchain::steady_shape(chain, {.mode = mode, .conical_height = height});
         CHECK(shape.half_waves == mode);
         CHECK(shape.residual <= 1e-18);
         CHECK(worst_error(support::QuadChain(chain), shape, height) <= 2.3e-16);
@@ -323,9 +327,11 @@ TEST_CASE("modes that all but coincide, weights 1e12 apart, pendulum lengths bey
             for (Index mode = 1; mode <= chain.mode_count(); ++mode) {
                 const double critical = height_of(chain, mode);
                 CAPTURE(family.name, n, mode);
-                CHECK(revchain::branch(chain, mode, 0.01 * critical).end == BranchEnd::height);
+                CHECK(revchain::branch(chain, {.mode = mode, .min_conical_height = 0.01 * critical}).end ==
+                      BranchEnd::height);
                 for (const double ratio : {1 - 1e-8, 0.9, 0.3, 0.02}) {
-                    const auto shape = revchain::steady_shape(chain, mode, {.conical_height = critical * ratio});
+                    const auto shape =
+                        revchain::steady_shape(chain, {.mode = mode, .conical_height = critical * ratio});
                     CAPTURE(ratio);
                     if (counted) CHECK(shape.half_waves == mode);
                     CHECK(shape.offset[0] > 0);
@@ -339,32 +345,34 @@ TEST_CASE("a branch that is none: errors", "[finite]") {
     const auto chain = plummets(3);
     const double first = height_of(chain, 1), nan = std::numeric_limits<double>::quiet_NaN();
     for (const Index bad : {0, -1, 4}) {
-        CHECK_THROWS_AS(revchain::branch(chain, bad, 0.1), revchain::InvalidArgument);
-        CHECK_THROWS_AS(revchain::steady_shape(chain, bad, {.conical_height = 0.1}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::branch(chain, {.mode = bad, .min_conical_height = 0.1}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shape(chain, {.mode = bad, .conical_height = 0.1}), revchain::InvalidArgument);
     }
     for (const double bad : {0.0, -1.0, nan, first, 2 * first}) {
-        CHECK_THROWS_AS(revchain::branch(chain, 1, bad), revchain::InvalidArgument);
-        CHECK_THROWS_AS(revchain::steady_shape(chain, 1, {.conical_height = bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::branch(chain, {.mode = 1, .min_conical_height = bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shape(chain, {.mode = 1, .conical_height = bad}), revchain::InvalidArgument);
     }
-    CHECK_THROWS_AS(revchain::steady_shape(chain, 1, {}), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::steady_shape(chain, 1, {.conical_height = 0.1, .tip_radius = 0.1}),
+    CHECK_THROWS_AS(revchain::steady_shape(chain, {.mode = 1}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::steady_shape(chain, {.mode = 1, .conical_height = 0.1, .tip_radius = 0.1}),
                     revchain::InvalidArgument);
     for (const double bad : {0.0, 1.5707963267948966, nan})
-        CHECK_THROWS_AS(revchain::steady_shape(chain, 1, {.tip_inclination = bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shape(chain, {.mode = 1, .tip_inclination = bad}), revchain::InvalidArgument);
     for (const double bad : {0.0, 3.0, nan})
-        CHECK_THROWS_AS(revchain::steady_shape(chain, 1, {.tip_radius = bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shape(chain, {.mode = 1, .tip_radius = bad}), revchain::InvalidArgument);
     for (const double bad : {1 - 1e-15, 0.5, nan, std::numeric_limits<double>::infinity()})
-        CHECK_THROWS_AS(revchain::steady_shape(chain, 1, {.top_tension = bad}), revchain::InvalidArgument);
+        CHECK_THROWS_AS(revchain::steady_shape(chain, {.mode = 1, .top_tension = bad}), revchain::InvalidArgument);
     // the third branch never reaches that far out
-    CHECK_THROWS_WITH(revchain::steady_shape(chain, 3, {.tip_radius = 2.5}),
+    CHECK_THROWS_WITH(revchain::steady_shape(chain, {.mode = 3, .tip_radius = 2.5}),
                       Catch::Matchers::ContainsSubstring("not met on the branch of mode 3"));
     // what to do where the search ended for want of a smaller end
-    CHECK_THROWS_WITH(revchain::steady_shape(chain, 1, {.top_tension = 1e9}),
-                      Catch::Matchers::ContainsSubstring("give a smaller down_to"));
-    CHECK_NOTHROW(revchain::steady_shape(chain, 1, {.top_tension = 1e9, .down_to = 1e-12}));
+    CHECK_THROWS_WITH(revchain::steady_shape(chain, {.mode = 1, .top_tension = 1e9}),
+                      Catch::Matchers::ContainsSubstring("give a smaller min_conical_height"));
+    CHECK_NOTHROW(revchain::steady_shape(chain, {.mode = 1, .top_tension = 1e9, .min_conical_height = 1e-12}));
     for (const double bad : {first, 2 * first})
-        CHECK_THROWS_WITH(revchain::steady_shape(chain, 1, {.tip_radius = 0.1, .down_to = bad}),
-                          Catch::Matchers::ContainsSubstring("down_to must be less than"));
-    CHECK_THROWS_AS(revchain::branch(chain, 1, 0.1).shape(0), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::branch(chain, 1, 0.1).shape(10'000), revchain::InvalidArgument);
+        CHECK_THROWS_WITH(revchain::steady_shape(chain, {.mode = 1, .tip_radius = 0.1, .min_conical_height = bad}),
+                          Catch::Matchers::ContainsSubstring("min_conical_height must be less than"));
+    CHECK_THROWS_AS(revchain::branch(chain, {.mode = 1, .min_conical_height = 0.1}).shape(0),
+                    revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::branch(chain, {.mode = 1, .min_conical_height = 0.1}).shape(10'000),
+                    revchain::InvalidArgument);
 }

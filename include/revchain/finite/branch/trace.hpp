@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/branch/crossing.hpp"
+#include "revchain/finite/branch/onset.hpp"
+#include "revchain/finite/branch/shape_at.hpp"
+
+namespace revchain::finite {
+
+/// Appends a point, with what is told of it, to a branch.
+template <class Branch>
+void append(Branch& branch, const BranchPoint& point) {
+    const auto& chain = *branch.links;
+    const auto length = [&](double x) { return std::ldexp(x, chain.units.length_exponent); };
+    const auto weight = [&](double x) { return std::ldexp(x, chain.units.weight_exponent); };
+    const double height = std::exp(point.state.log_height);
+    double y = 0, sideways = 0, weights = 0, inertia = 0, energy = 0;
+    for (std::size_t m = chain.links.size(); m-- > 0;) {
+        const auto& link = chain.links[m];
+        const double a = static_cast<double>(link.length), moment = static_cast<double>(link.moment),
+                     rest = static_cast<double>(link.rest), d = a * std::tanh(point.state.rise[m]);
+        const double upper = y;
+        y += d;
+        sideways += moment * y + rest * upper, weights += moment + rest;
+        inertia += moment * y * y + rest * upper * upper - static_cast<double>(link.cross) * d * d;
+        energy -= static_cast<double>(link.pull) * a / std::cosh(point.state.rise[m]);
+    }
+    branch.arc.push_back(point.arc), branch.conical_height.push_back(length(height));
+    branch.tip_inclination.push_back(std::atan(std::sinh(point.state.rise[0])));
+    branch.tip_radius.push_back(length(y)), branch.half_waves.push_back(point.half_waves);
+    branch.top_tension.push_back(weight(std::hypot(weights, sideways / height)));
+    branch.moment_of_inertia.push_back(weight(std::ldexp(inertia, 2 * chain.units.length_exponent)));
+    branch.effective_energy.push_back(weight(length(energy - inertia / (2 * height))));
+    branch.points.push_back(point);
+}
+
+/// Whether a step passes the point where a loop began, going the same way.
+inline bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPoint& start) {
+    const double reach = here.arc - before.arc;
+    if (!(before.arc > start.arc) || inner(here.tangent, start.tangent) < 0.5) return false;
+    const BranchState from_before = moved(start.state, -1, before.state),
+                      from_here = moved(start.state, -1, here.state);
+    return inner(from_before, from_before) < 2 * reach * reach && inner(from_before, before.tangent) >= 0 &&
+           inner(from_here, here.tangent) < 0;
+}
+
+/// Whether a step goes through the straight chain to the mirror image.
+inline bool mirrored(const BranchPoint& before, const BranchPoint& here) {
+    double sum = 0;
+    for (std::size_t m = 0; m < here.state.rise.size(); ++m) sum += before.state.rise[m] * here.state.rise[m];
+    return sum < 0;
+}
+
+/// Goes on with a branch until it first comes down to `log_end`; folds are put in where they lie.
+template <class Branch>
+auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_points) {
+    using End = decltype(Branch::end);
+    const HeightMeasure to_end{log_end};
+    const BranchPoint start = walk.here();
+    while (branch.size() < max_points) {
+        if (!walk.advance()) return End::stuck;
+        const BranchPoint &before = walk.before(), &here = walk.here();
+        if (mirrored(before, here)) return End::vertical;
+        auto crossings = crossings_of(walk, to_end);
+        std::erase_if(crossings, [](const WithinStep& each) { return each.point.tangent.log_height > 0; });
+        const double until = crossings.empty() ? 1.0 : crossings.front().share;
+        if (before.tangent.log_height * here.tangent.log_height < 0)
+            if (const auto fold = turning_of(walk, to_end); fold && fold->share < until) {
+                append(branch, fold->point);
+                branch.folds.push_back(branch.size() - 1);
+                if (branch.size() >= max_points) return End::budget;
+            }
+        if (!crossings.empty()) {
+            append(branch, crossings.front().point);
+            return End::height;
+        }
+        if (here.state.log_height < log_end) return End::stuck;  // passed the end unseen
+        if (returned(here, before, start)) {
+            append(branch, start);
+            return End::closed;
+        }
+        append(branch, here);
+    }
+    return End::budget;
+}
+
+/// The states of a branch at one height, in the order of the arc. Between the vertical and the next point the law of
+/// the onset leads to it: the height hardly changes there.
+template <class Branch>
+std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, double conical_height) {
+    std::vector<SteadyShape> found;
+    if (branch.size() == 0) return found;
+    const auto& chain = *branch.links;
+    const Wide<double> height = ldexp(Wide<double>(conical_height), -chain.units.length_exponent);
+    const HeightMeasure measure{std::log(static_cast<double>(height))};
+    const GivenHeight<Wide<double>> condition(height);
+    const auto off = [&](std::size_t i) { return (branch.conical_height[i] - conical_height) / conical_height; };
+    const auto take = [&](const BranchState& near) {
+        if (auto shape = shape_at(chain, near, condition)) found.push_back(std::move(*shape));
+    };
+    const bool from_vertical = branch.onset && largest_rise(branch.points[0].state) == 0;
+    if (from_vertical && !(off(0) > 0) && branch.size() < 2) return found;
+    const double there = from_vertical && off(0) > 0 ? std::min(1e-9, 0.01 * off(0)) : 1e-9;
+    const std::size_t last = branch.size() - 1;
+    for (std::size_t i = from_vertical ? 1 : 0; i <= last; ++i) {
+        const double a = off(i);
+        if (i == 1 && from_vertical && off(0) > 0 && a <= -there)
+            if (const auto point = near_vertical(chain, *branch.onset, height)) take(point->state);
+        if (std::abs(a) < there) {  // the point itself: an end, or a crossing
+            if (i == 0 || i == last || (off(i - 1) > 0) != (off(i + 1) > 0)) take(branch.points[i].state);
+        } else if (i < last && std::abs(off(i + 1)) >= there && (a > 0) != (off(i + 1) > 0)) {
+            const auto walk = BranchWalk::between(corrector, branch.points[i], branch.points[i + 1]);
+            const auto crossing = crossings_of(walk, measure);
+            if (!crossing.empty()) take(crossing.front().point.state);
+        }
+    }
+    return found;
+}
+
+}  // namespace revchain::finite

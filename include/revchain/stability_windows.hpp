@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <vector>
+
+#include "revchain/branches.hpp"
+#include "revchain/stability.hpp"
+
+/// Where along a branch of steady shapes the shapes are stable.
+///
+///     const auto chain = revchain::Chain<double>::uniform_plummets(2, 2.0);
+///     const auto branch = revchain::branch(chain, {.mode = 2, .max_angular_speed = 15.0});
+///     const auto windows = revchain::stability_windows(chain, branch);
+///     windows.size();                                                // 2 windows
+///     windows[0].verdict == revchain::Verdict::spectrally_stable;    // true, from the vertical on
+///     windows[1].verdict == revchain::Verdict::unstable;             // true: faster than that
+///     windows[1].height_from;                                        // 0.135703 m: the conical height of the edge
+namespace revchain {
+
+/// A part of a branch throughout which a small disturbance is seen to fare alike.
+struct StabilityWindow {
+    double arc_from, arc_to;
+    double height_from, height_to;  ///< conical heights there; `from` is nearer to where the branch begins
+    Verdict verdict;
+};
+
+struct StabilityWindowsOptions {
+    StabilityFrame frame = StabilityFrame::free;
+    double tolerance = 1e-6;  ///< of the edges, relative in conical height and absolute in arc
+    int samples = 8;          ///< looked at between two points of the branch
+};
+
+/// Where along a branch its shapes are stable and where not: windows in the order of the arc that cover it but for the
+/// vertical itself and what lies between there and the branch's first point.
+///
+/// Method: `stability` at every point of the branch and `samples - 1` places between; where the verdict changes the
+/// step is halved until it is as short as asked. A window shorter than the places are apart can be missed: nothing is
+/// proved.
+/// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the critical height). Cost:
+/// some (4 N)^3 for every place.
+/// Throws InvalidArgument for a branch of another chain, a tolerance not positive and samples below 1.
+std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
+                                               const StabilityWindowsOptions& options = {});
+
+}  // namespace revchain
+
+#if !defined(REVCHAIN_COMPILED)
+#include "revchain/finite/stability/stability_windows.hpp"
+#endif
