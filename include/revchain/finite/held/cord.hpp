@@ -124,7 +124,9 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     const auto condition = [&](double y, double z, double direct) {
         const auto forces = end.forces_to_move(y, z);
         double most = 0;
-        for (const auto& [x, change] : samples) {
+        for (const auto& sample : samples) {
+            const CordPlace& x = sample.first;
+            const CordChange& change = sample.second;
             const auto changed = [&](double CordPlace::*part) {
                 return change[0].*part * forces[0] + change[1].*part * forces[1] + change[2].*part * direct;
             };
