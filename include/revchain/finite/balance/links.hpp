@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "revchain/chain.hpp"
+#include "revchain/numeric/double_double.hpp"
 #include "revchain/numeric/interval.hpp"
 
 namespace revchain::finite {
@@ -25,6 +26,13 @@ struct Link {
 /// The sine of a link that hangs (stands) is + (-) that of its tangent t, and its balance
 ///     lambda pull t +- length cross t/sqrt(1 + t^2) = R.
 using revchain::Posture;
+
+/// Links each of whose numbers lies within an interval.
+template <class T>
+using EnclosedLinks = std::vector<Link<Interval<T>>>;
+
+/// The arithmetic of proofs that double leaves open.
+using Far = DoubleDouble;
 
 /// Links in units of 2^length_exponent and 2^weight_exponent.
 template <class S>
@@ -61,15 +69,18 @@ Links<Wide<T>> links_of(const Chain<T>& chain) {
     return result;
 }
 
-/// The same, rounded.
-template <class To, class From>
-std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
+/// Links with every number x replaced by `to(x)`.
+template <class To, class From, class Convert>
+std::vector<Link<To>> converted(const std::vector<Link<From>>& links, const Convert& to) {
     std::vector<Link<To>> result;
     result.reserve(links.size());
     for (const Link<From>& l : links)
-        result.push_back({static_cast<To>(l.length), static_cast<To>(l.pull), static_cast<To>(l.cross),
-                          static_cast<To>(l.moment), static_cast<To>(l.rest)});
+        result.push_back({to(l.length), to(l.pull), to(l.cross), to(l.moment), to(l.rest)});
     return result;
+}
+template <class To, class From>
+std::vector<Link<To>> rounded(const std::vector<Link<From>>& links) {
+    return converted<To>(links, [](const From& x) { return static_cast<To>(x); });
 }
 
 /// A number known in S to some of its last digits, enclosed in T; one that T holds exactly is taken as exact if T is
@@ -88,13 +99,8 @@ Interval<T> enclosed(const S& x) {
     }
 }
 template <class T, class S>
-std::vector<Link<Interval<T>>> enclosed(const std::vector<Link<S>>& links) {
-    std::vector<Link<Interval<T>>> result;
-    result.reserve(links.size());
-    for (const Link<S>& l : links)
-        result.push_back({enclosed<T>(l.length), enclosed<T>(l.pull), enclosed<T>(l.cross), enclosed<T>(l.moment),
-                          enclosed<T>(l.rest)});
-    return result;
+EnclosedLinks<T> enclosed(const std::vector<Link<S>>& links) {
+    return converted<Interval<T>>(links, [](const S& x) { return enclosed<T>(x); });
 }
 
 namespace detail {

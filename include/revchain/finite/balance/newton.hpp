@@ -14,6 +14,11 @@ struct Balanced {
     std::vector<S> tangent{};      ///< of the links, where they are too near the horizontal for offsets; else empty
 
     bool stands(std::size_t m) const { return !posture.empty() && posture[m] == Posture::stands; }
+    /// Turns the shape into its mirror image.
+    void mirror() {
+        for (S& y : offset) y = -y;
+        for (S& t : tangent) t = -t;
+    }
 };
 
 namespace detail {
@@ -41,27 +46,19 @@ S tangent_in(const Balanced<S>& shape, const std::vector<Link<S>>& links, std::s
     return d / (links[m].length * cosine_of(links[m].length, d, shape.stands(m)));
 }
 
-/// A symmetric tridiagonal matrix as the product of its factors, from the first row down.
-class Tridiagonal {
-   public:
-    /// `upper[m]` couples rows m and m + 1; the last is not used.
-    Tridiagonal(std::vector<double> diagonal, std::vector<double> upper)
-        : pivot_(std::move(diagonal)), upper_(std::move(upper)) {
-        for (std::size_t m = 0; m < pivot_.size(); ++m) {
-            if (m > 0) pivot_[m] -= upper_[m - 1] / pivot_[m - 1] * upper_[m - 1];
-            if (pivot_[m] == 0) pivot_[m] = std::numeric_limits<double>::min();
+/// Solves a symmetric tridiagonal system: `x` is its right side, then the solution. `upper[m]` couples rows m and
+/// m + 1; the last is not used. The diagonal becomes the pivots.
+inline void solve_tridiagonal(std::vector<double>& diagonal, const std::vector<double>& upper, std::vector<double>& x) {
+    for (std::size_t m = 0; m < x.size(); ++m) {
+        if (m > 0) {
+            const double share = upper[m - 1] / diagonal[m - 1];
+            diagonal[m] -= share * upper[m - 1], x[m] -= share * x[m - 1];
         }
+        if (diagonal[m] == 0) diagonal[m] = std::numeric_limits<double>::min();
     }
-    std::vector<double> solve(std::vector<double> x) const {
-        for (std::size_t m = 1; m < x.size(); ++m) x[m] -= upper_[m - 1] / pivot_[m - 1] * x[m - 1];
-        for (std::size_t m = x.size(); m-- > 0;)
-            x[m] = (x[m] - (m + 1 < x.size() ? upper_[m] * x[m + 1] : 0.0)) / pivot_[m];
-        return x;
-    }
-
-   private:
-    std::vector<double> pivot_, upper_;
-};
+    for (std::size_t m = x.size(); m-- > 0;)
+        x[m] = (x[m] - (m + 1 < x.size() ? upper[m] * x[m + 1] : 0.0)) / diagonal[m];
+}
 
 }  // namespace detail
 
@@ -70,15 +67,16 @@ class Tridiagonal {
 /// elements, in double. What is small is kept to its own digits, tips of 1e-100 and links all but horizontal. Cost O(N)
 /// a step.
 template <class S, class End = OnAxis>
-Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start, int max_steps = 60,
+Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vector<S> start,
                     std::vector<Posture> posture = {}, const End& support = {}) {
     using std::abs;
+    constexpr int max_steps = 60;
     const std::size_t n = links.size();
     Balanced<S> result{std::move(start), std::move(posture)};
     std::vector<S>& y = result.offset;
     support.place(y);
-    const std::size_t rows = n + (support.yields() ? 1 : 0);  // the topmost pin is unknown too
-    std::vector<double> diagonal(rows), upper(rows), force(rows);
+    const std::size_t rows = n + (support.yields() ? 1 : 0);        // the topmost pin is unknown too
+    std::vector<double> diagonal(rows), upper(rows), change(rows);  // change: first the forces, then what undoes them
     double last = std::numeric_limits<double>::infinity();
     for (int step = 0; step < max_steps; ++step) {
         S from_below(0);  // lambda sigma tan d + a X sin d, minus what mass asks, of the link below
@@ -91,7 +89,7 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
             const S pull = height * link.pull * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
                     at_upper = link.rest * y[m + 1];
             // Forces times lambda on the lower pin: pull - W h/a (its own offset) + X d ..., on the upper the opposite.
-            force[m] = -static_cast<double>(from_below + (pull + turn - at_lower));
+            change[m] = -static_cast<double>(from_below + (pull + turn - at_lower));
             const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
             const double stiffness =
                 static_cast<double>(height * link.pull) / (a * c * c * c) + static_cast<double>(link.cross);
@@ -102,13 +100,12 @@ Balanced<S> balance(const std::vector<Link<S>>& links, const S& height, std::vec
         }
         if constexpr (is_held<End>) {
             if (support.yields()) {
-                force[n] = -static_cast<double>(from_below + support.stiffness * (y[n] - support.radius) -
-                                                support.carriage * y[n]);
+                change[n] = -static_cast<double>(from_below + support.stiffness * (y[n] - support.radius) -
+                                                 support.carriage * y[n]);
                 diagonal[n] = below_stiffness - below_mass + static_cast<double>(support.stiffness - support.carriage);
             }
         }
-        const detail::Tridiagonal tangent_stiffness(diagonal, upper);
-        const std::vector<double> change = tangent_stiffness.solve(force);
+        detail::solve_tridiagonal(diagonal, upper, change);
         double largest = 0;
         for (std::size_t m = 0; m < rows; ++m) {
             const double share = static_cast<double>(abs(y[m]));

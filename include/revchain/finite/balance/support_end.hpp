@@ -61,7 +61,7 @@ inline std::vector<Posture> posture_of(const Links<Wide<double>>& chain) {
 }
 inline bool may_all_stand(const Links<Wide<double>>&) { return false; }
 template <class T>
-std::vector<Link<Interval<T>>> swept_links(const Links<Wide<double>>& chain) {
+EnclosedLinks<T> swept_links(const Links<Wide<double>>& chain) {
     return enclosed<T>(chain.links);
 }
 

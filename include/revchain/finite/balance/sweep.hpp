@@ -91,8 +91,7 @@ S support_offset(const std::vector<Link<S>>& links, const S& height, const S& lo
 
 /// Its sign at one tangent: 0 where rounding leaves it open.
 template <Real T, class End = OnAxis>
-int sign_at(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const T& t,
-            const End& support = {}) {
+int sign_at(const EnclosedLinks<T>& links, const Interval<T>& height, const T& t, const End& support = {}) {
     return support_offset(links, height, Interval<T>(t), support).sign();
 }
 

@@ -155,7 +155,7 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& centre_stiffness, c
 /// The sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that and of lambda (D = 2).
 template <Real T, std::size_t D>
 struct TaylorSweep {
-    const std::vector<Link<Interval<T>>>& links;
+    const EnclosedLinks<T>& links;
     const Cell<T, D>& cell;
     const Interval<T>&height, &centre_height;
 
@@ -187,8 +187,8 @@ struct TaylorSweep {
 /// Offset of the support over a cell of tangents of the lowest link: zero for every steady shape. `height` is lambda.
 /// Where the support yields or is carried round, the result is its distance from the place where it is held.
 template <Real T, class End = OnAxis>
-Taylor<T, 1> support_offset(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-                            const Cell<T, 1>& cell, const End& support = {}) {
+Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& height, const Cell<T, 1>& cell,
+                            const End& support = {}) {
     TaylorSweep<T, 1> rules{links, cell, height, height};
     const auto end = sweep_up(links, cell.first(), rules);
     return is_held<End> ? cell.centred(support.miss(end.offset, end.sum)) : end.offset;
@@ -197,7 +197,7 @@ Taylor<T, 1> support_offset(const std::vector<Link<Interval<T>>>& links, const I
 /// Offset of the support over a cell of x = lambda t, t the tangent of the lowest link, and of heights lambda: zero for
 /// every steady shape. NaN where a link may have several inclinations.
 template <Real T>
-Taylor<T, 2> support_offset(const std::vector<Link<Interval<T>>>& links, const Cell<T, 2>& cell) {
+Taylor<T, 2> support_offset(const EnclosedLinks<T>& links, const Cell<T, 2>& cell) {
     const auto over = [](const Interval<T>& x, const Interval<T>& height) {  // x/lambda and its slopes
         const Interval<T> slope = Interval<T>(T(1)) / height, value = x * slope;
         return std::array{value, slope, -(value * slope)};

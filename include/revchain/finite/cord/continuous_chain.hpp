@@ -61,13 +61,10 @@ inline PathKind kind_of(const ContinuousChain& chain, double height, double bend
     return {chain.tip / height, height, mean, chain.density.get(), bend, chain.line_weight};
 }
 
-/// Places of the crossings of the chain at small amplitude up to `farthest`, over the conical height.
-inline std::vector<double> crossings_at_rest(const ContinuousChain& chain, double height, double farthest) {
-    const Path path(kind_of(chain, height, 0), 1, {.farthest = farthest, .with_change = false});
-    std::vector<double> places;
-    for (const Path::Crossing& crossing : path.crossings())
-        if (crossing.arc <= farthest) places.push_back(crossing.arc);
-    return places;
+/// The path of small amplitude, without its change.
+inline Path path_at_rest(const ContinuousChain& chain, double height, Path::Options options) {
+    options.with_change = false;
+    return {kind_of(chain, height, 0), 1, options};
 }
 
 /// The shape next to a path all but right; none where no path could be followed that far.
@@ -108,14 +105,16 @@ inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::siz
 
 inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
     const double undecided = 32 * epsilon<double>();  // of a length: on which side of a critical height, nobody can say
-    const double length = chain.length / height;
+    const double length = chain.length / height, farthest = length * (1 + undecided);
     const PathKind kind = kind_of(chain, height, 1);
-    const std::vector<double> at_rest = crossings_at_rest(chain, height, length * (1 + undecided));
-    const auto decided = [&](double place) { return place < length * (1 - undecided); };
+    const Path small = path_at_rest(chain, height, {.farthest = farthest});
+    std::vector<double> at_rest;
+    for (const Path::Crossing& crossing : small.crossings())
+        if (crossing.arc <= farthest) at_rest.push_back(crossing.arc);
     std::size_t count = at_rest.size();
-    while (count > 0 && !decided(at_rest[count - 1])) --count;
+    while (count > 0 && !(at_rest[count - 1] < length * (1 - undecided))) --count;
     ContinuousShapes result;
-    const bool theorem = (chain.density == nullptr && chain.tip == 0) || at_rest.size() <= 1;
+    const bool theorem = kind.is_bare() || at_rest.size() <= 1;
     result.complete = theorem && count == at_rest.size();
     std::vector<std::vector<TipRange>> ranges(count, {{0, length, true}});
     if (!theorem && count > 0) ranges = scanned(kind, count, length, most_scanned);
@@ -149,7 +148,7 @@ inline Vector<double> critical_heights(const ContinuousChain& chain, Index count
         revchain::detail::throw_invalid(place, "power series find modes number 1 to 100000", count);
     Vector<double> heights(count);
     const auto place_of = [&](double height, Index crossing) {
-        const Path path(kind_of(chain, height, 0), 1, {.crossings = static_cast<int>(crossing), .with_change = false});
+        const Path path = path_at_rest(chain, height, {.crossings = static_cast<int>(crossing)});
         if (static_cast<Index>(path.crossings().size()) < crossing)
             revchain::detail::throw_invalid(
                 place,
@@ -159,7 +158,7 @@ inline Vector<double> critical_heights(const ContinuousChain& chain, Index count
                 crossing);
         return path.crossings();
     };
-    if (chain.density == nullptr && chain.tip == 0) {
+    if (kind_of(chain, 1, 0).is_bare()) {
         const auto crossings = place_of(1, count);
         for (Index j = 0; j < count; ++j) heights[j] = chain.length / crossings[static_cast<std::size_t>(j)].arc;
         return heights;
@@ -179,7 +178,7 @@ inline Index critical_heights_above(const ContinuousChain& chain, double height)
     constexpr std::string_view place = "count_modes";
     const double length = chain.length / height;
     if (!(length <= 1e6)) revchain::detail::throw_invalid(place, "length / conical height must be at most 1e6", length);
-    const Path path(kind_of(chain, height, 0), 1, {.farthest = length, .with_change = false});
+    const Path path = path_at_rest(chain, height, {.farthest = length});
     if (!(path.end() > length))
         revchain::detail::throw_invalid(place,
                                         "the density is too rough, or the tip too heavy, to be followed; the "
@@ -193,16 +192,13 @@ inline Index critical_heights_above(const ContinuousChain& chain, double height)
 class CordModeShape {
    public:
     CordModeShape(const ContinuousChain& chain, double height, Index mode)
-        : chain_(chain),
-          height_(height),
-          kind_(kind_of(chain_, height, 0)),
-          path_(kind_, 1, {.crossings = static_cast<int>(mode), .with_change = false}) {}
+        : chain_(chain), height_(height), path_(path_at_rest(chain_, height, {.crossings = static_cast<int>(mode)})) {}
 
     /// Offset at a distance from the free end, where it is 1.
     double shape(double s) const {
         if (!(s >= 0 && s <= chain_.length))
             revchain::detail::throw_invalid("CordModes::offset", "s must lie between 0 (free end) and the length", s);
-        return state_at(kind_, path_.steps(), 1, s / height_).offset;
+        return state_at(path_.kind(), path_.steps(), 1, s / height_).offset;
     }
     /// Where the cord crosses the axis, ascending, the support left out.
     Vector<double> nodes() const {
@@ -215,7 +211,6 @@ class CordModeShape {
    private:
     ContinuousChain chain_;
     double height_;
-    PathKind kind_;
     Path path_;
 };
 

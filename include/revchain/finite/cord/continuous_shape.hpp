@@ -60,8 +60,7 @@ inline PathState state_at(const PathKind& kind, const std::vector<Path::Step>& s
     const auto after = std::upper_bound(steps.begin() + 1, steps.end(), arc,
                                         [](double x, const Path::Step& step) { return x < step.start.arc; });
     const Path::Step& step = *(after - 1);
-    if (kind.density == nullptr && kind.tip == 0 && &step == &steps.front())
-        return TipSeries(step.start.offset, kind.bend).state(arc);
+    if (kind.is_bare() && &step == &steps.front()) return TipSeries(step.start.offset, kind.bend).state(arc);
     if (arc < steps.front().start.arc) return Path::near_tip(kind, tip_offset, arc);  // below where the path starts
     const PathSeries series(kind, step.start);
     return series.state(time_at(series, arc, 1.05 * step.duration));  // a step that was moved may end a little later
@@ -83,8 +82,7 @@ class ShapeSamples {
             last_ = series, last_duration_ = duration;
         } else {
             for (int i = 0; i < per_step; ++i)
-                places_.push_back(series.state(duration * i / per_step)),
-                    changes_.push_back(series.change(duration * i / per_step));
+                samples_.push_back({series.state(duration * i / per_step), series.change(duration * i / per_step)});
         }
     }
 
@@ -94,24 +92,22 @@ class ShapeSamples {
         const double scaled = length / conical_height, by = (scaled - support.arc) / support.rate;
         add_support();
         drop_repeated();
-        for (std::size_t i = 0; i < places_.size(); ++i) move(places_[i], changes_[i], by);
+        for (Sample& sample : samples_) move(sample.place, sample.change, by);
         tip_offset_ += by;
-        if (places_.front().arc > 0) {
-            places_.insert(places_.begin(), Path::near_tip(kind_, tip_offset_, 0));
-            changes_.insert(changes_.begin(), {0, 1, -kind_.tip, 0});
-        }
+        if (samples_.front().place.arc > 0)
+            samples_.insert(samples_.begin(), {Path::near_tip(kind_, tip_offset_, 0), {0, 1, -kind_.tip, 0}});
         ContinuousShape shape;
         shape.kind = kind_, shape.steps = path.steps();
         for (std::size_t i = 0; i < shape.steps.size(); ++i) move(shape.steps[i].start, starts_[i], by);
         while (shape.steps.size() > 1 && shape.steps.back().start.arc >= scaled * (1 - 1e-12)) shape.steps.pop_back();
         shape.tip_offset = tip_offset_;
         shape.half_waves = half_waves, shape.length = length, shape.conical_height = conical_height;
-        shape.support_arc = places_.back().arc, shape.support_height = places_.back().height;
-        const auto count = static_cast<Index>(places_.size());
+        shape.support_arc = samples_.back().place.arc, shape.support_height = samples_.back().place.height;
+        const auto count = static_cast<Index>(samples_.size());
         for (Vector<double>* v : {&shape.arc_length, &shape.offset, &shape.height, &shape.inclination, &shape.tension})
             v->resize(count);
         for (Index i = 0; i < count; ++i) {
-            const ContinuousPlace place = place_of(shape, places_[static_cast<std::size_t>(i)]);
+            const ContinuousPlace place = place_of(shape, samples_[static_cast<std::size_t>(i)].place);
             shape.arc_length[i] = place.arc_length, shape.offset[i] = place.offset, shape.height[i] = place.height;
             shape.inclination[i] = place.inclination, shape.tension[i] = place.tension;
         }
@@ -123,6 +119,10 @@ class ShapeSamples {
     }
 
    private:
+    struct Sample {
+        PathState place;
+        PathChange change;
+    };
     using Row = std::array<double, per_step>;
     /// A series at all samples of a step, side by side.
     static Row at(const PathSeries::Coefficients& c, const Row& t) {
@@ -139,10 +139,9 @@ class ShapeSamples {
         const Row height = at(series.height, t), arc_change = at(series.arc_change, t);
         const Row offset_change = at(series.offset_change, t), pull_change = at(series.pull_change, t);
         const Row height_change = at(series.height_change, t);
-        for (std::size_t i = 0; i < per_step; ++i) {
-            places_.push_back({arc[i], offset[i], pull[i], height[i]});
-            changes_.push_back({arc_change[i], offset_change[i], pull_change[i], height_change[i]});
-        }
+        for (std::size_t i = 0; i < per_step; ++i)
+            samples_.push_back({{arc[i], offset[i], pull[i], height[i]},
+                                {arc_change[i], offset_change[i], pull_change[i], height_change[i]}});
     }
     static void move(PathState& x, const PathChange& change, double by) {
         x.arc += change.arc * by, x.offset += change.offset * by;
@@ -155,19 +154,18 @@ class ShapeSamples {
         const double below = kind_.weight_below(x.arc), later = -change.offset / x.pull;
         change.arc += kind_.tension(x.pull, below) * later, change.height += below * later, change.offset = 0;
         x.offset = 0;
-        places_.push_back(x), changes_.push_back(change);
+        samples_.push_back({x, change});
     }
     /// A piece of the density may end at the support but for rounding: the step beyond is none.
     void drop_repeated() {
-        const double last = places_.back().arc * close;
-        auto i = places_.size() - 1;
-        while (i > 1 && places_[i - 1].arc >= last) --i;
-        places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i), places_.end() - 1);
-        changes_.erase(changes_.begin() + static_cast<std::ptrdiff_t>(i), changes_.end() - 1);
+        const double last = samples_.back().place.arc * close;
+        auto from = samples_.end() - 1;
+        while (from - samples_.begin() > 1 && (from - 1)->place.arc >= last) --from;
+        samples_.erase(from, samples_.end() - 1);
     }
     /// T - tip - xi + (eta^2 - eta_0^2)/2 at the support, over the largest tension.
     double first_integral() const {
-        const PathState& end = places_.back();
+        const PathState& end = samples_.back().place;
         const double tension = kind_.tension(end.pull, kind_.weight_below(end.arc));
         const double sum = kind_.tip * std::hypot(1.0, tip_offset_) + end.height + 0.5 * tip_offset_ * tip_offset_;
         return std::abs(tension - sum) / std::max(tension, sum);
@@ -176,16 +174,14 @@ class ShapeSamples {
     /// offsets.
     void judge(ContinuousShape& shape, double length, double rate) const {
         double turned = 0, moved = 0, steepest = 0;
-        for (std::size_t i = 0; i < places_.size(); ++i) {
-            const PathState& x = places_[i];
-            const PathChange& change = changes_[i];
+        for (const auto& [x, change] : samples_) {
             const double below = kind_.weight_below(x.arc), squared = x.pull * x.pull + below * below;
             if (squared == 0) {  // the free end: tan psi = eta_0
                 turned = std::max(turned, 1 / (1 + x.offset * x.offset)), moved = std::max(moved, 1.0);
                 continue;
             }
-            const double density =
-                kind_.density_at(x.arc);  // at a fixed place: what the change of arc does is taken out
+            // at a fixed place: what the change of arc does is taken out
+            const double density = kind_.density_at(x.arc);
             turned = std::max(turned, std::abs(change.pull + density * x.offset * change.arc) * below / squared);
             moved = std::max(moved, std::abs(change.offset - x.pull / std::sqrt(squared) * change.arc));
             steepest = std::max(steepest, density * std::abs(x.offset * below + x.pull) / squared);
@@ -200,8 +196,8 @@ class ShapeSamples {
 
     PathKind kind_;
     double tip_offset_;
-    std::vector<PathState> places_;
-    std::vector<PathChange> changes_, starts_;
+    std::vector<Sample> samples_;
+    std::vector<PathChange> starts_;
     PathSeries last_;
     double last_duration_ = 0;
 };

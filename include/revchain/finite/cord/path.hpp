@@ -22,8 +22,7 @@ class Path {
     };
     struct Crossing {
         double arc, rate;  ///< rate: change of arc with the tip's offset
-        std::size_t step;
-        double time;
+        double time;       ///< since the start of its step
     };
     static constexpr std::size_t max_steps = 50'000;
 
@@ -37,11 +36,10 @@ class Path {
     /// As far as crossing number `crossings`, or the first step that ends beyond `farthest`, whichever is first;
     /// `visit(series, duration)` sees every step.
     template <class Visit>
-    Path(const PathKind& kind, double tip_offset, const Options& options, Visit&& visit)
-        : kind_(kind), tip_offset_(tip_offset) {
+    Path(const PathKind& kind, double tip_offset, const Options& options, Visit&& visit) : kind_(kind) {
         PathState state{0, tip_offset, -kind.tip * tip_offset, 0};
         PathChange change{0, 1, -kind.tip, 0};
-        if (starts_by_series()) {
+        if (kind.is_bare()) {
             const TipSeries series(tip_offset, kind.bend, options.tolerance);
             steps_.push_back({state, series.reach});
             visit(series, series.reach);
@@ -79,12 +77,11 @@ class Path {
     Path(const PathKind& kind, double tip_offset, const Options& options)
         : Path(kind, tip_offset, options, [](const auto&, double) {}) {}
 
+    const PathKind& kind() const { return kind_; }
     const std::vector<Crossing>& crossings() const { return crossings_; }
     const std::vector<Step>& steps() const { return steps_; }
-    double tip_offset() const { return tip_offset_; }
     /// Arc length at which the last step ended.
     double end() const { return end_; }
-    bool starts_by_series() const { return kind_.density == nullptr && kind_.tip == 0; }
     /// Tension carried by its own series against that of u and V, over the largest.
     double discrepancy() const { return discrepancy_ / largest_tension_; }
 
@@ -146,7 +143,7 @@ class Path {
             }
             return std::pair(sign * value, sign * slope);
         });
-        Crossing crossing{PathSeries::at(series.arc, t), 0, steps_.size(), t};
+        Crossing crossing{PathSeries::at(series.arc, t), 0, t};
         if (with_change) {
             const PathChange change = series.change(t);
             crossing.rate =
@@ -156,7 +153,6 @@ class Path {
     }
 
     PathKind kind_;
-    double tip_offset_;
     std::vector<Step> steps_;
     std::vector<Crossing> crossings_;
     double largest_tension_ = 0, discrepancy_ = 0, end_ = 0;

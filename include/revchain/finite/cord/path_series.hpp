@@ -20,9 +20,7 @@ struct PathState {
 };
 
 /// How a path changes with the offset of its free end.
-struct PathChange {
-    double arc = 0, offset = 1, pull = 0, height = 0;
-};
+using PathChange = PathState;
 
 /// What a path is one of.
 struct PathKind {
@@ -40,6 +38,8 @@ struct PathKind {
         return density == nullptr ? 1.0 : density->about(arc * unit)[0] / per_length;
     }
     double tension(double pull, double below) const { return bend == 0 ? below : std::hypot(pull, below); }
+    /// Whether the free end, where T = 0, needs a series of its own: `TipSeries`.
+    bool is_bare() const { return density == nullptr && tip == 0; }
 };
 
 /// The power series of a path about one of its places, in a time t that makes the equations polynomials:
@@ -85,10 +85,14 @@ class PathSeries {
     /// The longest time for which the first terms left out stay below `tolerance`.
     double reach(double tolerance) const {
         const double size = std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
-        const auto of = [&](std::size_t k) {
-            const double largest = std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
-            return std::pow(tolerance / largest, 1.0 / static_cast<double>(k));
-        };
+        return reach(tolerance, [&](std::size_t k) {
+            return std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
+        });
+    }
+    /// The same where `largest(k)` is the size of the coefficients k.
+    template <class Largest>
+    static double reach(double tolerance, const Largest& largest) {
+        const auto of = [&](std::size_t k) { return std::pow(tolerance / largest(k), 1.0 / static_cast<double>(k)); };
         return std::min(of(order), of(order - 1));
     }
 
@@ -351,10 +355,9 @@ class TipSeries {
             height[n + 1] = cosine[n] * inverse;
         }
         // No zero of eta before max(1.4458, eta_0), j_{0,1}^2/4 the least: a chain bends less than its small theory.
-        const double last = std::max(std::abs(offset[order]) / tip_offset, std::abs(height[order]));
-        const double before = std::max(std::abs(offset[order - 1]) / tip_offset, std::abs(height[order - 1]));
-        reach = std::min({0.9 * std::max(1.4458, tip_offset), std::pow(tolerance / last, 1.0 / order),
-                          std::pow(tolerance / before, 1.0 / (order - 1))});
+        const double within = PathSeries::reach(
+            tolerance, [&](std::size_t k) { return std::max(std::abs(offset[k]) / tip_offset, std::abs(height[k])); });
+        reach = std::min(0.9 * std::max(1.4458, tip_offset), within);
     }
 
     PathState state(double arc) const {

@@ -45,27 +45,28 @@ struct HeldCordShapes {
 
 namespace finite {
 
+/// A cord held at both ends, lengths over its own.
 class HeldCord {
    public:
+    using S = double;
+
     HeldEnd<double> operator()(const HeldForces<double>& forces, bool) const {
-        return CordPath::end(forces, [](const CordSeries&, double) {});
+        return cord_end(forces, [](const CordSeries&, double) {});
     }
     /// A path has no memory.
     struct Nothing {};
     static Nothing kept() { return {}; }
     static void keep(Nothing) {}
 
+    static double length() { return 1; }
     HeldCurve<HeldCord> curve() { return {*this, 1, 1}; }
 
-    /// The state with `half_waves` half waves, reached from the nearly straight weightless cord: its ends are drawn
-    /// together, then gravity grows. Lengths are over the cord's.
+    /// The state with `half_waves` half waves, see `HeldCurve::from_straight`.
     std::optional<HeldState> at_height(int half_waves, double span, double height) {
-        const double waves = half_waves * std::numbers::pi, along = 1 / (waves * waves), slack = 1 - span,
-                     first = std::min(slack, 1e-3);
-        auto state = curve().corrected({{-2 * std::sqrt(first) * along, along, 0}, 1 - first});
-        if (state && slack > first) state = curve().to_span(*state, span);
-        if (state && height > 0) state = curve().to_height(*state, height);
-        return state;
+        const double waves = half_waves * std::numbers::pi, along = 1 / (waves * waves);
+        return curve().from_straight(1 - span, span, height, [&](double slack) {
+            return HeldForces<double>{-2 * std::sqrt(slack) * along, along, 0};
+        });
     }
 };
 
@@ -80,26 +81,25 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     shape.span = span, shape.length = length, shape.weight = weight;
     const double lambda = state.forces.height;
     shape.conical_height = lambda * length;
-    std::vector<CordPlace> places;
-    std::vector<CordChange> changes;
+    std::vector<std::pair<CordPlace, CordChange>> samples;
     double largest_tension = 0, steepest = 0;
     CordPlace last;
-    const HeldEnd<double> end = CordPath::end(state.forces, [&](const CordSeries& series, double duration) {
+    const HeldEnd<double> end = cord_end(state.forces, [&](const CordSeries& series, double duration) {
         shape.steps.push_back(series.place(0));
         for (int i = 0; i < per_step; ++i) {
             const double t = duration * i / per_step;
-            places.push_back(series.place(t)), changes.push_back(series.change(t, lambda));
+            samples.emplace_back(series.place(t), series.change(t, lambda));
         }
         last = series.place(duration);
     });
-    places.push_back(last), changes.push_back(changes.back());
-    const auto count = static_cast<Index>(places.size());
+    samples.emplace_back(last, CordChange(samples.back().second));
+    const auto count = static_cast<Index>(samples.size());
     for (Vector<double>* v :
          {&shape.arc_length, &shape.offset, &shape.height, &shape.inclination, &shape.height_times_tension})
         v->resize(count);
     double sign = 0;
     for (Index i = 0; i < count; ++i) {
-        const CordPlace& x = places[static_cast<std::size_t>(i)];
+        const CordPlace& x = samples[static_cast<std::size_t>(i)].first;
         const HeldCordPlace p = place_of(shape, x);
         shape.arc_length[i] = p.arc_length, shape.offset[i] = p.offset, shape.height[i] = p.height;
         shape.inclination[i] = p.inclination, shape.height_times_tension[i] = p.height_times_tension;
@@ -124,14 +124,14 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
     const auto condition = [&](double y, double z, double direct) {
         const auto forces = end.forces_to_move(y, z);
         double most = 0;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            const CordPlace& x = places[i];
-            const double squared = x.across * x.across + x.along * x.along;
-            const auto change = [&](double CordPlace::*part) {
-                return changes[i][0].*part * forces[0] + changes[i][1].*part * forces[1] + changes[i][2].*part * direct;
+        for (const auto& sample : samples) {
+            const CordPlace& x = sample.first;
+            const CordChange& change = sample.second;
+            const auto changed = [&](double CordPlace::*part) {
+                return change[0].*part * forces[0] + change[1].*part * forces[1] + change[2].*part * direct;
             };
-            const double turn = change(&CordPlace::across) * x.along - change(&CordPlace::along) * x.across;
-            most = std::max(most, std::abs(turn) / squared);
+            const double turn = changed(&CordPlace::across) * x.along - changed(&CordPlace::along) * x.across;
+            most = std::max(most, std::abs(turn) / (x.across * x.across + x.along * x.along));
         }
         return most;
     };
@@ -159,14 +159,9 @@ inline HeldCordShapes held_cord_shapes_under_tension(const Cord& cord, double he
     const double length = cord.length(), weight = cord.weight();
     return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
         HeldCord held;
-        for (const double share : {0.9, 0.5, 0.99, 0.1}) {
-            const auto state = held.at_height(k, share, height / length);
-            if (!state) continue;
-            held.curve().under(*state, height_times_tension / length / weight, [&](const HeldState& found) {
-                add(std::optional(described(found, found.span * length, length, weight)));
-            });
-            break;
-        }
+        each_under(held, k, height / length, height_times_tension / length / weight, [&](const HeldState& found) {
+            add(std::optional(described(found, found.span * length, length, weight)));
+        });
     });
 }
 
@@ -179,7 +174,7 @@ inline HeldCordPlace HeldCordShape::operator()(double arc) const {
     const auto after = std::upper_bound(steps.begin() + 1, steps.end(), scaled,
                                         [](double x, const finite::CordPlace& step) { return x < step.arc; });
     const finite::CordSeries series(*(after - 1), conical_height / length);
-    const double duration = 1.05 * series.reach(finite::CordPath::tolerance);
+    const double duration = 1.05 * series.reach();
     HeldCordPlace place = finite::place_of(*this, series.place(series.time_at(scaled, duration)));
     place.arc_length = arc;
     return place;

@@ -46,16 +46,14 @@ class CordSeries {
         }
         return result;
     }
-    /// The longest time for which the last terms stay below `tolerance` of the place.
-    double reach(double tolerance) const {
+    /// The longest time for which the last terms stay below 1e-18 of the place.
+    double reach() const {
         const PathSeries& x = series_[0];
         const double size = std::abs(x.offset[0]) + std::sqrt(x.tension[0]);
-        const auto of = [&](std::size_t k) {
-            const double largest = std::max({std::abs(x.offset[k]) / size, std::abs(x.tension[k]) / x.tension[0],
-                                             std::abs(x.height[k]) / size, std::numeric_limits<double>::min()});
-            return std::pow(tolerance / largest, 1.0 / static_cast<double>(k));
-        };
-        return std::min(of(PathSeries::order), of(PathSeries::order - 1));
+        return PathSeries::reach(1e-18, [&](std::size_t k) {
+            return std::max({std::abs(x.offset[k]) / size, std::abs(x.tension[k]) / x.tension[0],
+                             std::abs(x.height[k]) / size, std::numeric_limits<double>::min()});
+        });
     }
     double arc_at(double t) const { return PathSeries::at(series_[0].arc, t); }
     /// The time at which the arc is reached; it grows with the time.
@@ -65,36 +63,32 @@ class CordSeries {
     std::array<PathSeries, 3> series_;
 };
 
-/// A cord from its lower end to its upper, for given forces at the lower. `visit(series, duration)` sees every step.
-struct CordPath {
-    static constexpr int max_steps = 20'000;
-    static constexpr double tolerance = 1e-18;
-
-    template <class Visit>
-    static HeldEnd<double> end(const HeldForces<double>& forces, Visit&& visit) {
-        CordPlace place{0, 0, 0, -forces.across, forces.along};
-        CordChange change{};
-        change[0].across = -1, change[1].along = 1;
-        for (int step = 0; step < max_steps; ++step) {
-            // Sharper turns leave no digit of the inclination: the cord is folded along the axis.
-            if (!(std::hypot(place.across, place.along) > epsilon<double>() * forces.height)) return {};
-            const CordSeries series(place, forces.height, &change);
-            double duration = series.reach(tolerance);
-            const bool last = series.arc_at(duration) >= 1;
-            if (last) duration = series.time_at(1, duration);
-            visit(series, duration);
-            place = series.place(duration), change = series.change(duration, forces.height);
-            if (!last) continue;
-            HeldEnd<double> end;
-            end.offset = place.offset, end.rise = place.rise, end.across = -place.across;
-            for (std::size_t i = 0; i < 3; ++i)
-                end.offset_change[i] = change[i].offset, end.rise_change[i] = change[i].rise,
-                end.across_change[i] = -change[i].across;
-            end.known = std::isfinite(end.offset) && std::isfinite(end.rise);
-            return end;
-        }
-        return {};
+/// A cord followed from its lower end to its upper, for forces at the lower. `visit(series, duration)` sees every step.
+template <class Visit>
+HeldEnd<double> cord_end(const HeldForces<double>& forces, Visit&& visit) {
+    constexpr int max_steps = 20'000;
+    CordPlace place{0, 0, 0, -forces.across, forces.along};
+    CordChange change{};
+    change[0].across = -1, change[1].along = 1;
+    for (int step = 0; step < max_steps; ++step) {
+        // Sharper turns leave no digit of the inclination: the cord is folded along the axis.
+        if (!(std::hypot(place.across, place.along) > epsilon<double>() * forces.height)) return {};
+        const CordSeries series(place, forces.height, &change);
+        double duration = series.reach();
+        const bool last = series.arc_at(duration) >= 1;
+        if (last) duration = series.time_at(1, duration);
+        visit(series, duration);
+        place = series.place(duration), change = series.change(duration, forces.height);
+        if (!last) continue;
+        HeldEnd<double> end;
+        end.offset = place.offset, end.rise = place.rise, end.across = -place.across;
+        for (std::size_t i = 0; i < 3; ++i)
+            end.offset_change[i] = change[i].offset, end.rise_change[i] = change[i].rise,
+            end.across_change[i] = -change[i].across;
+        end.known = std::isfinite(end.offset) && std::isfinite(end.rise);
+        return end;
     }
-};
+    return {};
+}
 
 }  // namespace revchain::finite

@@ -47,22 +47,17 @@ class HeldCurve {
         return {};
     }
 
-    /// On, at constant height, to another span; nothing where the curve does not lead there.
-    std::optional<HeldState> to_span(const HeldState& from, double span) {
-        return follow<true>(
-            from, span > from.span, [&](const HeldState& x) { return x.span - span; },
-            [&](HeldState x) { return x.span = span, x; });
-    }
-    /// On, at constant span, to another height.
-    std::optional<HeldState> to_height(const HeldState& from, double height) {
-        return follow<false>(
-            from, height > from.forces.height, [&](const HeldState& x) { return x.forces.height - height; },
-            [&](HeldState x) { return x.forces.height = height, x; });
-    }
-
-    /// lambda times the tension at the upper end.
-    double top_tension(const HeldState& x) {
-        return std::hypot((*shooter_)(x.forces, false).across, x.forces.along + x.forces.height * weight_);
+    /// The state at a span and a height: from the nearly straight system without gravity the ends are drawn together,
+    /// then gravity grows. `slack` is the length less the span; `nearly_straight(slack)` returns the forces of a small
+    /// slack. Nothing where the curve does not lead there.
+    template <class NearlyStraight>
+    std::optional<HeldState> from_straight(double slack, double span, double height,
+                                           const NearlyStraight& nearly_straight) {
+        const double first = std::min(slack, 1e-3 * length_);
+        auto state = corrected({nearly_straight(first), length_ - first});
+        if (state && slack > first) state = follow<true>(*state, span);
+        if (state && height > 0) state = follow<false>(*state, height);
+        return state;
     }
     /// Sees the states of constant height, from `from` both ways along the curve, whose top tension is lambda times the
     /// one wanted; the tension is largest somewhere between, as a rule, so that there are two.
@@ -71,9 +66,9 @@ class HeldCurve {
         const auto kept = shooter_->kept();
         for (const bool up : {true, false}) {
             shooter_->keep(kept);
-            Tense last{from, top_tension(from) - wanted}, before = last;
+            Tense last = tense(from, wanted), before = last;
             step_along<true>(from, up, [&](const HeldState& state) {
-                const Tense here{state, top_tension(state) - wanted};
+                const Tense here = tense(state, wanted);
                 const auto there = shooter_->kept();
                 if (here.off * last.off < 0) {
                     between(last, here, wanted, visit);
@@ -93,20 +88,26 @@ class HeldCurve {
     }
 
    private:
-    using Triple = std::array<double, 3>;
+    using Triple = Eigen::Vector3d;
 
     struct Tense {
         HeldState state;
-        double off;  ///< of the top tension from the one wanted
+        double off;  ///< of lambda times the tension at the upper end from the one wanted
     };
+    Tense tense(const HeldState& x, double wanted) {
+        const double across = (*shooter_)(x.forces, false).across, along = x.forces.along + x.forces.height * weight_;
+        return {x, std::hypot(across, along) - wanted};
+    }
+    static HeldState mixed(HeldState a, const HeldState& b, double share) {
+        a.span += share * (b.span - a.span);
+        a.forces.across += share * (b.forces.across - a.forces.across);
+        a.forces.along += share * (b.forces.along - a.forces.along);
+        return a;
+    }
     std::optional<Tense> at_share(const Tense& a, const Tense& b, double share, double wanted) {
-        HeldState middle = a.state;
-        middle.span += share * (b.state.span - a.state.span);
-        middle.forces.across += share * (b.state.forces.across - a.state.forces.across);
-        middle.forces.along += share * (b.state.forces.along - a.state.forces.along);
-        const auto state = corrected(middle);
+        const auto state = corrected(mixed(a.state, b.state, share));
         if (!state) return {};
-        return Tense{*state, top_tension(*state) - wanted};
+        return tense(*state, wanted);
     }
     /// The state between two at which the top tension is as wanted, by secants that keep a bracket.
     template <class Visit>
@@ -166,11 +167,7 @@ class HeldCurve {
         return {Triple{y[0] * scale[0], y[1] * scale[1], spans ? 0.0 : y[2] * scale[2]},
                 Triple{z[0] * scale[0], z[1] * scale[1], spans ? -scale[2] : z[2] * scale[2]}};
     }
-    static Triple unit(Triple x) {
-        const double size = std::sqrt(dot(x, x));
-        for (double& part : x) part /= size;
-        return x;
-    }
+    static Triple unit(const Triple& x) { return x / std::sqrt(dot(x, x)); }
     static Triple normalised(const Triple& x, const Triple& y) { return unit(cross(unit(x), unit(y))); }
 
     template <bool spans, class Visit>
@@ -184,7 +181,7 @@ class HeldCurve {
             const auto [over_y, over_z] = gradients<spans>(end, scale);
             Triple tangent = normalised(over_y, over_z);
             if (!(dot(tangent, tangent) > 0.5)) return;
-            if (dot(tangent, last) < 0) tangent = {-tangent[0], -tangent[1], -tangent[2]};
+            if (dot(tangent, last) < 0) tangent = -tangent;
             HeldState next;
             HeldEnd<double> there;
             int rounds = 0;
@@ -196,7 +193,7 @@ class HeldCurve {
             // the same tangent in the scales of the new place
             const Triple before = scale;
             state = next, end = there, scale = scales<spans>(state);
-            for (std::size_t i = 0; i < 3; ++i) last[i] = tangent[i] * before[i] / scale[i];
+            last = tangent.cwiseProduct(before).cwiseQuotient(scale);
             step *= rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
             step = std::min(step, 0.3);
         }
@@ -206,7 +203,7 @@ class HeldCurve {
     template <bool spans>
     bool correct(const HeldState& from, const Triple& scale, const Triple& tangent, double step, HeldState& x,
                  HeldEnd<double>& end, int& rounds) {
-        Triple at{tangent[0] * step, tangent[1] * step, tangent[2] * step};
+        Triple at = tangent * step;
         double last = 1;
         for (rounds = 0; rounds < 8; ++rounds) {
             x = moved<spans>(from, scale, at);
@@ -218,11 +215,10 @@ class HeldCurve {
             const double y = end.offset, z = end.rise - x.span, p = dot(tangent, at) - step;
             const Triple a = cross(over_z, tangent), b = cross(tangent, over_y), c = cross(over_y, over_z);
             const double determinant = dot(over_y, a);
-            Triple change;
-            for (std::size_t i = 0; i < 3; ++i) change[i] = -(y * a[i] + z * b[i] + p * c[i]) / determinant;
+            const Triple change = -(y * a + z * b + p * c) / determinant;
             const double size = std::sqrt(dot(change, change));
             if (!(size < 2 * step + 1e-9) || (rounds > 0 && size > 0.9 * last && size > 1e-9)) return false;
-            for (std::size_t i = 0; i < 3; ++i) at[i] += change[i];
+            at += change;
             if (size < 1e-8) {
                 x = moved<spans>(from, scale, at);
                 end = (*shooter_)(x.forces, false);
@@ -233,24 +229,24 @@ class HeldCurve {
         return false;
     }
 
-    template <bool spans, class Off, class Set>
-    std::optional<HeldState> follow(const HeldState& from, bool up, const Off& off, const Set& set) {
+    /// On to another span at constant height or, unless it `spans`, to another height at constant span; nothing where
+    /// the curve does not lead there.
+    template <bool spans>
+    std::optional<HeldState> follow(const HeldState& from, double wanted) {
+        const auto off = [&](const HeldState& x) { return (spans ? x.span : x.forces.height) - wanted; };
         const double start = off(from);
         if (start == 0) return corrected(from);
         std::optional<HeldState> result;
         HeldState before = from;
-        step_along<spans>(from, up, [&](const HeldState& x) {
+        step_along<spans>(from, start < 0, [&](const HeldState& x) {
             const double here = off(x);
             if (here * start > 0) {
                 before = x;
                 return true;
             }
-            // the height or span wanted lies between: from the nearer by Newton's method, else by smaller steps
-            const double share = off(before) / (off(before) - here);
-            HeldState guess = x;
-            guess.forces.across = before.forces.across + share * (x.forces.across - before.forces.across);
-            guess.forces.along = before.forces.along + share * (x.forces.along - before.forces.along);
-            result = corrected(set(guess));
+            HeldState guess = mixed(before, x, off(before) / (off(before) - here));
+            (spans ? guess.span : guess.forces.height) = wanted;
+            result = corrected(guess);
             return false;
         });
         return result;
@@ -259,6 +255,15 @@ class HeldCurve {
     Shooter* shooter_;
     double length_, weight_;
 };
+
+/// Sees the states of so many half waves at a height whose tension at the upper end, times the height, is `wanted`: on
+/// the branch through the first of a few spans that has a state.
+template <class System, class Visit>
+void each_under(System& held, int half_waves, double height, double wanted, const Visit& visit) {
+    for (const double share : {0.9, 0.5, 0.99, 0.1})
+        if (const auto state = held.at_height(half_waves, held.length() * typename System::S(share), height))
+            return held.curve().under(*state, wanted, visit);
+}
 
 /// Collects shapes of 1 ... `most` half waves. `find(k, add)` looks for those of k half waves and calls `add` with a
 /// shape or none.

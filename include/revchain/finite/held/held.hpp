@@ -46,46 +46,36 @@ class HeldChain {
 
     HeldCurve<HeldChain> curve() { return {*this, static_cast<double>(length_), static_cast<double>(weight_)}; }
 
-    /// The state with `half_waves` half waves, reached from the nearly straight weightless chain: its ends are drawn
-    /// together, then gravity grows.
+    /// The state with `half_waves` half waves, see `HeldCurve::from_straight`.
     std::optional<HeldState> at_height(int half_waves, const S& span, double height) {
-        const TautLinks<double> taut(links_);
-        if (half_waves > taut.pins()) return {};
-        const double along = taut_number([&](double x) { return taut.count(0.0, x); }, half_waves - 1,
+        if (half_waves >= static_cast<Index>(links_.size())) return {};
+        const double along = taut_number([&](double x) { return taut_count(links_, 0.0, x); }, half_waves - 1,
                                          static_cast<double>(weight_ * length_));
         if (along == 0) return {};
-        const std::vector<double> y = taut.shape(0.0, along);
+        const std::vector<double> y = taut_shape(links_, 0.0, along);
         double short_of = 0;  // by how much the shape of unit pull is shorter than the chain
         for (std::size_t m = 0; m < links_.size(); ++m)
             short_of += (y[m] - y[m + 1]) * (y[m] - y[m + 1]) / (2 * links_[m].length);
-        const double whole = static_cast<double>(length_), slack = static_cast<double>(length_ - span),
-                     first = std::min(slack, 1e-3 * whole);
         straighten();
-        HeldState start{{-std::sqrt(first / short_of), along, 0}, whole - first};
-        auto state = curve().corrected(start);
-        if (state && slack > first) state = curve().to_span(*state, static_cast<double>(span));
-        if (state && height > 0) state = curve().to_height(*state, height);
-        return state;
+        return curve().from_straight(static_cast<double>(length_ - span), static_cast<double>(span), height,
+                                     [&](double slack) {
+                                         return HeldForces<double>{-std::sqrt(slack / short_of), along, 0};
+                                     });
     }
 
     /// Newton's method in double-double at span and height, from a state in double; the shape there.
     std::optional<HeldShape> finished(const HeldState& state, const S& span, const S& height, bool prove) const {
         HeldForces<S> forces{S(state.forces.across), S(state.forces.along), height};
         std::vector<Direction<S>> direction;
-        for (const Direction<double>& d : kept_) direction.push_back({S(d.sine), S(d.cosine)});
-        for (Direction<S>& d : direction) {  // of unit length, to double-double
-            using std::sqrt;
-            const S size = sqrt(d.sine * d.sine + d.cosine * d.cosine);
-            d.sine = d.sine / size, d.cosine = d.cosine / size;
+        for (const Direction<double>& d : kept_) {  // of unit length, to double-double
+            const S sine(d.sine), cosine(d.cosine), size = sqrt(sine * sine + cosine * cosine);
+            direction.push_back({sine / size, cosine / size});
         }
         double last = std::numeric_limits<double>::infinity();
         for (int round = 0; round < 30; ++round) {
             const HeldEnd<S> end = held_sweep(wide_.links, forces, direction);
             if (!end.known) return {};
-            const auto& [a, b, unused] = end.offset_change;
-            const auto& [c, d, unused_too] = end.rise_change;
-            const S y = end.offset, z = end.rise - span, determinant = a * d - b * c;
-            const S across = -(d * y - b * z) / determinant, along = -(a * z - c * y) / determinant;
+            const auto [across, along] = end.forces_to_move(-end.offset, span - end.rise);
             forces.across = forces.across + across, forces.along = forces.along + along;
             const double size = std::abs(static_cast<double>(across / forces.across)) +
                                 std::abs(static_cast<double>(along / forces.across));
@@ -96,11 +86,10 @@ class HeldChain {
         }
         HeldShape shape = described(wide_, forces, span, direction);
         if (prove) {
-            std::vector<Direction<DoubleDouble>> found;
-            for (const Direction<S>& d : direction) found.push_back({DoubleDouble(d.sine), DoubleDouble(d.cosine)});
-            const double error = held_error(enclosed<DoubleDouble>(wide_.links), enclosed<DoubleDouble>(height),
-                                            enclosed<DoubleDouble>(span),
-                                            {DoubleDouble(forces.across), DoubleDouble(forces.along)}, found);
+            std::vector<Direction<Far>> found;
+            for (const Direction<S>& d : direction) found.push_back({Far(d.sine), Far(d.cosine)});
+            const double error = held_error(enclosed<Far>(wide_.links), enclosed<Far>(height), enclosed<Far>(span),
+                                            {Far(forces.across), Far(forces.along)}, found);
             shape.proved = error < 1e-3;
             // and an inclination rounded once
             if (shape.proved) shape.error_bound = error + 1.001 * 0x1p-53 * shape.inclination.cwiseAbs().maxCoeff();
@@ -139,14 +128,8 @@ inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double h
     const double wanted = std::ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
                  lambda = std::ldexp(conical_height, -units.length_exponent);
     return each_half_wave<HeldShapes>(max_half_waves, [&](int k, const auto& add) {
-        for (const double share : {0.9, 0.5, 0.99, 0.1}) {
-            const auto state = held.at_height(k, held.length() * S(share), lambda);
-            if (!state) continue;
-            held.curve().under(*state, wanted, [&](const HeldState& found) {
-                add(held.finished(found, S(found.span), S(lambda), prove));
-            });
-            break;
-        }
+        each_under(held, k, lambda, wanted,
+                   [&](const HeldState& found) { add(held.finished(found, S(found.span), S(lambda), prove)); });
     });
 }
 

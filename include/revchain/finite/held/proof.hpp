@@ -2,22 +2,20 @@
 #pragma once
 
 #include "revchain/finite/held/sweep.hpp"
-#include "revchain/numeric/double_double.hpp"
 
 namespace revchain::finite {
 
 namespace detail {
 
-using Span = Interval<DoubleDouble>;
+using Span = Interval<Far>;
 
 inline double largest(const Span& x) { return static_cast<double>(x.size()) * 1.0000001; }
 
-/// Encloses the direction of a link under a load, about one found for it;
-/// returns the derivative of its moment with the inclination, not positive
-/// where the link may be slack or settle elsewhere.
-inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<DoubleDouble>& found,
+/// Encloses the direction of a link under a load, about one found for it. Returns the derivative of its moment with the
+/// inclination, which is not positive where the link may be slack or settle elsewhere.
+inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const Direction<Far>& found,
                    Direction<Span>& way) {
-    const Span unknown(DoubleDouble(0));
+    const Span unknown(Far(0));
     if (is_zero(link.cross)) {
         const Span sum = square(R) + square(V);
         if (!sum.positive()) return unknown;
@@ -31,7 +29,7 @@ inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const D
     const Span left = V * s + turn * s * c - R * c;
     double reach = 1e-28;
     for (int round = 0; round < 60; ++round, reach *= 8) {
-        const Span within(DoubleDouble(-reach), DoubleDouble(reach));
+        const Span within(Far(-reach), Far(reach));
         way = {s + within, c + within};
         const Span growth = V * way.cosine + turn * (square(way.cosine) - square(way.sine)) + R * way.sine;
         if (!growth.positive()) return unknown;
@@ -40,29 +38,27 @@ inline Span settle(const Link<Span>& link, const Span& R, const Span& V, const D
     return unknown;
 }
 
-/// Forces at the lower end within intervals: what is proved of the upper end and of all inclinations.
-struct HeldBox {
-    HeldEnd<Span, 2> end;
-    double turned = 0;  ///< sine of the largest turn of a link away from the directions given
-
-    /// Forces up to `radius` from those of a state, `found` the directions there.
-    HeldBox(const std::vector<Link<Span>>& links, const Span& height, const std::array<DoubleDouble, 2>& forces,
-            const std::array<double, 2>& radius, const std::vector<Direction<DoubleDouble>>& found) {
-        const auto about = [&](std::size_t i) {
-            const DoubleDouble off(radius[i]);
-            return Span(revchain::detail::down(DoubleDouble(forces[i] - off)),
-                        revchain::detail::up(DoubleDouble(forces[i] + off)));
-        };
-        const auto settle_near = [&](std::size_t m, const Span& R, const Span& V, Direction<Span>& way) {
-            const Span growth = settle(links[m], R, V, found[m], way);
-            const double turn = largest(way.sine * Span(found[m].cosine) - way.cosine * Span(found[m].sine));
-            if (!(turn < 1)) return Span(DoubleDouble(0));
-            turned = std::max(turned, turn);
-            return growth;
-        };
-        end = held_sweep<2>(links, {about(0), about(1), height}, settle_near, [](std::size_t, const auto&...) {});
-    }
-};
+/// Encloses the upper end for forces at the lower end up to `radius` from those of a state, `found` the directions
+/// there; and the sine of the largest turn of a link away from them.
+inline std::pair<HeldEnd<Span, 2>, double> held_box(const EnclosedLinks<Far>& links, const Span& height,
+                                                    const std::array<Far, 2>& forces,
+                                                    const std::array<double, 2>& radius,
+                                                    const std::vector<Direction<Far>>& found) {
+    const auto about = [&](std::size_t i) {
+        const Far off(radius[i]);
+        return Span(revchain::detail::down(Far(forces[i] - off)), revchain::detail::up(Far(forces[i] + off)));
+    };
+    double turned = 0;
+    const auto settle_near = [&](std::size_t m, const Span& R, const Span& V, Direction<Span>& way) {
+        const Span growth = settle(links[m], R, V, found[m], way);
+        const double turn = largest(way.sine * Span(found[m].cosine) - way.cosine * Span(found[m].sine));
+        if (!(turn < 1)) return Span(Far(0));
+        turned = std::max(turned, turn);
+        return growth;
+    };
+    const auto end = held_sweep<2>(links, {about(0), about(1), height}, settle_near);
+    return {end, turned};
+}
 
 }  // namespace detail
 
@@ -70,41 +66,37 @@ struct HeldBox {
 /// the axis, `span` up, there being one and one alone so near: Krawczyk's test on the two forces at the lower end
 /// (doi:10.1007/ BF02234767). Infinite where it decides nothing: intervals grow along the chain by e^pi, about, for
 /// each half wave.
-inline double held_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
-                         const Interval<DoubleDouble>& span, const std::array<DoubleDouble, 2>& forces,
-                         const std::vector<Direction<DoubleDouble>>& found) {
-    using detail::HeldBox;
+inline double held_error(const EnclosedLinks<Far>& links, const Interval<Far>& height, const Interval<Far>& span,
+                         const std::array<Far, 2>& forces, const std::vector<Direction<Far>>& found) {
     using detail::Span;
     constexpr double unproved = std::numeric_limits<double>::infinity();
-    const HeldBox centre(links, height, forces, {0, 0}, found);
-    if (!centre.end.known) return unproved;
+    const auto centre = detail::held_box(links, height, forces, {0, 0}, found).first;
+    if (!centre.known) return unproved;
     const auto slope = [](const Span& x) { return static_cast<double>(x.middle()); };
-    const std::array<double, 4> J{slope(centre.end.offset_change[0]), slope(centre.end.offset_change[1]),
-                                  slope(centre.end.rise_change[0]), slope(centre.end.rise_change[1])};
-    const double determinant = J[0] * J[3] - J[1] * J[2];
+    const double a = slope(centre.offset_change[0]), b = slope(centre.offset_change[1]),
+                 c = slope(centre.rise_change[0]), d = slope(centre.rise_change[1]), determinant = a * d - b * c;
     if (!(std::abs(determinant) > 0)) return unproved;
-    const std::array<DoubleDouble, 4> inverse{DoubleDouble(J[3] / determinant), DoubleDouble(-J[1] / determinant),
-                                              DoubleDouble(-J[2] / determinant), DoubleDouble(J[0] / determinant)};
-    const Span missed = centre.end.rise - span;
+    const auto entry = [&](double x) { return Span(Far(x / determinant)); };
+    const std::array<Span, 4> inverse{entry(d), entry(-b), entry(-c), entry(a)};
+    const Span missed = centre.rise - span;
     std::array<double, 2> step, radius;
     for (std::size_t i = 0; i < 2; ++i)
-        step[i] = detail::largest(Span(inverse[2 * i]) * centre.end.offset + Span(inverse[2 * i + 1]) * missed);
+        step[i] = detail::largest(inverse[2 * i] * centre.offset + inverse[2 * i + 1] * missed);
     radius = {2 * step[0] + 1e-290, 2 * step[1] + 1e-290};
     for (int round = 0; round < 4; ++round) {
-        const HeldBox box(links, height, forces, radius, found);
-        if (!box.end.known) return unproved;
+        const auto [end, turned] = detail::held_box(links, height, forces, radius, found);
+        if (!end.known) return unproved;
         bool inside = true;
         std::array<double, 2> image;
         for (std::size_t i = 0; i < 2; ++i) {
             image[i] = step[i];
             for (std::size_t j = 0; j < 2; ++j) {
-                const Span product =
-                    Span(inverse[2 * i]) * box.end.offset_change[j] + Span(inverse[2 * i + 1]) * box.end.rise_change[j];
-                image[i] += detail::largest(Span(DoubleDouble(i == j ? 1.0 : 0.0)) - product) * radius[j];
+                const Span product = inverse[2 * i] * end.offset_change[j] + inverse[2 * i + 1] * end.rise_change[j];
+                image[i] += detail::largest(Span(Far(i == j ? 1.0 : 0.0)) - product) * radius[j];
             }
             inside = inside && image[i] < radius[i];
         }
-        if (inside) return std::asin(std::min(1.0, box.turned)) * 1.0000001;
+        if (inside) return std::asin(std::min(1.0, turned)) * 1.0000001;
         for (std::size_t i = 0; i < 2; ++i) radius[i] = 2 * std::max(image[i], radius[i]);
     }
     return unproved;

@@ -42,6 +42,7 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldForces<Wi
                            const Wide<double>& span, std::vector<Direction<Wide<double>>>& direction) {
     using S = Wide<double>;
     const auto size = static_cast<Index>(chain.links.size());
+    const auto narrow = [](const S& x) { return static_cast<double>(x); };
     const auto length = [&](double x) { return std::ldexp(x, chain.units.length_exponent); };
     const auto moment = [&](double x) {
         return std::ldexp(x, chain.units.length_exponent + chain.units.weight_exponent);
@@ -56,7 +57,7 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldForces<Wi
         shape.height_times_tension[pin] = moment(std::hypot(across, along));
         shape.force_inclination[pin] = std::atan2(across, along);
     };
-    through(0, static_cast<double>(forces.across), static_cast<double>(forces.along));
+    through(0, narrow(forces.across), narrow(forces.along));
     std::vector<HeldChange<double>> turned;
     const HeldEnd<S> end = held_sweep(
         chain.links, forces, direction,
@@ -67,7 +68,7 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldForces<Wi
             const S upper = y - link.length * s, top = rise + link.length * c;
             const S V = forces.height * link.pull + forces.along;
             const S left = V * s + link.length * link.cross * s * c - R * c;
-            shape.residual = std::max(shape.residual, std::abs(static_cast<double>(left / growth)));
+            shape.residual = std::max(shape.residual, std::abs(narrow(left / growth)));
             shape.inclination[i] =
                 static_cast<double>(std::atan2(static_cast<long double>(s.high) + static_cast<long double>(s.low),
                                                static_cast<long double>(c.high) + static_cast<long double>(c.low)));
@@ -75,39 +76,36 @@ inline HeldShape described(const Links<Wide<double>>& chain, const HeldForces<Wi
                       link.cross * link.length * link.length * s * s;
             energy = energy + link.moment * rise + link.rest * top;
             hung = hung + link.moment + link.rest;
-            through(i + 1, static_cast<double>(H), static_cast<double>(forces.height * hung + forces.along));
+            through(i + 1, narrow(H), narrow(forces.height * hung + forces.along));
             if (i + 1 < size) {
                 const double sign = upper > S(0) ? 1 : -1;
                 if (sign * last_sign < 0) ++shape.half_waves;
                 last_sign = sign;
-                shape.offset[i + 1] = length(static_cast<double>(upper));
+                shape.offset[i + 1] = length(narrow(upper));
             }
-            shape.height[i + 1] = length(static_cast<double>(top));
-            rise = top, reach += static_cast<double>(link.length);
-            turned.push_back(
-                {static_cast<double>(change[0]), static_cast<double>(change[1]), static_cast<double>(change[2])});
+            shape.height[i + 1] = length(narrow(top));
+            rise = top, reach += narrow(link.length);
+            turned.push_back({narrow(change[0]), narrow(change[1]), narrow(change[2])});
         });
-    shape.span = shape.height[size] = length(static_cast<double>(span));
-    shape.conical_height = length(static_cast<double>(forces.height));
-    const double gap =
-        std::max(std::abs(static_cast<double>(end.offset)), std::abs(static_cast<double>(end.rise - span)));
+    shape.span = shape.height[size] = length(narrow(span));
+    shape.conical_height = length(narrow(forces.height));
+    const double gap = std::max(std::abs(narrow(end.offset)), std::abs(narrow(end.rise - span)));
     shape.residual = std::max(shape.residual, gap / reach);
-    shape.lower_pull = {moment(-static_cast<double>(forces.across)), moment(static_cast<double>(forces.along))};
-    shape.upper_pull = {moment(static_cast<double>(end.across)),
-                        moment(-static_cast<double>(forces.along + forces.height * hung))};
-    shape.moment_of_inertia = length(moment(static_cast<double>(inertia)));
-    shape.height_times_energy = length(moment(static_cast<double>(forces.height * energy - inertia / S(2))));
+    shape.lower_pull = {moment(-narrow(forces.across)), moment(narrow(forces.along))};
+    shape.upper_pull = {moment(narrow(end.across)), moment(-narrow(forces.along + forces.height * hung))};
+    shape.moment_of_inertia = length(moment(narrow(inertia)));
+    shape.height_times_energy = length(moment(narrow(forces.height * energy - inertia / S(2))));
 
     // What a change of the span, or of the height, asks of the two forces, and both of the links.
     const auto condition = [&](const S& y, const S& z, double direct) {
         const auto [across, along] = end.forces_to_move(y, z);
-        const double a = static_cast<double>(across), b = static_cast<double>(along);
+        const double a = narrow(across), b = narrow(along);
         for (const HeldChange<double>& t : turned)
             shape.condition = std::max(shape.condition, std::abs(t[0] * a + t[1] * b + t[2] * direct));
     };
     const S& lambda = forces.height;
     condition(S(0), span, 0);
-    condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, static_cast<double>(lambda));
+    condition(-end.offset_change[2] * lambda, -end.rise_change[2] * lambda, narrow(lambda));
     // An estimate until something is proved: rounding in double of the data.
     shape.error_bound = epsilon<double>() * (2 + shape.condition);
     return shape;

@@ -31,8 +31,7 @@ struct HeldEnd {
     HeldChange<S, K> offset_change{}, rise_change{}, across_change{};
     bool known = false;  ///< not where a link is slack, or its inclination turns over
 
-    /// The changes of the forces across and along that move the upper end by (y,
-    /// z).
+    /// The changes of the forces across and along that move the upper end by (y, z).
     std::array<S, 2> forces_to_move(const S& y, const S& z) const {
         const S &a = offset_change[0], &b = offset_change[1], &c = rise_change[0], &d = rise_change[1];
         const S determinant = a * d - b * c;
@@ -78,21 +77,23 @@ S settle(const Link<S>& link, const S& across, const S& along, Direction<S>& dir
     return S(0);
 }
 
+struct SeesNothing {
+    template <class... Any>
+    void operator()(std::size_t, const Any&...) const {}
+};
+
 }  // namespace detail
 
-/// From the lower end, on the axis, to the upper: Greenhill (1908) §8 with a
-/// force at the lower end,
-///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s =
-///     R, y = y_below - length s,         H = R + rest y,
-/// H = `across` and tau = `along` at the lower end. Changes with the first K of
-/// the forces are exact derivatives. `settle(m, R, V, way)` gives link m its
-/// direction under its load and returns the derivative of its moment with the
-/// inclination; the sweep ends where that is not positive. `each(m, y, R, H,
-/// growth, change of the inclination)` sees every link, y of the lower pin and
-/// H of the upper.
-template <std::size_t K, class S, class Settle, class Each>
+/// From the lower end, on the axis, to the upper: Greenhill (1908) §8 with a force at the lower end,
+///     R = H_below + moment y_below,   (lambda pull + tau) t + length cross s = R,
+///     y = y_below - length s,         H = R + rest y,
+/// H = `across` and tau = `along` at the lower end. Changes with the first K of the forces are exact derivatives.
+/// `settle(m, R, V, way)` gives link m its direction under its load and returns the derivative of its moment with the
+/// inclination; the sweep ends where that is not positive. `each(m, y, R, H, growth, change of the inclination)` sees
+/// every link, y of the lower pin and H of the upper.
+template <std::size_t K, class S, class Settle, class Each = detail::SeesNothing>
 HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces, const Settle& settle,
-                         const Each& each) {
+                         const Each& each = {}) {
     S y(0), z(0), H = forces.across;
     HeldChange<S, K> y_change, z_change, H_change;
     y_change.fill(S(0)), z_change.fill(S(0)), H_change.fill(S(0));
@@ -124,23 +125,17 @@ HeldEnd<S, K> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>&
     return {y, z, H, y_change, z_change, H_change, true};
 }
 
-/// The sweep in numbers. A link points where it is pulled, above the horizontal
-/// or below: every link is in tension. `direction` holds where to look, and
-/// what was found. Cost O(N): 0.1 microseconds a link in double.
-template <class S, class Each>
+/// The sweep in numbers. A link points where it is pulled, above the horizontal or below: every link is in tension.
+/// `direction` holds where to look, and what was found. Cost O(N): 0.1 microseconds a link in double.
+template <class S, class Each = detail::SeesNothing>
 HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces,
-                      std::vector<Direction<S>>& direction, const Each& each) {
+                      std::vector<Direction<S>>& direction, const Each& each = {}) {
     const auto settle = [&](std::size_t m, const S& R, const S& V, Direction<S>& way) {
         const S growth = detail::settle(links[m], R, V, direction[m]);
         way = direction[m];
         return growth;
     };
     return held_sweep<3>(links, forces, settle, each);
-}
-template <class S>
-HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& forces,
-                      std::vector<Direction<S>>& direction) {
-    return held_sweep(links, forces, direction, [](std::size_t, const auto&...) {});
 }
 
 }  // namespace revchain::finite

@@ -7,80 +7,67 @@
 namespace revchain {
 namespace finite {
 
-/// Small offsets of a chain held at both ends, tau = lambda times the tension at the lower end: the pencil of link
-/// elements of stiffness (lambda sigma + tau)/a, both end pins on the axis.
+/// Small offsets of a chain held at both ends, tau = lambda times the tension at the lower end, `along`: the pencil of
+/// link elements of stiffness (lambda sigma + tau)/a, both end pins on the axis.
+
+/// How many tau, or how many lambda at tau in proportion, are larger: negative pivots of stiffness less mass, from the
+/// lower end up, told by the signs of offsets and links.
 template <class S>
-class TautLinks {
-   public:
-    explicit TautLinks(const std::vector<Link<S>>& links) : links_(&links) {}
+Index taut_count(const std::vector<Link<S>>& links, const S& height, const S& along) {
+    revchain::detail::look();
+    Index negative = 0;
+    int sign_below = 0;
+    S y(0), H(-1);
+    for (std::size_t m = 0; m < links.size(); ++m) {
+        const Link<S>& link = links[m];
+        const S R = H + link.moment * y;
+        S stiffness = height * link.pull + along + link.length * link.cross;
+        if (stiffness == S(0)) stiffness = S(std::numeric_limits<double>::min());
+        y = y - link.length * R / stiffness;
+        H = R + link.rest * y;
+        const int sign = y < S(0) ? -1 : 1, bent = stiffness < S(0) ? -1 : 1;
+        if (m > 0 && sign * sign_below * bent < 0) ++negative;
+        sign_below = sign;
+        const double size = std::abs(static_cast<double>(y)) + std::abs(static_cast<double>(H));
+        if (size > 1e100 || size < 1e-100) y = y / S(size), H = H / S(size);
+    }
+    return negative;
+}
 
-    /// How many tau, or how many lambda at tau in proportion, are larger: negative pivots of stiffness less mass, from
-    /// the lower end up, told by the signs of offsets and links.
-    Index count(const S& height, const S& along) const {
-        Index negative = 0;
-        int sign_below = 0;
-        sweep(height, along, [&](std::size_t m, const S& y, const S& stiffness) {
-            const int sign = (y < S(0) ? -1 : 1), bent = stiffness < S(0) ? -1 : 1;
-            if (m > 0 && sign * sign_below * bent < 0) ++negative;
-            sign_below = sign;
-        });
-        return negative;
+/// Offsets of the pins, both ends 0, for a unit pull inwards at the lower end; to be called at a mode's height. The
+/// pencil is eliminated from both ends to the pin where least is left over (twisted factorization), so that the offsets
+/// are as accurate in a light part of the chain as in a heavy one.
+template <class S>
+std::vector<S> taut_shape(const std::vector<Link<S>>& links, const S& height, const S& along) {
+    using std::abs;
+    const std::size_t count = links.size();
+    std::vector<S> y(count + 1, S(0)), diagonal = y, beside = y;  // of pins; beside[m]: of pins m and m + 1
+    if (count < 2) return y;
+    for (std::size_t m = 0; m < count; ++m) {
+        const Link<S>& link = links[m];
+        const S k = (height * link.pull + along) / link.length;
+        diagonal[m] = diagonal[m] + (k - (link.moment - link.cross));
+        diagonal[m + 1] = diagonal[m + 1] + (k - (link.rest - link.cross));
+        beside[m] = -(k + link.cross);
     }
-    /// Offsets of the pins, both ends 0, for a unit pull inwards at the lower end; to be called at a mode's height. The
-    /// pencil is eliminated from both ends to the pin where least is left over (twisted factorization), so that the
-    /// offsets are as accurate in a light part of the chain as in a heavy one.
-    std::vector<S> shape(const S& height, const S& along) const {
-        using std::abs;
-        const std::size_t count = links_->size();
-        std::vector<S> y(count + 1, S(0)), diagonal = y, beside = y;  // of pins; beside[m]: of pins m and m + 1
-        if (count < 2) return y;
-        for (std::size_t m = 0; m < count; ++m) {
-            const Link<S>& link = (*links_)[m];
-            const S k = (height * link.pull + along) / link.length;
-            diagonal[m] = diagonal[m] + (k - (link.moment - link.cross));
-            diagonal[m + 1] = diagonal[m + 1] + (k - (link.rest - link.cross));
-            beside[m] = -(k + link.cross);
-        }
-        const auto pivot = [](const S& x) { return x == S(0) ? S(std::numeric_limits<double>::min()) : x; };
-        std::vector<S> from_below = diagonal, from_above = diagonal;
-        for (std::size_t m = 2; m < count; ++m)
-            from_below[m] = diagonal[m] - beside[m - 1] * beside[m - 1] / pivot(from_below[m - 1]);
-        for (std::size_t m = count - 2; m > 0; --m)
-            from_above[m] = diagonal[m] - beside[m] * beside[m] / pivot(from_above[m + 1]);
-        const auto left = [&](std::size_t m) { return abs(from_below[m] + from_above[m] - diagonal[m]); };
-        std::size_t meet = 1;
-        for (std::size_t m = 2; m < count; ++m)
-            if (left(m) < left(meet)) meet = m;
-        y[meet] = S(1);
-        for (std::size_t m = meet; m-- > 1;) y[m] = -(beside[m] * y[m + 1]) / pivot(from_below[m]);
-        for (std::size_t m = meet + 1; m < count; ++m) y[m] = -(beside[m - 1] * y[m - 1]) / pivot(from_above[m]);
-        const Link<S>& lowest = links_->front();
-        const S unit = lowest.length / (height * lowest.pull + along + lowest.length * lowest.cross) / pivot(y[1]);
-        for (S& offset : y) offset = offset * unit;
-        return y;
-    }
-    Index pins() const { return static_cast<Index>(links_->size()) - 1; }
-
-   private:
-    template <class Visit>
-    void sweep(const S& height, const S& along, Visit&& visit) const {
-        using std::abs;
-        revchain::detail::look();
-        S y(0), H(-1);
-        for (std::size_t m = 0; m < links_->size(); ++m) {
-            const Link<S>& link = (*links_)[m];
-            const S R = H + link.moment * y;
-            S stiffness = height * link.pull + along + link.length * link.cross;
-            if (stiffness == S(0)) stiffness = S(std::numeric_limits<double>::min());
-            y = y - link.length * R / stiffness;
-            H = R + link.rest * y;
-            visit(m, y, stiffness);
-            const double size = std::abs(static_cast<double>(y)) + std::abs(static_cast<double>(H));
-            if (size > 1e100 || size < 1e-100) y = y / S(size), H = H / S(size);
-        }
-    }
-    const std::vector<Link<S>>* links_;
-};
+    const auto pivot = [](const S& x) { return x == S(0) ? S(std::numeric_limits<double>::min()) : x; };
+    std::vector<S> from_below = diagonal, from_above = diagonal;
+    for (std::size_t m = 2; m < count; ++m)
+        from_below[m] = diagonal[m] - beside[m - 1] * beside[m - 1] / pivot(from_below[m - 1]);
+    for (std::size_t m = count - 2; m > 0; --m)
+        from_above[m] = diagonal[m] - beside[m] * beside[m] / pivot(from_above[m + 1]);
+    const auto left = [&](std::size_t m) { return abs(from_below[m] + from_above[m] - diagonal[m]); };
+    std::size_t meet = 1;
+    for (std::size_t m = 2; m < count; ++m)
+        if (left(m) < left(meet)) meet = m;
+    y[meet] = S(1);
+    for (std::size_t m = meet; m-- > 1;) y[m] = -(beside[m] * y[m + 1]) / pivot(from_below[m]);
+    for (std::size_t m = meet + 1; m < count; ++m) y[m] = -(beside[m - 1] * y[m - 1]) / pivot(from_above[m]);
+    const Link<S>& lowest = links.front();
+    const S unit = lowest.length / (height * lowest.pull + along + lowest.length * lowest.cross) / pivot(y[1]);
+    for (S& offset : y) offset = offset * unit;
+    return y;
+}
 
 /// Number k (from 0, descending) of what `count` counts, by halving between powers of two; 0 where there are fewer.
 template <class Count>
@@ -118,7 +105,7 @@ class TautChain {
     /// Offsets of the pins, lower end first, at a conical height; the largest 1, that of the lowest free pin positive.
     Vector<double> shape(double height) const {
         const S at(scaled(height));
-        const std::vector<S> y = TautLinks<S>(chain_.links).shape(at, tension_ * at);
+        const std::vector<S> y = taut_shape(chain_.links, at, S(tension_ * at));
         Vector<double> offset(static_cast<Index>(y.size()));
         for (Index m = 0; m < offset.size(); ++m) offset[m] = static_cast<double>(y[static_cast<std::size_t>(m)]);
         return offset / offset.cwiseAbs().maxCoeff();
@@ -163,7 +150,7 @@ class TautChain {
    private:
     static constexpr double lowest = 0x1p-400;  // below every height: `taut_number` goes no further down
     double scaled(double height) const { return std::ldexp(height, -chain_.units.length_exponent); }
-    Index count(double height) const { return TautLinks<S>(chain_.links).count(S(height), tension_ * S(height)); }
+    Index count(double height) const { return taut_count(chain_.links, S(height), S(tension_ * S(height))); }
 
     Links<S> chain_;
     S tension_;

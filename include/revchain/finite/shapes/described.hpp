@@ -29,18 +29,11 @@ inline double beyond(double angle, bool backwards) {
 
 }  // namespace detail
 
-/// Weights that bear on the upper pins, from the lowest link up, and in all: of a chain, those that move.
-struct OwnWeights {
-    double total = 0;
-    double bearing_on(std::size_t, const Link<Wide<double>>& link) {
-        return total += static_cast<double>(link.moment + link.rest);
-    }
-};
-
-/// Everything about a shape that the offsets of its pins tell: all but its error bound and condition.
-template <class Shape = SteadyShape, class Weights = OwnWeights>
+/// Everything about a shape that the offsets of its pins tell: all but its error bound and condition. `hung`: the
+/// weights that bear on the upper pins.
+template <class Shape = SteadyShape>
 Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found,
-                Weights weights = {}) {
+                const std::vector<double>& hung, double total_weight) {
     using S = Wide<double>;
     const std::size_t n = chain.links.size();
     const auto size = static_cast<Index>(n);
@@ -53,7 +46,7 @@ Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, co
     for (std::size_t m = n; m-- > 0;)
         up[m] = up[m + 1] - detail::cosine_in(found, chain.links, m) * chain.links[m].length;
     S sideways(0), energy(0), inertia(0);  // sideways: lambda times the pull at the upper pin
-    double hung = 0, last_sign = 0, reach = 0, worst_moment = 0;
+    double last_sign = 0, reach = 0, worst_moment = 0;
     for (std::size_t m = 0; m <= n; ++m) {
         const auto i = static_cast<Index>(m);
         shape.offset[i] = length(found.offset[m]), shape.height[i] = length(up[m]);
@@ -73,19 +66,26 @@ Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, co
         worst_moment = std::max(worst_moment, std::abs(static_cast<double>(left * link.length * cosine / height)));
         reach += static_cast<double>(link.length);
         sideways = sideways + link.moment * lower + link.rest * upper;
-        hung = weights.bearing_on(m, link);
         const double across = static_cast<double>(sideways / height);
-        shape.tension[i] = weight(std::hypot(hung, across));
-        shape.reaction_inclination[i] = std::atan2(across, hung);
+        shape.tension[i] = weight(std::hypot(hung[m], across));
+        shape.reaction_inclination[i] = std::atan2(across, hung[m]);
         // of the element, (lower, upper) [A X; X B] (lower, upper), where A + X = moment and X + B = rest
         inertia = inertia + link.moment * lower * lower + link.rest * upper * upper - link.cross * d * d;
         energy = energy - link.pull * link.length * cosine;
     }
-    shape.residual = worst_moment / (weights.total * reach);
+    shape.residual = worst_moment / (total_weight * reach);
     shape.conical_height = length(height);
     shape.moment_of_inertia = weight(std::ldexp(static_cast<double>(inertia), 2 * chain.units.length_exponent));
     shape.effective_energy = weight(length(energy - inertia / (S(2) * height)));
     return shape;
+}
+template <class Shape = SteadyShape>
+Shape described(const Links<Wide<double>>& chain, const Wide<double>& height, const Balanced<Wide<double>>& found) {
+    std::vector<double> hung;
+    double total = 0;
+    for (const Link<Wide<double>>& link : chain.links)
+        hung.push_back(total += static_cast<double>(link.moment + link.rest));
+    return described<Shape>(chain, height, found, hung, total);
 }
 
 }  // namespace finite

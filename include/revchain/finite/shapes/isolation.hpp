@@ -14,6 +14,23 @@ template <class T>
 struct Bracket {
     T low, high;
 };
+template <class T>
+bool goes_on(const Bracket<T>& part, const Bracket<T>& next) {
+    return part.high == next.low;
+}
+
+/// Parts in their order, those that touch as one.
+template <class Part>
+std::vector<Part> joined(const std::vector<Part>& parts) {
+    std::vector<Part> result;
+    for (const Part& part : parts) {
+        if (!result.empty() && goes_on(result.back(), part))
+            result.back().high = part.high;
+        else
+            result.push_back(part);
+    }
+    return result;
+}
 
 /// Steady shapes isolated by proof.
 template <class T>
@@ -94,7 +111,7 @@ long split(const Bracket<T>& whole, const T& last, const T& narrowest, long budg
 
 /// Splits `whole` until each part is seen to hold no shape or one. The straight chain, at 0, is left out.
 template <Real T, class End = OnAxis>
-Isolation<T> isolate(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const Bracket<T>& whole,
+Isolation<T> isolate(const EnclosedLinks<T>& links, const Interval<T>& height, const Bracket<T>& whole,
                      const T& narrowest, long budget, const End& support = {}) {
     Isolation<T> found;
     const auto classify = [&](const Bracket<T>& part, long&) {

@@ -10,10 +10,10 @@
 
 #include "revchain/finite/balance/sweep.hpp"
 #include "revchain/finite/shapes/described.hpp"
-#include "revchain/finite/shapes/scan.hpp"
+#include "revchain/finite/shapes/isolation.hpp"
 #include "revchain/finite/shapes/several_inclinations.hpp"
 #include "revchain/finite/shapes/verification.hpp"
-#include "revchain/numeric/double_double.hpp"
+#include "revchain/numeric/progress.hpp"
 
 /// The list of all steady shapes at a height. `Result` and `Options` are those of revchain/steady_shapes.hpp.
 namespace revchain::finite {
@@ -21,8 +21,7 @@ namespace revchain::finite {
 /// An upper end for the tangent of the lowest link: beyond it the free end would be farther from the axis than the
 /// chain reaches.  y0 = lambda t + (a X/moment) s.
 template <class T>
-T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool either_posture = false,
-                   OnAxis = {}) {
+T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool either_posture = false, OnAxis = {}) {
     Interval<T> reach(T(0));
     for (const Link<Interval<T>>& link : links) reach = reach + link.length;
     const Interval<T> turning = links[0].length * links[0].cross / links[0].moment;
@@ -32,7 +31,7 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
 
 /// Whether each link but the lowest has one inclination for what hangs below it: always where l <= a.
 template <class T>
-bool single_valued(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height) {
+bool single_valued(const EnclosedLinks<T>& links, const Interval<T>& height) {
     return std::all_of(links.begin() + 1, links.end(),
                        [&](const Link<Interval<T>>& link) { return grows_fast(height * link.pull, turning_of(link)); });
 }
@@ -41,11 +40,43 @@ inline bool hangs_at_one_inclination(const Links<Wide<double>>& links, const Int
     return single_valued(enclosed<double>(links.links), height);
 }
 
+/// Where a proof of completeness did not reach, shapes that are there all the same: one at least between tangents of
+/// the lowest link at which the offset of the support, `sign(tangent)`, has opposite signs for certain. Looks at the
+/// ends of the `ranges`, ascending, and at those of `points` tangents up to `last` that lie within them: a third each
+/// even in the inclination, in the tangent, and in its logarithm down to 1e-12 of the last.
+template <Real T, class Sign>
+std::vector<Bracket<T>> scanned(const std::vector<Bracket<T>>& ranges, double last, long points, const Sign& sign) {
+    std::vector<double> tangents;
+    const double steepest = std::atan(last), third = static_cast<double>(points / 3);
+    for (double i = 0.5; i < third; ++i) {
+        tangents.push_back(std::tan(steepest * i / third));
+        tangents.push_back(last * i / third);
+        tangents.push_back(last * std::pow(10.0, -12 * i / third));
+    }
+    std::sort(tangents.begin(), tangents.end());
+    std::vector<Bracket<T>> found;
+    auto next = tangents.begin();
+    for (const Bracket<T>& range : ranges) {
+        next = std::upper_bound(next, tangents.end(), static_cast<double>(range.low));
+        T seen_at{};
+        int seen = 0;
+        const auto note = [&](const T& t) {
+            revchain::detail::look();
+            const int here = t > T(0) ? sign(t) : 0;
+            if (here == 0) return;
+            if (here == -seen) found.push_back({seen_at, t});
+            seen = here, seen_at = t;
+        };
+        note(range.low);
+        for (; next != tangents.end() && T(*next) < range.high; ++next) note(T(*next));
+        note(range.high);
+    }
+    return found;
+}
+
 /// Isolated in double, where that leaves cells open in double-double; what the proof leaves open is scanned.
 template <class AnyLinks>
-Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& height, double last,
-                                 long links_to_look_at) {
-    using Far = DoubleDouble;
+Isolation<Far> isolated(const AnyLinks& chain, const Wide<double>& height, double last, long links_to_look_at) {
     const long budget = links_to_look_at / static_cast<long>(chain.links.size());
     const auto narrow = swept_links<double>(chain);
     const Interval<double> lambda = enclosed<double>(height);
@@ -58,22 +89,15 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     const auto wide = swept_links<Far>(chain);
     const Interval<Far> height_wide = enclosed<Far>(height);
     const auto support_wide = enclosed<Far>(support_of(chain));
-    const std::size_t count = first.undecided.size();
-    for (std::size_t i = 0, end = 0; i < count; i = end) {
-        for (end = i + 1; end < count && first.undecided[end].low == first.undecided[end - 1].high;) ++end;
-        const Far low(first.undecided[i].low), high(first.undecided[end - 1].high);  // cells that touch are one
-        const auto again = detail::isolate<Far>(wide, height_wide, {low, high}, Far(1e-26),
+    for (const Bracket<double>& open : joined(first.undecided)) {
+        const auto again = detail::isolate<Far>(wide, height_wide, {Far(open.low), Far(open.high)}, Far(1e-26),
                                                 std::max(0L, budget - found.cells), support_wide);
         found.cells += again.cells;
         found.shapes.insert(found.shapes.end(), again.shapes.begin(), again.shapes.end());
-        for (const Bracket<Far>& b : again.undecided) {
-            if (!found.undecided.empty() && found.undecided.back().high == b.low)
-                found.undecided.back().high = b.high;
-            else
-                found.undecided.push_back(b);
-        }
+        found.undecided.insert(found.undecided.end(), again.undecided.begin(), again.undecided.end());
     }
     if (found.undecided.empty()) return found;
+    found.undecided = joined(found.undecided);
     const auto more = scanned(found.undecided, last, std::min(8192L, budget / 4), [&](const Far& t) {
         const int sign = detail::sign_at(narrow, lambda, static_cast<double>(t), support);
         return sign != 0 ? sign : detail::sign_at(wide, height_wide, t, support_wide);
@@ -82,16 +106,10 @@ Isolation<DoubleDouble> isolated(const AnyLinks& chain, const Wide<double>& heig
     return found;
 }
 
-/// A shape and the tangent of its lowest link.
-struct Finished {
-    Balanced<Wide<double>> shape;
-    Wide<double> tangent;
-};
-
 /// The one shape whose lowest tangent lies in the bracket, if Newton's method finds it there.
 template <class AnyLinks>
-std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& height,
-                                 const Bracket<DoubleDouble>& bracket) {
+std::optional<Balanced<Wide<double>>> finished(const AnyLinks& chain, const Wide<double>& height,
+                                               const Bracket<Far>& bracket) {
     using S = Wide<double>;
     const std::vector<Link<S>>& links = chain.links;
     const auto support = support_of(chain);
@@ -104,11 +122,10 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
         return middle;
     };
     for (int round = 0; round < 16; ++round) {
-        auto found = balance(links, height, swept(links, height, halve()), 60, {}, support);
+        auto found = balance(links, height, swept(links, height, halve()), {}, support);
         if (found.converged) {
             const S tangent = detail::tangent_in(found, links, 0);
-            if (bracket.low.word() < tangent && tangent < bracket.high.word())
-                return Finished{std::move(found), tangent};
+            if (bracket.low.word() < tangent && tangent < bracket.high.word()) return found;
         }
         for (int i = 0; i < 6; ++i) halve();
     }
@@ -119,12 +136,11 @@ std::optional<Finished> finished(const AnyLinks& chain, const Wide<double>& heig
 /// the support's offset on both sides of its lowest tangent, as near as double-double can tell, and what all links then
 /// may do.
 template <class End>
-double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links, const Wide<double>& height,
-                         const Bracket<DoubleDouble>& bracket, const Finished& found,
-                         const std::vector<Link<Wide<double>>>& middle, const End& support) {
-    using Far = DoubleDouble;
+double inclination_error(const EnclosedLinks<Far>& links, const Wide<double>& height, const Bracket<Far>& bracket,
+                         const Balanced<Wide<double>>& found, const std::vector<Link<Wide<double>>>& middle,
+                         const End& support) {
     const Interval<Far> lambda = enclosed<Far>(height);
-    const Far tangent(found.tangent);
+    const Far tangent(detail::tangent_in(found, middle, 0));
     Far reach = abs(tangent) * Far(1e-28) + Far(1e-290);
     for (int round = 0;; ++round, reach = reach * Far(16)) {
         const bool far = round == 300;  // 16^300 overflows
@@ -137,7 +153,7 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
         detail::support_offset(links, lambda, Interval<Far>(low, high), OnAxis{}, &tangents);
         double worst = 0;
         for (std::size_t m = 0; m < tangents.size(); ++m) {
-            const Far t(detail::tangent_in(found.shape, middle, m));
+            const Far t(detail::tangent_in(found, middle, m));
             const Interval<Far> both = hull(tangents[m], Interval<Far>(t));
             const double near = both.may_vanish() ? 0.0 : static_cast<double>(std::min(abs(both.low), abs(both.high)));
             const double change =
@@ -150,10 +166,8 @@ double inclination_error(const std::vector<Link<Interval<DoubleDouble>>>& links,
 
 /// A bracket of a shape, halved by proved signs until rounding leaves a sign open.
 template <class End>
-Bracket<DoubleDouble> narrowed(const std::vector<Link<Interval<DoubleDouble>>>& links,
-                               const Interval<DoubleDouble>& lambda, const End& support,
-                               Bracket<DoubleDouble> bracket) {
-    using Far = DoubleDouble;
+Bracket<Far> narrowed(const EnclosedLinks<Far>& links, const Interval<Far>& lambda, const End& support,
+                      Bracket<Far> bracket) {
     const int low_sign = detail::sign_at(links, lambda, bracket.low, support);
     for (int round = 0; round < 200; ++round) {
         const Far middle = Interval<Far>(bracket.low, bracket.high).middle();
@@ -168,8 +182,7 @@ Bracket<DoubleDouble> narrowed(const std::vector<Link<Interval<DoubleDouble>>>& 
 /// the bracket. Nothing if it cannot be proved.
 template <class AnyLinks>
 std::optional<Settled> finished_by_tangents(const AnyLinks& chain, const Wide<double>& height,
-                                            const Bracket<DoubleDouble>& bracket, const Bracket<DoubleDouble>& part) {
-    using Far = DoubleDouble;
+                                            const Bracket<Far>& bracket, const Bracket<Far>& part) {
     const auto links = swept_links<Far>(chain);
     const auto lambda = enclosed<Far>(height);
     const auto support = enclosed<Far>(support_of(chain));
@@ -194,12 +207,12 @@ void add(const AnyLinks& links, const Wide<double>& height, const Settled& settl
 template <class AnyLinks, class Result>
 void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget, Result& result) {
     using Shape = typename decltype(result.shapes)::value_type;
-    const auto narrow = swept_links<DoubleDouble>(links);
-    const auto support = enclosed<DoubleDouble>(support_of(links));
+    const auto narrow = swept_links<Far>(links);
+    const auto support = enclosed<Far>(support_of(links));
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
-    const auto leave_open = [&](const Bracket<DoubleDouble>& b) {
-        const auto inclination = [](const DoubleDouble& t) { return std::atan(static_cast<double>(t)); };
+    const auto leave_open = [&](const Bracket<Far>& b) {
+        const auto inclination = [](const Far& t) { return std::atan(static_cast<double>(t)); };
         result.undecided.push_back({inclination(b.low), inclination(b.high)});
     };
     for (const auto& bracket : isolation.undecided) leave_open(bracket);
@@ -207,20 +220,20 @@ void add_single_valued(const AnyLinks& links, const Wide<double>& height, double
         const std::size_t before = result.shapes.size();
         if (auto found = finished(links, height, bracket)) {
             Shape& shape = result.shapes.emplace_back(
-                verified_shape<Shape>(links, narrow, height, enclosed<DoubleDouble>(height), found->shape, true));
+                verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
             if (shape.error_bound <= 0x1.8p-52) continue;
             // all but horizontal, or all but critical: the sweep may say more
             const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
             if (error < shape.error_bound) {
                 const double condition = shape.condition;
-                turn_outwards(found->shape, support);
-                shape = described<Shape>(links, height, found->shape);
+                turn_outwards(*found, support);
+                shape = described<Shape>(links, height, *found);
                 shape.error_bound = error, shape.condition = condition;
             }
             if (shape.error_bound < 0x1p-48) continue;
         }
         // or the tangents
-        const auto part = narrowed(narrow, enclosed<DoubleDouble>(height), support, bracket);
+        const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
         if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
             result.shapes.resize(before);
             add(links, height, *settled, result);

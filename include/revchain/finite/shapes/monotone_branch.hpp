@@ -31,18 +31,17 @@ class Response {
     Response(const Link<Interval<T>>& link, const Interval<T>& height, Posture posture)
         : stiffness_(height * link.pull), turning_(turning_of(link)) {
         if (posture == Posture::stands) turning_ = -turning_;
-        plummet_ = is_zero(turning_);
         single_ = grows_fast(stiffness_, turning_);
         if (!single_) find_joint();
     }
 
     const Interval<T>& stiffness() const { return stiffness_; }
     const Interval<T>& turning() const { return turning_; }
-    bool is_plummet() const { return plummet_; }
+    bool is_plummet() const { return is_zero(turning_); }
     bool is_single() const { return single_; }
 
     Interval<T> load(const Interval<T>& t) const {
-        return plummet_ ? stiffness_ * t : stiffness_ * t + turning_ * detail::sine_at(t);
+        return is_plummet() ? stiffness_ * t : stiffness_ * t + turning_ * detail::sine_at(t);
     }
 
     LoadedTangents<T> met(MonotoneBranch branch, const Interval<T>& R) const {
@@ -97,7 +96,7 @@ class Response {
         const T high = met.smooth || R.high > least_.high ? std::max(joint_.high, from_right(R.high)) : joint_.high;
         met.tangent.high = detail::first_passing(high, detail::rounding_step(high), 2 * tries,
                                                  [&](const T& t) { return at(t).low >= R.high; });
-        if (!(met.tangent.high == met.tangent.high)) return nothing_known();
+        if (!(met.tangent.high == met.tangent.high)) return {met.tangent.high, true, false};  // nothing is known
         met.tangent.low = joint_.low;
         if (!met.smooth) return met;
         const T low = from_right(R.low);
@@ -125,13 +124,8 @@ class Response {
         return {{T(-low), high}, true, high_inside && low_inside};
     }
 
-    static LoadedTangents<T> nothing_known() {
-        const T nan = std::numeric_limits<T>::quiet_NaN();
-        return {{nan, nan}, true, false};
-    }
-
     Interval<T> stiffness_, turning_;
-    bool plummet_ = false, single_ = true;
+    bool single_;
     Interval<T> joint_, least_;  // the right joint, and R there
 };
 

@@ -13,6 +13,10 @@ struct OpenPart {
     std::vector<MonotoneBranch> choice;
     T low, high;
 };
+template <class T>
+bool goes_on(const OpenPart<T>& part, const OpenPart<T>& next) {
+    return part.high == next.low && part.choice == next.choice;
+}
 
 /// Steady shapes with every link in a given posture. A choice is one branch for each link: along it the tangents of all
 /// links are functions of that of the lowest, by the upward sweep of Greenhill (1908) §8 (4), (12), with derivatives
@@ -21,25 +25,16 @@ struct OpenPart {
 template <Real T, class End = OnAxis>
 class PostureSearch {
    public:
-    PostureSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-                  const std::vector<Posture>& posture, const End& support = {})
+    /// `fewer_digits`: if any, the same search in fewer digits, whose zeros are known.
+    template <class... Search>
+    PostureSearch(const EnclosedLinks<T>& links, const Interval<T>& height, const std::vector<Posture>& posture,
+                  const End& support, const Search&... fewer_digits)
         : links_(links),
           support_(support),
           balance_(links, height, posture, support),
-          zeros_(balance_),
+          zeros_(balance_, fewer_digits.zeros_...),
           box_(links.size()) {
-        respond(height);
-    }
-    /// The same in more digits.
-    template <class Fewer, class FewerEnd>
-    PostureSearch(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height,
-                  const PostureSearch<Fewer, FewerEnd>& before, const End& support = {})
-        : links_(links),
-          support_(support),
-          balance_(links, height, before.balance_.posture(), support),
-          zeros_(balance_, before.zeros_),
-          box_(links.size()) {
-        respond(height);
+        for (std::size_t m = 0; m < links.size(); ++m) response_.emplace_back(links[m], height, posture[m]);
     }
     PostureSearch(const PostureSearch&) = delete;
     PostureSearch& operator=(const PostureSearch&) = delete;
@@ -90,11 +85,6 @@ class PostureSearch {
    private:
     template <Real, class>
     friend class PostureSearch;
-
-    void respond(const Interval<T>& height) {
-        for (std::size_t m = 0; m < links_.size(); ++m)
-            response_.emplace_back(links_[m], height, balance_.posture()[m]);
-    }
 
     using Seen = detail::Seen;
     /// A part is settled where every shape in it is in the list.
@@ -150,7 +140,7 @@ class PostureSearch {
         void pass(std::size_t m, const Taylor<T, 1>& t, const Taylor<T, 1>&) { search.box_[m] = t.value; }
     };
 
-    const std::vector<Link<Interval<T>>>& links_;
+    const EnclosedLinks<T>& links_;
     [[no_unique_address]] End support_;
     WholeBalance<T, End> balance_;
     KrawczykList<T, End> zeros_;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "revchain/finite/shapes/described.hpp"
-#include "revchain/numeric/double_double.hpp"
 #include "revchain/rig.hpp"
 
 namespace revchain::finite {
@@ -21,9 +20,6 @@ struct RiggedLinks : Links<Wide<double>> {
     double total_weight = 0;         ///< of the chain
 
     bool turned(std::size_t m) const { return links[m].pull < Wide<double>(0); }
-    bool any_turned() const {
-        return std::any_of(links.begin(), links.end(), [](const auto& link) { return link.pull < Wide<double>(0); });
-    }
     /// From swept links to given ones, or back.
     template <class T>
     void turn(std::vector<Interval<T>>& tangents) const {
@@ -38,7 +34,6 @@ namespace detail {
 template <class T>
 Interval<T> effective_tension(const RigLink& link, const Wide<double>& speed) {
     if (link.spin == Wide<double>(0)) return enclosed<T>(link.tension);
-    using Far = DoubleDouble;
     const Interval<Far> pull = enclosed<Far>(link.tension) + enclosed<Far>(speed) * enclosed<Far>(link.spin);
     return {revchain::detail::down(static_cast<T>(pull.low)), revchain::detail::up(static_cast<T>(pull.high))};
 }
@@ -50,8 +45,8 @@ inline const std::vector<Posture>& posture_of(const RiggedLinks& rig) { return r
 inline bool may_all_stand(const RiggedLinks&) { return true; }
 
 template <class T>
-std::vector<Link<Interval<T>>> swept_links(const RiggedLinks& rig) {
-    std::vector<Link<Interval<T>>> result = enclosed<T>(rig.links);
+EnclosedLinks<T> swept_links(const RiggedLinks& rig) {
+    EnclosedLinks<T> result = enclosed<T>(rig.links);
     for (std::size_t m = 0; m < result.size(); ++m) {
         result[m].pull = detail::effective_tension<T>(rig.given[m], rig.speed);
         if (rig.turned(m)) result[m].pull = -result[m].pull, result[m].length = -result[m].length;
@@ -61,7 +56,7 @@ std::vector<Link<Interval<T>>> swept_links(const RiggedLinks& rig) {
 
 /// 1 - W/(lambda E), W all the weight that moves: what a spring at the support has left to hold its pin with.
 template <class T>
-Interval<T> left_to_the_spring(const std::vector<Link<Interval<T>>>& links, const Held<Interval<T>>& support) {
+Interval<T> left_to_the_spring(const EnclosedLinks<T>& links, const Held<Interval<T>>& support) {
     Interval<T> moving = support.carriage;
     for (const Link<Interval<T>>& link : links) moving = moving + link.moment + link.rest;
     return Interval<T>(T(1)) - support.compliance * moving;
@@ -72,8 +67,7 @@ Interval<T> left_to_the_spring(const std::vector<Link<Interval<T>>>& links, cons
 /// links reach; and the lowest link's balance is  lambda pull t + a X s = moment y. Where lambda E is W, to rounding,
 /// there is no such end: then as if the two were a millionth apart.
 template <class T>
-T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, bool,
-                   const Held<Interval<T>>& support) {
+T farthest_tangent(const EnclosedLinks<T>& links, const Interval<T>& height, bool, const Held<Interval<T>>& support) {
     Interval<T> reach(T(0)), moving(T(0)), drawn(support.radius.size());
     for (const Link<Interval<T>>& link : links) {
         reach = reach + Interval<T>(link.length.size());
@@ -91,22 +85,14 @@ T farthest_tangent(const std::vector<Link<Interval<T>>>& links, const Interval<T
     return far.high;
 }
 
-namespace detail {
-
-struct BearingWeights {
-    const RiggedLinks& rig;
-    double total = rig.total_weight;
-    double bearing_on(std::size_t m, const Link<Wide<double>>&) const { return static_cast<double>(rig.given[m].hung); }
-};
-
-}  // namespace detail
-
 /// Everything about a shape of a rig that the offsets of its pins tell. Its half waves count the support; its energy
 /// holds the spring's, and - n H cos of the inclinations; its moment of inertia the carriage's.
 template <class Shape = SteadyShape>
 Shape described(const RiggedLinks& rig, const Wide<double>& height, const Balanced<Wide<double>>& found) {
     using S = Wide<double>;
-    Shape shape = described<Shape>(rig, height, found, detail::BearingWeights{rig});
+    std::vector<double> hung;
+    for (const RigLink& link : rig.given) hung.push_back(static_cast<double>(link.hung));
+    Shape shape = described<Shape>(rig, height, found, hung, rig.total_weight);
     const S top = found.offset.back();
     double last = 0;
     for (const double y : shape.offset.head(shape.offset.size() - 1))
@@ -139,9 +125,9 @@ inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, cons
             revchain::detail::throw_invalid("steady_shapes", "link " + std::to_string(m + 1) + ": " + std::string(what),
                                             pull.high);
         };
-        if (detail::effective_tension<DoubleDouble>(link, result.speed).may_vanish())
+        if (detail::effective_tension<Far>(link, result.speed).may_vanish())
             reject("the effective tension (tension and n times momentum over length) must not vanish at this speed");
-        if (m == 0 && enclosed<DoubleDouble>(link.moment).may_vanish())
+        if (m == 0 && enclosed<Far>(link.moment).may_vanish())
             reject("the lowest link's weight that moves must not balance about its upper pin");
         result.links.push_back({link.length, pull, link.cross, link.moment, link.rest});
         result.posture.push_back(rig.stands(m) ? Posture::stands : Posture::hangs);

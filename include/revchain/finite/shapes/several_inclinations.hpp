@@ -3,7 +3,6 @@
 
 #include "revchain/finite/balance/newton.hpp"
 #include "revchain/finite/shapes/posture_search.hpp"
-#include "revchain/numeric/double_double.hpp"
 
 namespace revchain::finite {
 
@@ -29,9 +28,7 @@ namespace detail {
 
 /// A box that holds one zero for certain, as small as double-double allows, about one known to double precision.
 template <class End>
-std::optional<TangentBox<DoubleDouble>> sharpened(const WholeBalance<DoubleDouble, End>& balance,
-                                                  const TangentBox<DoubleDouble>& near) {
-    using Far = DoubleDouble;
+std::optional<TangentBox<Far>> sharpened(const WholeBalance<Far, End>& balance, const TangentBox<Far>& near) {
     std::vector<Far> t = middle_of(near);
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 20; ++round) {
@@ -58,9 +55,9 @@ std::optional<TangentBox<DoubleDouble>> sharpened(const WholeBalance<DoubleDoubl
 
 /// Whether offsets found by Newton's method are those of the zero in a box.
 inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<Wide<double>>& found,
-                   const TangentBox<DoubleDouble>& box) {
+                   const TangentBox<Far>& box) {
     for (std::size_t m = 0; m < box.size(); ++m) {
-        const DoubleDouble t(tangent_in(found, links, m));
+        const Far t(tangent_in(found, links, m));
         const double size = std::abs(static_cast<double>(t));
         const double off = static_cast<double>(std::max(box[m].low - t, t - box[m].high)) / (1 + size * size);
         if (!(off <= 1e-18 * std::min(1.0, size))) return false;
@@ -71,8 +68,8 @@ inline bool agrees(const std::vector<Link<Wide<double>>>& links, const Balanced<
 /// A shape from the tangents of its links, mirrored so that the free end (or, if that is on the axis, the lowest link
 /// that is inclined) is at a positive offset.
 template <class AnyLinks, class End>
-std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height,
-                               const WholeBalance<DoubleDouble, End>& balance, const TangentBox<DoubleDouble>& near) {
+std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height, const WholeBalance<Far, End>& balance,
+                               const TangentBox<Far>& near) {
     using S = Wide<double>;
     const std::vector<Link<S>>& links = chain.links;
     auto box = sharpened(balance, near);
@@ -82,30 +79,27 @@ std::optional<Settled> settled(const AnyLinks& chain, const Wide<double>& height
     const std::size_t n = links.size();
     std::vector<S> offset(n + 1, S(0));
     if constexpr (is_held<End>) {
-        std::vector<Interval<DoubleDouble>> sines;
+        std::vector<Interval<Far>> sines;
         for (std::size_t m = 0; m < n; ++m) sines.push_back(balance.sine(m, (*box)[m].middle()));
         offset[n] = balance.top(sines).middle().word();
         chain.turn(*box);
     }
     S lowest_inclined(0);
     for (std::size_t m = n; m-- > 0;) {
-        const S sine = balance.sine(m, Interval<DoubleDouble>((*box)[m].middle())).middle().word();
+        const S sine = balance.sine(m, Interval<Far>((*box)[m].middle())).middle().word();
         offset[m] = offset[m + 1] + links[m].length * sine;
-        if (!(*box)[m].contains(DoubleDouble(0))) lowest_inclined = sine;
+        if (!(*box)[m].contains(Far(0))) lowest_inclined = sine;
     }
     Settled result;
     result.condition = *condition;
-    result.shape = finite::balance(links, height, offset, 60, balance.posture(), support_of(chain));
+    result.shape = finite::balance(links, height, offset, balance.posture(), support_of(chain));
     if (!result.shape.converged || !agrees(links, result.shape, *box)) {
         result.shape = {std::move(offset), balance.posture(), true, {}};
-        for (const DoubleDouble& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
+        for (const Far& tangent : middle_of(*box)) result.shape.tangent.push_back(tangent.word());
     }
     const S tip = result.shape.offset[0];
     const bool inwards = abs(tip) > S(1e-25) * links[0].length ? tip < S(0) : lowest_inclined < S(0);
-    if (inwards && balance.is_symmetric()) {
-        for (S& y : result.shape.offset) y = -y;
-        for (S& t : result.shape.tangent) t = -t;
-    }
+    if (inwards && balance.is_symmetric()) result.shape.mirror();
     for (std::size_t m = 0; m < n; ++m) {
         const double middle = static_cast<double>((*box)[m].middle()), width = static_cast<double>((*box)[m].width());
         const double rounded = result.shape.stands(m) ? 0x1p-51 : 0x1p-52;  // of an angle below pi, below pi/2
@@ -127,7 +121,6 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
         result.open.push_back({posture[0], 0.0, last});
         return;
     }
-    using Far = DoubleDouble;
     const auto narrow = swept_links<double>(chain);
     const auto wide = swept_links<Far>(chain);
     const auto support = support_of(chain);
@@ -137,18 +130,10 @@ void search_posture(const AnyLinks& chain, const Wide<double>& height, const std
         result.cells += first.search({choice, 0.0, last}, last, 1e-14, budget - result.cells);
     } while (result.cells < budget && first.next_choice(choice));
     if (result.cells >= budget) result.open.push_back({posture[0], 0.0, last});
-    // In double-double, parts that touch are one.
-    PostureSearch second(wide, enclosed<Far>(height), first, enclosed<Far>(support));
-    for (std::size_t i = 0, end = 0; i < first.open().size(); i = end) {
-        const auto& part = first.open()[i];
-        double high = part.high;
-        for (end = i + 1; end < first.open().size() && first.open()[end].choice == part.choice; ++end) {
-            if (first.open()[end].low != high) break;
-            high = first.open()[end].high;
-        }
+    PostureSearch second(wide, enclosed<Far>(height), posture, enclosed<Far>(support), first);
+    for (const auto& part : joined(first.open()))
         result.cells +=
-            second.search({part.choice, Far(part.low), Far(high)}, Far(last), Far(1e-26), budget - result.cells);
-    }
+            second.search({part.choice, Far(part.low), Far(part.high)}, Far(last), Far(1e-26), budget - result.cells);
     const auto leave_open = [&](const Far& low, const Far& high) {
         result.open.push_back({posture[0], static_cast<double>(low), static_cast<double>(high)});
     };

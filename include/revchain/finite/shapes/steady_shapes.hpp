@@ -22,9 +22,9 @@ inline SteadyShapes steady_shapes(const Chain<double>& chain, const Wide<double>
 }
 
 inline bool hangs_at_one_inclination(const RiggedLinks& rig, const Interval<double>& height) {
-    const bool hangs =
-        std::all_of(rig.posture.begin(), rig.posture.end(), [](Posture posture) { return posture == Posture::hangs; });
-    return hangs && !rig.any_turned() && single_valued(swept_links<double>(rig), height);
+    for (std::size_t m = 0; m < rig.links.size(); ++m)
+        if (rig.posture[m] == Posture::stands || rig.turned(m)) return false;
+    return single_valued(swept_links<double>(rig), height);
 }
 
 inline SteadyShape mirrored(SteadyShape shape) {
@@ -53,12 +53,11 @@ inline SteadyShapes steady_shapes(const Rig& rig, const Wide<double>& height, co
     if (rig == Rig(rig.chain(), {})) return steady_shapes(rig.chain(), height, options);
     const double scaled = std::ldexp(static_cast<double>(height), -rig.chain().units().length_exponent);
     SteadyShapes result;
-    const auto leave_all = [&] {
+    if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) {  // tangents overflow
         const double end = options.hanging_only && !rig.stands(0) ? std::numbers::pi / 2 : std::numbers::pi;
         result.undecided = {{rig.support().radius > 0 ? -end : 0, end}};
         return result;
-    };
-    if (!(scaled > std::numeric_limits<double>::min() / epsilon<double>())) return leave_all();  // tangents overflow
+    }
     RiggedLinks links = rigged_links(rig, height, speed);
     const Wide<double> lambda = ldexp(height, -links.units.length_exponent);
     const double last = farthest_tangent(swept_links<double>(links), enclosed<double>(lambda), !options.hanging_only,

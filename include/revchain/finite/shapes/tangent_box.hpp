@@ -16,21 +16,15 @@ using TangentBox = std::vector<Interval<T>>;
 
 template <Real T>
 bool within(const TangentBox<T>& x, const TangentBox<T>& y) {
-    for (std::size_t m = 0; m < x.size(); ++m)
-        if (!(y[m].low <= x[m].low && x[m].high <= y[m].high)) return false;
-    return true;
+    return std::ranges::equal(x, y, [](const auto& a, const auto& b) { return b.low <= a.low && a.high <= b.high; });
 }
 template <Real T>
 bool strictly_within(const TangentBox<T>& x, const TangentBox<T>& y) {
-    for (std::size_t m = 0; m < x.size(); ++m)
-        if (!(y[m].low < x[m].low && x[m].high < y[m].high)) return false;
-    return true;
+    return std::ranges::equal(x, y, [](const auto& a, const auto& b) { return b.low < a.low && a.high < b.high; });
 }
 template <Real T>
 bool apart(const TangentBox<T>& x, const TangentBox<T>& y) {
-    for (std::size_t m = 0; m < x.size(); ++m)
-        if (x[m].high < y[m].low || y[m].high < x[m].low) return true;
-    return false;
+    return !std::ranges::equal(x, y, [](const auto& a, const auto& b) { return !(a.high < b.low || b.high < a.low); });
 }
 template <Real T>
 TangentBox<T> mirrored(TangentBox<T> x) {
@@ -46,30 +40,25 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
 
 namespace detail {
 
-/// The inverse of a matrix of `n` rows, by rows, in double; false if it has none in sight.
-inline bool invert(std::vector<double>& a, std::size_t n) {
-    std::vector<double> inverse(n * n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) inverse[i * n + i] = 1;
-    for (std::size_t j = 0; j < n; ++j) {
-        std::size_t pivot = j;
-        for (std::size_t i = j + 1; i < n; ++i)
-            if (std::abs(a[i * n + j]) > std::abs(a[pivot * n + j])) pivot = i;
-        const double top = a[pivot * n + j];
+/// Replaces a matrix, given by its rows, by its inverse (Gauss and Jordan); returns whether it has one in sight.
+inline bool invert(std::vector<double>& a, std::size_t size) {
+    const auto n = static_cast<Index>(size);
+    Eigen::Map<Table<double>> matrix(a.data(), n, n);
+    Table<double> rows(n, 2 * n);  // of the matrix, and beside them those of its inverse
+    rows << matrix, Table<double>::Identity(n, n);
+    for (Index j = 0; j < n; ++j) {
+        Index pivot = j;
+        for (Index i = j + 1; i < n; ++i)
+            if (std::abs(rows(i, j)) > std::abs(rows(pivot, j))) pivot = i;
+        const double top = rows(pivot, j);
         if (!(std::abs(top) > 0)) return false;
-        for (std::size_t r = 0; r < n; ++r) {
-            std::swap(a[j * n + r], a[pivot * n + r]), std::swap(inverse[j * n + r], inverse[pivot * n + r]);
-            a[j * n + r] /= top, inverse[j * n + r] /= top;
-        }
-        for (std::size_t i = 0; i < n; ++i) {
-            const double share = a[i * n + j];
-            if (i == j || share == 0) continue;
-            for (std::size_t r = 0; r < n; ++r) {
-                a[i * n + r] -= share * a[j * n + r], inverse[i * n + r] -= share * inverse[j * n + r];
-            }
-        }
+        if (pivot != j) rows.row(j).swap(rows.row(pivot));
+        rows.row(j) /= top;
+        for (Index i = 0; i < n; ++i)
+            if (const double share = rows(i, j); i != j && share != 0) rows.row(i) -= share * rows.row(j);
     }
-    a = std::move(inverse);
-    return std::all_of(a.begin(), a.end(), [](double x) { return std::isfinite(x); });
+    matrix = rows.rightCols(n);
+    return matrix.allFinite();
 }
 
 }  // namespace detail
@@ -84,28 +73,26 @@ inline bool invert(std::vector<double>& a, std::size_t n) {
 template <Real T, class End = OnAxis>
 class WholeBalance {
    public:
-    WholeBalance(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, std::vector<Posture> posture,
+    WholeBalance(const EnclosedLinks<T>& links, const Interval<T>& height, std::vector<Posture> posture,
                  const End& support = {})
         : size_(links.size()), posture_(std::move(posture)), matrix_(size_ * size_) {
-        if constexpr (is_held<End>) {
-            add_held(links, height, support);
-            return;
-        }
+        std::vector<Interval<T>> moving;  // sigma of the weights that move
+        if constexpr (is_held<End>)
+            moving = hold(links, support);
+        else
+            for (const Link<Interval<T>>& link : links) moving.push_back(link.pull);
         for (std::size_t m = 0; m < size_; ++m) {
             stiffness_.push_back(height * links[m].pull);
             for (std::size_t r = 0; r < size_; ++r) {
-                const Link<Interval<T>>& lower = links[std::min(m, r)];
-                const Interval<T> pull = r == m ? lower.pull - lower.cross : lower.pull;
-                matrix_[m * size_ + r] = pull * links[r].length;
-                middle_.push_back(static_cast<double>(matrix_[m * size_ + r].middle()));
+                Interval<T>& entry = matrix_[m * size_ + r];
+                entry = (r == m ? moving[m] - links[m].cross : moving[std::min(m, r)]) * links[r].length;
+                if (support.yields()) entry = entry + moving[m] * top_.drawn[r];
+                middle_.push_back(static_cast<double>(entry.middle()));
             }
         }
     }
     const std::vector<Posture>& posture() const { return posture_; }
-    bool is_symmetric() const {
-        if constexpr (is_held<End>) return top_.symmetric;
-        return true;
-    }
+    bool is_symmetric() const { return top_.symmetric; }
     /// Offset of the topmost pin.
     Interval<T> top(const std::vector<Interval<T>>& sines) const {
         Interval<T> y(T(0));
@@ -181,29 +168,23 @@ class WholeBalance {
     }
 
    private:
-    void add_held(const std::vector<Link<Interval<T>>>& links, const Interval<T>& height, const End& support) {
+    /// Sets what is known of the topmost pin of a rig; returns the sigma of its weights that move.
+    std::vector<Interval<T>> hold(const EnclosedLinks<T>& links, const End& support) {
         Interval<T> below(T(0));
-        std::vector<Interval<T>> moving;  // sigma
+        std::vector<Interval<T>> moving;
         for (const Link<Interval<T>>& link : links) {
-            stiffness_.push_back(height * link.pull);
             moving.push_back(below + link.moment);
             below = moving.back() + link.rest;
         }
         const Interval<T> yields = Interval<T>(T(1)) - support.compliance * (below + support.carriage);
         top_.at_rest = support.firm ? support.radius : support.radius / yields;
         top_.symmetric = support.symmetric;
-        for (std::size_t r = 0; r < size_; ++r)
+        for (std::size_t r = 0; r < size_; ++r) {
             top_.drawn.push_back(support.firm ? Interval<T>(T(0))
                                               : support.compliance / yields * moving[r] * links[r].length);
-        for (std::size_t m = 0; m < size_; ++m) {
-            top_.load.push_back(moving[m] * top_.at_rest);
-            for (std::size_t r = 0; r < size_; ++r) {
-                Interval<T>& entry = matrix_[m * size_ + r];
-                entry = (r == m ? moving[m] - links[m].cross : moving[std::min(m, r)]) * links[r].length;
-                if (!support.firm) entry = entry + moving[m] * top_.drawn[r];
-                middle_.push_back(static_cast<double>(entry.middle()));
-            }
+            top_.load.push_back(moving[r] * top_.at_rest);
         }
+        return moving;
     }
 
     Interval<T> signed_(std::size_t m, const Interval<T>& x) const { return posture_[m] == Posture::hangs ? x : -x; }
@@ -240,13 +221,11 @@ class WholeBalance {
     std::vector<Posture> posture_;
     TangentBox<T> stiffness_, matrix_;
     std::vector<double> middle_;
-    struct OnTheAxis {};
-    struct Top {
+    struct {
         Interval<T> at_rest;        // offset of the topmost pin under vertical links
-        TangentBox<T> drawn, load;  // what each sine adds to it; sigma times it at rest
-        bool symmetric;
-    };
-    [[no_unique_address]] std::conditional_t<is_held<End>, Top, OnTheAxis> top_;
+        TangentBox<T> drawn, load;  // of a rig: what each sine adds to it; sigma times it at rest
+        bool symmetric = true;
+    } top_;
 };
 
 }  // namespace revchain::finite

@@ -4,14 +4,13 @@
 #include <optional>
 
 #include "revchain/finite/shapes/described.hpp"
-#include "revchain/numeric/double_double.hpp"
 
 namespace revchain::finite {
 
 /// What is proved of a shape that Newton's method found.
 struct Verified {
-    std::vector<DoubleDouble> offset;  ///< of the pins, the support's 0 last; its digits are those of double-double
-    double inclination_error;          ///< a steady shape, and one alone, has all its inclinations within this, rad
+    std::vector<Far> offset;   ///< of the pins, the support's 0 last; its digits are those of double-double
+    double inclination_error;  ///< a steady shape, and one alone, has all its inclinations within this, rad
     double condition;  ///< largest change of an inclination, rad, where each force changes by its own size, times it
 };
 
@@ -20,14 +19,13 @@ namespace detail {
 /// Forces at the pins, lambda times, and what their derivative is made of, for offsets within intervals: the tangent
 /// stiffness of each link and a mass at each pin, never added up.
 struct Forces {
-    using Far = DoubleDouble;
     std::vector<Interval<Far>> force, stiffness, mass;
     std::vector<double> size, cosine;  ///< of the terms of each force; of each link's inclination, from below
     bool known = true;
 
     template <class End>
-    Forces(const std::vector<Link<Interval<Far>>>& links, const Interval<Far>& height,
-           const std::vector<Interval<Far>>& y, const End& support) {
+    Forces(const EnclosedLinks<Far>& links, const Interval<Far>& height, const std::vector<Interval<Far>>& y,
+           const End& support) {
         const std::size_t n = links.size();
         Interval<Far> from_below(Far(0)), mass_below(Far(0));
         double size_below = 0;
@@ -69,7 +67,6 @@ struct Forces {
 
 /// The inverse of the derivative, p_i q_j / w for i <= j: p solves it from the free end up, q from the support down.
 struct Inverse {
-    using Far = DoubleDouble;
     std::vector<Far> p, q;
     Far w;
 
@@ -123,15 +120,14 @@ struct Inverse {
 
 /// Offsets that Newton's method leaves no better, the forces there and the inverse of their derivative.
 struct Balance {
-    std::vector<DoubleDouble> offset;
+    std::vector<Far> offset;
     Forces at;
     Inverse inverse;
 };
 
 /// Newton's method to the last digit of double-double; nothing where an offset is out of reach.
 template <class End>
-std::optional<Balance> newton(const std::vector<Link<Interval<DoubleDouble>>>& links,
-                              const Interval<DoubleDouble>& height, std::vector<DoubleDouble> offset,
+std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
                               const End& support) {
     const std::size_t n = offset.size() - 1;
     double last = std::numeric_limits<double>::infinity();
@@ -139,7 +135,7 @@ std::optional<Balance> newton(const std::vector<Link<Interval<DoubleDouble>>>& l
         Forces at(links, height, {offset.begin(), offset.end()}, support);
         if (!at.known) return std::nullopt;
         Inverse inverse(at);
-        const std::vector<DoubleDouble> step = inverse.step(at.force);
+        const std::vector<Far> step = inverse.step(at.force);
         double largest = 0;
         for (std::size_t m = 0; m < n; ++m)
             if (const double y = Inverse::size(offset[m]); y > 0)
@@ -154,10 +150,8 @@ std::optional<Balance> newton(const std::vector<Link<Interval<DoubleDouble>>>& l
 /// Krawczyk's test on all pins at once: how far each may be from its place in the one shape that is so near; nothing
 /// where that is not proved.
 template <class End>
-std::optional<std::vector<double>> proved_radius(const std::vector<Link<Interval<DoubleDouble>>>& links,
-                                                 const Interval<DoubleDouble>& height, const Balance& found,
-                                                 const End& support) {
-    using Far = DoubleDouble;
+std::optional<std::vector<double>> proved_radius(const EnclosedLinks<Far>& links, const Interval<Far>& height,
+                                                 const Balance& found, const End& support) {
     const auto& [offset, at, inverse] = found;
     const auto& [p, q, w] = inverse;
     const std::size_t n = offset.size() - 1;
@@ -202,8 +196,8 @@ std::optional<std::vector<double>> proved_radius(const std::vector<Link<Interval
 /// doi:10.1007/BF02234767. Both with the inverse of the tridiagonal derivative as two vectors: O(N), 4 microseconds a
 /// link; and nothing is wrapped in wider and wider boxes from link to link, as in a sweep.
 template <class End = OnAxis>
-Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const Interval<DoubleDouble>& height,
-                  std::vector<DoubleDouble> offset, const End& support = {}) {
+Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
+                  const End& support = {}) {
     using detail::Inverse;
     Verified result{offset, std::numeric_limits<double>::infinity(), 0};
     if constexpr (is_held<End>)
@@ -221,7 +215,7 @@ Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const 
     for (std::size_t m = 0; m < links.size(); ++m) {
         const double opposite = static_cast<double>(links[m].length.low) * found->at.cosine[m];
         if (radius) worst = std::max(worst, ((*radius)[m] + (m + 1 < n ? (*radius)[m + 1] : 0.0)) / opposite);
-        const DoubleDouble p_above = m + 1 < n ? p[m + 1] : DoubleDouble(0);
+        const Far p_above = m + 1 < n ? p[m + 1] : Far(0);
         const double change =
             Inverse::size(p[m] - p_above) * above[m + 1] + Inverse::size(q[m] - q[m + 1]) * below[m + 1];
         result.condition = std::max(result.condition, change * found->inverse.share() / opposite);
@@ -233,8 +227,7 @@ Verified verified(const std::vector<Link<Interval<DoubleDouble>>>& links, const 
 /// Of mirror images, where there are, the one with its free end at a positive offset.
 template <class End>
 void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
-    if (shape.offset[0] < Wide<double>(0) && support.is_symmetric())
-        for (Wide<double>& offset : shape.offset) offset = -offset;
+    if (shape.offset[0] < Wide<double>(0) && support.is_symmetric()) shape.mirror();
 }
 
 /// A shape that Newton's method found, with error bound and condition of `verified` at heights within `within`; of
@@ -242,16 +235,15 @@ void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
 /// proved. Else, where the height is given, the digits are those of `verified`; where it was found too they stay, as
 /// next to the vertical the height's own rounding moves the shape, and the bound holds what they are off.
 template <class Shape = SteadyShape, class AnyLinks>
-Shape verified_shape(const AnyLinks& chain, const std::vector<Link<Interval<DoubleDouble>>>& enclosed_links,
-                     const Wide<double>& height, const Interval<DoubleDouble>& within, Balanced<Wide<double>> found,
-                     bool height_is_given) {
+Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_links, const Wide<double>& height,
+                     const Interval<Far>& within, Balanced<Wide<double>> found, bool height_is_given) {
     std::vector<Wide<double>>& y = found.offset;
-    const auto support = enclosed<DoubleDouble>(support_of(chain));
+    const auto support = enclosed<Far>(support_of(chain));
     const Verified proved = verified(enclosed_links, within, {y.begin(), y.end()}, support);
     double off = 0;
     if (height_is_given && std::isfinite(proved.inclination_error)) {
         std::transform(proved.offset.begin(), proved.offset.end(), y.begin(),
-                       [](const DoubleDouble& digits) { return digits.word(); });
+                       [](const Far& digits) { return digits.word(); });
     } else {
         for (std::size_t m = 0; m < chain.links.size(); ++m) {
             const Wide<double> d = y[m] - y[m + 1], right = (proved.offset[m] - proved.offset[m + 1]).word(),
