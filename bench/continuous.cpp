@@ -68,7 +68,7 @@ void report(const char* method, double milliseconds, const Table& exact, const T
 void ours(const Table& exact) {
     std::vector<double> times;
     double sink = 0;
-    revchain::ContinuousShapes shapes;
+    revchain::CordShapes shapes;
     for (int i = 0; i < 25; ++i) {
         const double before = bench::cpu_seconds();
         shapes = revchain::steady_shapes(revchain::Cord(length), {.conical_height = 1.0});

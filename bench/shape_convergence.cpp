@@ -18,7 +18,7 @@ using revchain::Index;
 constexpr double ratio = 10;  // length over conical height
 
 /// Of the pins' offsets, over the length of the uncut chain.
-double difference(const support::Cutting<double>& cutting, Index count, const revchain::ContinuousShape& uncut) {
+double difference(const support::Cutting<double>& cutting, Index count, const revchain::CordShape& uncut) {
     const auto chain = cutting.make(count);
     const double length = static_cast<double>(count) + cutting.excess;  // a link is 1 long
     const auto shape = revchain::steady_shape(chain, {.mode = uncut.half_waves, .conical_height = length / ratio});

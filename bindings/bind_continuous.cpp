@@ -6,8 +6,8 @@
 
 namespace {
 
-using revchain::ContinuousShape;
-using revchain::ContinuousShapes;
+using revchain::CordShape;
+using revchain::CordShapes;
 using revchain::LineDensity;
 
 /// A density given is in the unit of the weights; else the cord weighs 1 for each unit of length.
@@ -19,38 +19,38 @@ revchain::Cord cord_of(double length, double tip_weight, std::shared_ptr<const L
 }  // namespace
 
 void bind_continuous(py::module_& module) {
-    const auto column = [](revchain::Vector<double> ContinuousShape::*member) {
-        return [member](const ContinuousShape& shape) { return to_numpy(shape.*member); };
+    const auto column = [](revchain::Vector<double> CordShape::*member) {
+        return [member](const CordShape& shape) { return to_numpy(shape.*member); };
     };
     py::class_<LineDensity, std::shared_ptr<LineDensity>>(module, "LineDensity", "Weight per length, as polynomials.")
         .def(py::init<const std::function<double(double)>&, double>(), "weight_per_length"_a, "length"_a)
         .def("weight_below", &LineDensity::weight_below, "s"_a);
-    py::class_<ContinuousShape>(module, "ContinuousShape", "A steady shape of a whirling chain without links.")
-        .def_property_readonly("arc_length", column(&ContinuousShape::arc_length))
-        .def_property_readonly("offset", column(&ContinuousShape::offset))
-        .def_property_readonly("height", column(&ContinuousShape::height))
-        .def_property_readonly("inclination", column(&ContinuousShape::inclination))
-        .def_property_readonly("tension", column(&ContinuousShape::tension))
-        .def_readonly("half_waves", &ContinuousShape::half_waves)
-        .def_readonly("length", &ContinuousShape::length)
-        .def_readonly("conical_height", &ContinuousShape::conical_height)
-        .def_readonly("residual", &ContinuousShape::residual)
-        .def_readonly("error_bound", &ContinuousShape::error_bound)
-        .def_readonly("condition", &ContinuousShape::condition)
+    py::class_<CordShape>(module, "ContinuousShape", "A steady shape of a whirling chain without links.")
+        .def_property_readonly("arc_length", column(&CordShape::arc_length))
+        .def_property_readonly("offset", column(&CordShape::offset))
+        .def_property_readonly("height", column(&CordShape::height))
+        .def_property_readonly("inclination", column(&CordShape::inclination))
+        .def_property_readonly("tension", column(&CordShape::tension))
+        .def_readonly("half_waves", &CordShape::half_waves)
+        .def_readonly("length", &CordShape::length)
+        .def_readonly("conical_height", &CordShape::conical_height)
+        .def_readonly("residual", &CordShape::residual)
+        .def_readonly("error_bound", &CordShape::error_bound)
+        .def_readonly("condition", &CordShape::condition)
         .def(
             "at",
-            [](const ContinuousShape& shape, const Array& arc) {
+            [](const CordShape& shape, const Array& arc) {
                 return columns<4>(
                     [&](double s) {
-                        const revchain::ContinuousPlace place = shape(s);
+                        const revchain::CordPlace place = shape(s);
                         return std::array{place.offset, place.height, place.inclination, place.tension};
                     },
                     arc);
             },
             "arc"_a);
-    py::class_<ContinuousShapes>(module, "ContinuousShapes", "The steady shapes of a chain without links.")
-        .def_readonly("shapes", &ContinuousShapes::shapes)
-        .def_readonly("complete", &ContinuousShapes::complete);
+    py::class_<CordShapes>(module, "ContinuousShapes", "The steady shapes of a chain without links.")
+        .def_readonly("shapes", &CordShapes::shapes)
+        .def_readonly("complete", &CordShapes::complete);
     module.def(
         "continuous_shapes",
         [](double length, double tip_weight, std::shared_ptr<LineDensity> density, double height, int scanned) {

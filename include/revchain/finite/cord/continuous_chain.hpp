@@ -27,9 +27,9 @@
 namespace revchain {
 
 /// The shapes found, and whether there are more.
-struct ContinuousShapes {
-    std::vector<ContinuousShape> shapes;  ///< by half waves, then the free end's offset
-    bool complete = false;                ///< a theorem says that there are no others
+struct CordShapes {
+    std::vector<CordShape> shapes;  ///< by half waves, then the free end's offset
+    bool complete = false;          ///< a theorem says that there are no others
 };
 
 /// The speed: give either `conical_height` or `angular_speed`.
@@ -68,8 +68,8 @@ inline Path path_at_rest(const ContinuousChain& chain, double height, Path::Opti
 }
 
 /// The shape next to a path all but right; none where no path could be followed that far.
-inline std::optional<ContinuousShape> finished(const PathKind& kind, double tip_offset, int crossing, double length,
-                                               double height) {
+inline std::optional<CordShape> finished(const PathKind& kind, double tip_offset, int crossing, double length,
+                                         double height) {
     for (int round = 0;; ++round) {
         ShapeSamples samples(kind, tip_offset);
         const Path path(kind, tip_offset, {.crossings = crossing}, samples);
@@ -103,7 +103,7 @@ inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::siz
     return ranges;
 }
 
-inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
+inline CordShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
     const double undecided = 32 * epsilon<double>();  // of a length: on which side of a critical height, nobody can say
     const double length = chain.length / height, farthest = length * (1 + undecided);
     const PathKind kind = kind_of(chain, height, 1);
@@ -113,7 +113,7 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
         if (crossing.arc <= farthest) at_rest.push_back(crossing.arc);
     std::size_t count = at_rest.size();
     while (count > 0 && !(at_rest[count - 1] < length * (1 - undecided))) --count;
-    ContinuousShapes result;
+    CordShapes result;
     const bool theorem = kind.is_bare() || at_rest.size() <= 1;
     result.complete = theorem && count == at_rest.size();
     std::vector<std::vector<TipRange>> ranges(count, {{0, length, true}});
@@ -133,7 +133,7 @@ inline ContinuousShapes continuous_shapes(const ContinuousChain& chain, double h
         law = law.of_one_before(crossing);
     }
     std::reverse(result.shapes.begin(), result.shapes.end());
-    for (ContinuousShape& shape : result.shapes) shape.density = chain.density;
+    for (CordShape& shape : result.shapes) shape.density = chain.density;
     return result;
 }
 
@@ -232,7 +232,7 @@ class CordModeShape {
 /// (bench/continuous.cpp); ten times that with a density, and `scanned` paths more.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for a length above 1e6
 /// heights, for `scanned` below 1, and for an exponent of the density above 20.
-inline ContinuousShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
+inline CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes";
     const double height = detail::height_given(place, options);
     if (!(cord.length() / height <= 1e6))

@@ -9,7 +9,7 @@
 namespace revchain {
 
 /// A place on a whirling chain, in the units of the chain.
-struct ContinuousPlace {
+struct CordPlace {
     double arc_length;   ///< from the free end
     double offset;       ///< from the axis
     double height;       ///< above the support: negative where it hangs
@@ -19,7 +19,7 @@ struct ContinuousPlace {
 };
 
 /// One steady shape of a whirling chain without links. The places are dense where it turns sharply: eight to a step.
-struct ContinuousShape {
+struct CordShape {
     Vector<double> arc_length;   ///< (n) from the free end, 0 ... length
     Vector<double> offset;       ///< (n) from the axis; the free end's first, the support's 0 last
     Vector<double> height;       ///< (n) above the support
@@ -34,7 +34,7 @@ struct ContinuousShape {
 
     /// The place at an arc length from the free end. Cost: 1 microsecond.
     /// Throws InvalidArgument outside 0 ... length.
-    ContinuousPlace operator()(double arc) const;
+    CordPlace operator()(double arc) const;
     double angular_speed(double gravity = conical_pendulum::standard_gravity) const {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
@@ -48,7 +48,7 @@ struct ContinuousShape {
 
 namespace finite {
 
-inline ContinuousPlace place_of(const ContinuousShape& shape, const PathState& x) {
+inline CordPlace place_of(const CordShape& shape, const PathState& x) {
     const double below = shape.kind.weight_below(x.arc), lambda = shape.conical_height;
     const double inclination = below == 0 ? std::atan(x.offset) : -std::atan2(x.pull, below);  // the free end's limit
     return {x.arc * lambda, x.offset * lambda, (x.height - shape.support_height) * lambda, inclination,
@@ -87,7 +87,7 @@ class ShapeSamples {
     }
 
     /// The shape: the path, moved in first order by what its last crossing misses the support.
-    ContinuousShape finish(const Path& path, int half_waves, double length, double conical_height) {
+    CordShape finish(const Path& path, int half_waves, double length, double conical_height) {
         const Path::Crossing& support = path.crossings().back();
         const double scaled = length / conical_height, by = (scaled - support.arc) / support.rate;
         add_support();
@@ -96,7 +96,7 @@ class ShapeSamples {
         tip_offset_ += by;
         if (samples_.front().place.arc > 0)
             samples_.insert(samples_.begin(), {Path::near_tip(kind_, tip_offset_, 0), {0, 1, -kind_.tip, 0}});
-        ContinuousShape shape;
+        CordShape shape;
         shape.kind = kind_, shape.steps = path.steps();
         for (std::size_t i = 0; i < shape.steps.size(); ++i) move(shape.steps[i].start, starts_[i], by);
         while (shape.steps.size() > 1 && shape.steps.back().start.arc >= scaled * (1 - 1e-12)) shape.steps.pop_back();
@@ -107,7 +107,7 @@ class ShapeSamples {
         for (Vector<double>* v : {&shape.arc_length, &shape.offset, &shape.height, &shape.inclination, &shape.tension})
             v->resize(count);
         for (Index i = 0; i < count; ++i) {
-            const ContinuousPlace place = place_of(shape, samples_[static_cast<std::size_t>(i)].place);
+            const CordPlace place = place_of(shape, samples_[static_cast<std::size_t>(i)].place);
             shape.arc_length[i] = place.arc_length, shape.offset[i] = place.offset, shape.height[i] = place.height;
             shape.inclination[i] = place.inclination, shape.tension[i] = place.tension;
         }
@@ -172,7 +172,7 @@ class ShapeSamples {
     }
     /// Error and condition from what a change of the free end's offset, and of the place, do to inclinations and
     /// offsets.
-    void judge(ContinuousShape& shape, double length, double rate) const {
+    void judge(CordShape& shape, double length, double rate) const {
         double turned = 0, moved = 0, steepest = 0;
         for (const auto& [x, change] : samples_) {
             const double below = kind_.weight_below(x.arc), squared = x.pull * x.pull + below * below;
@@ -204,11 +204,11 @@ class ShapeSamples {
 
 }  // namespace finite
 
-inline ContinuousPlace ContinuousShape::operator()(double arc) const {
+inline CordPlace CordShape::operator()(double arc) const {
     if (!(arc >= 0 && arc <= length))
-        detail::throw_invalid("ContinuousShape", "arc length must lie between 0 and the length", arc);
+        detail::throw_invalid("CordShape", "arc length must lie between 0 and the length", arc);
     const double scaled = std::min(arc / conical_height, support_arc);
-    ContinuousPlace place = finite::place_of(*this, finite::state_at(kind, steps, tip_offset, scaled));
+    CordPlace place = finite::place_of(*this, finite::state_at(kind, steps, tip_offset, scaled));
     place.arc_length = arc;
     if (arc == length) place.offset = 0;
     return place;

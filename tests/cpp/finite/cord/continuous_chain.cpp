@@ -8,9 +8,9 @@
 #include "support/catch.hpp"
 #include "support/table.hpp"
 
-using revchain::ContinuousShape;
-using revchain::ContinuousShapes;
 using revchain::Cord;
+using revchain::CordShape;
+using revchain::CordShapes;
 using revchain::Index;
 using revchain::LineDensity;
 
@@ -34,16 +34,14 @@ Cord cord(double length, double tip_weight = 0, std::shared_ptr<const LineDensit
     return Cord(length, {.weight = length, .tip_weight = tip_weight});
 }
 
-ContinuousShapes shapes_at(const Cord& of, double height) {
-    return revchain::steady_shapes(of, {.conical_height = height});
-}
+CordShapes shapes_at(const Cord& of, double height) { return revchain::steady_shapes(of, {.conical_height = height}); }
 
 revchain::Vector<double> critical_heights(const Cord& of, Index count) {
     return revchain::finite::critical_heights(revchain::finite::ContinuousChain(of), count);
 }
 
-const ContinuousShape* with(const ContinuousShapes& found, int half_waves) {
-    for (const ContinuousShape& shape : found.shapes)
+const CordShape* with(const CordShapes& found, int half_waves) {
+    for (const CordShape& shape : found.shapes)
         if (shape.half_waves == half_waves) return &shape;
     return nullptr;
 }
@@ -59,7 +57,7 @@ double beads(double s) {
 
 /// Largest resultant, over the largest tension, of weight, centrifugal force and tensions of the chain below a place: by
 /// Simpson's rule on the shape's own places.
-double worst_balance(const ContinuousShape& shape, double tip_weight) {
+double worst_balance(const CordShape& shape, double tip_weight) {
     double pull = tip_weight * shape.offset[0] / shape.conical_height, worst = 0;
     for (Index i = 1; i < shape.arc_length.size(); ++i) {
         const double from = shape.arc_length[i - 1], to = shape.arc_length[i];
@@ -78,7 +76,7 @@ double worst_balance(const ContinuousShape& shape, double tip_weight) {
 TEST_CASE("shapes against 22 digits", "[finite]") {
     std::string chain_of_row;
     std::shared_ptr<LineDensity> density;
-    ContinuousShapes found;
+    CordShapes found;
     double worst_of_bound = 0, worst_residual = 0;
     std::map<std::string, double> worst;  // inclinations, by density; offsets and heights over the length
     int rows = 0;
@@ -92,7 +90,7 @@ TEST_CASE("shapes against 22 digits", "[finite]") {
                 row[0] == "uniform" ? nullptr : std::make_shared<LineDensity>(function_of(row[0], length), length);
             found = shapes_at(cord(length, tip, density), 1.0);
         }
-        const ContinuousShape* shape = with(found, half_waves);
+        const CordShape* shape = with(found, half_waves);
         REQUIRE(shape != nullptr);
         const auto place = (*shape)(std::stod(row[4]));
         const auto error = [](double value, const std::string& exact) {
@@ -130,7 +128,7 @@ TEST_CASE("counted by the critical heights: Kolodner's theorem", "[finite]") {
         CHECK(found.complete);
         CHECK(static_cast<Index>(found.shapes.size()) == (critical.array() > 1.0).count());
         for (std::size_t j = 0; j < found.shapes.size(); ++j) {
-            const ContinuousShape& shape = found.shapes[j];
+            const CordShape& shape = found.shapes[j];
             CAPTURE(j);
             REQUIRE(shape.half_waves == static_cast<int>(j) + 1);
             // Nodes among the places, that lie closer than the shape turns.
@@ -178,7 +176,7 @@ TEST_CASE("forces balance; tip weights; free end", "[finite]") {
             CAPTURE(tip, height);
             REQUIRE(static_cast<Index>(found.shapes.size()) == (critical.array() > height).count());
             CHECK(found.complete == (tip == 0 || found.shapes.size() == 1));
-            for (const ContinuousShape& shape : found.shapes) {
+            for (const CordShape& shape : found.shapes) {
                 CHECK(worst_balance(shape, tip) <= 2e-6);  // Simpson's rule
                 CHECK(std::tan(shape.inclination[0]) == Approx(shape.offset[0] / height).epsilon(1e-13));
                 CHECK(shape.arc_length[0] == 0);
@@ -259,7 +257,7 @@ TEST_CASE("beads on a light thread: more shapes than critical heights", "[finite
     CHECK(few.shapes.size() == 3);
     CHECK(many.shapes.size() == 5);
     CHECK_FALSE(many.complete);
-    for (const ContinuousShape& shape : many.shapes) CHECK(shape.error_bound <= 2e-13);
+    for (const CordShape& shape : many.shapes) CHECK(shape.error_bound <= 2e-13);
     CHECK(with(many, 3) != nullptr);
     // one critical height above: one shape, by the theorem
     const auto one = shapes_at(cord(3, 0, density), 0.5);
@@ -274,7 +272,7 @@ TEST_CASE("jumps of the density", "[finite]") {
     CHECK(density->total() == Approx(40.303).epsilon(1e-13));
     const auto found = shapes_at(cord(1, 0, density), 0.003);
     CHECK(found.shapes.size() == 31);
-    for (const ContinuousShape& shape : found.shapes) {
+    for (const CordShape& shape : found.shapes) {
         CHECK(shape.error_bound <= 1e-11);
         CHECK(shape.residual <= 1e-14);
         double pull = 0, along = 0, worst = 0;
@@ -296,7 +294,7 @@ TEST_CASE("near the free end: the inclination falls as the series says", "[finit
         const auto density = std::make_shared<LineDensity>([=](double s) { return 3 * std::pow(s, power); }, 1);
         for (const bool uniform : {true, false}) {
             if (uniform && power != 0) continue;
-            for (const ContinuousShape& shape : shapes_at(cord(1, 0, uniform ? nullptr : density), 0.02).shapes) {
+            for (const CordShape& shape : shapes_at(cord(1, 0, uniform ? nullptr : density), 0.02).shapes) {
                 const double tip = shape.offset[0] / 0.02, m = (power + 1) / (power + 2);
                 for (double s = 1e-15; s < 1e-6; s *= 3) {
                     const double slope = -tip * m / std::sqrt(1 + tip * tip) / (1 + tip * tip);
