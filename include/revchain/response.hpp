@@ -56,8 +56,8 @@ struct Response {
 /// are not positive and finite or beyond 2^250 times the chain's own, and for pins the chain does not have.
 Response response(const Chain<double>& chain, const ResponseOptions& options);
 
-/// The same for a rig. On a spring it is the spring's place of rest that is carried round. Lowest links that weigh
-/// nothing in a fluid that turns with them hang along with the link above.
+/// Returns the response of a rig. With a spring support the spring's place of rest is carried round. Lowest links that
+/// weigh nothing in a fluid that turns with them hang along with the link above.
 Response response(const Rig& rig, const ResponseOptions& options);
 
 }  // namespace revchain

@@ -74,7 +74,7 @@ struct Deviation {
 template <Real T>
 using Deviations = std::array<std::optional<Deviation<T>>, datum_names.size()>;
 
-/// Of k modes. First order: deviations of the heights are taken as linear in those of the data.
+/// Standard deviations of k modes, to first order: deviations of the heights are taken as linear in those of the data.
 template <Real T>
 struct Uncertainty {
     Vector<T> conical_height;                        ///< (k,) standard deviations, in the unit of the heights

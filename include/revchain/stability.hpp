@@ -52,8 +52,8 @@ struct Stability {
 /// Throws InvalidArgument for a shape of another chain.
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame = StabilityFrame::free);
 
-/// The same for a shape with both ends held: disturbances leave both ends on the axis and their distance alone. N links
-/// have 4 N - 8 exponents if free, 2 N - 4 if driven, times n, with and without gravity.
+/// Returns what becomes of a small disturbance of a shape with both ends held. Both ends stay where they are. N links
+/// have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and without gravity.
 /// Accuracy: exponents to 1e-13 of the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3.
 /// Throws InvalidArgument for a shape of another chain, and for a pin between links without mass.
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame = StabilityFrame::free);

@@ -30,7 +30,7 @@ std::array<T, 2> coupled_roots(const T& p, const T& q, const T& coupling, const 
     return {larger, rest / larger};
 }
 
-/// The same roots, for numbers whose products may overflow or underflow.
+/// Computes these roots for numbers whose products may overflow or underflow.
 template <Real T>
 std::array<T, 2> coupled_roots(std::string_view place, const T& p, const T& q, const Product<Wide<T>>& coupling,
                                const Product<Wide<T>>& rest) {

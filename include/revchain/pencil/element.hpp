@@ -30,13 +30,13 @@ S propagate(const Element<S>& e, const S& stiffness, const S& near, const S& far
     return (stiffness - far) * (near * inverse) - (stiffness - e.turning) * (S(e.weight) * inverse);
 }
 
-/// The same with one operation in the division's wake less: for pencils in one unit, whose products stay in range.
+/// This form has one operation less after the division. It is for pencils in one unit, whose products stay in range.
 template <Real S>
 S propagate_in_one_unit(const Element<S>& e, const S& stiffness, const S& near, const S& far, const S& pivot) {
     return ((stiffness - far) * near - (stiffness - e.turning) * S(e.weight)) / pivot;
 }
 
-/// The same by equation (2), from what couples the two pins, L + X: accurate where that is small and the pivot, too.
+/// Propagates by equation (2), from the coupling L + X of the two pins: accurate where it and the pivot are small.
 template <Real S>
 S propagate_by_coupling(const S& stiffness, const S& far, const S& coupling, const S& inverse) {
     return (stiffness - far) - coupling * (coupling * inverse);
@@ -84,7 +84,7 @@ struct ElementPencil {
     int step_down(std::size_t m) const { return units.empty() || m == 0 ? 0 : units[m - 1] - units[m]; }
 };
 
-/// The same pencil in a narrower scalar; one more rounding in each entry.
+/// Returns the pencil in a narrower scalar, with one more rounding in each entry.
 template <Real T, Real S>
 ElementPencil<T> rounded(const ElementPencil<S>& wide) {
     if constexpr (std::is_same_v<T, S>) {

@@ -57,7 +57,7 @@ struct SignedPencil {
         const X one(S(Narrow<S>(1)));
         return quadratic ? Factors<X>{x + x, one} : Factors<X>{one, X(S(Narrow<S>(0)))};
     }
-    /// The same with every spin reversed: its x are those of this one with the other sign.
+    /// Returns the pencil with every spin reversed: its x are those of this pencil with the other sign.
     SignedPencil reversed() const {
         SignedPencil other = *this;
         for (SignedElement<S>& e : other.elements) e.spin = -e.spin;

@@ -95,7 +95,7 @@ struct CertifiedCount {
     bool proved = false;
 };
 
-/// The same count with a running bound on the error of D, from rounding and from the entries' own error: `proved` when
+/// Counts with a running bound on the error of D, from rounding and from the entries' own error: `proved` when
 /// no pivot's sign is in doubt. The bound follows the exact derivative dD'/dD = ((lambda k + X)/p)^2, without which it
 /// would grow exponentially along the chain. D is carried by whichever of equations (1) and (2) has the smaller bound.
 /// S is usually wider than the scalar of the answer.

@@ -74,7 +74,7 @@ struct Eigenvector {
     std::vector<Crossing<T>> crossings;  ///< lowest first, the held pin left out
 };
 
-/// The same from offsets alone, as dense solvers give them.
+/// Normalises the offsets that a dense solver gives.
 template <Real T>
 Eigenvector<T> normalised(Vector<T> offset) {
     using std::abs;
@@ -95,8 +95,8 @@ Eigenvector<T> normalised(Vector<T> offset) {
     return result;
 }
 
-/// The same before it is rounded to the narrower scalar: offsets over `largest`, whose sign makes the free end
-/// positive.
+/// An eigenvector before it is rounded to the narrower scalar: divide the offsets by `largest`, whose sign makes the
+/// free end positive.
 template <Real S>
 struct UnroundedEigenvector {
     std::vector<S> offset;
@@ -191,7 +191,7 @@ UnroundedEigenvector<S> unrounded_eigenvector(const ElementPencil<S>& pencil, co
     return detail::twisted<S>(elements.size(), rise, sink, forces);
 }
 
-/// The same rounded.
+/// Returns the eigenvector, rounded to the narrower scalar.
 template <Real S>
 Eigenvector<Narrow<S>> eigenvector(const ElementPencil<S>& pencil, const S& eigenvalue) {
     using T = Narrow<S>;

@@ -8,8 +8,8 @@
 #include "revchain/questions/modes.hpp"
 #include "revchain/recurrence.hpp"
 
-/// The same modes by two formulations that share no step with `modes`: slow, less accurate, and for that very reason
-/// its references. Their error bounds are proved by the same counts and say what a dense solver costs in digits.
+/// Modes by two formulations that share no step with `modes`. They are slow and less accurate, and serve as its
+/// references. Their error bounds are proved by the same counts and say what a dense solver costs in digits.
 namespace revchain {
 
 namespace detail {

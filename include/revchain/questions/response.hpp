@@ -55,7 +55,7 @@ struct PinsAsked {
     std::vector<Index> carried_columns;       ///< of the moved end itself
 };
 
-/// Of a chain with so many `links`: pins of links left out as idle are where the lowest of those left is.
+/// The pins asked for, of a chain with so many `links`. A pin of an idle link is where the lowest other pin is.
 inline PinsAsked pins_asked(const ResponseOptions& options, Index links, const DrivenChain& chain) {
     const std::size_t below = chain.elements.size();
     const auto place = [&](Index pin) { return static_cast<std::size_t>(std::max<Index>(0, pin - chain.idle)); };

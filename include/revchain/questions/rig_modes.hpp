@@ -40,7 +40,7 @@ class RigShapeFinder {
     RigShapeFinder(const Rig& rig, Index idle, pencil::SignedPencil<RigWord> sense, std::vector<RigWord> roots)
         : chain_(rig.chain()), idle_(idle), sense_(std::move(sense)), roots_(std::move(roots)) {}
 
-    /// Of `count` modes from index `first` on.
+    /// Returns the shapes of `count` modes from index `first` on.
     ModeShapes<double> operator()(Index first, Index count, Progress* progress) const {
         ModeShapes<double> shapes = room_for_shapes(chain_, count);
         for (Index j = 0; j < count; ++j) {
@@ -150,7 +150,7 @@ inline bool has_nothing(const Rig& rig) {
     return rig.support().is_firm();
 }
 
-/// Of a height in the pencil's unit; the root of -g/height with a positive real part is the rate of growth.
+/// The mode of a height in the pencil's unit; the root of -g/height with a positive real part is the growth rate.
 inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& x, double relative_bound) {
     OtherMode mode;
     mode.conical_height = {std::ldexp(x.real(), rig.units.length_exponent),

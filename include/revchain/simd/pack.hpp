@@ -116,7 +116,7 @@ struct Pack {
     }
     [[gnu::always_inline]] friend Mask operator>(const Pack& x, const Pack& y) { return y < x; }
 
-    // Of bits as well as numbers: they wrap, which whole numbers with a sign must not.
+    // These add bits as well as numbers. They wrap, which whole numbers with a sign must not.
     [[gnu::always_inline]] friend Mask operator+(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i)
                               REVCHAIN_INLINED { r = Integers(Naturals(x.part[i]) + Naturals(y.part[i])); });

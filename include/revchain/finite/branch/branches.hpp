@@ -204,7 +204,7 @@ class Diagram {
                              std::all_of(met.begin(), met.end(), [](int each) { return each == 1; });
     }
 
-    /// That no loop is missing between the heights looked at; loops met on the way are added.
+    /// Proves that no loop is missing between the heights looked at; loops met on the way are added.
     void prove(double first) {
         result_.remark = "branches and lists of all shapes do not agree, or a list is not proved complete";
         if (!result_.consistent) return;

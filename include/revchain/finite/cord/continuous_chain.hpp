@@ -82,7 +82,7 @@ inline std::optional<CordShape> finished(const PathKind& kind, double tip_offset
     }
 }
 
-/// Of each crossing, ranges of the free end's offset at whose ends it lies on different sides of the support.
+/// For each crossing, ranges of the free end's offset at whose ends it lies on different sides of the support.
 inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::size_t crossings, double length,
                                                   int count) {
     std::vector<std::vector<TipRange>> ranges(crossings);

@@ -89,7 +89,7 @@ class PathSeries {
             return std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
         });
     }
-    /// The same where `largest(k)` is the size of the coefficients k.
+    /// The reach where `largest(k)` is the size of the coefficients k.
     template <class Largest>
     static double reach(double tolerance, const Largest& largest) {
         const auto of = [&](std::size_t k) { return std::pow(tolerance / largest(k), 1.0 / static_cast<double>(k)); };
@@ -122,7 +122,7 @@ class PathSeries {
         return x;
     }
     PathState state(double t) const { return reached(t).state; }
-    /// Of a chain that has one: that of this series' piece, at its end too.
+    /// The density, for a chain that has one; at the end of this series it is still that of its piece.
     double density_at(double t) const { return at(density, t); }
     PathChange change(double t) const {
         PathChange x{arc_change[order], offset_change[order], pull_change[order], height_change[order]};

@@ -23,7 +23,7 @@ struct CrossingLaw {
         const double b = (2 - power) / (power - 1);
         return {rise * (1 + b) / (tip_offset * tip_offset), b / tip_offset};
     }
-    /// That of the crossing before `crossing`, off the uniform chain's by as much.
+    /// The law of the crossing before `crossing`, as far from that of the uniform chain as this one.
     CrossingLaw of_one_before(int crossing) const {
         if (crossing < 2) return *this;
         const CrossingLaw here = uniform(crossing), before = uniform(crossing - 1);

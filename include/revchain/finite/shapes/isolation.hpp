@@ -63,7 +63,7 @@ class Cutting {
         if (high > T(2) * low) return sqrt(low) * sqrt(high) * (T(1) + (at - T(0.5)) / T(4));
         return low + at * (high - low);
     }
-    /// None where the range is narrower than `narrowest` of its upper end, or next to 0 of `last` and of 1.
+    /// Returns no cut where the range is narrower than `narrowest` of its upper end, or next to 0 of `last` and of 1.
     std::optional<T> between(const T& low, const T& high, const T& narrowest, const T& last) {
         const T cut = between(low, high);
         const bool narrow = low == T(0) ? high < narrowest * std::min(last, T(1))

@@ -224,7 +224,7 @@ Verified verified(const EnclosedLinks<Far>& links, const Interval<Far>& height, 
     return result;
 }
 
-/// Of mirror images, where there are, the one with its free end at a positive offset.
+/// Where there are mirror images, chooses the one with its free end at a positive offset.
 template <class End>
 void turn_outwards(Balanced<Wide<double>>& shape, const End& support) {
     if (shape.offset[0] < Wide<double>(0) && support.is_symmetric()) shape.mirror();

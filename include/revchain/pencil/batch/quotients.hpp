@@ -13,14 +13,14 @@ struct LaneQuotient {
     V stiffness, inertia, imbalance;
 };
 
-/// Of a shape that is out of balance by `force` at one pin, which bears `mass`.
+/// The quotient of a shape that is out of balance by `force` at one pin, which bears `mass`.
 template <class V>
 [[gnu::always_inline]] inline LaneQuotient<V> quotient_of(const V& stiffness, const V& inertia, const V& force,
                                                           const V& mass) {
     return {stiffness, inertia, force * force * inertia / (mass * (stiffness * stiffness))};
 }
 
-/// Of the shape carried from the free end to the topmost pin but the support.
+/// The quotient of the shape carried from the free end to the topmost pin below the support.
 template <class V, class Links>
 [[gnu::always_inline]] inline LaneQuotient<V> quotient(const Links& links, const V& x) {
     LaneShape<V> s(1.0, 0.0);
@@ -35,8 +35,8 @@ template <class V, class Links>
                        s.force - x * (mass * s.offset) + k * s.offset, mass);
 }
 
-/// Of the shape carried from both ends to the pin where they meet best: for modes that live low in the chain, which
-/// carried on upwards would grow from rounding alone. `work`: 4 * size * block_lanes numbers.
+/// The quotient of the shape carried from both ends to the pin where they meet best. It is for modes that live low in
+/// the chain, which would grow upwards from rounding alone. `work`: 4 * size * block_lanes numbers.
 template <class V, class Links>
 [[gnu::always_inline]] inline LaneQuotient<V> twisted_quotient(const Links& links, const V& x, double* work) {
     LaneShape<V> s(1.0, 0.0);

@@ -105,7 +105,7 @@ template <class V, class Links>
     return x;
 }
 
-/// The same for the recurrence; the `known` zeros found so far are divided out.
+/// Finds the next zero by the recurrence; the `known` zeros found so far are divided out.
 template <class V, class Links>
 [[gnu::always_inline]] inline V next_zero(const Links& links, const double* known, std::ptrdiff_t count) {
     const std::ptrdiff_t left = links.size() - count;

@@ -47,8 +47,8 @@ inline void append_spring(Transfer<V, Degree>& run, const V& flexibility) {
     for (std::size_t i = 1; i <= Degree; ++i) run.b[i] += flexibility * run.d[i - 1];
 }
 
-/// The same for the spring of a link with inertia, whose flexibility f / (1 + mu cross) = f (1 + z cross + ...) depends
-/// on mu; `cross` = X f >= 0.
+/// Appends the spring of a link with inertia, whose flexibility f / (1 + mu cross) = f (1 + z cross + ...) depends on
+/// mu; `cross` = X f >= 0.
 template <class V, std::size_t Degree>
 inline void append_spring(Transfer<V, Degree>& run, const V& flexibility, const V& cross) {
     V to_a = flexibility * run.c[0], to_b = flexibility;
@@ -104,7 +104,7 @@ inline Transfer<V, Degree> merged(const Transfer<V, Degree>& lower, const Transf
     return run;
 }
 
-/// The same polynomials with room for more.
+/// Returns the same polynomials with room for more terms.
 template <std::size_t To, class V, std::size_t From>
 inline Transfer<V, To> extended(const Transfer<V, From>& run) {
     static_assert(From <= To);

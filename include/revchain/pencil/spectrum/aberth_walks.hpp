@@ -94,7 +94,7 @@ struct Offset {
     }
 };
 
-/// The same with its derivative.
+/// An offset with its derivative.
 template <bool rigid>
 struct OffsetAndSlope {
     Four value{1.0}, force{0.0}, slope{0.0}, force_slope{0.0};

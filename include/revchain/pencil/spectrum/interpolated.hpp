@@ -59,7 +59,7 @@ inline void evaluate(const LumpedChain& chain, std::vector<Candidate>& all, cons
     }
 }
 
-/// The same to twice the digits, at the quotients found; walks joined at every pin that `longest` divides.
+/// Refines the quotients found to twice the digits. Walks are joined at every pin that `longest` divides.
 inline void refine(const LumpedChain& chain, std::vector<Candidate>& all, const std::vector<std::size_t>& which,
                    bool placed, std::size_t longest) {
     std::vector<double> shifts;

@@ -91,7 +91,7 @@ template <class V, bool has_cross, bool count>
                                         static_cast<Index>(changes[p][i])};
 }
 
-/// The same for any number of shifts. Without `history`, counts; with it, histories, `history_words` for each shift.
+/// Samples any number of shifts. Without `history` these are counts; with it, `history_words` of history a shift.
 inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vector<double>& shifts,
                                       std::vector<std::uint64_t>* history = nullptr) {
     std::vector<Sample> samples(shifts.size());
