@@ -53,14 +53,16 @@ inline std::string_view to_string(BranchEnd end) {
 
 /// A branch of steady shapes, point by point along its arc, in the units of the chain.
 ///
-/// The arc is measured by the root of the mean square of dtau over the links, tan(inclination) = sinh tau, and of
-/// d log(conical height).
+/// The arc s has no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where tau is given by
+/// tan(inclination) = sinh(tau).
 struct Branch {
     Index mode = 0;  ///< the mode at which it leaves the vertical; 0: an isolated one
+    /// For each point. `tip_inclination`: of the lowest link, rad; `tip_radius`: offset of the free end; `top_tension`:
+    /// size of the reaction at the support; the others as in SteadyShape.
     std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension, moment_of_inertia,
         effective_energy;
-    std::vector<int> half_waves;     ///< sign changes of the offsets, and one
-    std::vector<std::size_t> folds;  ///< points at which the conical height turns, each located by itself
+    std::vector<int> half_waves;     ///< number of sign changes of the offsets, plus 1
+    std::vector<std::size_t> folds;  ///< indices of the points where the conical height has a local extreme (folds)
     BranchEnd end = BranchEnd::budget;
 
     std::size_t size() const { return arc.size(); }
@@ -68,7 +70,8 @@ struct Branch {
         return conical_pendulum::angular_speed(conical_height[point], gravity);
     }
     /// The shape at a point, balanced in double-double. Its bound is proved, except at a fold, where it is an estimate.
-    /// Throws InvalidArgument for the straight chain and past the end.
+    /// Throws InvalidArgument for a point that is the straight chain (point 0 on the branch of a mode), past the end,
+    /// and for a shape that does not balance in double-double.
     SteadyShape shape(std::size_t point) const;
     /// The shapes at which the branch, as far as it was followed, passes a conical height, in the order of the arc.
     /// Accuracy: as of `steady_shape`. Cost: one look at every point, and O(N) for each shape.
@@ -97,12 +100,12 @@ struct BranchOptions {
 /// Method: pseudo-arclength continuation from the mode, all pins at once by tridiagonal elements, in double. A step is
 /// checked: see finite::BranchWalk.
 /// Accuracy: points are good to about 1e-12 (measured: tests/cpp/finite/branch/shape_on_branch.cpp); `shape` gives them
-/// in double-double; folds are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. Where all of the
-/// branch asked for is inclined by less than 1e-3 it is the vertical and its end, from the law of the onset and
-/// balanced in double-double; where no double can tell that end from the vertical it is the vertical alone, `stuck`.
+/// in double-double; folds are located to 1e-6 of the arc, their heights to 1e-13, mostly an ulp. If the wanted part of
+/// the branch is inclined by less than 1e-3 rad, it has two points: the vertical, and the end by the law of the onset,
+/// balanced in double-double. If double cannot tell that end from the vertical, only the vertical is left (`stuck`).
 /// Cost: 4 to 7 O(N) Newton steps a point, some 0.1 microseconds a link each, and 3 N numbers of memory a point.
-/// Throws InvalidArgument for a mode that is none, unless exactly one of height and speed is given, positive and
-/// finite, and for a height that is not below that of the mode.
+/// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one of height and speed
+/// is given, positive and finite, and for a height that is not below that of the mode.
 Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
 /// How far to follow all branches, and what a proof may cost. Give either `min_conical_height` or `max_angular_speed`.
@@ -111,7 +114,7 @@ struct BranchesOptions {
     std::optional<double> max_angular_speed{};  ///< rad/s, with `gravity`
     std::size_t max_points = 10'000;            ///< of each branch
     double max_step = 0.1;                      ///< along the arc
-    int lists = 16;                 ///< proved lists of all shapes, at so many heights evenly spread in their logarithm
+    int lists = 16;                 ///< number of proved lists of all shapes, at heights evenly spaced in the logarithm
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
     long proof_budget = 1'000'000;  ///< links to look at to prove that no branch is missing, 1 to 3 microseconds each
     double gravity = conical_pendulum::standard_gravity;
@@ -120,9 +123,10 @@ struct BranchesOptions {
 /// All branches found above one conical height.
 struct Branches {
     std::vector<Branch> branches;  ///< those of the modes, slowest first, then isolated ones by where they are born
-    double conical_height = 0;     ///< down to which
-    bool consistent =
-        false;  ///< at every height looked at: as many crossings as the proved list has shapes, each one of it
+    double conical_height = 0;     ///< lowest conical height of the diagram
+    /// Every branch ends at that height or is closed, and at every height looked at the branches cross each shape of
+    /// the proved list once and nothing else.
+    bool consistent = false;
     bool complete = false;          ///< consistent, and proved: no branch is missing, not even between those heights
     std::vector<double> looked_at;  ///< conical heights of those lists, descending
     std::string remark;             ///< what may be missing
@@ -132,12 +136,12 @@ struct Branches {
 /// the vertical, and isolated ones that are born in a fold.
 ///
 /// Method: `branch` from every mode; then proved lists of all shapes (`steady_shapes`) at `lists` heights from the end
-/// up, each shape matched with a crossing; one that no branch meets is on an isolated branch, which is followed from it
-/// both ways. `consistent` where all lists are proved complete and every shape in them is met once. Then
-/// finite::DiagramProver, which shows that no loop opens and closes between two of the heights, or finds it:
-/// `complete`. It leaves it false where its budget ends, and where links could hang at several inclinations; `remark`
-/// says between which heights. The proof is about where branches are; that a branch as followed is one of them is
-/// checked (see finite::BranchWalk).
+/// up. Each shape is matched with a crossing of a branch. A shape that no branch crosses lies on an isolated branch,
+/// which is followed from it both ways. `consistent` is true if all lists are proved complete and every shape in them
+/// is met once. finite::DiagramProver then shows that no loop opens and closes between two of the heights, or finds it,
+/// and sets `complete`. `complete` stays false where the proof's budget ends, and where links could hang at several
+/// inclinations; `remark` says between which heights. The proof is about where branches are. It is checked, not proved,
+/// that a computed branch is one of them (see finite::BranchWalk).
 /// Accuracy: as of `branch`.
 /// Cost: that of the lists, 10 ms for three plummets, and of the proof: down to 1/200 of the length 5 to 50 ms for
 /// three links, 0.05 to 0.3 s for five, 0.2 to 0.7 s for six (8,000 to 40,000 rectangles of five and six).
@@ -145,7 +149,7 @@ struct Branches {
 /// 1.
 Branches branches(const Chain<double>& chain, const BranchesOptions& options);
 
-/// Which shape on a branch. Give exactly one of the first five numbers.
+/// Which shape on a branch. Give exactly one of the five numbers from `conical_height` to `top_tension`.
 struct SteadyShapeOptions {
     Index mode = 1;  ///< at which the branch leaves the vertical
     std::optional<double> conical_height{};
@@ -154,7 +158,7 @@ struct SteadyShapeOptions {
     std::optional<double> tip_radius{};       ///< of the free end from the axis
     std::optional<double> top_tension{};      ///< size of the reaction at the support
     double gravity = conical_pendulum::standard_gravity;
-    /// How far down to look; left out: 1e-6 of the height of the mode, and half of a conical height that is given.
+    /// Lowest conical height searched. Absent: 1e-6 of the mode's height, or half of the given height (or g/n^2).
     std::optional<double> min_conical_height{};
     std::size_t max_shapes = std::numeric_limits<std::size_t>::max();  ///< of `shapes_on_branch`
 };
@@ -162,8 +166,8 @@ struct SteadyShapeOptions {
 /// States of one branch, in the order of its arc.
 struct ShapesOnBranch {
     std::vector<SteadyShape> shapes;
-    BranchEnd end = BranchEnd::height;  ///< why the search ended there
-    double searched_to = 0;             ///< the conical height at which it did
+    BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 steps
+    double searched_to = 0;             ///< the conical height at which it ended
 };
 
 /// The first shape along the branch of a mode at which one number is as given: conical height, speed, tip inclination,
@@ -176,13 +180,13 @@ struct ShapesOnBranch {
 /// length: tests/cpp/finite/branch/shape_on_branch.cpp). That the state is on this branch is checked step by step, not
 /// proved.
 /// Cost: O(N), for 100,000 rods at twice the first critical speed 0.4 s.
-/// Throws InvalidArgument for a mode that is none, for anything but one number given, for one out of its range, for a
-/// `min_conical_height` not below the height of the mode, for a speed at which this branch does not exist yet, and
-/// where the number is not met.
+/// Throws InvalidArgument for a mode number outside 1 ... `chain.mode_count()`, unless exactly one number is given, for
+/// one out of its range (`tip_radius` below the length, `top_tension` above the weight), for a `min_conical_height` not
+/// below the height of the mode, for a speed not above the mode's critical speed, and where the number is not met.
 SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& options);
 
-/// Those shapes in the order of the arc, the first `max_shapes` of them; none where the number is not met. Otherwise as
-/// `steady_shape`.
+/// All shapes on the branch at which the number is as given, in the order of the arc, at most `max_shapes` of them. It
+/// returns none, and does not throw, where the number is not met. Otherwise as `steady_shape`.
 ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options);
 
 namespace detail {

@@ -21,7 +21,7 @@
 ///
 /// Arc lengths are measured from the free end. `CordOptions` (system/cord.hpp) has the weight, the density (a power of
 /// the arc length, or a function of it) and a tip weight. `steady_shapes` and what it returns are in
-/// finite/cord/continuous_chain.hpp, which needs no GSL. Both ends of a cord are held by `Held` (held.hpp).
+/// finite/cord/continuous_chain.hpp, which needs no GSL. For a cord held at both ends see `Held` (held.hpp).
 /// The closed forms: special/heavy_chain.hpp, special/tapered_chain.hpp, special/tip_mass.hpp.
 /// Greenhill (1908) section 4.
 namespace revchain {
@@ -37,8 +37,8 @@ struct CordModes {
 
     Index size() const { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// Offset of the mode at index j at arc length s, over that of the free end. Throws InvalidArgument outside 0 ...
-    /// length. Cost: 1 to 15 microseconds, 100 with a density function; much less a place in the second form.
+    /// Offset of the mode at index j at arc length s, divided by that of the free end. Throws InvalidArgument for s not
+    /// in 0 ... length. Cost: 1 to 15 microseconds, 100 with a density function; for a vector of s much less per place.
     double offset(Index j, double s) const;
     Vector<double> offset(Index j, const Vector<double>& s) const;
     /// Arc lengths at which the mode at index j crosses the axis, ascending, without the support.
@@ -59,9 +59,9 @@ struct CordModes {
 /// within 1e-14, of the largest one.
 /// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
 /// wanted.
-/// Throws InvalidArgument as `modes` of a chain does, for all modes (there are infinitely many), for `certify`, for
-/// modes above number 1e5 with series, and where a density or a tip cannot be followed. `method` and `other` of the
-/// options have no effect.
+/// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for `certify`, for
+/// modes above number 1e5 with series, and for a density too rough or a tip too heavy for the series. `method` and
+/// `other` of the options have no effect.
 CordModes modes(const Cord& cord, const ModesOptions<double>& options = {});
 
 /// The number of modes slower than a speed. Heights within `CordModes::error_bound` of the one given may be counted on

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "revchain/conical_pendulum.hpp"
@@ -25,6 +26,9 @@ struct SpeedWindow {
     T low{};
     T high{};
 };
+
+/// As a count of modes: all there are.
+inline constexpr Index all_modes = std::numeric_limits<Index>::max();
 
 /// The modes number `first` (from 1, slowest first) to `first + count - 1`.
 struct ModeRange {
@@ -70,11 +74,11 @@ HeightWindow<T> window_of_heights(const SpeedWindow<T>& window, const T& gravity
 
 }  // namespace detail
 
-/// Counts the modes of one chain on either side of a height or a speed, without computing any: assembled once, then
-/// one O(N) pass for each question.
+/// Counts the modes of one chain above a conical height or below a speed, without computing any mode. The chain is
+/// assembled once; each count is one O(N) pass.
 ///
-/// The count is proved, in T (15 ns per link in double) and where rounding leaves that in doubt in `Wide<T>`. A conical
-/// height that agrees with the one asked to within 2^20 roundings of `Wide<T>` (4e-25 in double) is held equal to it,
+/// The count is proved: in T (15 ns per link in double) or, where rounding leaves that in doubt, in `Wide<T>`. A
+/// conical height within 2^20 roundings of `Wide<T>` (relative 4e-25 in double) of the given one counts as equal to it,
 /// so that neither exceeds the other.
 template <Real T>
 class ModeCounter {

@@ -27,9 +27,9 @@ struct Explanation {
     std::string text() const;
 };
 
-/// The choice that `modes(chain, options)` makes, from `first`, `count` and `rtol`. Nothing is solved.
-/// Accuracy: error bounds are those that each method is sure to keep, times were within a factor of 3 of measured times
-/// (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does, and for windows.
+/// Returns the automatic choice of `modes(chain, options)`, from `first`, `count` and `rtol`; `method` is ignored. No
+/// mode is computed. Accuracy: each method keeps its error bound; predicted times were within a factor of 3 of measured
+/// times (bench/models.cpp). Cost: some microseconds. Throws InvalidArgument as `modes` does, and for windows.
 Explanation explain(const Chain<double>& chain, const ModesOptions<double>& options = {});
 
 /// Throws InvalidArgument: a rig has one method for each kind, which `RigModes::method` names.

@@ -18,7 +18,7 @@
 ///
 ///     const auto rods = revchain::Chain<double>::uniform_rods(40, 1.0);
 ///     const auto shapes = revchain::steady_shapes(revchain::Held(rods, {.span = 0.5}), {.angular_speed = 10.0});
-///     shapes.shapes[0].offset.maxCoeff();   // 0.391553 m: the sag
+///     shapes.shapes[0].offset.maxCoeff();   // 0.391553 m: the largest distance from the axis
 ///     shapes.shapes[0].error_bound;         // of every inclination, rad: proved
 ///     const auto m = revchain::modes(revchain::Held(rods, {.tension = 11.0}), {.count = 2});
 ///     m.angular_speed()[0];                 // 31.8773 rad/s: here the straight chain begins to whirl
@@ -31,7 +31,7 @@ namespace revchain {
 struct HeldBy {
     std::optional<double> span{};     ///< distance of the two ends, less than the length
     std::optional<double> tension{};  ///< at the upper end, in the unit of the weights; without gravity, newtons
-    bool weightless = false;          ///< without gravity; weights are masses then, and shapes depend on no speed
+    bool weightless = false;          ///< no gravity: weights are masses; for a span, the speed plays no part
 };
 
 /// A `Chain<double>` or a `Cord` held at both ends. It is checked once, here.
@@ -70,8 +70,8 @@ class Held {
     HeldBy by_;
 };
 
-/// The speed, and how many half waves to look for. Give either `conical_height` or `angular_speed`; without gravity
-/// only `angular_speed`, and with a span neither is needed.
+/// The speed, and how many half waves to look for. With gravity give either `conical_height` or `angular_speed`.
+/// Without gravity do not give `conical_height`; a tension then needs `angular_speed`, a span needs neither.
 struct HeldShapesOptions {
     std::optional<double> conical_height{};
     std::optional<double> angular_speed{};                ///< rad/s

@@ -36,20 +36,17 @@ enum class ModesMethod {
     interpolated,  ///< the characteristic polynomial is interpolated: many modes
 };
 
-/// As `ModesOptions::count`: every mode there is.
-inline constexpr Index all_modes = std::numeric_limits<Index>::max();
-
 /// Which modes, and how accurately. Modes are chosen by number (`first`, `count`) or by one window, not both.
 template <Real T>
 struct ModesOptions {
     Index first = 1;                                  ///< number of the first mode, from 1 for the slowest
-    std::optional<Index> count{};                     ///< number of modes from `first` on; absent: 10, or all if fewer
+    std::optional<Index> count{};                     ///< how many, or `all_modes`; absent: 10, or all if fewer
     std::optional<HeightWindow<T>> conical_height{};  ///< window low < conical height <= high
     std::optional<SpeedWindow<T>> angular_speed{};    ///< window low <= whirl speed < high
     std::optional<T> rtol{};  ///< relative tolerance of the conical heights; absent: as accurate as T allows
     bool certify = false;     ///< also return `Certificate`: intervals that hold the heights, with the counts
-    T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed and for rigs with flywheels
-    bool other = true;                                  ///< rigs: also list what is no steady motion
+    T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed, and for all speeds of rigs
+    bool other = true;                                  ///< rigs: also find `RigModes::other`
     Progress* progress = nullptr;                       ///< read and cancelled from another thread
     /// A method that cannot serve the chain is replaced by bisection; `Modes::method` says which one was used.
     ModesMethod method = ModesMethod::automatic;
@@ -69,9 +66,9 @@ struct Certificate {
 /// Shapes of k modes of a chain of N links.
 template <Real T>
 struct ModeShapes {
-    Table<T> offset;     ///< (k, N+1) of the pins, free end first, support last (0); largest |offset| = 1, free end
-                         ///< positive
-    Vector<T> residual;  ///< (k,) force left unbalanced at a pin, relative to the forces that meet there
+    Table<T> offset;     ///< (k, N+1) of the pins, free end first, support last (0 unless it yields); largest
+                         ///< |offset| = 1, free end positive
+    Vector<T> residual;  ///< (k,) largest force left unbalanced at a pin over the largest sum of forces at a pin
     std::vector<Vector<T>> nodes;  ///< k lists: distances from the free end where the mode crosses the axis
 };
 
@@ -115,19 +112,20 @@ struct Modes {
 
 /// The modes chosen by `options`; their shapes are computed when they are asked for.
 ///
-/// `rtol` decides the cost: the cheapest method is taken whose bound keeps it, from closed forms, zeros of Bessel
-/// functions and coarse chains to the numerical methods of `ModesMethod`; `method` in the result names it.
+/// The cheapest method whose error bound is at most `rtol` is used; `Modes::method` names it. The methods range from
+/// closed forms, zeros of Bessel functions and coarse chains to the numerical ones of `ModesMethod`.
 /// Windows are decided by proved counts (`ModeCounter::within`), not by the rounded heights that are returned.
 /// Accuracy without `rtol`: conical heights within 0.501 ulp of the exact ones of the stored numbers (measured, N up
 /// to 1e5, ten kinds of chain: tests/cpp/modes.cpp), the bound at most 2 ulp and proved by counts. With `rtol` the
-/// bound keeps it. It is proved by counts for the methods of `ModesMethod` and for coarse chains, and derived and
-/// measured to hold for closed forms, continuous chains and asymptotic formulas; `certify` proves it for all.
-/// Shapes are within 3.5e-16 of the largest offset, and with a looser `rtol` within rtol / (gap to the next height).
+/// bound is at most `rtol`, and proved by counts for the methods of `ModesMethod` and for coarse chains. For closed
+/// forms, continuous chains and asymptotic formulas it is derived and measured to hold; `certify` proves it for all.
+/// Shapes are within 3.5e-16 / gap of the largest offset, with a looser `rtol` within rtol / gap. The gap, at most 1,
+/// is the relative distance to the next height.
 /// Where `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
-/// Numerical methods count modes in T at eight shifts in one pass; then come a twisted vector, its Rayleigh quotient in
-/// `Wide<T>` and two proved counts. A chain of floats is solved in double. In long double and wider scalars, heights
-/// come from bisection.
-/// Cost in double: 0.3 microseconds a link and mode, 0.005 for many modes; shapes 0.25. Memory O(N k) with shapes.
+/// Method: modes are counted in T at eight trial heights in one pass. A twisted factorization then gives a shape, the
+/// shape a Rayleigh quotient in `Wide<T>`, and two counts prove the bound. A chain of floats is solved in double. In
+/// long double and wider scalars, heights come from bisection.
+/// Cost in double per link and mode: 0.3 microseconds, 0.005 for many modes; shapes 0.25. Memory O(N k) with shapes.
 /// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window that is empty by its ends,
 /// numbers together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
 /// status is `Status::tolerance_not_met` and the bounds are those reached.

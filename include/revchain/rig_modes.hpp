@@ -36,12 +36,12 @@ struct WhirlModes {
     Vector<double> shape(Index j) const { return lazy_shapes.one(size(), j); }
 };
 
-/// A solution that is no steady motion: its conical height is negative or complex, or its speed complex; or infinite,
-/// where a coordinate is weightless and stays at rest wherever it is put.
+/// A solution that is no steady motion: its conical height is negative or complex, or its speed is complex. The height
+/// is infinite and the speed 0 where no force acts on a coordinate: it stays at rest wherever it is put.
 struct OtherMode {
     std::complex<double> conical_height;  ///< lambda
     std::complex<double>
-        angular_speed;       ///< n with lambda n^2 = g: the root that grows or, with momentum, the one found
+        angular_speed;       ///< n, rad/s, lambda n^2 = g: without momentum, of its two signs the one that grows
     double growth_rate = 0;  ///< |Im n|, 1/s: small offsets grow as exp(growth_rate t)
     double error_bound = std::numeric_limits<double>::infinity();  ///< of the height, relative to its size; proved
 };
@@ -54,18 +54,18 @@ struct SlackLink {
 
 /// Whirl modes of a rig.
 struct RigModes {
-    bool has_momentum = false;
-    WhirlModes forward;   ///< n > 0; without flywheels both senses are alike, and all modes are here
-    WhirlModes backward;  ///< n < 0; empty without flywheels
+    bool has_momentum = false;  ///< whether a flywheel has momentum of its own
+    WhirlModes forward;         ///< n > 0; without such momentum both directions are alike, and all modes are here
+    WhirlModes backward;        ///< n < 0; empty without such momentum
     std::vector<OtherMode> other;
-    std::vector<SlackLink> slack;  ///< slowest first: those between 0 and the fastest speed found of their sense
+    std::vector<SlackLink> slack;  ///< slowest first: those between 0 and the fastest speed found in their direction
     /// Whether `forward.available`, `backward.available` and `other`, if asked for, are proved to be all there are.
     bool complete = false;
-    std::string method;  ///< "modes", "counts", "discs"
-    Status status = Status::success;
+    std::string method;               ///< "modes": as a plain chain; "counts"; "discs": dense eigenproblem
+    Status status = Status::success;  ///< `tolerance_not_met` if a bound or `complete` could not be proved
 };
 
-/// Beyond so many elements (the links, and a support that yields) no dense eigenproblem is solved for a rig.
+/// Largest number of elements (links, plus 1 for a support that yields) for a dense eigenproblem of a rig.
 inline constexpr Index dense_rig_limit = 200;
 
 /// Whirl speeds of small amplitude of a rig: Greenhill (1908) §8 (21) with supports, standing links, floats and
@@ -85,8 +85,9 @@ inline constexpr Index dense_rig_limit = 200;
 /// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of chains. A rig that is a plain chain
 /// is solved as a chain.
 /// Cost: 1 microsecond per link and mode with shapes, O(N k) memory; discs take seconds at the limit.
-/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, windows, and beyond the limit. A
-/// bound that could not be proved is infinite and the status `tolerance_not_met`.
+/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, windows, `certify`, and a dense
+/// eigenproblem beyond `dense_rig_limit`. A bound that could not be proved is infinite and the status
+/// `tolerance_not_met`.
 RigModes modes(const Rig& rig, const ModesOptions<double>& options = {});
 
 /// Throws InvalidArgument: modes of a rig cannot be counted yet.

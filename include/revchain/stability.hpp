@@ -7,55 +7,63 @@
 
 #include "revchain/chain.hpp"
 
+/// Stability of a steady shape: whether a small disturbance grows.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 1.0)});
+///     const auto found = revchain::steady_shapes(chain, {.conical_height = 0.5});   // steady_shapes.hpp
+///     const auto s = revchain::stability(chain, found.shapes[0]);
+///     s.verdict == revchain::Verdict::minimum;   // true
+///     s.exponents.back().imag();                 // 1.32288: it swings with 1.32288 times the turning speed
 namespace revchain {
 
 struct SteadyShape;  // revchain/steady_shapes.hpp
 struct HeldShape;    // revchain/held.hpp
 
-/// In what a chain is free to move when it is disturbed.
+/// How a chain can move when it is disturbed.
 enum class StabilityFrame {
-    free,    ///< ball joints, no torque about the axis: in and out of the plane of the shape
-    driven,  ///< axles at right angles to a plane that is made to turn: in that plane alone
+    free,    ///< ball joints, no torque about the axis: it moves in and out of the plane of the shape
+    driven,  ///< hinges in a plane that a motor turns at constant speed: it moves in that plane only
 };
 
 /// What becomes of a small disturbance of a steady shape.
 enum class Verdict {
-    minimum,  ///< of the energy seen from the turning frame (free: at constant angular momentum): it stays small
-    spectrally_stable,  ///< it swings and does not grow, to first order, by gyroscopic forces
+    minimum,            ///< the energy in the turning frame (free: at fixed angular momentum) is least: it stays small
+    spectrally_stable,  ///< the energy is not least, but gyroscopic forces keep it from growing, to first order
     unstable,           ///< it grows
-    undecided,          ///< within the error of the exponents
+    undecided,          ///< the errors of the exponents leave it open
 };
 inline std::string_view to_string(Verdict verdict) {
     constexpr std::string_view names[]{"minimum", "spectrally stable", "unstable", "undecided"};
     return names[static_cast<std::size_t>(verdict)];
 }
 
-/// Times in units of 1/n, the turning speed.
+/// Stability of one shape. Exponents, growth rate and margin are over the turning speed n: times n they are in 1/s.
 struct Stability {
     StabilityFrame frame = StabilityFrame::free;
     Verdict verdict = Verdict::undecided;
     std::vector<std::complex<double>>
-        exponents;                  ///< s of exp(s n t), by imaginary part; free: without rotation's own 0, 0
-    double growth_rate = 0;         ///< largest real part
-    double margin = 0;              ///< what of the growth rate rounding may explain
-    Index negative_directions = 0;  ///< of the Hessian; free: of the amended one, rotation left out
+        exponents;                  ///< s of exp(s n t), by imaginary part; free: without the double 0 of a rotation
+    double growth_rate = 0;         ///< largest real part of an exponent; at least 0
+    double margin = 0;              ///< a growth rate up to this may be rounding error
+    Index negative_directions = 0;  ///< negative eigenvalues of the energy's Hessian (free: amended, no rotation)
 };
 
 /// Returns what becomes of a small disturbance of a steady shape of `chain`.
 ///
-/// Rotation about the axis costs nothing; in the free frame it is taken out by the angular momentum's constancy, which
-/// adds 4 b b' / (y0'M y0), b = B y0, y0 the shape, to the stiffness in the plane, so that no double zero blurs the
-/// exponents. Links are rods without inertia about their own axes: 4 N - 2 exponents of N links if free, 2 N if driven;
-/// fewer where links have no weight, as two that meet in a pin without mass stay in line.
+/// A rotation of the shape about the axis does not change the energy. In the free frame constant angular momentum
+/// removes it: this adds 4 b b' / (y0'M y0) to the stiffness in the plane, with b = B y0, y0 the shape's offsets, M the
+/// mass matrix and B the gyroscopic coupling. So no double zero blurs the exponents. Links are rods without inertia
+/// about their own axes. N links have 4 N - 2 exponents if free, 2 N if driven; fewer where links have no weight,
+/// because two links that meet in a pin without mass stay in line.
 /// Accuracy: exponents to about 1e-13 of the largest where they are simple. Cost (4 N)^3: 1 ms for 10 links, a second
 /// for 100. N = 1: omega = n sqrt(1 + 3 cos^2 d) free, n sin d driven (section 7 (6)).
-/// Throws InvalidArgument for a shape of another chain.
+/// Throws InvalidArgument if chain and shape differ in the number or the lengths of links; weights are not compared.
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame = StabilityFrame::free);
 
 /// Returns what becomes of a small disturbance of a shape with both ends held. Both ends stay where they are. N links
 /// have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and without gravity.
 /// Accuracy: exponents to 1e-13 of the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3.
-/// Throws InvalidArgument for a shape of another chain, and for a pin between links without mass.
+/// Throws InvalidArgument as above, and for a free pin that carries no mass.
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame = StabilityFrame::free);
 
 }  // namespace revchain

@@ -27,18 +27,18 @@ struct StabilityWindow {
 struct StabilityWindowsOptions {
     StabilityFrame frame = StabilityFrame::free;
     double tolerance = 1e-6;  ///< of the edges, relative in conical height and absolute in arc
-    int samples = 8;          ///< looked at between two points of the branch
+    int samples = 8;          ///< equal parts of the step between two points; a verdict at each end of a part
 };
 
-/// Where along a branch its shapes are stable and where not: windows in the order of the arc that cover it but for the
-/// vertical itself and what lies between there and the branch's first point.
+/// Returns the parts of a branch with one verdict each, in the order of the arc. They cover the branch from its first
+/// point off the vertical to its end.
 ///
-/// Method: `stability` at every point of the branch and `samples - 1` places between; where the verdict changes the
-/// step is halved until it is as short as asked. A window shorter than the places are apart can be missed: nothing is
-/// proved.
+/// Method: `stability` at every point of the branch and at `samples - 1` places between two points. Where the verdict
+/// changes, the step is halved until it is as short as `tolerance`. A window shorter than the distance of two places
+/// can be missed: the result is not proved.
 /// Accuracy: edges to `tolerance` (measured: two equal plummets, second branch, 0.463321 of the critical height). Cost:
 /// some (4 N)^3 for every place.
-/// Throws InvalidArgument for a branch of another chain, a tolerance not positive and samples below 1.
+/// Throws InvalidArgument if the numbers of links differ, for a tolerance not above 0 and for `samples` below 1.
 std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
                                                const StabilityWindowsOptions& options = {});
 

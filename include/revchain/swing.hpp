@@ -39,17 +39,17 @@ struct Swing {
     Vector<double> cosine, sine;       ///< (k,) offsets are the sum of shape (cosine cos + sine sin)(frequency t)
     Vector<double> start;              ///< (N+1) offsets at time 0: those given, but for pins without inertia
     bool projected = false;            ///< whether `start` differs from what was given
-    double energy_left_out = 0;        ///< bound of the energy that the modes kept do not hold, at any time
-    Vector<double> truncation_error;   ///< (N+1) bound of what that does to each offset at any time
-    Vector<double> error_bound;        ///< (times,) of every offset as the sum of the modes kept
+    double energy_left_out = 0;        ///< bound of the energy outside the first `count` modes, weight times length
+    Vector<double> truncation_error;   ///< (N+1) bound, at any time, of the part of each offset in those other modes
+    Vector<double> error_bound;        ///< (times,) of every offset, a length, without `truncation_error`
 };
 
 /// Small oscillations of a hanging chain in a plane, superposed from its modes: their conical heights lambda are those
 /// of whirling, the frequencies sqrt(g / lambda).
 ///
-/// A pin without inertia (between massless threads) cannot start anywhere: it is at once where the pull of its
-/// neighbours has it. `start` holds the offsets of least potential energy with the same momenta, and `projected` says
-/// that they differ from those given.
+/// A pin without inertia (between massless threads) has no start of its own: it goes at once to where its neighbours
+/// pull it. `start` holds the offsets of least potential energy with the same momenta; `projected` is true if they
+/// differ from those given.
 ///
 /// Heights, shapes, frequencies and angles are in double-double, and offsets are summed with compensation. Two bounds
 /// hold for every offset at every time, both proved (docs/accuracy.md, "Small oscillations"): `truncation_error`, from

@@ -16,7 +16,7 @@
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
 ///     const auto t = revchain::tune(chain, {.mode = 1, .link = 1, .datum = revchain::Datum::length_in_proportion,
 ///                                           .angular_speed = 3.0});
-///     t.value;        // the length of the lowest link, m; t.error_bound is proved
+///     t.value;        // 0.924471 m: the length of the lowest link; t.error_bound is proved
 ///     t.chain;        // the chain with that length
 namespace revchain {
 
@@ -28,16 +28,16 @@ struct TuneOptions {
     std::optional<double> conical_height{};               ///< give this or `angular_speed`
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`
-    /// The range searched. Absent: a thousandth and a thousand times the present value of a weight or length (of the
-    /// whole chain's weight for a massless link); of a centroid and a radius of gyration 0 and the link's length, or as
-    /// far as the present value.
+    /// The range searched. Absent: for a weight or length, the present value / 1000 and times 1000 (for a massless
+    /// link, the whole chain's weight instead); for a centroid or radius of gyration, 0 and the link's length, extended
+    /// to the present value if that is outside.
     std::optional<double> low{}, high{};
 };
 
 enum class TuneStatus {
-    found,      ///< `value`
-    no_value,   ///< none does between `low` and `high`
-    undecided,  ///< none was found, and that there is none could not be proved
+    found,      ///< `value` gives the mode its height
+    no_value,   ///< proved: no value between `low` and `high` does
+    undecided,  ///< no value was found, but it is not proved that there is none
 };
 
 inline std::string_view to_string(TuneStatus status) {
@@ -47,30 +47,31 @@ inline std::string_view to_string(TuneStatus status) {
 struct Tuned {
     TuneStatus status = TuneStatus::undecided;
     double present{};                                         ///< the datum of the chain given
-    double value = std::numeric_limits<double>::quiet_NaN();  ///< nearest to the present one that does; else NaN
-    /// Absolute: proved counts on either side that far away differ, so that the exact value lies between.
+    double value = std::numeric_limits<double>::quiet_NaN();  ///< the one of `values` nearest to `present`; else NaN
+    /// Absolute error bound of `value`: proved counts of modes at this distance on either side of it differ.
     double error_bound = std::numeric_limits<double>::infinity();
     std::vector<double> values{};  ///< those found, ascending
-    /// `values` are all there are between `low` and `high`: every root of the quadratic is a mode's by proved counts.
-    /// Not said of weights, where the nearest on each side of the present value are found.
+    /// Proved: `values` has every solution between `low` and `high`, as counts assign each root of the quadratic to a
+    /// mode. Always false for a weight: only the nearest solution on each side of the present value is looked for.
     bool complete = false;
-    double low{}, high{};                                            ///< searched between
-    double lowest_height = std::numeric_limits<double>::infinity();  ///< of those reached between, the extremes seen
+    double low{}, high{};  ///< the range searched, without the part in which the link would stand
+    /// Extremes of the mode's height seen in that range. Set for a weight, and for every datum if no value is found.
+    double lowest_height = std::numeric_limits<double>::infinity();
     double highest_height = 0;
     std::optional<Chain<double>> chain{};  ///< with `value` in place
 };
 
 /// Which value of a datum gives a mode a conical height or whirl speed.
 ///
-/// At a given height the chain below and above a link is a spring at each of its pins. For a length, a centroid or a
-/// radius of gyration the values wanted are therefore roots of a quadratic at most, of any mode; proved counts on each
-/// side tell which of them is this mode's, and how near the exact one. A weight bears on all links above: there the
+/// At a given height the chain below and above a link acts as a spring at each of its pins. A length, a centroid or a
+/// radius of gyration that gives any mode this height is then a root of an equation of degree 1 or 2. Proved counts on
+/// each side of a root tell whether it belongs to this mode, and bound its error. A weight loads all links above; its
 /// nearest value on each side is approached in steps that provably pass none.
 /// Accuracy: `error_bound`, proved; 1 to 4 ulp of the value where its logarithmic derivative is not small, measured
 /// (tests/cpp/tune.cpp). Where no value is found, the extremes of the heights are those seen at 33 places.
 /// Cost: some 10 to 60 counts of O(N); of a weight some 10 to 100 heights.
 /// Throws InvalidArgument for numbers out of range, unless exactly one of height and speed is given, for a range in
-/// which the link would stand, and where weights are more than 1e123 apart.
+/// which the link always stands (a part in which it stands is cut off), and for weights more than 1e123 apart.
 Tuned tune(const Chain<double>& chain, const TuneOptions& options);
 
 /// Throws InvalidArgument: a rig cannot be tuned yet.

@@ -115,7 +115,7 @@ TEST_CASE("links that weigh nothing in the fluid around them", "[linear]") {
         CHECK(m.backward.size() == 0);
         CHECK(infinite(m) == 1);
     }
-    for (const std::size_t size : {1, 2, 3})  // turning with the fluid such a link is not there
+    for (const std::size_t size : {1u, 2u, 3u})  // turning with the fluid such a link is not there
         for (const bool lowest : {true, false}) {
             if (!lowest && size < 3) continue;
             std::vector<Link<double>> links(size, one);

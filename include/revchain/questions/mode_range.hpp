@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "revchain/modes.hpp"
+#include "revchain/count.hpp"
 
 /// Which modes the options of a question mean.
 namespace revchain::detail {
@@ -12,15 +12,16 @@ namespace revchain::detail {
 /// Modes found where no count is given and there are as many.
 inline constexpr Index default_count = 10;
 
-template <Real T>
-void check(const ModesOptions<T>& options) {
-    if (options.rtol && !(*options.rtol >= T(0)))
-        throw_invalid("modes", "rtol must not be negative or NaN", *options.rtol);
+template <class Options>
+void check(const Options& options) {
+    if (!options.rtol) return;
+    const auto rtol = *options.rtol;
+    if (!(rtol >= decltype(rtol)(0))) throw_invalid("modes", "rtol must not be negative or NaN", rtol);
 }
 
 /// The numbers of the modes asked for, of `all` there are; `in_heights` and `in_speeds` find those in a window.
-template <Real T, class InHeights, class InSpeeds>
-ModeRange chosen(Index all, const ModesOptions<T>& options, const InHeights& in_heights, const InSpeeds& in_speeds) {
+template <class Options, class InHeights, class InSpeeds>
+ModeRange chosen(Index all, const Options& options, const InHeights& in_heights, const InSpeeds& in_speeds) {
     const bool numbered = options.first != 1 || options.count.has_value();
     if (numbered + options.conical_height.has_value() + options.angular_speed.has_value() > 1)
         throw_invalid("modes",

@@ -16,15 +16,18 @@ using TangentBox = std::vector<Interval<T>>;
 
 template <Real T>
 bool within(const TangentBox<T>& x, const TangentBox<T>& y) {
-    return std::ranges::equal(x, y, [](const auto& a, const auto& b) { return b.low <= a.low && a.high <= b.high; });
+    return std::equal(x.begin(), x.end(), y.begin(),
+                      [](const auto& a, const auto& b) { return b.low <= a.low && a.high <= b.high; });
 }
 template <Real T>
 bool strictly_within(const TangentBox<T>& x, const TangentBox<T>& y) {
-    return std::ranges::equal(x, y, [](const auto& a, const auto& b) { return b.low < a.low && a.high < b.high; });
+    return std::equal(x.begin(), x.end(), y.begin(),
+                      [](const auto& a, const auto& b) { return b.low < a.low && a.high < b.high; });
 }
 template <Real T>
 bool apart(const TangentBox<T>& x, const TangentBox<T>& y) {
-    return !std::ranges::equal(x, y, [](const auto& a, const auto& b) { return !(a.high < b.low || b.high < a.low); });
+    return !std::equal(x.begin(), x.end(), y.begin(),
+                       [](const auto& a, const auto& b) { return !(a.high < b.low || b.high < a.low); });
 }
 template <Real T>
 TangentBox<T> mirrored(TangentBox<T> x) {

@@ -159,6 +159,14 @@ Disturbed disturbed(const Chain<double>& chain, const Shape& shape) {
     if (shape.inclination.size() != chain.size())
         revchain::detail::throw_invalid("stability", "the shape is not of this chain; its links number",
                                         shape.inclination.size());
+    const double rounding = 1e-12 * chain.total_length();
+    for (Index m = 0; m < chain.size(); ++m) {
+        const double length = std::hypot(shape.offset[m] - shape.offset[m + 1], shape.height[m] - shape.height[m + 1]);
+        if (!(std::abs(length - chain.length()[m]) <= rounding))
+            revchain::detail::throw_invalid(
+                "stability", "the shape is not of this chain; in it link " + std::to_string(m) + " is as long as",
+                length);
+    }
     return Disturbed(pulled_links(links_of(chain), shape));
 }
 
