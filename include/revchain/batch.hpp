@@ -8,6 +8,14 @@
 
 #include "revchain/chain.hpp"
 
+/// Conical heights of many small chains at once.
+///
+///     const double weight[] = {1.0, 2.0, 1.0, 1.5, 0.5, 1.0};    // two chains of three plummets, the lowest first
+///     const double length = 0.2;                                 // m; one number serves all links
+///     const revchain::ChainBatch<double> batch{
+///         .chains = 2, .size = 3, .weight = {weight, 3, 1}, .length = {&length}};
+///     const auto heights = revchain::conical_heights(batch);     // a row for each chain, the slowest mode first
+///     heights(1, 0);                                             // 0.518978 m
 namespace revchain {
 
 /// One quantity of all links of all chains: that of link m (lowest first) of chain c at data[c chain_stride + m
@@ -21,7 +29,8 @@ struct BatchColumn {
     const T& operator()(Index chain, Index link) const { return data[chain * chain_stride + link * link_stride]; }
 };
 
-/// Many chains of equally many links. Without a centroid plummets; with one exactly one of the two that follow it.
+/// Many chains of equally many links. Without `centroid` the links are plummets. With it give either `pendulum_length`
+/// or `radius_of_gyration`.
 template <Real T>
 struct ChainBatch {
     Index chains = 0;
@@ -35,7 +44,7 @@ struct ChainBatch {
 };
 
 struct BatchOptions {
-    std::optional<Index> count{};  ///< the slowest so many modes of each chain; absent: all
+    std::optional<Index> count{};  ///< number of slowest modes of each chain; absent: all
     Index threads = 1;
     Progress* progress = nullptr;  ///< watched and stopped from another thread
 };
@@ -54,10 +63,10 @@ struct BatchOptions {
 /// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp). Memory: the result, and a
 /// few numbers for each link of 16 chains a thread.
 ///
-/// Throws InvalidArgument for a batch, count or number of threads that is none, and, before anything else, for the
-/// first chain with a number that `Chain` refuses, naming chain, link and value; for a count beyond the modes of some
-/// chain (massless links cost modes: chains that have unlike numbers of modes need a count). Throws it later only for a
-/// chain whose heights cannot be proved to half the digits of T.
+/// Throws InvalidArgument for an empty batch, for a count or a number of threads below 1, and, before anything else,
+/// for the first chain with a number that `Chain` refuses, naming chain, link and value. Throws it for a count beyond
+/// the modes of some chain: massless links cost modes, and chains with different numbers of modes need a count. Throws
+/// it later only for a chain whose heights cannot be proved to half the digits of T.
 template <Real T>
 Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options = {});
 

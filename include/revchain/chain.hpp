@@ -11,6 +11,17 @@
 #include "revchain/system/link.hpp"
 #include "revchain/system/tapered_links.hpp"
 
+/// A chain of rigid links that hangs from a firm point on the axis.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5),       // the lowest link first: weight, length
+///                                          revchain::uniform_rod(2.0, 0.3)});
+///     chain.total_length();                                                   // 0.8 m
+///     chain.mode_count();                                                     // 2 whirl speeds
+///     const auto rods = revchain::Chain<double>::uniform_rods(120, 0.36);     // a watch chain
+///     rods.link(0).length;                                                    // 0.003 m
+///
+/// `plummet`, `uniform_rod` and `compound_pendulum` (system/link.hpp) make links. Lengths may be in any unit, and so
+/// may weights: speeds depend on their ratios alone. Numbers are kept exactly as given. Greenhill (1908) section 8.
 namespace revchain {
 
 /// Powers of two that bring the total weight and the largest length to the order of 1: exact, and what keeps every

@@ -23,7 +23,7 @@ struct RecurrencePencil {
 /// The pencil of a chain. Row m - 1 is the moment about pin m of everything below it; m = 1 is (10), m = 2 is (12),
 /// m = 3 is (19). Two things differ from the printed relation: h_{m-2}/a_{m-1} is corrected to h_{m-2}/a_{m-2}, and
 /// y_0 stays an unknown in place of 1 + h_1/(lambda - l_1), which makes the relation linear in lambda.
-/// Cost and memory O(N^2).
+/// Accuracy: a few roundings in each entry. Cost and memory O(N^2).
 template <Real T>
 RecurrencePencil<T> recurrence_matrices(const Chain<T>& chain) {
     const Index n = chain.size();

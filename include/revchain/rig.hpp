@@ -12,6 +12,17 @@
 #include "revchain/numeric/status.hpp"
 #include "revchain/system/link.hpp"
 
+/// A chain and what it is rigged with: a support that yields or is carried round, flywheels, a fluid, standing links.
+///
+///     const revchain::Chain<double> chain({revchain::plummet(80.0, 0.5), revchain::plummet(20.0, 4.0)});
+///     const revchain::Rig carousel(chain, {.support = {.radius = 4.0}});               // m
+///     const auto found = revchain::steady_shapes(carousel, {.angular_speed = 1.0});    // steady_shapes.hpp
+///     found.shapes[0].offset[0];                                                       // 6.46323 m: the seat's radius
+///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
+///
+/// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers are kept exactly as
+/// given. The questions about a rig: `modes` (rig_modes.hpp), `steady_shapes`, `response` and `sensitivity`.
+/// Greenhill (1908) sections 2, 7 and 8.
 namespace revchain {
 
 /// What holds the uppermost pin; by default a firm point on the axis.
