@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "revchain/branches.hpp"
 #include "revchain/finite/cord/continuous_chain.hpp"
 #include "support/cuttings.hpp"
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "revchain/branches.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/steady_shapes.hpp"
 #include "support/chains.hpp"
