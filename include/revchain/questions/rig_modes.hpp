@@ -260,8 +260,9 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Mo
             result.other.push_back(other_height(pencil, root.value, bound));
         } else if (options.other) {
             const double unit = std::ldexp(1.0, pencil.units.length_exponent);
-            const std::complex<double> speed = static_cast<double>(pencil.pace) / root.value;
-            result.other.push_back({root.value * root.value * unit, speed, std::abs(speed.imag()),
+            // In double words: std::complex divides by less accurate rules in some libraries.
+            const std::complex<double> height(root.x * root.x), speed(pencil::ComplexWord(pencil.pace) / root.x);
+            result.other.push_back({height * unit, speed, std::abs(speed.imag()),
                                     2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }
     }
