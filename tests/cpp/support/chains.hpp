@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "revchain/chain.hpp"
+#include "revchain/numeric/compiler.hpp"
 
 namespace support {
 
@@ -21,7 +22,11 @@ class Random {
    public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
     double operator()() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-    double between(double low, double high) { return low + (high - low) * (*this)(); }
+    /// The same numbers in every build: product and sum are not fused.
+    double between(double low, double high) {
+        const double part = (high - low) * (*this)();
+        return low + revchain::detail::unfused(part);
+    }
     /// Spread evenly in the logarithm.
     double log_between(double low, double high) { return low * std::pow(high / low, (*this)()); }
 
