@@ -8,12 +8,10 @@
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 
-using revchain::Branch;
 using revchain::Chain;
 using revchain::Index;
 using revchain::Stability;
 using revchain::StabilityFrame;
-using revchain::StabilityWindow;
 using revchain::SteadyShape;
 using revchain::Verdict;
 
