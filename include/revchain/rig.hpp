@@ -25,7 +25,7 @@
 /// Greenhill (1908) sections 2, 7 and 8.
 namespace revchain {
 
-/// What holds the uppermost pin; by default a firm point on the axis.
+/// The support of the uppermost pin. The default is a firm point on the axis.
 struct Support {
     double stiffness = std::numeric_limits<double>::infinity();  ///< sideways, force over length; infinite where firm
     double carriage_weight = 0;  ///< weight that moves sideways with the pin, on a support that yields

@@ -52,7 +52,7 @@ struct Tuned {
     double error_bound = std::numeric_limits<double>::infinity();
     std::vector<double> values{};  ///< those found, ascending
     /// Proved: `values` has every solution between `low` and `high`, as counts assign each root of the quadratic to a
-    /// mode. Always false for a weight: only the nearest solution on each side of the present value is looked for.
+    /// mode. Always false for a weight: the search finds only the nearest solution on each side of the present value.
     bool complete = false;
     double low{}, high{};  ///< the range searched, without the part in which the link would stand
     /// Extremes of the mode's height seen in that range. Set for a weight, and for every datum if no value is found.

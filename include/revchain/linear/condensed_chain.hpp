@@ -84,7 +84,7 @@ pencil::CondensedRun<T> lane_of(const LaneRuns<V>& runs, std::size_t lane, Index
     return run;
 }
 
-/// What is alike in the links, and the length of the runs, decide the loop.
+/// Condenses four runs with the loop that suits them: links may be equal, and short runs need leaves of full degree.
 template <class T, class V>
 LaneRuns<V> condensed(const LinkColumns<T>& links, Index first, Index length, const CompensatedSum<V>& below) {
     const auto of = [&]<bool equal>() {

@@ -21,7 +21,7 @@ template <Real T>
 class LazyModeShapes {
    public:
     LazyModeShapes() = default;
-    /// `find(first, count, progress)`: the shapes of `count` modes from index `first` of the result on.
+    /// `find(first, count, progress)` returns the shapes of `count` modes; the first has index `first` in the result.
     template <class Find>
     explicit LazyModeShapes(Find find) : state_(std::make_shared<FoundBy<Find>>(std::move(find))) {}
     explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<State>()) {
@@ -44,7 +44,7 @@ class LazyModeShapes {
         if (state_->known) return state_->known->offset.row(j).transpose();
         return state_->find(j, 1, nullptr).offset.row(0).transpose();
     }
-    /// Those of `count` modes from index `first` on, not kept.
+    /// Returns the shapes of `count` modes, the first at index `first`, and does not keep them.
     ModeShapes<T> some(Index first, Index count, Progress* progress) const {
         return state().find(first, count, progress);
     }

@@ -35,7 +35,7 @@ class ShapeFinder {
     ShapeFinder(const Chain<T>& chain, Index first, Heights<T> height, bool loose, bool condense)
         : chain_(chain), first_(first), height_(std::move(height)), loose_(loose), condense_(condense) {}
 
-    /// Returns the shapes of `count` modes from index `from` on.
+    /// Returns the shapes of `count` modes, the first at index `from`.
     ModeShapes<T> operator()(Index from, Index count, Progress* progress) const {
         ModeShapes<T> shapes = room_for_shapes(chain_, count);
         if (count == 0) return shapes;

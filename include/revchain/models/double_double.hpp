@@ -8,8 +8,8 @@
 
 namespace revchain::models {
 
-/// Bisection in double-double, for tolerances that double cannot hold: `Answer::conical_height_low` is what rounding
-/// the heights to double leaves. Bounds are proved; they grow with N, from 1e-28 on.
+/// Bisection in double-double, for tolerances below the precision of double. `Answer::conical_height_low` is the low
+/// word of each height. Bounds are proved. The smallest is 1e-28; they grow with N.
 struct DoubleDoubleBisection {
     static constexpr std::string_view name = "double-double";
 

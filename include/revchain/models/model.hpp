@@ -179,7 +179,7 @@ struct Enclosed {
     double height, error_bound;
 };
 
-/// The answer that consists of `enclosed(number)` for every mode asked for.
+/// Builds the answer from `enclosed(number)` of each mode.
 template <class F>
 Answer answer_of_each(const Question& question, const F& enclosed) {
     Answer answer{Vector<double>(question.count), Vector<double>(question.count)};

@@ -40,7 +40,7 @@ class RigShapeFinder {
     RigShapeFinder(const Rig& rig, Index idle, pencil::SignedPencil<RigWord> sense, std::vector<RigWord> roots)
         : chain_(rig.chain()), idle_(idle), sense_(std::move(sense)), roots_(std::move(roots)) {}
 
-    /// Returns the shapes of `count` modes from index `first` on.
+    /// Returns the shapes of `count` modes, the first at index `first`.
     ModeShapes<double> operator()(Index first, Index count, Progress* progress) const {
         ModeShapes<double> shapes = room_for_shapes(chain_, count);
         for (Index j = 0; j < count; ++j) {

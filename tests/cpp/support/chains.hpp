@@ -22,7 +22,7 @@ class Random {
    public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
     double operator()() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-    /// The same numbers in every build: product and sum are not fused.
+    /// Product and sum are not fused, so that all builds get the same numbers.
     double between(double low, double high) {
         const double part = (high - low) * (*this)();
         return low + revchain::detail::unfused(part);

@@ -39,7 +39,7 @@ struct CordShape {
         return conical_pendulum::angular_speed(conical_height, gravity);
     }
 
-    // Data of `operator()`: the scaled steps of the path, and the density that `kind` points to.
+    // `operator()` needs the scaled steps of the path, and the density to which `kind` points.
     std::shared_ptr<const LineDensity> density;
     finite::PathKind kind;
     std::vector<finite::Path::Step> steps;
