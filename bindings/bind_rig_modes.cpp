@@ -28,8 +28,8 @@ py::array column(const Items& items, const Number& number) {
     return frozen(array);
 }
 
-py::tuple solve(const Rig& rig, Index first, std::optional<Index> count, double gravity, bool shapes,
-                revchain::Progress* progress) {
+py::tuple modes_of_rig(const Rig& rig, Index first, std::optional<Index> count, double gravity, bool shapes,
+                       revchain::Progress* progress) {
     const RigModes m = without_lock([&] {
         const RigModes found = revchain::modes(
             rig,
@@ -53,5 +53,6 @@ py::tuple solve(const Rig& rig, Index first, std::optional<Index> count, double 
 }  // namespace
 
 void bind_rig_modes(py::module_& module) {
-    module.def("rig_modes", &solve, "rig"_a, "first"_a, "count"_a, "gravity"_a, "shapes"_a, "progress"_a = nullptr);
+    module.def("rig_modes", &modes_of_rig, "rig"_a, "first"_a, "count"_a, "gravity"_a, "shapes"_a,
+               "progress"_a = nullptr);
 }

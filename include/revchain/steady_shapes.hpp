@@ -110,8 +110,8 @@ SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions
 /// Accuracy, cost, and `complete`: as of chains (measured: tests/cpp/finite/shapes/rigs.cpp); about twice the cost with
 /// b > 0.
 /// `complete` is also false if the rig has more than some 160 links and one of them is such a link, or if lambda E
-/// equals the total moving weight, to rounding. Pins may then be at any distance: the search covers only about a million
-/// times the chain's reach.
+/// equals the total moving weight, to rounding. Pins may then be at any distance: the search covers only about a
+/// million times the chain's reach.
 /// Throws InvalidArgument unless exactly one of height and speed is given, for a height or gravity not positive and
 /// finite, a direction not 1 or -1, an effective tension that vanishes, and weights that move so that the lowest link
 /// balances about its pin.

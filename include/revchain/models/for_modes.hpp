@@ -17,4 +17,24 @@ inline constexpr std::tuple<ClosedForms, EqualPlummets, ContinuousChain, Tapered
                             Aberth, Interpolated, Condensed, Bisection>
     for_modes{};
 
+/// The question that these options ask about a range of modes. Without a tolerance bounds have to be proved.
+template <class Options>
+Question question_of(const ModeRange& range, const Options& options) {
+    const double rtol = options.rtol.value_or(0.0);
+    return {range.first, range.count, rtol, 0, options.progress, !(rtol > 0)};
+}
+
 }  // namespace revchain::models
+
+#if defined(REVCHAIN_COMPILED)
+namespace revchain::detail {
+#define REVCHAIN_ANSWER_BY(model) \
+    template Answer answer_by(const models::model&, const Chain<double>&, const ChainKind&, const Question&)
+extern REVCHAIN_ANSWER_BY(CoarseChain);
+extern REVCHAIN_ANSWER_BY(SinglePrecision);
+extern REVCHAIN_ANSWER_BY(Aberth);
+extern REVCHAIN_ANSWER_BY(Interpolated);
+extern REVCHAIN_ANSWER_BY(Condensed);
+extern REVCHAIN_ANSWER_BY(Bisection);
+}  // namespace revchain::detail
+#endif

@@ -95,23 +95,31 @@ std::optional<std::size_t> best(const std::array<Estimate, N>& estimates, const 
     return chosen;
 }
 
+/// The answer of one model, its bounds widened by what the model itself does not know: digits lost to numbers below the
+/// normal ones, and inclinations.
+template <Model M>
+Answer answer_by(const M& model, const Chain<double>& chain, const ChainKind& kind, const Question& question) {
+    Answer answer = model.solve(chain, kind, question);
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    for (Index j = 0; j < answer.conical_height.size(); ++j)
+        if (!(answer.conical_height[j] >= std::numeric_limits<double>::min()))
+            answer.error_bound[j] += 4 * least / std::max(0.0, answer.conical_height[j]);
+        else if (!std::isfinite(answer.conical_height[j]))
+            answer.error_bound[j] = std::numeric_limits<double>::infinity();
+    if (is_linear<M>() && question.inclination > 0) {
+        const double off = error_of_small_inclinations(kind, question);
+        for (double& bound : answer.error_bound) bound += off * (1 + bound);
+    }
+    return answer;
+}
+
 template <Model... Models>
 Answer asked(const std::tuple<Models...>& models, std::size_t number, const Chain<double>& chain, const ChainKind& kind,
              const Question& question) {
     Answer answer;
     std::size_t i = 0;
-    const auto ask = [&]<class M>(const M& model) {
-        if (i++ != number) return;
-        answer = model.solve(chain, kind, question);
-        constexpr double least = std::numeric_limits<double>::denorm_min();
-        for (Index j = 0; j < answer.conical_height.size(); ++j)  // a number below the normal ones holds fewer digits
-            if (!(answer.conical_height[j] >= std::numeric_limits<double>::min()))
-                answer.error_bound[j] += 4 * least / std::max(0.0, answer.conical_height[j]);
-            else if (!std::isfinite(answer.conical_height[j]))
-                answer.error_bound[j] = std::numeric_limits<double>::infinity();
-        if (!is_linear<M>() || !(question.inclination > 0)) return;
-        const double off = error_of_small_inclinations(kind, question);
-        for (double& bound : answer.error_bound) bound += off * (1 + bound);
+    const auto ask = [&](const auto& model) {
+        if (i++ == number) answer = answer_by(model, chain, kind, question);
     };
     std::apply([&](const Models&... each) { (ask(each), ...); }, models);
     return answer;

@@ -68,9 +68,7 @@ REVCHAIN_INLINE Explanation explain(const Chain<double>& chain, const ModesOptio
         detail::throw_invalid("explain", "a window is decided by counting modes; give first and count");
     const auto no_window = [](const auto&) { return ModeRange{}; };
     const ModeRange range = detail::chosen(chain.mode_count(), options, no_window, no_window);
-    const double rtol = options.rtol.value_or(0.0);
-    const Question question{range.first, range.count, rtol, 0, nullptr, !(rtol > 0)};
-    const auto choice = select(models::for_modes, chain, question);
+    const auto choice = select(models::for_modes, chain, models::question_of(range, options));
     return {{choice.estimates.begin(), choice.estimates.end()}, choice.model, choice.meets_tolerance};
 }
 

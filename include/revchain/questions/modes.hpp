@@ -99,12 +99,11 @@ inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, 
 /// a template, so that only a program that asks for modes compiles the models.
 template <std::same_as<double> T>
 Solution solved(const Chain<T>& chain, const ModeRange& range, const ModesOptions<T>& options) {
-    const double rtol = options.rtol.value_or(0.0);
-    const Question question{range.first, range.count, rtol, 0, options.progress, !(rtol > 0)};
+    const Question question = models::question_of(range, options);
     if (options.method == ModesMethod::automatic) return solve(models::for_modes, chain, question);
     const ChainKind kind(chain);
     const auto by = [&](const auto& model) {
-        return Solution{model.solve(chain, kind, question), model.name, Status::success};
+        return Solution{answer_by(model, chain, kind, question), model.name, Status::success};
     };
     Solution found{Answer::none(), {}, Status::success};
     if (options.method == ModesMethod::aberth) found = by(models::Aberth{});

@@ -44,21 +44,23 @@ std::vector<T> middle_of(const TangentBox<T>& x) {
 namespace detail {
 
 /// Replaces a matrix, given by its rows, by its inverse (Gauss and Jordan); returns whether it has one in sight.
-inline bool invert(std::vector<double>& a, std::size_t size) {
+template <Real T>
+bool invert(std::vector<T>& a, std::size_t size) {
+    using std::abs;
     const auto n = static_cast<Index>(size);
-    Eigen::Map<Table<double>> matrix(a.data(), n, n);
-    Table<double> rows(n, 2 * n);  // of the matrix, and beside them those of its inverse
-    rows << matrix, Table<double>::Identity(n, n);
+    Eigen::Map<Table<T>> matrix(a.data(), n, n);
+    Table<T> rows(n, 2 * n);  // of the matrix, and beside them those of its inverse
+    rows << matrix, Table<T>::Identity(n, n);
     for (Index j = 0; j < n; ++j) {
         Index pivot = j;
         for (Index i = j + 1; i < n; ++i)
-            if (std::abs(rows(i, j)) > std::abs(rows(pivot, j))) pivot = i;
-        const double top = rows(pivot, j);
-        if (!(std::abs(top) > 0)) return false;
+            if (abs(rows(i, j)) > abs(rows(pivot, j))) pivot = i;
+        const T top = rows(pivot, j);
+        if (!(abs(top) > T(0))) return false;
         if (pivot != j) rows.row(j).swap(rows.row(pivot));
         rows.row(j) /= top;
         for (Index i = 0; i < n; ++i)
-            if (const double share = rows(i, j); i != j && share != 0) rows.row(i) -= share * rows.row(j);
+            if (const T share = rows(i, j); i != j && share != T(0)) rows.row(i) -= share * rows.row(j);
     }
     matrix = rows.rightCols(n);
     return matrix.allFinite();
@@ -90,7 +92,7 @@ class WholeBalance {
                 Interval<T>& entry = matrix_[m * size_ + r];
                 entry = (r == m ? moving[m] - links[m].cross : moving[std::min(m, r)]) * links[r].length;
                 if (support.yields()) entry = entry + moving[m] * top_.drawn[r];
-                middle_.push_back(static_cast<double>(entry.middle()));
+                middle_.push_back(entry.middle());
             }
         }
     }
@@ -125,8 +127,8 @@ class WholeBalance {
             for (std::size_t r = 0; r < size_; ++r) {
                 Interval<T> product(T(0));  // of the inverse and B
                 for (std::size_t q = 0; q < size_; ++q)
-                    product = product + Interval<T>(T((*inverse)[m * size_ + q])) * matrix_[q * size_ + r];
-                Interval<T> entry = product * slope[r] - Interval<T>(T((*inverse)[m * size_ + r])) * stiffness_[r];
+                    product = product + Interval<T>((*inverse)[m * size_ + q]) * matrix_[q * size_ + r];
+                Interval<T> entry = product * slope[r] - Interval<T>((*inverse)[m * size_ + r]) * stiffness_[r];
                 if (m == r) entry = entry + Interval<T>(T(1));
                 sum = sum + entry * off[r];
             }
@@ -135,7 +137,7 @@ class WholeBalance {
         return result;
     }
 
-    /// One step of Newton's method in T, with a derivative in double; the largest change of an inclination, if any.
+    /// One step of Newton's method in T; the largest change of an inclination, if any.
     std::optional<double> improve(std::vector<T>& t) const {
         const auto inverse = inverse_at(t);
         if (!inverse) return std::nullopt;
@@ -159,11 +161,12 @@ class WholeBalance {
         for (std::size_t m = 0; m < size_; ++m) {
             terms[m] = std::abs(static_cast<double>(stiffness_[m].middle() * t[m]));
             for (std::size_t r = 0; r < size_; ++r)
-                terms[m] += std::abs(middle_[m * size_ + r] * static_cast<double>(sine(r, Interval<T>(t[r])).middle()));
+                terms[m] += std::abs(static_cast<double>(middle_[m * size_ + r] * sine(r, Interval<T>(t[r])).middle()));
         }
         for (std::size_t m = 0; m < size_; ++m) {
             double change = 0;
-            for (std::size_t r = 0; r < size_; ++r) change += std::abs((*inverse)[m * size_ + r]) * terms[r];
+            for (std::size_t r = 0; r < size_; ++r)
+                change += std::abs(static_cast<double>((*inverse)[m * size_ + r])) * terms[r];
             const double tangent = static_cast<double>(t[m]);
             largest = std::max(largest, change / (1 + tangent * tangent));
         }
@@ -202,28 +205,30 @@ class WholeBalance {
         }
         return F;
     }
-    std::optional<std::vector<double>> inverse_at(const std::vector<T>& t) const {
-        std::vector<double> jacobian(size_ * size_);
+    /// Of the derivative, in T: near a critical height one in double would be of no use.
+    std::optional<std::vector<T>> inverse_at(const std::vector<T>& t) const {
+        using std::sqrt;
+        std::vector<T> jacobian(size_ * size_);
         for (std::size_t r = 0; r < size_; ++r) {
-            const double tangent = static_cast<double>(t[r]), secant_squared = 1 + tangent * tangent;
-            const double slope = static_cast<int>(posture_[r]) / (secant_squared * std::sqrt(secant_squared));
-            for (std::size_t m = 0; m < size_; ++m) jacobian[m * size_ + r] = -middle_[m * size_ + r] * slope;
-            jacobian[r * size_ + r] += static_cast<double>(stiffness_[r].middle());
+            const T secant_squared = T(1) + t[r] * t[r];
+            const T slope = T(static_cast<int>(posture_[r])) / (secant_squared * sqrt(secant_squared));
+            for (std::size_t m = 0; m < size_; ++m) jacobian[m * size_ + r] = -(middle_[m * size_ + r] * slope);
+            jacobian[r * size_ + r] = jacobian[r * size_ + r] + stiffness_[r].middle();
         }
         if (!detail::invert(jacobian, size_)) return std::nullopt;
         return jacobian;
     }
-    TangentBox<T> scaled(const std::vector<double>& a, const TangentBox<T>& x) const {
+    TangentBox<T> scaled(const std::vector<T>& a, const TangentBox<T>& x) const {
         TangentBox<T> result(size_, Interval<T>(T(0)));
         for (std::size_t m = 0; m < size_; ++m)
-            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(T(a[m * size_ + r])) * x[r];
+            for (std::size_t r = 0; r < size_; ++r) result[m] = result[m] + Interval<T>(a[m * size_ + r]) * x[r];
         return result;
     }
 
     std::size_t size_;
     std::vector<Posture> posture_;
     TangentBox<T> stiffness_, matrix_;
-    std::vector<double> middle_;
+    std::vector<T> middle_;
     struct {
         Interval<T> at_rest;        // offset of the topmost pin under vertical links
         TangentBox<T> drawn, load;  // of a rig: what each sine adds to it; sigma times it at rest

@@ -12,7 +12,7 @@ namespace revchain::pencil {
 
 /// Eigenvalues lambda, descending, and a bound on the relative error of each.
 struct AberthSpectrum {
-    alignas(aberth::Four) std::array<double, aberth::walked(aberth::most_links)> eigenvalue;
+    alignas(aberth::Four) std::array<double, aberth::most_walked> eigenvalue;
     std::array<double, aberth::most_links> bound;
 };
 
@@ -20,12 +20,12 @@ namespace aberth {
 
 /// Numbers for every root; what is beyond the last is a copy of it.
 struct Roots {
-    static constexpr std::size_t room = walked(most_links);
+    static constexpr std::size_t room = most_walked;
     std::size_t count;
     alignas(Four) double shift[room];
 
     void fill_up() {
-        for (std::size_t i = count; i < walked(count); ++i) shift[i] = shift[count - 1];
+        for (std::size_t i = count; i < walked<false>(count); ++i) shift[i] = shift[count - 1];
     }
     void sort() {
         if (!std::is_sorted(shift, shift + count)) std::sort(shift, shift + count);
@@ -41,7 +41,7 @@ struct Roots {
 
 /// First approximations: the polynomial at 2 or 3 N points between the bounds, evenly in a root of mu, and its changes
 /// of sign from pin to pin, which number the zeros below (Sturm). A zero alone between two points is interpolated.
-template <bool rigid>
+template <bool rigid, bool several>
 [[gnu::always_inline]] inline bool first_roots(const LumpedLinks& links, Roots& roots) {
     const std::size_t points = 4 * (((rigid || links.size > 12 ? 3 : 2) * links.size + 7) / 4);
     constexpr std::size_t room = 3 * most_links + 16;
@@ -50,29 +50,30 @@ template <bool rigid>
     int squarings = 1;
     for (; squarings < 6 && root > 8 * static_cast<double>(links.size); ++squarings) root = std::sqrt(root);
     const double step = (root - 1) / static_cast<double>(points - 1);
-    for_packs(points, [&]<std::size_t P>(std::integral_constant<std::size_t, P>, std::size_t i) REVCHAIN_INLINED {
-        std::array<Four, P> mu, changes{};
-        std::array<Offset<rigid>, P> y;
-#pragma GCC unroll 3
-        for (std::size_t p = 0; p < P; ++p) {
-            mu[p] = Four(1.0) + Four(step) * (Four(static_cast<double>(i + 4 * p)) + Four(0.0, 1.0, 2.0, 3.0));
-            for (int s = 0; s < squarings; ++s) mu[p] = mu[p] * mu[p];
-            mu[p] = mu[p] * Four(links.least_shift);
-        }
-        for (std::size_t m = 0; m < links.size; ++m)
+    for_packs<several>(
+        points, [&]<std::size_t P>(std::integral_constant<std::size_t, P>, std::size_t i) REVCHAIN_INLINED {
+            std::array<Four, P> mu, changes{};
+            std::array<Offset<rigid>, P> y;
 #pragma GCC unroll 3
             for (std::size_t p = 0; p < P; ++p) {
-                const Four before = y[p].value;
-                y[p].rise(links, m, mu[p]);
-                changes[p] += if_less(before * y[p].value, Four(0.0), Four(1.0), Four(0.0));
+                mu[p] = Four(1.0) + Four(step) * (Four(static_cast<double>(i + 4 * p)) + Four(0.0, 1.0, 2.0, 3.0));
+                for (int s = 0; s < squarings; ++s) mu[p] = mu[p] * mu[p];
+                mu[p] = mu[p] * Four(links.least_shift);
             }
+            for (std::size_t m = 0; m < links.size; ++m)
 #pragma GCC unroll 3
-        for (std::size_t p = 0; p < P; ++p) {
-            mu[p].store(at + i + 4 * p);
-            y[p].value.store(value + i + 4 * p);
-            changes[p].store(below + i + 4 * p);
-        }
-    });
+                for (std::size_t p = 0; p < P; ++p) {
+                    const Four before = y[p].value;
+                    y[p].rise(links, m, mu[p]);
+                    changes[p] += if_less(before * y[p].value, Four(0.0), Four(1.0), Four(0.0));
+                }
+#pragma GCC unroll 3
+            for (std::size_t p = 0; p < P; ++p) {
+                mu[p].store(at + i + 4 * p);
+                y[p].value.store(value + i + 4 * p);
+                changes[p].store(below + i + 4 * p);
+            }
+        });
     if (below[0] != 0 || below[points - 1] != static_cast<double>(links.size)) return false;
     at[points] = at[points - 1];
     value[points] = value[points - 1];
@@ -107,15 +108,15 @@ template <bool rigid>
 
 /// All zeros at once by Newton steps with the others divided out (Ehrlich and Aberth), each round cubing the error,
 /// until steps are small. Jacobi, so that rounds are the same whatever stands in a pack.
-template <bool rigid>
+template <bool rigid, bool several>
 [[gnu::always_inline]] inline void improve(const LumpedLinks& links, Roots& roots) {
     constexpr std::size_t chunk = 12;  // differences multiplied before they are divided
     constexpr double last_step = 2e-4;
     alignas(Four) double next[Roots::room];
     for (int round = 0; round < 16; ++round) {
         Four largest(0.0);
-        for_packs(roots.count, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
-                                                  std::size_t i) REVCHAIN_INLINED {
+        for_packs<several>(roots.count, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
+                                                           std::size_t i) REVCHAIN_INLINED {
             std::array<Four, P> mu, others{};
             std::array<OffsetAndSlope<rigid>, P> y;
 #pragma GCC unroll 3
@@ -143,36 +144,36 @@ template <bool rigid>
                 largest = max(largest, abs(step) - Four(last_step) * mu[p]);
             }
         });
-        for (std::size_t i = 0; i < walked(roots.count); i += 4) Four::load(next + i).store(roots.shift + i);
+        for (std::size_t i = 0; i < walked<several>(roots.count); i += 4) Four::load(next + i).store(roots.shift + i);
         if (!(largest[0] > 0 || largest[1] > 0 || largest[2] > 0 || largest[3] > 0)) return;
     }
 }
 
 /// Quotients and squared residuals of the vectors at all shifts; false where some number is of no use.
-template <bool rigid>
+template <bool rigid, bool several>
 [[gnu::always_inline]] inline bool set_quotients(const LumpedLinks& links, const double* flexibility_above,
                                                  const Roots& roots, AberthSpectrum& result, double* residual) {
     Four odd(0.0);
-    for_packs(links.size, [&]<std::size_t P>(std::integral_constant<std::size_t, P>,
-                                             std::size_t first) REVCHAIN_INLINED {
-        std::array<Four, P> mu;
+    for_packs<several>(
+        links.size, [&]<std::size_t P>(std::integral_constant<std::size_t, P>, std::size_t first) REVCHAIN_INLINED {
+            std::array<Four, P> mu;
 #pragma GCC unroll 3
-        for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
-        // Where there is code for it, a chain of one leg does without sums of legs.
-        const auto all = any_packs && links.size <= leg ? quotients<rigid, !any_packs, P>(links, flexibility_above, mu)
-                                                        : quotients<rigid, true, P>(links, flexibility_above, mu);
+            for (std::size_t p = 0; p < P; ++p) mu[p] = Four::load(roots.shift + first + 4 * p);
+            // Where there is code for it, a chain of one leg does without sums of legs.
+            const auto all = several && links.size <= leg ? quotients<rigid, !several, P>(links, flexibility_above, mu)
+                                                          : quotients<rigid, true, P>(links, flexibility_above, mu);
 #pragma GCC unroll 3
-        for (std::size_t p = 0; p < P; ++p) {
-            const Quotients& q = all[p];
-            (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
-            q.square.store(residual + first + 4 * p);
-            odd += if_less(Four(0x1p-960), q.scale, Four(0.0), Four(1.0)) +
-                   if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
-                   if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
-                   if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
-                   if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
-        }
-    });
+            for (std::size_t p = 0; p < P; ++p) {
+                const Quotients& q = all[p];
+                (q.ratio / mu[p]).store(result.eigenvalue.data() + first + 4 * p);
+                q.square.store(residual + first + 4 * p);
+                odd += if_less(Four(0x1p-960), q.scale, Four(0.0), Four(1.0)) +
+                       if_less(Four(0x1p-600), q.energy, Four(0.0), Four(1.0)) +
+                       if_less(q.energy, Four(0x1p600), Four(0.0), Four(1.0)) +
+                       if_less(Four(0.5), q.ratio, Four(0.0), Four(1.0)) +
+                       if_less(q.ratio, Four(2.0), Four(0.0), Four(1.0));
+            }
+        });
     return odd[0] + odd[1] + odd[2] + odd[3] == 0;
 }
 
@@ -197,7 +198,8 @@ inline bool set_bounds(AberthSpectrum& result, std::size_t n, const double* resi
 /// See `aberth_spectrum`. What its constants count: docs/accuracy.md, "All modes of small chains".
 template <bool rigid>
 inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& result) {
-    return simd([&](auto) REVCHAIN_INLINED {
+    return simd([&]<class Registers>(Registers) REVCHAIN_INLINED {
+        constexpr bool several = any_packs<Registers>;
         constexpr double unit = 0x1p-53, slack = 1 + 0x1p-30, largest = 0x1p64;  // and 1 / largest the least
         const std::size_t n = links.size;
         const double lowest = 0.5 * links.least_shift, highest = 2 * links.greatest_shift;
@@ -214,8 +216,8 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
             if constexpr (rigid) cross_ratio = std::max(cross_ratio, links.cross_ratio[m]);
         }
         const double root = std::sqrt(square);
-        if (!fit || !first_roots<rigid>(links, roots)) return false;
-        improve<rigid>(links, roots);
+        if (!fit || !first_roots<rigid, several>(links, roots)) return false;
+        improve<rigid, several>(links, roots);
         if (!roots.lie_between(lowest, highest)) return false;
         roots.sort();
 
@@ -225,7 +227,7 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
         const double goal = std::min(tolerance, 0x1p-32);  // above, squares of bounds would count
         alignas(Four) double residual[Roots::room];
         for (int round = 0; round < 2; ++round) {
-            if (!set_quotients<rigid>(links, above, roots, result, residual)) return false;
+            if (!set_quotients<rigid, several>(links, above, roots, result, residual)) return false;
             for (std::size_t i = 0; i < n; ++i) {
                 const double stretch = rigid ? 1 + roots.shift[i] * cross_ratio : 1;
                 const double rounded =

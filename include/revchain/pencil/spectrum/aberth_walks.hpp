@@ -48,24 +48,30 @@ using Four = Pack<double>;
 /// Packs that are walked side by side: they share what is loaded and fill each other's waits.
 inline constexpr std::size_t packs_at_once = 3;
 /// Whether there is code for one and for two packs, and for chains of one leg, besides: 20 to 40 % faster up to 16
-/// links, and six times as much to compile (10 plummets: 0.86 us with it, 1.05 without).
+/// links, and six times as much to compile (10 plummets: 0.86 us with it, 1.05 without). So only a build that chooses
+/// the instruction set at run time has it, and not in the form for the oldest processors.
+template <class Registers>
+inline constexpr bool any_packs =
 #if defined(REVCHAIN_DISPATCH)
-inline constexpr bool any_packs = true;
+    (Registers::bytes > 16);
 #else
-inline constexpr bool any_packs = false;
+    false;
 #endif
 
 /// How many shifts are walked for `count` of them.
+template <bool several>
 constexpr std::size_t walked(std::size_t count) {
-    constexpr std::size_t together = any_packs ? 4 : 4 * packs_at_once;
+    constexpr std::size_t together = several ? 4 : 4 * packs_at_once;
     return (count + together - 1) / together * together;
 }
+/// Room for the shifts walked for `most_links` of them.
+inline constexpr std::size_t most_walked = walked<false>(most_links);
 
 /// f(P packs, first lane) for all packs.
-template <class F>
+template <bool several, class F>
 [[gnu::always_inline]] inline void for_packs(std::size_t count, const F& f) {
     std::size_t i = 0;
-    if constexpr (any_packs) {
+    if constexpr (several) {
         for (; i + 8 < count; i += 12) f(std::integral_constant<std::size_t, 3>(), i);
         if (i + 4 < count)
             f(std::integral_constant<std::size_t, 2>(), i);

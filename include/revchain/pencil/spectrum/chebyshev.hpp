@@ -47,9 +47,9 @@ struct Chebyshev {
 template <class V>
 [[gnu::always_inline]] inline V part(const std::vector<double>& x, std::size_t begin) {
     if (begin + V::size <= x.size()) return V::load(&x[begin]);
-    V r;
-    for (std::size_t i = 0; i < V::size; ++i) r.set(i, x[std::min(begin + i, x.size() - 1)]);
-    return r;
+    alignas(V) double numbers[V::size];
+    for (std::size_t i = 0; i < V::size; ++i) numbers[i] = x[std::min(begin + i, x.size() - 1)];
+    return V::load(numbers);
 }
 
 /// The polynomial of degree n - 1 with these n values at node(i, n).

@@ -415,7 +415,7 @@ TEST_CASE("above the first critical height there is no shape in any posture", "[
 
 TEST_CASE("exactly a critical height: what rounding leaves open is narrow, and told soon", "[finite]") {
     Random random(307);
-    for (int i = 0; i < 48; ++i) {
+    for (int i = 0; i < 240; ++i) {
         const auto chain = chain_of_kind(i % 4, 1 + i % 3, random);
         const auto heights = revchain::modes(chain, {.count = revchain::all_modes}).conical_height;
         for (const double height : heights) {
