@@ -26,7 +26,7 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain)
     CompensatedSum<double> hung;
     double mass_above = 0;  // of the upper pin of the link below
     double trace = 0, greatest = 0;
-    double worst_cross = 1, worst_skew = 0;
+    double worst_cross = 1, worst_centroid = 0;
     double stiffness_below = 0;
     bool fit = true;
     for (std::size_t m = 0; m < n; ++m) {
@@ -46,10 +46,11 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain)
             fit = fit && p >= 0 && q >= 0 && r > 0 && even > r;
             worst_cross = std::max(worst_cross, (even + r) / (even - r));
             links.cross_ratio[m] = weight * (even - r) * (a / share);
-            links.quarter_weight[m] = weight / 4;
-            links.skew[m] = p - q;
+            links.weight[m] = weight;
+            links.lower_share[m] = p;
+            links.upper_share[m] = q;
             links.turn[m] = weight * r;
-            if (h + h != a) worst_skew = std::max(worst_skew, (2 * std::abs(p - q) + 1) / std::sqrt(r));
+            if (h + h != a) worst_centroid = std::max(worst_centroid, 4 + 6 * even / std::sqrt(r));
         }
         const double k = share / a, flexibility = a / share;
         links.mass[m] = mass;
@@ -62,7 +63,7 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain)
     links.least_shift = (1 - 0x1p-30) / trace;
     links.greatest_shift = (1 + 0x1p-30) * greatest;
     links.roundings = {2, 0, 6, 0};
-    if (links.rigid) links.roundings = {6, 4, 5 * worst_cross + 15, worst_skew};
+    if (links.rigid) links.roundings = {6, 4, 5 * worst_cross + 15, worst_centroid};
     return fit && worst_cross < 0x1p20;
 }
 

@@ -110,7 +110,7 @@ TEST_CASE("heights all together: graded and scattered chains, any tolerance", "[
             const Found found = all_heights(chain, rtol);
             if (!found) continue;
             ++served;
-            CHECK(worst_error(chain, found, std::min(rtol, 0x1p-32)) <= (kind == 2 ? 10 : 5));
+            CHECK(worst_error(chain, found, std::min(rtol, 0x1p-32)) <= 5);
         }
         CAPTURE(kind);
         CHECK(served >= (kind == 0 ? 590 : 300));

@@ -223,7 +223,7 @@ inline bool solve(const LumpedLinks& links, double tolerance, AberthSpectrum& re
 
         const double additions = static_cast<double>(std::min(n, leg) + (n - 1) / leg - 1);
         const double rounding =
-            unit * (links.roundings.energies + (rigid ? 18 : 15) + 2 * additions + links.roundings.skew) * slack;
+            unit * (links.roundings.energies + (rigid ? 18 : 15) + 2 * additions + links.roundings.centroid) * slack;
         const double goal = std::min(tolerance, 0x1p-32);  // above, squares of bounds would count
         alignas(Four) double residual[Roots::room];
         for (int round = 0; round < 2; ++round) {

@@ -22,7 +22,7 @@ struct Roundings {
     double energies = 0;  ///< y^T M y and y^T K y together
     double mass = 0;      ///< lumped masses
     double drop = 0;      ///< a computed force over k + mu X, its division and product included
-    double skew = 0;      ///< what the skews' roundings add to y^T M y
+    double centroid = 0;  ///< what those of the centroids' offsets add to y^T M y, where one is not in the middle
 };
 
 /// A chain of links as lumped masses at the pins, springs between them, and the mass -X that only the difference of a
@@ -35,8 +35,9 @@ struct LumpedLinks {
     Numbers stiffness;       ///< k
     Numbers flexibility;     ///< 1/k
     Numbers cross_ratio;     ///< X/k >= 0
-    Numbers quarter_weight;  ///< W/4
-    Numbers skew;            ///< 2 h/a - 1
+    Numbers weight;          ///< W
+    Numbers lower_share;     ///< h/a, of the centroid's offset: the share of the lower pin's
+    Numbers upper_share;     ///< 1 - h/a
     Numbers turn;            ///< W rho^2/a^2
     double least_shift = 0;  ///< all eigenvalues mu = 1/lambda lie between
     double greatest_shift = 0;
@@ -145,8 +146,9 @@ struct Walk {
         const Four square = d * d;
         stiffness += Four(links.stiffness[m]) * square;
         if constexpr (rigid) {
-            const Four centroid = (before + offset) + Four(links.skew[m]) * d;
-            inertia += Four(links.quarter_weight[m]) * (centroid * centroid) + Four(links.turn[m]) * square;
+            const Four lower(links.lower_share[m]), upper(links.upper_share[m]);
+            const Four centroid = lower * (up ? before : offset) + upper * (up ? offset : before);
+            inertia += Four(links.weight[m]) * (centroid * centroid) + Four(links.turn[m]) * square;
         }
     }
     /// Puts the sums of a leg away and brings the larger number to 1 ... 2, by a power of two for each lane.

@@ -35,8 +35,8 @@ aberth::LumpedLinks lumped(const std::vector<Body>& bodies, bool rigid) {
         links.stiffness[m] = k;
         links.flexibility[m] = 1 / k;
         links.cross_ratio[m] = weight * (0.25 - r) / k;
-        links.quarter_weight[m] = weight / 4;
-        links.skew[m] = 0;
+        links.weight[m] = weight;
+        links.lower_share[m] = links.upper_share[m] = 0.5;
         links.turn[m] = weight * r;
         hung += weight;
         trace += hung / k;
