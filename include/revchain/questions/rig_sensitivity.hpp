@@ -9,6 +9,95 @@
 
 namespace revchain {
 
+namespace detail {
+
+/// What the derivatives of a rig's whirl speed share: n, the offsets of its mode, and dn for a change of the balance.
+struct RigMode {
+    using S = Wide<double>;
+    const Rig& rig;
+    const Vector<double>& offset;
+    std::vector<RigLink> links;
+    S speed, turning;      ///< n; n^2/g times the unit of length
+    std::vector<S> slope;  ///< s of each link
+    S denominator{0.0};    ///< y^T G y - 2 y^T M y n/g
+
+    RigMode(const Rig& of, double angular_speed, const Vector<double>& y, double gravity)
+        : rig(of), offset(y), links(rig_links(of)), speed(angular_speed),
+          turning(ldexp(speed * speed / S(gravity), of.chain().units().length_exponent)) {
+        const ChainUnits units = rig.chain().units();
+        const Index count = rig.size();
+        S inertia(0.0), momentum(0.0);  // y^T M y, y^T G y
+        for (Index m = 0; m < count; ++m) {
+            const RigLink& link = links[static_cast<std::size_t>(m)];
+            const S lower(offset[m]), upper(offset[m + 1]), s = (lower - upper) / link.length;
+            slope.push_back(s);
+            inertia = inertia +
+                      (lower * (link.lower * lower + (link.cross + link.cross) * upper) + link.upper * upper * upper);
+            const S spins = link.spin * link.length * s * s;
+            momentum = momentum + (rig.stands(m) ? -spins : spins);
+        }
+        if (const Support& support = rig.support(); !support.is_firm())
+            inertia = inertia + S(std::ldexp(support.carriage_weight, -units.weight_exponent)) * top() * top();
+        denominator = momentum - S(2.0) * turning * inertia / speed;
+    }
+    S top() const { return S(offset[rig.size()]); }
+    /// dn for a change x of y^T (stiffness - n^2/g mass) y, over units of weight and length to these powers.
+    double rate(const S& x, int weight_power, int length_power) const {
+        const ChainUnits units = rig.chain().units();
+        return std::ldexp(static_cast<double>(-x / denominator),
+                          -weight_power * units.weight_exponent - length_power * units.length_exponent);
+    }
+
+    /// A body of a link: where its centre of gravity is, and what a unit of its weight bears and resists.
+    struct Body {
+        S weight, centroid, gyration, centre, bears, moves;
+        S resists(const S& s) const { return weight * s * (centroid * centre + gyration * s); }
+    };
+    Body body(Index m, double weight, double centroid, const S& ratio, const S& borne) const {
+        const ChainUnits units = rig.chain().units();
+        const S h(std::ldexp(centroid, -units.length_exponent)), a = links[static_cast<std::size_t>(m)].length,
+            s = slope[static_cast<std::size_t>(m)], gyration = ratio * (a * a), centre = S(offset[m + 1]) + h * s;
+        return {S(std::ldexp(weight, -units.weight_exponent)), h, gyration, centre, sign(m) * h * (s * s) + borne,
+                turning * (centre * centre + gyration * (s * s))};
+    }
+    S sign(Index m) const { return S(rig.stands(m) ? -1.0 : 1.0); }
+};
+
+/// Derivatives for the numbers of link m; `above` is the sum of a s^2 over the links above it, less those that stand.
+inline void link_sensitivity(const RigMode& mode, Index m, const Wide<double>& above, RigSensitivity& result) {
+    using S = Wide<double>;
+    const Rig& rig = mode.rig;
+    const ChainUnits units = rig.chain().units();
+    const RigLink& link = mode.links[static_cast<std::size_t>(m)];
+    const S s = mode.slope[static_cast<std::size_t>(m)], square = s * s, sign = mode.sign(m), turning = mode.turning;
+    const Link<double> own = rig.chain().link(m);
+    const Displaced displaced = rig.displaced(m);
+    const bool turns = rig.fluid() == Fluid::turning;
+    const RigMode::Body solid = mode.body(m, own.weight, own.centroid, own.gyration_ratio, above);
+    const RigMode::Body fluid = mode.body(m, turns ? -displaced.weight : displaced.added_weight, displaced.centroid,
+                                          displaced.gyration_ratio, above);
+    result.weight[m] = mode.rate(solid.bears - solid.moves, 1, 0);
+    result.momentum[m] = mode.rate(sign * mode.speed * square, 1, 1);
+    result.displaced_weight[m] = mode.rate(turns ? fluid.moves - fluid.bears : -fluid.bears, 1, 0);
+    result.added_weight[m] = turns ? 0 : mode.rate(-fluid.moves, 1, 0);
+
+    // Slopes go as 1/a where the pins stay; kappa = W h - B h_B + a S.
+    const S two(2.0), below = m == 0 ? S(0.0) : mode.links[static_cast<std::size_t>(m - 1)].hung;
+    const S axial =
+        S(std::ldexp(rig.flywheel(m).axial_moment, -units.weight_exponent - 2 * units.length_exponent)) * square;
+    const S by_length = sign * square * (below - two * (link.tension + mode.speed * link.spin)) +
+                        turning * two * (solid.resists(s) + fluid.resists(s) - axial) / link.length;
+    const S by_centroid = solid.weight * (sign * square - turning * two * solid.centre * s);
+    const S radius = sqrt(solid.gyration), by_radius = -(turning * two * solid.weight * radius * square);
+    result.length[m] = m == 0 ? 0 : mode.rate(by_length, 0, 1);  // where nothing hangs, no pin matters
+    result.centroid[m] = mode.rate(by_centroid, 0, 1);
+    result.radius_of_gyration[m] = mode.rate(by_radius, 0, 1);
+    result.length_in_proportion[m] = mode.rate(
+        (m == 0 ? S(0.0) : by_length) + (solid.centroid * by_centroid + radius * by_radius) / link.length, 0, 1);
+}
+
+}  // namespace detail
+
 REVCHAIN_INLINE RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset,
                                            double gravity) {
     using S = Wide<double>;
@@ -18,86 +107,24 @@ REVCHAIN_INLINE RigSensitivity sensitivity(const Rig& rig, double angular_speed,
     detail::require_positive(place, "gravity", gravity);
     if (offset.size() != rig.size() + 1)
         detail::throw_invalid(place, "there must be " + std::to_string(rig.size() + 1) + " offsets", offset.size());
-    const auto links = rig_links(rig);
-    const ChainUnits units = rig.chain().units();
-    const Index count = rig.size();
-    const S n(angular_speed);
-    // n^2/g times the unit of length, and n over the unit of weight times length times time
-    const S turning = ldexp(n * n / S(gravity), units.length_exponent);
-    const Support& support = rig.support();
-    S inertia(0.0), momentum(0.0);  // y^T M y, y^T G y
-    std::vector<S> slope;
-    for (Index m = 0; m < count; ++m) {
-        const RigLink& link = links[static_cast<std::size_t>(m)];
-        const S lower(offset[m]), upper(offset[m + 1]), s = (lower - upper) / link.length;
-        slope.push_back(s);
-        inertia =
-            inertia + (lower * (link.lower * lower + (link.cross + link.cross) * upper) + link.upper * upper * upper);
-        const S spins = link.spin * link.length * s * s;
-        momentum = momentum + (rig.stands(m) ? -spins : spins);
-    }
-    const S top(offset[count]);
-    if (!support.is_firm())
-        inertia = inertia + S(std::ldexp(support.carriage_weight, -units.weight_exponent)) * top * top;
-    const S denominator = momentum - S(2.0) * turning * inertia / n;
-    if (!isfinite(denominator) || denominator == S(0.0))
+    const detail::RigMode mode(rig, angular_speed, offset, gravity);
+    if (!isfinite(mode.denominator) || mode.denominator == S(0.0))
         detail::throw_invalid(place, "offsets must be finite and move a weight or tilt a flywheel at the angular speed",
                               angular_speed);
-    const auto rate = [&](const S& x) { return static_cast<double>(-x / denominator); };
-
     RigSensitivity result{};
     for (auto* column :
          {&result.weight, &result.length, &result.centroid, &result.radius_of_gyration, &result.length_in_proportion,
           &result.momentum, &result.displaced_weight, &result.added_weight})
-        column->resize(count);
-    const auto per_weight = [&](const S& x) { return std::ldexp(rate(x), -units.weight_exponent); };
-    const auto per_length = [&](const S& x) { return std::ldexp(rate(x), -units.length_exponent); };
-    S above(0.0);  // sum of a s^2 over the links above, of those that stand less
-    for (Index m = count; m-- > 0;) {
-        const RigLink& link = links[static_cast<std::size_t>(m)];
-        const S sign(rig.stands(m) ? -1.0 : 1.0), s = slope[static_cast<std::size_t>(m)], square = s * s,
-                                                  a = link.length;
-        /// A body of the link: where its centre of gravity is, and what a unit of its weight bears and resists.
-        struct Body {
-            S weight, centroid, gyration, centre, bears, moves;
-        };
-        const auto body = [&](double weight, double centroid, const S& ratio) {
-            const S h(std::ldexp(centroid, -units.length_exponent)), gyration = ratio * (a * a);
-            const S centre = S(offset[m + 1]) + h * s;
-            return Body{S(std::ldexp(weight, -units.weight_exponent)),  h, gyration, centre, sign * h * square + above,
-                        turning * (centre * centre + gyration * square)};
-        };
-        const Link<double> own = rig.chain().link(m);
-        const Displaced displaced = rig.displaced(m);
-        const Flywheel wheel = rig.flywheel(m);
-        const bool turns = rig.fluid() == Fluid::turning;
-        const Body solid = body(own.weight, own.centroid, own.gyration_ratio);
-        const Body fluid =
-            body(turns ? -displaced.weight : displaced.added_weight, displaced.centroid, displaced.gyration_ratio);
-        result.weight[m] = per_weight(solid.bears - solid.moves);
-        result.momentum[m] = std::ldexp(rate(sign * n * square), -units.weight_exponent - units.length_exponent);
-        result.displaced_weight[m] = per_weight(turns ? fluid.moves - fluid.bears : -fluid.bears);
-        result.added_weight[m] = turns ? 0 : per_weight(-fluid.moves);
-
-        // Slopes go as 1/a where the pins stay; kappa = W h - B h_B + a S.
-        const S two(2.0), below = m == 0 ? S(0.0) : links[static_cast<std::size_t>(m - 1)].hung;
-        const auto resists = [&](const Body& it) {
-            return it.weight * s * (it.centroid * it.centre + it.gyration * s);
-        };
-        const S axial = S(std::ldexp(wheel.axial_moment, -units.weight_exponent - 2 * units.length_exponent)) * square;
-        const S by_length = sign * square * (below - two * (link.tension + n * link.spin)) +
-                            turning * two * (resists(solid) + resists(fluid) - axial) / a;
-        const S by_centroid = solid.weight * (sign * square - turning * two * solid.centre * s);
-        const S radius = sqrt(solid.gyration), by_radius = -(turning * two * solid.weight * radius * square);
-        result.length[m] = m == 0 ? 0 : per_length(by_length);  // where nothing hangs, no pin matters
-        result.centroid[m] = per_length(by_centroid), result.radius_of_gyration[m] = per_length(by_radius);
-        result.length_in_proportion[m] =
-            per_length((m == 0 ? S(0.0) : by_length) + (solid.centroid * by_centroid + radius * by_radius) / a);
-        above = above + sign * link.length * square;
+        column->resize(rig.size());
+    S above(0.0);
+    for (Index m = rig.size(); m-- > 0;) {
+        detail::link_sensitivity(mode, m, above, result);
+        const S s = mode.slope[static_cast<std::size_t>(m)];
+        above = above + mode.sign(m) * mode.links[static_cast<std::size_t>(m)].length * (s * s);
     }
-    if (!support.is_firm()) {
-        result.stiffness = std::ldexp(rate(top * top), units.length_exponent - units.weight_exponent);
-        result.carriage_weight = std::ldexp(rate(-turning * top * top), -units.weight_exponent);
+    if (!rig.support().is_firm()) {
+        result.stiffness = mode.rate(mode.top() * mode.top(), 1, -1);
+        result.carriage_weight = mode.rate(-mode.turning * mode.top() * mode.top(), 1, 0);
     }
     return result;
 }

@@ -125,7 +125,8 @@ struct Balance {
     Inverse inverse;
 };
 
-/// Newton's method to the last digit of double-double; nothing where an offset is out of reach.
+/// Newton's method to the last digit of double-double; nothing where an offset is out of reach. Not that of
+/// balance/newton.hpp: its steps use the inverse and the enclosed forces that the test below needs anyway.
 template <class End>
 std::optional<Balance> newton(const EnclosedLinks<Far>& links, const Interval<Far>& height, std::vector<Far> offset,
                               const End& support) {
