@@ -81,8 +81,8 @@ def work_of(name, study, threads, folder):
 
     def without_output():
         with (
-            mock.patch("revchain._sweep.writer_of", lambda path: Nothing),
-            mock.patch("revchain._sweep_keep.pieces_of", lambda *given: {}),
+            mock.patch("revchain.studies.sweep.writer_of", lambda path: Nothing),
+            mock.patch("revchain.studies.keep.pieces_of", lambda *given: {}),
         ):
             return with_a_file()
 

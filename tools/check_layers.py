@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MPL-2.0
-"""House rules that a compiler does not check: which folder may include which, licences, size, what a library never does.
+"""House rules that a compiler does not check: which folder may use which, licences, size, what a library never does.
 
 Run from anywhere; prints file:line: what is wrong, and ends with 1 when something is.
 """
 
+import ast
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 INCLUDE = ROOT / "include" / "revchain"
+PYTHON = ROOT / "src" / "revchain"
 
 # Folder of include/revchain -> folders it may include, itself apart. The arrows run one way (see the check below).
 ALLOWED = {
@@ -93,6 +96,10 @@ FORBIDDEN = {
 # What one compiler knows and another refuses, and the headers that hold it.
 COMPILER = r"__attribute__|__builtin_|__has_builtin|__GNUC__|__clang__|_MSC_VER|__float128|__int128|gnu::target|\b_mm\w*"
 COMPILER_HEADERS = {"numeric/compiler.hpp", "numeric/dispatch.hpp", "simd/registers.hpp"}
+# Folders of src/revchain, each of which may import from itself and those before it. Pictures are imported when something
+# is drawn, by the class that is drawn; they compute nothing and import only what is said here.
+PYTHON_FOLDERS = ("systems", "results", "closed_forms", "questions", "scenes", "studies", "cli")
+PICTURES = {"systems", "results"}
 SOURCES = {".hpp", ".cpp", ".py", ".pyi", ".sh"}
 SKIPPED = {".git", ".venv", "build", "dist", "out"}
 
@@ -202,6 +209,37 @@ def reached_from(start: str, graph: dict[str, list[str]]) -> set[str]:
     return reached
 
 
+def check_python(path: Path) -> list[str]:
+    """Complains about one module of the package; the modules of ours that it imports when it is itself imported."""
+    here = path.relative_to(PYTHON).with_suffix("").parts
+    own, ours = here[0] if len(here) > 1 else "", []
+    if len(here) > 1 and own not in (*PYTHON_FOLDERS, "plots"):
+        complain(path, 1, f"unknown folder {own}; its place goes into PYTHON_FOLDERS in tools/check_layers.py")
+        return []
+    for node, at_import in imports_of(ast.parse(path.read_text(encoding="utf-8"))):
+        package = here[: len(here) - node.level] if node.level else ("?",)
+        target = (*package, *(node.module or "").split(".")) if node.module else package
+        names = [target] if node.module and len(target) > 1 else [(*target, name.name) for name in node.names]
+        for name in names:
+            folder_of = name[0] if len(name) > 1 or name[0] in PYTHON_FOLDERS else ""
+            if folder_of in PYTHON_FOLDERS and own:
+                allowed = PICTURES if own == "plots" else PYTHON_FOLDERS[: PYTHON_FOLDERS.index(own) + 1]
+                if folder_of not in allowed:
+                    complain(path, node.lineno, f"{own} must not import {folder_of}")
+            if at_import and (PYTHON.joinpath(*name).with_suffix(".py")).is_file():
+                ours.append("/".join(name))
+    return ours
+
+
+def imports_of(tree: ast.AST, at_import: bool = True) -> Iterator[tuple[ast.ImportFrom, bool]]:
+    """Imports that a program makes, and whether with the module itself; those for types alone are left out."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.ImportFrom):
+            yield node, at_import
+        elif not (isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"):
+            yield from imports_of(node, at_import and not isinstance(node, ast.FunctionDef))
+
+
 def check_licence(path: Path, graph: dict[str, list[str]]) -> None:
     name = path.relative_to(ROOT).as_posix()
     head = path.read_text(encoding="utf-8").splitlines()[:5]
@@ -246,13 +284,17 @@ def main() -> int:
         for name in sorted(reached_from(plain, graph) & RIGGING):
             problems.append(f"include/revchain/{plain}: leads to {name}, which a plain chain must not pay for")
 
+    modules = sorted(PYTHON.rglob("*.py"))
+    imported = {path.relative_to(PYTHON).with_suffix("").as_posix(): check_python(path) for path in modules}
+    check_cycles(imported, "modules import each other")
+
     files = [p for p in sorted(ROOT.rglob("*")) if p.is_file() and not SKIPPED & set(p.relative_to(ROOT).parts)]
     for path in files:
         if path.suffix in SOURCES or path.name == "CMakeLists.txt":
             check_licence(path, graph)
 
     print(*problems, sep="\n", end="\n" if problems else "")
-    print(f"check_layers: {len(headers)} headers, {len(files)} files checked, {len(problems)} problems")
+    print(f"check_layers: {len(headers)} headers, {len(modules)} modules, {len(files)} files checked, {len(problems)} problems")
     return 1 if problems else 0
 
 

@@ -24,21 +24,24 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from . import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
-from ._batch import conical_heights
-from ._bell import BellAndClapper, bell_and_clapper
-from ._branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
-from ._chain import Chain
-from ._continuous import (
+from .closed_forms import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
+from .closed_forms.bell import BellAndClapper, bell_and_clapper
+from .closed_forms.buffer import BufferImpact
+from .closed_forms.governor import GovernorMotion
+from .closed_forms.gyrostatic_string import GyrostaticString
+from .closed_forms.rope import SkippingRope, TortuousRope
+from .closed_forms.statics import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
+from .questions.batch import conical_heights
+from .questions.branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
+from .questions.cord import (
     ContinuousPlace,
     ContinuousShape,
     ContinuousShapes,
     continuous_critical_heights,
     continuous_shapes,
 )
-from ._diagrams import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
-from ._gyrostatic import GyrostaticString
-from ._held import (
+from .questions.explain import Explanation, ModelEstimate, Solution, explain, solve
+from .questions.held import (
     HeldCordShape,
     HeldShape,
     HeldShapes,
@@ -47,13 +50,13 @@ from ._held import (
     held_shapes,
     taut_modes,
 )
-from ._models import Explanation, ModelEstimate, Solution, explain, solve
-from ._modes import Certificate, Modes
-from ._response import Response, SmallOscillation, response, small_oscillation
-from ._rig import Rig, driven_flywheel, free_flywheel
-from ._rig_modes import OtherModes, RigModes, WhirlModes
-from ._scene_error import SceneError
-from ._sensitivity import (
+from .questions.modes import count_modes, modes, recurrence_matrices
+from .questions.response import Response, SmallOscillation, response, small_oscillation
+from .questions.shapes import Stability, SteadyShape, SteadyShapes, steady_shapes
+from .questions.tune import Tuned, tune
+from .results.modes import Certificate, Modes
+from .results.rig_modes import OtherModes, RigModes, WhirlModes
+from .results.sensitivity import (
     Derivatives,
     RigSensitivity,
     Sensitivity,
@@ -61,19 +64,16 @@ from ._sensitivity import (
     momentum_for_speed,
     rig_sensitivity,
 )
-from ._solve import count_modes, modes, recurrence_matrices
-from ._steady import Stability, SteadyShape, SteadyShapes, steady_shapes
-from ._storage import load
-from ._tune import Tuned, tune
-from .buffer_impact import BufferImpact
-from .governor import GovernorMotion
-from .ropes import SkippingRope, TortuousRope
+from .results.storage import load
+from .scenes.error import SceneError
+from .systems.chain import Chain
+from .systems.rig import Rig, driven_flywheel, free_flywheel
 
 if TYPE_CHECKING:
-    from ._sweep import sweep
-    from ._sweep_result import SweepResult
-    from .scene import Scene, load_scene
-    from .study import Study, load_study
+    from .scenes.scene import Scene, load_scene
+    from .studies.result import SweepResult
+    from .studies.study import Study, load_study
+    from .studies.sweep import sweep
 
     __version__: str
 
@@ -154,8 +154,8 @@ __all__ = [
     "tune",
     "two_links",
 ]
-_OF_FILES = {"Scene": "scene", "load_scene": "scene", "Study": "study", "load_study": "study"}
-_OF_FILES |= {"SweepResult": "_sweep_result", "sweep": "_sweep"}
+_OF_FILES = dict.fromkeys(("Scene", "load_scene"), "scenes.scene") | dict.fromkeys(("Study", "load_study"), "studies.study")
+_OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}
 with suppress(ImportError):  # without it, `from revchain import *` must not ask for them
     if find_spec("msgspec") is not None:
         __all__ += list(_OF_FILES)
@@ -164,7 +164,7 @@ with suppress(ImportError):  # without it, `from revchain import *` must not ask
 def __getattr__(name: str) -> Any:
     """Import what needs more than numpy at the moment it is asked for."""
     if name in _OF_FILES:
-        from ._extras import require
+        from .systems.extras import require
 
         try:
             require("msgspec", "cli", "a scene file")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import sys
 
-from ._exit_codes import ExitCode
+from .cli.exit_codes import ExitCode
 
 NEEDED = ("typer", "rich", "msgspec")
 
@@ -13,7 +13,7 @@ NEEDED = ("typer", "rich", "msgspec")
 def main() -> int:
     """Run the command line; the exit code is returned."""
     try:
-        from ._cli import run
+        from .cli.app import run
     except ModuleNotFoundError as error:
         if error.name not in NEEDED:
             raise

@@ -16,8 +16,10 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain import _cli, _cli_sweep, _core
-from revchain._exit_codes import MEANING, ExitCode
+from revchain import _core
+from revchain.cli import app as _cli
+from revchain.cli import sweep as _cli_sweep
+from revchain.cli.exit_codes import MEANING, ExitCode
 
 WATCH = """
 title = "Watch chain"
@@ -412,7 +414,7 @@ def test_what_the_new_scene_says_of_rigs_is_right(run):
 
 
 def test_schema(run):
-    assert run("schema")[1] == Path(rc.__file__).with_name("scene.schema.json").read_text(encoding="utf-8")
+    assert run("schema")[1] == Path(rc.__file__).with_name("scenes").joinpath("scene.schema.json").read_text(encoding="utf-8")
 
 
 def test_help_tells_the_exit_codes(run):
@@ -502,7 +504,7 @@ def test_progress_is_shown_on_a_terminal_after_a_while(start):
 def test_errors_of_the_worker_arrive(monkeypatch):
     from rich.console import Console
 
-    from revchain._progress import watched
+    from revchain.cli.progress import watched
 
     def work(progress):
         assert isinstance(progress, _core.Progress)

@@ -60,7 +60,9 @@ def test_names():
 
 def test_what_is_shipped():
     folder = Path(rc.__file__).parent
-    for name in ("py.typed", "_core.pyi", "scene.schema.json", "new_scene.toml", "study.schema.json", "new_study.toml"):
+    for name in ("py.typed", "_core.pyi", "scenes/scene.schema.json", "scenes/new_scene.toml"):
         assert (folder / name).is_file()
-    for path in folder.glob("*.py"):
+    for name in ("study.schema.json", "new_study.toml"):
+        assert (folder / "studies" / name).is_file()
+    for path in folder.rglob("*.py"):
         assert path.read_text(encoding="utf-8").startswith("# SPDX-License-Identifier: GPL-3.0-or-later\n"), path

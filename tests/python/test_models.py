@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain import _cli, _core
+from revchain import _core
+from revchain.cli import app as _cli
 
 RODS, PLUMMETS = rc.Chain.uniform_rods(1000, length=2.0), rc.Chain.uniform_plummets(1000, length=2.0)
 UNLIKE = rc.Chain(weight=[1.0, 3.0, 0.5, 2.0], length=[0.3, 0.4, 0.5, 0.6])

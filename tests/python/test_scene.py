@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import revchain as rc
-from revchain.scene import (
+from revchain.scenes.scene import (
     Ask,
     AskResponse,
     AskShapes,
@@ -278,9 +278,9 @@ def test_defaults_are_left_out_of_the_dict():
 
 def test_the_schema_shipped_is_the_one_of_the_program(repository):
     text = json.dumps(json_schema(), indent=2) + "\n"
-    shipped = Path(rc.__file__).with_name("scene.schema.json").read_text(encoding="utf-8")
-    assert shipped == text, "revchain schema > src/revchain/scene.schema.json"
-    assert (repository / "src/revchain/scene.schema.json").read_text(encoding="utf-8") == text
+    shipped = Path(rc.__file__).with_name("scenes").joinpath("scene.schema.json").read_text(encoding="utf-8")
+    assert shipped == text, "revchain schema > src/revchain/scenes/scene.schema.json"
+    assert (repository / "src/revchain/scenes/scene.schema.json").read_text(encoding="utf-8") == text
 
 
 def test_the_schema_knows_every_key():

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain import _cli
+from revchain.cli import app as _cli
 
 LINKS = [{"mass": 0.5, "length": 0.5, "repeat": 2}]
 CAROUSEL = {"links": [{"mass": 80, "length": 4.0}], "support": {"radius": 2.0}}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain.scene import Scene
+from revchain.scenes.scene import Scene
 
 G = 9.80665
 ROD = {"mass": 1.0, "length": 1.5, "kind": "rod"}

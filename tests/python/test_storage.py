@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain import _files, _storage
+from revchain.results import files as _files
+from revchain.results import storage as _storage
 
 CHAIN = rc.Chain(weight=[5, 1, 0, 1], length=[1, 2, 1, 0.3], centroid=[1, 0.5, 0.1, -0.2], radius_of_gyration=0.3)
 CHAINS = {

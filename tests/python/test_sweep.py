@@ -21,11 +21,11 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain import _cli
-from revchain._study_journal import Journal
-from revchain._sweep_plot import why_not_drawn
-from revchain.scene import json_schema
-from revchain.study import Study, Vary, study_schema
+from revchain.cli import app as _cli
+from revchain.plots.sweep import why_not_drawn
+from revchain.scenes.scene import json_schema
+from revchain.studies.journal import Journal
+from revchain.studies.study import Study, Vary, study_schema
 
 PLUMMETS = {"links": [{"mass": 1.0, "length": 0.5}, {"mass": 2.0, "length": 0.25, "repeat": 2}]}
 BODIES = {
@@ -394,8 +394,8 @@ def test_files_are_the_same_in_whatever_pieces(scene, vary, more, chunk, monkeyp
     import pandas
     import pyarrow.parquet
 
-    monkeypatch.setattr("revchain._sweep_keep.ROWS", 7)
-    monkeypatch.setattr("revchain._sweep_output._LINES", 3)
+    monkeypatch.setattr("revchain.studies.keep.ROWS", 7)
+    monkeypatch.setattr("revchain.studies.output._LINES", 3)
     given = study(scene, vary, **more)
     found = rc.sweep(given, out="a.nc", chunk=chunk)
     with xarray.open_dataset("a.nc", engine="h5netcdf") as read:
@@ -428,7 +428,7 @@ def test_files_are_the_same_in_whatever_pieces(scene, vary, more, chunk, monkeyp
 
 
 def test_numbers_of_all_sizes_read_back_from_text():
-    from revchain._sweep_output import _lines
+    from revchain.studies.output import _lines
 
     bits = np.random.default_rng(1).integers(0, 2**64 - 1, 20_000, dtype=np.uint64, endpoint=True)
     special = [
@@ -910,8 +910,8 @@ def test_the_schema(repository):
     schema = study_schema()
     text = json.dumps(schema, indent=2) + "\n"
     for folder in (Path(rc.__file__).parent, repository / "src/revchain"):
-        shipped = (folder / "study.schema.json").read_text(encoding="utf-8")
-        assert shipped == text, "revchain schema --study > src/revchain/study.schema.json"
+        shipped = (folder / "studies" / "study.schema.json").read_text(encoding="utf-8")
+        assert shipped == text, "revchain schema --study > src/revchain/studies/study.schema.json"
     assert set(schema["$defs"]) == {"Study", "Vary", *json_schema()["$defs"]}
     for kind in (Study, Vary):
         table = schema["$defs"][kind.__name__]

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import revchain as rc
-from revchain import _cli
-from revchain.scene import SceneError
+from revchain.cli import app as _cli
+from revchain.scenes.scene import SceneError
 
 EXPONENTS = (-0.9, -0.5, 0.5, 1.0, 3.7, 40.0)
 ULP = 2.0**-52

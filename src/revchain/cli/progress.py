@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A computation in a thread of its own, watched from here: a bar after a while, Ctrl-C at any time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from threading import Event, Thread
+from typing import TypeVar
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from .. import _core
+
+PATIENCE = 2.0  # seconds before a bar is shown
+TICK = 0.1  # seconds between looks
+Result = TypeVar("Result")
+
+
+def watched(work: Callable[[_core.Progress], Result], console: Console, quiet: bool = False) -> Result:
+    """Run `work` and return what it returns; KeyboardInterrupt cancels it and goes on to the caller."""
+    progress = _core.Progress()
+    results: list[Result] = []
+    errors: list[BaseException] = []
+    done = Event()  # Thread.join forgets a running thread when Ctrl-C interrupts it (Python 3.11)
+
+    def run() -> None:
+        try:
+            results.append(work(progress))
+        except BaseException as error:
+            errors.append(error)
+        finally:
+            done.set()
+
+    Thread(target=run, daemon=True).start()
+    try:
+        if not done.wait(PATIENCE):
+            columns = (TextColumn("solving"), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn())
+            silent = quiet or not console.is_terminal
+            with Progress(*columns, console=console, transient=True, disable=silent) as bar:
+                task = bar.add_task("solving", total=1.0)
+                while not done.wait(TICK):
+                    bar.update(task, completed=progress.fraction)
+    except KeyboardInterrupt:
+        progress.cancel()
+        done.wait()
+        raise
+    if errors:
+        raise errors[0]
+    return results[0]

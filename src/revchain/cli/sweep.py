@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command for studies: many variations of a scene."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from concurrent.futures import Executor
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from ..plots.sweep import why_not_drawn
+from ..results.files import written_aside
+from ..studies.output import first_refused, writer_of
+from ..studies.study import Study, load_study
+from ..studies.sweep import dask_client
+from ..studies.sweep import sweep as compute
+from .exit_codes import ExitCode
+from .frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
+from .progress import PATIENCE
+
+SENTENCES = 5  # shown of points that are refused
+
+
+@app.command(epilog=EXIT_CODES)
+@guarded
+def sweep(
+    study: Annotated[
+        Path,
+        typer.Argument(metavar="STUDY", help="Study file (.toml or .json); [b]revchain new --study[/b] writes one."),
+    ],
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Results: .csv, .parquet or .nc; STUDY.csv here if left out."),
+    ] = None,
+    plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")] = None,
+    dask: Annotated[
+        str | None,
+        typer.Option(metavar="tcp://ADDRESS|local", help="Compute on a Dask cluster; local starts one here."),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(metavar="K", min=1, help="Threads, or processes of the local cluster.")
+    ] = None,
+    chunk: Annotated[int | None, typer.Option(metavar="K", min=1, help="Points computed, and kept, together.")] = None,
+    check: Annotated[bool, typer.Option("--check", help="Only say what would be computed.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No summary, no progress bar.")] = False,
+) -> None:
+    """Compute many variations of a scene; a run that was ended goes on where it was."""
+    given = load_study(study)
+    if check:
+        for line in _plan(given, str(study)):
+            print(line)
+        return
+    if plot is not None:
+        checked_picture(plot)
+        if reason := why_not_drawn(given._plan(str(study))):
+            raise Stop(f"--plot: {reason}", ExitCode.WRONG_USAGE)
+    if workers is not None and dask not in (None, "local"):
+        raise Stop("--workers is for this machine: a cluster has its own", ExitCode.WRONG_USAGE)
+    out = Path(f"{study.stem}.csv") if out is None else out
+    if out.resolve() == study.resolve():
+        raise Stop(f"{study}: the study itself would be overwritten", ExitCode.WRONG_USAGE)
+    began = time.perf_counter()
+    with ExitStack() as stack:
+        picture = None if plot is None else _picture(plot, out, stack)
+        executor = None if dask is None else _executor(dask, workers, stack)
+        told = _bar(stack, given.points, quiet)
+        threads = None if executor is not None else workers
+        try:
+            found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
+        except KeyboardInterrupt:
+            raise Stop(f"interrupted; the same command goes on from {out}.partial", ExitCode.INTERRUPTED) from None
+        except OSError:
+            raise
+        except ValueError as error:
+            raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+        if picture is not None:
+            _draw(found, picture, given.title or study.stem)
+    if found.damage:
+        print(f"revchain: warning: {found.damage}", file=sys.stderr)
+    if not quiet:
+        there = f", {found.resumed:,} of them from before" if found.resumed else ""
+        print(f"wrote {out}: {len(found):,} points in {time.perf_counter() - began:.3g} s{there}")
+        if plot is not None:
+            print(f"wrote {plot}")
+    if found.count("success") < len(found):
+        _complain(found)
+
+
+def _plan(study: Study, source: str) -> list[str]:
+    """What would be computed."""
+    plan = study._plan(source)
+    lines = [f"{source}: valid: {plan.points:,} points, {'in batches' if plan.batched else 'one by one'}"]
+    for axis in plan.axes:
+        if axis.values is None:
+            what = f"{axis.law}, " + " and ".join(f"{number:g}" for number in axis.law_numbers)
+        else:
+            ends = [value if isinstance(value, str) else f"{value:g}" for value in axis.values[[0, -1]].tolist()]
+            what = f"{axis.values.size:,} values, {ends[0]} to {ends[1]}"
+        lines.append(f"  {axis.name}: {what}")
+    columns = [
+        f"{block.columns[0]} … {block.columns[-1]}" if len(block.columns) > 1 else block.columns[0]
+        for block in plan.blocks
+    ]
+    return [*lines, *(f"  finds {column}" for column in columns)]
+
+
+def _executor(address: str, workers: int | None, stack: ExitStack) -> Executor:
+    try:
+        client = stack.enter_context(dask_client(address, workers))
+    except ImportError:
+        raise
+    except (OSError, ValueError, TimeoutError) as error:
+        raise Stop(f"--dask: {address} does not answer: {error}", ExitCode.WRONG_USAGE) from None
+    if client.cluster is not None:
+        stack.callback(client.cluster.close)
+    executor: Executor = client.get_executor()
+    return executor
+
+
+def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], None]:
+    """A bar after a while, where there is a terminal."""
+    console = Console(stderr=True)
+    columns = (
+        TextColumn("points"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("{task.percentage:3.0f} %"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    bar = Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal)
+    task = bar.add_task("points", total=points)
+    began = time.monotonic()
+    started: list[bool] = []
+
+    def told(done: int, total: int) -> None:
+        if not started and time.monotonic() - began > PATIENCE:
+            started.append(True)
+            stack.enter_context(bar)
+        bar.update(task, completed=done, total=total)
+
+    return told
+
+
+def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:
+    """Where the picture is drawn; that its place can be written is found out before anything is computed."""
+    try:
+        writer_of(out)
+    except ValueError as error:
+        raise Stop(str(error), ExitCode.WRONG_USAGE) from None
+    out.parent.mkdir(parents=True, exist_ok=True)  # the picture may go there, too
+    [aside] = stack.enter_context(written_aside(plot))
+    return aside
+
+
+def _draw(found: Any, plot: Path, title: str) -> None:
+    try:
+        axes = found.plot()
+    except ValueError as error:
+        raise Stop(f"--plot: {error}", ExitCode.WRONG_USAGE) from None
+    save_picture(axes, title, plot)
+
+
+def _complain(found: Any) -> None:
+    """Say which points have no numbers, or no proof."""
+    refused, unmet = found.count("refused"), found.count("tolerance_not_met")
+    lines = first_refused(found, SENTENCES)
+    parts = [f"{refused:,} points are refused"] if refused else []
+    parts += [f"at {unmet:,} points something is not proved"] if unmet else []
+    raise Stop("; ".join(parts) + "".join(f"\n  {line}" for line in lines), ExitCode.TOLERANCE_NOT_MET)

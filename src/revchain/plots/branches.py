@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of branches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..systems.numbers import Floats, word
+from .style import axes_or_new, half_waves_style
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+    from ..questions.branches import Branch
+
+QUANTITIES = {
+    "tip_inclination": "tip inclination (degrees)",
+    "tip_radius": "tip radius (unit of the lengths)",
+    "top_tension": "tension at the support (unit of the weights)",
+    "moment_of_inertia": "moment of inertia (weight x length^2)",
+    "effective_energy": "effective energy (weight x length)",
+}
+CLOSEST = 0.03  # of the width, between births that are written out
+
+
+def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, quantity: str, place: str) -> Axes:
+    """See `Branches.plot`; `first` is the conical height of the slowest mode."""
+    word(place, "quantity", quantity, QUANTITIES)
+    ax = axes_or_new(ax, 7.2, 5.0)
+    named: set[int] = set()
+    curves: dict[Artist, int] = {}
+    births: list[tuple[float, str]] = []
+    for branch in branches:
+        waves = int(branch.half_waves[0])
+        speed = np.sqrt(first / branch.conical_height)
+        value = _values(branch, quantity)
+        colour, label = half_waves_style(waves, named)
+        style = "-" if branch.mode is not None else "--"
+        curves[ax.plot(speed, value, style, color=colour, linewidth=1.6, label=label)[0]] = waves
+        if branch.mode is not None:
+            ax.plot(speed[0], value[0], "o", color=colour, markersize=5.0)
+        folds = branch.folds
+        ax.plot(speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="white", zorder=3)
+        if branch.mode is None and folds.size:
+            born = int(folds[np.argmin(speed[folds])])
+            births.append((float(speed[born]), colour))
+    left, right = ax.get_xlim()
+    last = -np.inf
+    for at, colour in sorted(births):
+        ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
+        if at - last < CLOSEST * (right - left):
+            continue
+        last = at
+        ax.text(
+            at,
+            0.5,
+            f"pair born at {at:.5g}",
+            transform=ax.get_xaxis_transform(),
+            rotation=90,
+            ha="center",
+            va="center",
+            fontsize="small",
+            color=colour,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+        )
+    ax.set(xlabel="speed over the first critical speed", ylabel=QUANTITIES[quantity])
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    if named:
+        handles, labels = ax.get_legend_handles_labels()
+        order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # what was there before: last
+        ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="upper left", bbox_to_anchor=(1.01, 1.0))
+    return ax
+
+
+def _values(branch: Branch, quantity: str) -> Floats:
+    """The numbers to draw: inclinations in degrees."""
+    values: Floats = getattr(branch, quantity)
+    return np.degrees(values) if quantity == "tip_inclination" else values

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of forced responses and of small oscillations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..systems.numbers import integer, listed, word
+from .rigs import plot_carried
+from .style import MOST_PINS_AS_DOTS, axes_or_new, thinned
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ..questions.response import Response, SmallOscillation
+
+MOST_CURVES = 4  # of pins, unless asked
+
+
+def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, resonances: Sequence[float]) -> Axes:
+    """See `Response.plot`; `resonances` are speeds to mark."""
+    speed = found.angular_speed.reshape(-1)
+    available = np.atleast_1d(found.pins).tolist()
+    if speed.size == 0:
+        raise ValueError("Response.plot: the response has no speed to draw; it needs at least one")
+    if speed.size == 1:
+        return plot_carried(found, ax, available if pins is None else _known(pins, available))
+    order = np.argsort(speed)
+    speed = speed[order]
+    offset = found.offset.reshape(speed.size, -1)[order]
+    chosen = _spread(available, found.chain.size) if pins is None else _known(pins, available)
+    ax = axes_or_new(ax, 7.0, 4.5)
+    for number, pin in enumerate(chosen):
+        y = offset[:, available.index(pin)]
+        name = "free end" if pin == 0 else f"pin {pin}"
+        size = np.abs(y)
+        for side, style in ((1, "-"), (-1, "--")):
+            ax.plot(
+                speed,
+                np.where(_with_neighbours(np.sign(y) == side), size, np.nan),
+                style,
+                color=f"C{number % 10}",
+                linewidth=1.4,
+                label=name if side == 1 else None,
+            )
+    ax.axhline(found.support_radius, color="0.6", linewidth=0.8, zorder=0)
+    for at in resonances:
+        ax.axvline(at, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
+    ax.set_yscale("log")
+    finite = np.abs(offset[np.isfinite(offset) & (offset != 0)])
+    if finite.size:
+        top = finite.max()
+        ax.set_ylim(max(finite.min(), 1e-6 * min(top, found.support_radius)) / 2, 2 * top)
+    ax.set(xlabel="angular speed (rad/s)", ylabel="from the axis, that of the support the grey line")
+    ax.plot([], [], "--", color="0.3", linewidth=1.4, label="opposite to the support")
+    ax.legend()
+    return ax
+
+
+def _with_neighbours(yes: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Also the next place: curves then meet where a pin crosses the axis or the chain a resonance."""
+    wide = yes.copy()
+    wide[1:] |= yes[:-1]
+    return wide
+
+
+def _spread(available: list[int], links: int) -> list[int]:
+    """The lowest pins, and some more evenly up the chain; not the support."""
+    free = [pin for pin in sorted(set(available)) if pin < links] or available
+    places = np.linspace(0, len(free), min(MOST_CURVES, len(free)), endpoint=False).astype(int)
+    return [free[place] for place in places]
+
+
+def _known(pins: Iterable[int], available: list[int]) -> list[int]:
+    numbers = [integer("Response.plot", "pins", pin) for pin in listed("Response.plot", "pins", pins)]
+    for number in numbers:
+        if number not in available:
+            raise ValueError(f"Response.plot: pins must be among those of this result, got {number}")
+    return numbers
+
+
+def plot_small_oscillation(
+    found: SmallOscillation, ax: Axes | None, kind: str, pins: Iterable[int], *, length_unit: str
+) -> Axes:
+    """See `SmallOscillation.plot`."""
+    place = "SmallOscillation.plot"
+    word(place, "kind", kind, ("shapes", "time"))
+    size = found.chain.size
+    chosen = [integer(place, "pins", pin) for pin in listed(place, "pins", pins)]
+    for pin in chosen:
+        if not 0 <= pin <= size:
+            raise ValueError(f"{place}: pins must be numbers from 0 to {size}, got {pin}")
+    ax = axes_or_new(ax, *((7.0, 4.0) if kind == "time" else (5.0, 6.0)))
+    order = np.argsort(found.time)
+    if kind == "time":
+        for number, pin in enumerate(chosen):
+            y = found.offset[order, pin]
+            kept = thinned(y)
+            name = "free end" if pin == 0 else f"pin {pin}"
+            ax.plot(found.time[order][kept], y[kept], color=f"C{number % 10}", linewidth=1.2, label=name)
+        ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
+        ax.set(xlabel="time (s)", ylabel=f"from the axis ({length_unit})")
+        if chosen:
+            ax.legend()
+        return ax
+    from ..systems.extras import require
+
+    colours = require("matplotlib", "plot", "plotting").colormaps["viridis"]
+    lengths = found.chain.length
+    depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])
+    marker = "o" if depth.size <= MOST_PINS_AS_DOTS else ""
+    ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    for rank, row in enumerate(order):
+        kept = thinned(found.offset[row])
+        ax.plot(
+            found.offset[row][kept],
+            depth[kept],
+            color=colours(0.9 * rank / max(1, order.size - 1)),
+            linewidth=1.2,
+            marker=marker,
+            markersize=2.5,
+            label=f"{found.time[row]:.4g} s",
+        )
+    ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
+    ax.set_ylim(1.03 * depth[0], -0.03 * depth[0])
+    ax.set(xlabel=f"from the axis ({length_unit}), own scale", ylabel=f"depth below the support ({length_unit})")
+    if order.size <= 12:
+        ax.legend(fontsize="small")
+    return ax

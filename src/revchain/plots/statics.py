@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of force diagrams and funicular polygons by matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..systems.numbers import shown
+from .style import checked_axes, keep_room, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ..closed_forms.statics import ForceDiagram, FunicularPolygon
+
+MOST_LETTERED = 8  # points of one kind with a letter each
+
+
+def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tuple[Axes, Axes]:
+    """Those of the caller, or new ones side by side on a figure of their own."""
+    if axes is None:
+        left, right = new_figure(width, height).subplots(1, 2)
+        return left, right
+    two = list(axes) if isinstance(axes, Iterable) else []
+    if len(two) != 2:
+        raise TypeError(f"plot: axes must be two axes of matplotlib, got {shown(axes)}")
+    return checked_axes(two[0]), checked_axes(two[1])
+
+
+def _letter(ax: Axes, text: str, x: float, z: float, right: bool = True, color: str = "black") -> None:
+    """Write a letter beside a point, to the right of it or to the left."""
+    ax.annotate(
+        f"${text}$",
+        (x, z),
+        xytext=(5 if right else -5, 3),
+        textcoords="offset points",
+        ha="left" if right else "right",
+        color=color,
+    )
+
+
+def _finish(ax: Axes, across: str, up: str, title: str) -> None:
+    """Write what the axes are, and leave room for the letters."""
+    ax.margins(0.12)
+    ax.set(xlabel=across, ylabel=up, title=title, aspect="equal")
+    keep_room(ax)
+    ax.locator_params(axis="x", nbins=3 if ax.dataLim.height > 2.5 * ax.dataLim.width else 5)
+
+
+def plot_force_diagram(
+    diagram: ForceDiagram, axes: tuple[Axes, Axes] | None, *, length_unit: str, weight_unit: str
+) -> tuple[Axes, Axes]:
+    """See `ForceDiagram.plot`."""
+    figure, forces = _two_axes(axes, 9.0, 5.5)
+    pin, ray, reaction, load = diagram.pin, diagram.ray, diagram.reaction, diagram.load
+    count, height = len(ray), diagram.conical_height
+    lettered = count <= MOST_LETTERED
+    plummets = bool(np.array_equal(ray, reaction))
+    centre = diagram.centre_of_gravity
+
+    figure.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    for m in range(count):
+        figure.plot(*pin[m : m + 2].T, color=f"C{m % 10}", linewidth=1.8, zorder=3)
+    figure.plot(*pin[:-1].T, linestyle="none", marker="o", markersize=5.0, color="black", zorder=4)
+    figure.plot(0.0, 0.0, marker="v", color="black", markersize=8.0, zorder=4)
+    if lettered:
+        for m in range(count):
+            _letter(figure, f"P_{m + 1}", pin[m, 0], pin[m, 1], right=bool(pin[m, 0] >= 0))
+        for m in range(count):  # G, H, K: the direction of thread or reaction above
+            x, z = centre[m]
+            colour = f"C{m % 10}"
+            figure.plot([x, 0.0, 0.0], [z, z, z + height], color=colour, linewidth=0.9, linestyle=":", zorder=2)
+            figure.plot([0.0, x], [z + height, z], color=colour, linewidth=0.9, linestyle="--", zorder=2)
+            _letter(figure, f"K_{m + 1}", 0.0, z + height, right=bool(x < 0), color=colour)
+            if m > 0:
+                figure.plot(x, z, marker="+", color=colour, zorder=3)
+                _letter(figure, f"G_{m + 1}", x, z, right=bool(x >= 0), color=colour)
+    _finish(figure, f"from the axis ({length_unit})", f"above the support ({length_unit})", "funicular polygon")
+
+    total = float(ray[-1, 1])
+    scale = total / count / height  # ON as the mean weight
+    forces.plot([0.0, 0.0], [-scale * height, total], color="0.4", linewidth=0.9, zorder=1)
+    level = np.cumsum(-load[:, 1])
+    corners = np.concatenate([[[0.0, 0.0]], ray])
+    for m in range(count):
+        colour = f"C{m % 10}"
+        forces.plot([0.0, ray[m, 0]], [0.0, ray[m, 1]], color=colour, linewidth=1.8, zorder=3)
+        forces.plot(*corners[m : m + 2].T, color="0.4", linewidth=1.0, zorder=2)
+        forces.plot([0.0, ray[m, 0]], [level[m], level[m]], color="0.7", linewidth=0.8, linestyle=":", zorder=1)
+        if not plummets:
+            label = "reaction at the upper pin" if m == 0 else None
+            forces.plot([0.0, reaction[m, 0]], [0.0, reaction[m, 1]], color=colour, linestyle="--", label=label)
+        if np.isfinite(diagram.lifted[m]):
+            x = scale * diagram.lifted[m]
+            forces.plot([0.0, x], [0.0, -scale * height], color=colour, linewidth=0.9, linestyle="-.", zorder=2)
+            forces.plot(x, -scale * height, marker="o", markersize=4.0, color="black", zorder=4)
+            if lettered:
+                _letter(forces, f"P_{m + 1}", x, -scale * height, right=bool(x >= 0))
+        if lettered:
+            _letter(forces, f"Q_{m + 1}", ray[m, 0], ray[m, 1], right=bool(ray[m, 0] >= 0))
+            _letter(forces, f"W_{m + 1}", 0.0, level[m] + 0.5 * load[m, 1], right=bool(ray[m, 0] < 0), color="0.4")
+    reach = [0.0, *(scale * x for x in diagram.lifted if np.isfinite(x))]
+    forces.plot([min(reach), max(reach)], [-scale * height] * 2, color="0.6", linewidth=0.9, zorder=1)
+    _letter(forces, "O", 0.0, 0.0, right=bool(ray[0, 0] < 0))
+    _letter(forces, "N", 0.0, -scale * height, right=False)
+    _finish(forces, f"sideways ({weight_unit})", f"upwards ({weight_unit})", "diagram of force")
+    if not plummets:
+        forces.legend(fontsize="small")
+    return figure, forces
+
+
+def plot_funicular_polygon(
+    polygon: FunicularPolygon, axes: tuple[Axes, Axes] | None, *, length_unit: str, weight_unit: str
+) -> tuple[Axes, Axes]:
+    """See `FunicularPolygon.plot`."""
+    left, forces = _two_axes(axes, 10.0, 4.5)
+    x, z, rise, pull = polygon.place, polygon.height, polygon.rise, polygon.horizontal_tension
+    lettered = len(x) - 2 <= MOST_LETTERED
+    line = max(float(z.max()), 0.0) + 0.12 * (float(x[-1] - x[0]))
+    left.plot([x[0], x[-1]], [line, line], color="0.4", linewidth=1.0)
+    left.vlines(x[1:-1], z[1:-1], line, color="0.7", linewidth=0.8, linestyle=":")
+    left.plot(x[1:-1], np.full(len(x) - 2, line), linestyle="none", marker="o", markersize=5.0, color="0.4")
+    for j in range(len(x) - 1):
+        left.plot(x[j : j + 2], z[j : j + 2], color=f"C{j % 10}", linewidth=1.8)
+        forces.plot([0.0, pull], [0.0, rise[j]], color=f"C{j % 10}", linewidth=1.8)
+    left.plot(x[1:-1], z[1:-1], linestyle="none", marker="o", markersize=5.0, color="black")
+    left.plot(x[[0, -1]], z[[0, -1]], linestyle="none", marker="^", markersize=7.0, color="black")
+    forces.plot([pull, pull], [rise[0], rise[-1]], color="0.4", linewidth=1.2)
+    forces.plot(np.full(len(rise), pull), rise, linestyle="none", marker="_", color="0.4")
+    _letter(forces, "O", 0.0, 0.0, right=False)
+    if lettered:
+        for j in range(1, len(x) - 1):
+            _letter(left, f"P_{j}", x[j], z[j])
+            _letter(forces, f"W_{j}", pull, 0.5 * float(rise[j - 1] + rise[j]))
+    _finish(left, f"along ({length_unit})", f"upwards ({length_unit})", "funicular polygon")
+    _finish(forces, f"sideways ({weight_unit})", f"upwards ({weight_unit})", "diagram of force")
+    return left, forces

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Study files: many variations of a scene. Needs msgspec."""

@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What users pass in, as the float64 arrays that the compiled module takes."""
+
+from __future__ import annotations
+
+import math
+import operator
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from functools import cache
+from numbers import Real
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _core
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[Any]  # float32, float64 or longdouble, by the precision asked for
+Whole = NDArray[np.int64]
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+LARGEST = 2**63 - 1
+STANDARD_GRAVITY = 9.80665
+"""Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
+
+
+def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
+    """`value` as a float64 array; anything but real numbers is refused with a ValueError."""
+    array = array_of(value)
+    if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
+        with suppress(OverflowError):
+            array = array.astype(np.float64)  # whole numbers beyond 64 bits, fractions
+    if isinstance(value, (bytes, bytearray, memoryview)):
+        array = np.asarray(None)
+    if array.dtype.kind not in "iuf" or (array.size == 0 and array.ndim == 0):
+        raise ValueError(f"{place}: {name} must be a real number or an array of them, got {shown(value)}")
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise ValueError(f"{place}: {name} has masked entries")
+    return array.astype(np.float64, order="C", copy=False)
+
+
+def array_of(value: object) -> NDArray[Any]:
+    """`value` as numpy has it; an array of None for what it refuses, ragged lists among others."""
+    try:
+        return np.asarray(value)
+    except (TypeError, ValueError, OverflowError):
+        return np.asarray(None)
+
+
+def integer(place: str, name: str, value: object) -> int:
+    """`value` as an int that the compiled module can hold; a float, a bool or a string is refused with a ValueError."""
+    number = _whole(place, name, value)
+    if not -LARGEST <= number <= LARGEST:
+        raise ValueError(f"{place}: {name} must be a number of less than 64 bits, got {shown(number)}")
+    return number
+
+
+def count(place: str, name: str, value: object, each: int = 0) -> int:
+    """`value` as an int from 1 on; a ValueError where so many results of `each` bytes do not fit in the memory."""
+    number = _whole(place, name, value)
+    if number < 1:
+        raise ValueError(f"{place}: {name} must be at least 1, got {shown(number)}")
+    if number > LARGEST:
+        raise ValueError(f"{place}: {name} is too large, got {shown(number)}")
+    refuse_beyond_memory(place, name, number, each)
+    return number
+
+
+def refuse_beyond_memory(place: str, name: str, number: int, each: int) -> None:
+    """A ValueError where so many numbers of `each` bytes are more than the memory of this machine."""
+    if number * each > (memory := _memory()):
+        needed, there = number * each / 2**30, memory / 2**30
+        raise ValueError(
+            f"{place}: {name} is too large, got {number}: it would take {needed:.3g} GiB of memory, and this machine "
+            f"has {there:.3g} GiB"
+        )
+
+
+@cache
+def _memory() -> int:
+    """Bytes of this machine; where it does not tell, what a process can address."""
+    with suppress(AttributeError, ValueError, OSError):
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    return 2**47
+
+
+def limit(place: str, name: str, value: object) -> int:
+    """`value` as an int; beyond what the compiled module can hold, the largest that it can."""
+    return int(min(max(_whole(place, name, value), -LARGEST), LARGEST))
+
+
+def _whole(place: str, name: str, value: object) -> int:
+    if not isinstance(value, (bool, np.bool_)):
+        with suppress(TypeError):
+            return operator.index(value)  # type: ignore[arg-type]
+    raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
+
+
+def listed(place: str, name: str, value: object) -> list[Any]:
+    """`value` as a list; a ValueError for what holds nothing one after another."""
+    try:
+        return list(value)  # type: ignore[call-overload,no-any-return]
+    except (TypeError, ValueError):
+        raise ValueError(f"{place}: {name} must be a list of whole numbers, got {shown(value)}") from None
+
+
+def word(place: str, name: str, value: object, words: Iterable[str]) -> str:
+    """`value` if it is one of the words; a ValueError otherwise."""
+    if not isinstance(value, str) or value not in words:
+        raise ValueError(f"{place}: {name} must be one of {', '.join(words)}, got {shown(value)}")
+    return value
+
+
+def text(place: str, name: str, value: object) -> str:
+    """`value` if it is text; a TypeError otherwise."""
+    if not isinstance(value, str):
+        raise TypeError(f"{place}: {name} must be text, got {shown(value)}")
+    return value
+
+
+def file_path(place: str, name: str, value: object) -> str:
+    """`value` as the path of a file; a TypeError or a ValueError for what is none."""
+    if not isinstance(value, str | os.PathLike) or not isinstance(path := os.fspath(value), str):
+        raise TypeError(f"{place}: {name} must be a path, that is text or a pathlib.Path, got {shown(value)}")
+    if "\0" in path:
+        raise ValueError(f"{place}: {name} must have no null byte, got {shown(path)}")
+    return path
+
+
+def boolean(place: str, name: str, value: object) -> bool:
+    """`value` as a bool; anything else, 0 and 1 too, is refused with a TypeError."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{place}: {name} must be True or False, got {shown(value)}")
+    return bool(value)
+
+
+def counts(place: str, name: str, value: ArrayLike) -> Whole:
+    """`value` as an int64 array of numbers from 1 to 2**53."""
+    whole = array_of(value)
+    if whole.dtype.kind not in "iu":
+        raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
+    if whole.size and whole.min() < 1:
+        raise ValueError(f"{place}: {name} must be at least 1, got {whole.min()}")
+    if whole.size and whole.max() > 2**53:
+        raise ValueError(f"{place}: {name} is too large, got {whole.max()}")
+    return whole.astype(np.int64)
+
+
+def refuse_where(wrong: NDArray[np.bool_], array: Floats, message: str) -> None:
+    """A ValueError with the first of the wrong numbers."""
+    if wrong.any():
+        raise ValueError(f"{message}, got {array[wrong].flat[0]:g}")
+
+
+def real(place: str, name: str, value: object) -> float:
+    """`value` as a float; anything but one real number is refused with a ValueError."""
+    if type(value) is float:
+        return value
+    array = floats(place, name, value)  # type: ignore[arg-type]
+    if array.ndim != 0:
+        raise ValueError(f"{place}: {name} must be a single number, got an array of shape {array.shape}")
+    return float(array)
+
+
+def positive(place: str, name: str, value: ArrayLike) -> Floats:
+    """`value` as a float64 array of positive finite numbers."""
+    array = floats(place, name, value)
+    refuse_where(~((array > 0) & (array < math.inf)), array, f"{place}: {name} must be positive and finite")
+    return array
+
+
+def one_positive(place: str, name: str, value: object) -> float:
+    """`value` as a positive finite float; anything but one real number is refused with a ValueError."""
+    return float(positive(place, name, real(place, name, value)))
+
+
+def exactly_one(place: str, **given: float | None) -> tuple[str, float]:
+    """Name and value, positive and finite, of the only one that is not None."""
+    known = [name for name, value in given.items() if value is not None]
+    if len(known) != 1:
+        *others, last = given
+        raise ValueError(
+            f"{place}: give exactly one of {', '.join(others)} and {last}, got {' and '.join(known) or 'none'}"
+        )
+    return known[0], one_positive(place, known[0], given[known[0]])
+
+
+def height_of(
+    place: str, conical_height: float | None, speed: float | None, gravity: float, speed_name: str = "angular_speed"
+) -> float:
+    """The conical height given, or that of the speed given."""
+    name, value = exactly_one(place, conical_height=conical_height, **{speed_name: speed})
+    if name == "conical_height":
+        return value
+    g = one_positive(place, "gravity", gravity)
+    return one_positive(
+        place, f"gravity / {speed_name}**2", _core.conical_pendulum_height(np.asarray(value), np.asarray(g))
+    )
+
+
+def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
+    """The arrays broadcast to one shape; a ValueError names those whose shapes do not go together."""
+    try:
+        return list(np.broadcast_arrays(*arrays.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ValueError(f"{place}: these shapes do not go together: {shapes}") from None
+
+
+def positives(place: str, **given: ArrayLike) -> list[Floats]:
+    """Positive finite numbers, broadcast to one shape."""
+    return together(place, **{name: positive(place, name, value) for name, value in given.items()})
+
+
+def places(place: str, x: ArrayLike, mode: ArrayLike, **chain: Floats) -> list[NDArray[Any]]:
+    """Places on a chain, numbers of modes and the chain's own numbers, length first, broadcast to one shape."""
+    arrays = together(place, x=floats(place, "x", x), mode=counts(place, "mode", mode), **chain)
+    at, length = arrays[0], arrays[2]
+    refuse_where(~((at >= 0) & (at <= length)), at, f"{place}: x must lie between 0 and length")
+    return arrays
+
+
+def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
+    """The arrays, or their numbers where they have no axis."""
+    return (array[()] for array in arrays)
+
+
+def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
+    """What `Chain` takes, as arrays by name: weight, length and, of links that are no plummets, what goes with them."""
+    bodies = [name for name in ("pendulum_length", "radius_of_gyration") if given[name] is not None]
+    if given["centroid"] is None and bodies:
+        raise ValueError(f"{place}: {bodies[-1]} needs centroid beside it")
+    if given["centroid"] is not None and len(bodies) != 1:
+        raise ValueError(f"{place}: centroid needs exactly one of pendulum_length and radius_of_gyration beside it")
+    required = ("weight", "length")
+    return {name: floats(place, name, value) for name, value in given.items() if value is not None or name in required}
+
+
+def shown(value: object, width: int = 60) -> str:
+    """`value` as an error message shows it: its repr, cut where it is long; its type where it has no repr."""
+    try:
+        text = repr(value)
+    except Exception:  # a whole number of more than 4300 digits, or any object of a caller
+        text = f"{type(value).__name__} (it cannot be printed)"
+    return text if len(text) <= width else text[: width - 3] + "..."
+
+
+def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
+    """A view of `array` that cannot be written to."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
