@@ -34,7 +34,8 @@ inline py::array to_numpy(const revchain::Table<double>& values) {
 
 inline py::array to_numpy(const revchain::Matrix<double>& values) { return to_numpy(revchain::Table<double>(values)); }
 
-/// Arrays of one shape in, `count` arrays of that shape out: `function(numbers...)` returns a std::array<double, count>.
+/// Arrays of one shape in, or single numbers after the first, `count` arrays of that shape out: `function(numbers...)`
+/// returns a std::array<double, count>.
 template <std::size_t count, class Function, class... Arrays>
 py::tuple columns(const Function& function, const Array& first, const Arrays&... rest) {
     const std::vector<py::ssize_t> shape(first.shape(), first.shape() + first.ndim());
@@ -43,7 +44,7 @@ py::tuple columns(const Function& function, const Array& first, const Arrays&...
     for (std::size_t j = 0; j < count; ++j) out[j] = py::array_t<double>(shape), to[j] = out[j].mutable_data();
     for (py::ssize_t i = 0; i < first.size(); ++i) {
         if (i % 64 == 0) revchain::detail::look();
-        const std::array<double, count> row = function(first.data()[i], rest.data()[i]...);
+        const std::array<double, count> row = function(first.data()[i], rest.data()[rest.ndim() == 0 ? 0 : i]...);
         for (std::size_t j = 0; j < count; ++j) to[j][i] = row[j];
     }
     py::tuple result(count);

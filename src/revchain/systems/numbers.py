@@ -216,11 +216,14 @@ def positives(place: str, **given: ArrayLike) -> list[Floats]:
 
 
 def places(place: str, x: ArrayLike, mode: ArrayLike, **chain: Floats) -> list[NDArray[Any]]:
-    """Places on a chain, numbers of modes and the chain's own numbers, length first, broadcast to one shape."""
-    arrays = together(place, x=floats(place, "x", x), mode=counts(place, "mode", mode), **chain)
-    at, length = arrays[0], arrays[2]
-    refuse_where(~((at >= 0) & (at <= length)), at, f"{place}: x must lie between 0 and length")
-    return arrays
+    """Places on a chain, numbers of modes and the chain's own numbers, length first, broadcast to one shape.
+
+    A single number stays one: a copy of it for each of many places takes as long as the rest.
+    """
+    given = {"x": floats(place, "x", x), "mode": counts(place, "mode", mode), **chain}
+    at, *others = together(place, **given)
+    refuse_where(~((at >= 0) & (at <= given["length"])), at, f"{place}: x must lie between 0 and length")
+    return [at, *(one if one.ndim == 0 else many for one, many in zip(list(given.values())[1:], others, strict=True))]
 
 
 def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
