@@ -157,5 +157,5 @@ def test_shapes_of_arrays():
 def test_bad_input_is_named(function, arguments, message):
     with pytest.raises(ValueError) as caught:
         function(**arguments)
-    assert str(caught.value).startswith(f"{function.__module__}.{function.__name__}: ")
+    assert str(caught.value).startswith(f"{function.__module__.replace('closed_forms.', '')}.{function.__name__}: ")
     assert message in str(caught.value)

@@ -11,9 +11,9 @@ import pytest
 import revchain as rc
 
 MODULES = [
-    importlib.import_module(f"revchain.{module.name}")
-    for module in pkgutil.iter_modules(rc.__path__)
-    if module.name not in ("_core", "__main__")
+    importlib.import_module(module.name)
+    for module in pkgutil.walk_packages(rc.__path__, "revchain.")
+    if not module.name.endswith(("._core", ".__main__"))
 ]
 
 

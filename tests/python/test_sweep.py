@@ -794,7 +794,7 @@ def test_no_file_of_half_the_points(monkeypatch):
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patched:
-        patched.setattr("revchain._sweep_output._Csv.add", fails)
+        patched.setattr("revchain.studies.output._Csv.add", fails)
         with pytest.raises(OSError, match="No space"):
             rc.sweep(given, out="a.csv")
     assert Path("a.csv").read_text() == "before" and files() == ["a.csv", "a.csv.partial"]
@@ -998,7 +998,7 @@ def test_missing_packages_are_named(python, without):
         "for attempt in (found.to_dataframe, found.to_xarray, lambda: found.save('a.parquet'), lambda: found.save('a.nc')):\n"
         "    try: attempt()\n"
         "    except ImportError as error: print(error)\n"
-        "from revchain import _cli\n"
+        "from revchain.cli import app as _cli\n"
         "print(_cli.run(['sweep', 'a.toml', '--dask', 'local']))\n"
     )
     done = python("-c", program)

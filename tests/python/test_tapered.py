@@ -12,6 +12,7 @@ import pytest
 import revchain as rc
 from revchain.cli import app as _cli
 from revchain.scenes.scene import SceneError
+from revchain.systems.chain import _restored as restored
 
 EXPONENTS = (-0.9, -0.5, 0.5, 1.0, 3.7, 40.0)
 ULP = 2.0**-52
@@ -68,7 +69,7 @@ def test_the_exponent_is_remembered_and_forgotten(tmp_path):
     state = chain._compiled.__getstate__()
     assert len(state) == 8 and len(told._compiled.__getstate__()) == 7
     with pytest.raises(ValueError, match="its exponent must be above -1"):
-        rc._chain._restored((*state[:7], -1.0))
+        restored((*state[:7], -1.0))
 
 
 @pytest.mark.parametrize("exponent", [-0.95, -0.3, 0.5, 1.0, 6.0, 30.0])
