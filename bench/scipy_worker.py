@@ -91,7 +91,7 @@ def roots_laguerre(weight, rods, count):
 def revchain_modes(weight, rods, count):
     centroid, pendulum = (0.5, 2 / 3) if rods else (1.0, 1.0)
     chain = revchain.Chain(weight=weight, length=1.0, centroid=centroid, pendulum_length=pendulum)
-    return revchain.modes(chain, count=count, shapes=False).conical_height
+    return revchain.modes(chain, count=count).conical_height
 
 
 # name: (function, family, kinds, largest N, which: see method.hpp)

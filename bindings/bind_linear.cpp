@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <tuple>
+#include <variant>
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
@@ -40,7 +41,7 @@ struct Asked {
     std::optional<Pair> conical_height;
     std::optional<Triple> angular_speed;
     std::optional<double> rtol;
-    bool shapes, certify;
+    bool certify;
     revchain::ModesMethod method;
 
     template <class T>
@@ -74,52 +75,71 @@ Solver<T> solver(const std::string& method) {
     return &revchain::modes<T>;
 }
 
-template <class T>
-py::tuple as_tuple(const revchain::Modes<T>& m, bool shapes, bool certified) {
-    py::array_t<std::int64_t> number(m.size());
-    for (Index j = 0; j < m.size(); ++j) number.mutable_data()[j] = m.first + j;
-    py::object shape = py::none(), residual = py::none(), nodes = py::none(), certificate = py::none();
-    if (shapes) {
-        shape = leading(m.shapes().offset);
-        residual = leading(m.shapes().residual);
-        py::list lists(m.shapes().nodes.size());
-        for (std::size_t j = 0; j < m.shapes().nodes.size(); ++j) lists[j] = leading(m.shapes().nodes[j]);
-        nodes = std::move(lists);
+/// Modes of a chain in one of the four scalars. Python reads its numbers one by one; shapes are computed when read.
+struct FoundModes {
+    std::variant<revchain::Modes<float>, revchain::Modes<double>, revchain::Modes<long double>,
+                 revchain::Modes<revchain::DoubleDouble>>
+        modes;
+    bool certified;
+
+    template <class Read>
+    auto read(const Read& function) const {
+        return std::visit(function, modes);
     }
-    if (certified) {
+    /// A part of the shapes, as Python has it.
+    template <class Part>
+    auto of_shapes(const Part& part) const {
+        return read([&](const auto& m) {
+            const auto* shapes = without_lock([&] { return &m.shapes(); });
+            return part(*shapes);
+        });
+    }
+};
+
+py::object certificate(const FoundModes& found) {
+    if (!found.certified) return py::none();
+    return found.read([](const auto& m) -> py::object {
         const auto& c = m.certificate;
-        certificate = py::make_tuple(leading(c.lower), leading(c.upper), leading(c.above_lower), leading(c.above_upper),
-                                     rest(c.lower), rest(c.upper));
-    }
-    return py::make_tuple(frozen(std::move(number)), leading(m.conical_height), rest(m.conical_height),
-                          bounds(m.error_bound), shape, residual, nodes, certificate, m.method,
-                          std::string(to_string(m.status)));
+        return py::make_tuple(leading(c.lower), leading(c.upper), leading(c.above_lower), leading(c.above_upper),
+                              rest(c.lower), rest(c.upper));
+    });
+}
+
+py::array numbers(const FoundModes& found) {
+    return found.read([](const auto& m) {
+        py::array_t<std::int64_t> number(m.size());
+        for (Index j = 0; j < m.size(); ++j) number.mutable_data()[j] = m.first + j;
+        return frozen(std::move(number));
+    });
+}
+
+py::tuple nodes(const FoundModes& found) {
+    return found.of_shapes([](const auto& shapes) {
+        py::tuple lists(shapes.nodes.size());
+        for (std::size_t j = 0; j < shapes.nodes.size(); ++j) lists[j] = leading(shapes.nodes[j]);
+        return lists;
+    });
 }
 
 template <class T>
-py::tuple solved(const Chain& chain, const Asked& asked, const std::string& method, revchain::Progress* progress) {
-    const auto solve = [way = solver<T>(method), shapes = asked.shapes, progress](
-                           const revchain::Chain<T>& own, const revchain::ModesOptions<T>& options) {
-        revchain::Modes<T> found = way(own, options);
-        if (shapes) found.shapes(progress);
-        return found;
-    };
-    const auto found = [&] {
-        if constexpr (std::is_same_v<T, double>) {
-            if (method == "dense")
-                return aside(chain, progress,
-                             [=](const Chain& own) { return solve(own, asked.options<double>(nullptr)); });
-            return without_lock([&] { return solve(chain, asked.options<double>(progress)); });
-        } else {
-            return without_lock([&] { return solve(revchain::converted<T>(chain), asked.options<T>(progress)); });
-        }
-    }();
-    return as_tuple(found, asked.shapes, asked.certify);
+FoundModes solved(const Chain& chain, const Asked& asked, const std::string& method, revchain::Progress* progress) {
+    const Solver<T> solve = solver<T>(method);
+    const bool certified = asked.certify;
+    if constexpr (std::is_same_v<T, double>) {
+        if (method == "dense")
+            return {aside(chain, progress,
+                          [=](const Chain& own) { return solve(own, asked.options<double>(nullptr)); }),
+                    certified};
+        return {without_lock([&] { return solve(chain, asked.options<double>(progress)); }), certified};
+    } else {
+        return {without_lock([&] { return solve(revchain::converted<T>(chain), asked.options<T>(progress)); }),
+                certified};
+    }
 }
 
-py::tuple modes(const Chain& chain, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
-                std::optional<Triple> angular_speed, std::optional<double> rtol, bool shapes, bool certify,
-                const std::string& precision, const std::string& method, revchain::Progress* progress) {
+FoundModes modes(const Chain& chain, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
+                 std::optional<Triple> angular_speed, std::optional<double> rtol, bool certify,
+                 const std::string& precision, const std::string& method, revchain::Progress* progress) {
     check_word("method", method, methods);
     check_word("precision", precision, precisions);
     const auto way = method == "bisection"      ? revchain::ModesMethod::bisection
@@ -127,7 +147,7 @@ py::tuple modes(const Chain& chain, Index first, std::optional<Index> count, std
                      : method == "aberth"       ? revchain::ModesMethod::aberth
                      : method == "interpolated" ? revchain::ModesMethod::interpolated
                                                 : revchain::ModesMethod::automatic;
-    const Asked asked{first, count, conical_height, angular_speed, rtol, shapes, certify, way};
+    const Asked asked{first, count, conical_height, angular_speed, rtol, certify, way};
     if (precision == "single") return solved<float>(chain, asked, method, progress);
     if (precision == "extended") return solved<long double>(chain, asked, method, progress);
     if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, progress);
@@ -162,8 +182,34 @@ void bind_linear(py::module_& module) {
     module.attr("METHODS") = words(methods);
     module.attr("PRECISIONS") = words(precisions);
 
+    py::class_<FoundModes>(module, "Modes", "Modes of a chain.")
+        .def_property_readonly("number", &numbers)
+        .def_property_readonly(
+            "conical_height",
+            [](const FoundModes& f) { return f.read([](const auto& m) { return leading(m.conical_height); }); })
+        .def_property_readonly(
+            "conical_height_low",
+            [](const FoundModes& f) { return f.read([](const auto& m) { return rest(m.conical_height); }); })
+        .def_property_readonly(
+            "error_bound",
+            [](const FoundModes& f) { return f.read([](const auto& m) { return bounds(m.error_bound); }); })
+        .def_property_readonly(
+            "shape",
+            [](const FoundModes& f) { return f.of_shapes([](const auto& shapes) { return leading(shapes.offset); }); })
+        .def_property_readonly(
+            "residual",
+            [](const FoundModes& f) {
+                return f.of_shapes([](const auto& shapes) { return leading(shapes.residual); });
+            })
+        .def_property_readonly("nodes", &nodes)
+        .def_property_readonly("certificate", &certificate)
+        .def_property_readonly("method",
+                               [](const FoundModes& f) { return f.read([](const auto& m) { return m.method; }); })
+        .def_property_readonly("status", [](const FoundModes& f) {
+            return f.read([](const auto& m) { return std::string(to_string(m.status)); });
+        });
     module.def("modes", &modes, "chain"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a, "rtol"_a,
-               "shapes"_a, "certify"_a, "precision"_a, "method"_a, "progress"_a = py::none());
+               "certify"_a, "precision"_a, "method"_a, "progress"_a = py::none());
 
     module.def(
         "count_modes",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <complex>
 #include <optional>
+#include <vector>
 
 #include "bindings.hpp"
 #include "revchain/rig_modes.hpp"
@@ -10,49 +12,162 @@ namespace {
 using revchain::Index;
 using revchain::Rig;
 using revchain::RigModes;
+using revchain::Table;
+using revchain::Vector;
+using revchain::WhirlModes;
 
-py::tuple sense(const revchain::WhirlModes& modes, bool shapes) {
-    py::array_t<std::int64_t> number(modes.size());
-    for (Index j = 0; j < modes.size(); ++j) number.mutable_data()[j] = modes.first + j;
-    py::object shape = py::none(), residual = py::none();
-    if (shapes) shape = to_numpy(modes.shapes().offset), residual = to_numpy(modes.shapes().residual);
-    return py::make_tuple(frozen(number), modes.available, to_numpy(modes.conical_height), to_numpy(modes.error_bound),
-                          to_numpy(modes.angular_speed), to_numpy(modes.speed_error_bound), shape, residual);
+/// Modes of a rig in both directions, slowest first; shapes are computed when read.
+struct FoundRigModes {
+    RigModes modes;
+    struct Place {
+        bool forward;
+        Index j;
+    };
+    std::vector<Place> order;
+    Index pins;
+
+    FoundRigModes(RigModes found, Index pins_) : modes(std::move(found)), pins(pins_) {
+        for (Index j = 0; j < modes.forward.size(); ++j) order.push_back({true, j});
+        for (Index j = 0; j < modes.backward.size(); ++j) order.push_back({false, j});
+        std::stable_sort(order.begin(), order.end(), [this](const Place& x, const Place& y) {
+            return of(x).conical_height[x.j] > of(y).conical_height[y.j];
+        });
+    }
+    const WhirlModes& of(const Place& place) const { return place.forward ? modes.forward : modes.backward; }
+    template <class Value, class Number>
+    py::array column(const Number& number) const {
+        py::array_t<Value> array(static_cast<py::ssize_t>(order.size()));
+        for (std::size_t i = 0; i < order.size(); ++i)
+            array.mutable_data()[i] = number(of(order[i]), order[i].j, order[i].forward);
+        return frozen(std::move(array));
+    }
+    /// One number of each of a list's items, as an array.
+    template <class Value, class Items, class Number>
+    static py::array items(const Items& list, const Number& number) {
+        py::array_t<Value> array(static_cast<py::ssize_t>(list.size()));
+        for (std::size_t i = 0; i < list.size(); ++i) array.mutable_data()[i] = number(list[i]);
+        return frozen(std::move(array));
+    }
+    /// Shapes of both directions.
+    void find_shapes() const {
+        without_lock([&] {
+            modes.forward.shapes();
+            modes.backward.shapes();
+            return 0;
+        });
+    }
+};
+
+py::array shape(const FoundRigModes& found) {
+    found.find_shapes();
+    Table<double> table(static_cast<Index>(found.order.size()), found.pins);
+    for (std::size_t i = 0; i < found.order.size(); ++i)
+        table.row(static_cast<Index>(i)) = found.of(found.order[i]).shapes().offset.row(found.order[i].j);
+    return to_numpy(table);
 }
 
-/// One number of each of a list's items, as an array.
-template <class Value, class Items, class Number>
-py::array column(const Items& items, const Number& number) {
-    py::array_t<Value> array(static_cast<py::ssize_t>(items.size()));
-    for (std::size_t i = 0; i < items.size(); ++i) array.mutable_data()[i] = number(items[i]);
-    return frozen(array);
-}
-
-py::tuple modes_of_rig(const Rig& rig, Index first, std::optional<Index> count, double gravity, bool shapes,
-                       revchain::Progress* progress) {
-    const RigModes m = without_lock([&] {
-        const RigModes found = revchain::modes(
-            rig,
-            {.first = first, .count = count.value_or(revchain::all_modes), .gravity = gravity, .progress = progress});
-        if (shapes) found.forward.shapes(progress), found.backward.shapes(progress);
-        return found;
-    });
-    using Other = revchain::OtherMode;
-    using Slack = revchain::SlackLink;
-    const py::tuple other =
-        py::make_tuple(column<std::complex<double>>(m.other, [](const Other& x) { return x.conical_height; }),
-                       column<std::complex<double>>(m.other, [](const Other& x) { return x.angular_speed; }),
-                       column<double>(m.other, [](const Other& x) { return x.growth_rate; }),
-                       column<double>(m.other, [](const Other& x) { return x.error_bound; }));
-    return py::make_tuple(m.has_momentum, sense(m.forward, shapes), sense(m.backward, shapes), other,
-                          column<std::int64_t>(m.slack, [](const Slack& x) { return x.link; }),
-                          column<double>(m.slack, [](const Slack& x) { return x.angular_speed; }), m.complete, m.method,
-                          std::string(revchain::to_string(m.status)));
+py::tuple nodes(const FoundRigModes& found) {
+    found.find_shapes();
+    py::tuple lists(found.order.size());
+    for (std::size_t i = 0; i < found.order.size(); ++i)
+        lists[i] = to_numpy(found.of(found.order[i]).shapes().nodes[static_cast<std::size_t>(found.order[i].j)]);
+    return lists;
 }
 
 }  // namespace
 
 void bind_rig_modes(py::module_& module) {
-    module.def("rig_modes", &modes_of_rig, "rig"_a, "first"_a, "count"_a, "gravity"_a, "shapes"_a,
-               "progress"_a = nullptr);
+    using Found = FoundRigModes;
+    using Other = revchain::OtherMode;
+    using Slack = revchain::SlackLink;
+    py::class_<Found>(module, "RigModes", "Modes of a rig.")
+        .def_property_readonly("number",
+                               [](const Found& f) {
+                                   return f.column<std::int64_t>(
+                                       [](const WhirlModes& m, Index j, bool) { return m.first + j; });
+                               })
+        .def_property_readonly("direction",
+                               [](const Found& f) {
+                                   return f.column<std::int64_t>(
+                                       [](const WhirlModes&, Index, bool forward) { return forward ? 1 : -1; });
+                               })
+        .def_property_readonly("conical_height",
+                               [](const Found& f) {
+                                   return f.column<double>(
+                                       [](const WhirlModes& m, Index j, bool) { return m.conical_height[j]; });
+                               })
+        .def_property_readonly("error_bound",
+                               [](const Found& f) {
+                                   return f.column<double>(
+                                       [](const WhirlModes& m, Index j, bool) { return m.error_bound[j]; });
+                               })
+        .def_property_readonly("angular_speed",
+                               [](const Found& f) {
+                                   return f.column<double>([](const WhirlModes& m, Index j, bool forward) {
+                                       return forward ? m.angular_speed[j] : -m.angular_speed[j];
+                                   });
+                               })
+        .def_property_readonly("speed_error_bound",
+                               [](const Found& f) {
+                                   return f.column<double>(
+                                       [](const WhirlModes& m, Index j, bool) { return m.speed_error_bound[j]; });
+                               })
+        .def_property_readonly("shape", &shape)
+        .def_property_readonly("residual",
+                               [](const Found& f) {
+                                   f.find_shapes();
+                                   return f.column<double>(
+                                       [](const WhirlModes& m, Index j, bool) { return m.shapes().residual[j]; });
+                               })
+        .def_property_readonly("nodes", &nodes)
+        .def_property_readonly("available",
+                               [](const Found& f) {
+                                   return py::make_tuple(f.modes.forward.available, f.modes.backward.available);
+                               })
+        .def_property_readonly("has_momentum", [](const Found& f) { return f.modes.has_momentum; })
+        .def_property_readonly("other_height",
+                               [](const Found& f) {
+                                   return Found::items<std::complex<double>>(
+                                       f.modes.other, [](const Other& x) { return x.conical_height; });
+                               })
+        .def_property_readonly("other_speed",
+                               [](const Found& f) {
+                                   return Found::items<std::complex<double>>(
+                                       f.modes.other, [](const Other& x) { return x.angular_speed; });
+                               })
+        .def_property_readonly(
+            "growth_rate",
+            [](const Found& f) {
+                return Found::items<double>(f.modes.other, [](const Other& x) { return x.growth_rate; });
+            })
+        .def_property_readonly(
+            "other_error_bound",
+            [](const Found& f) {
+                return Found::items<double>(f.modes.other, [](const Other& x) { return x.error_bound; });
+            })
+        .def_property_readonly(
+            "slack_link",
+            [](const Found& f) {
+                return Found::items<std::int64_t>(f.modes.slack, [](const Slack& x) { return x.link; });
+            })
+        .def_property_readonly(
+            "slack_speed",
+            [](const Found& f) {
+                return Found::items<double>(f.modes.slack, [](const Slack& x) { return x.angular_speed; });
+            })
+        .def_property_readonly("complete", [](const Found& f) { return f.modes.complete; })
+        .def_property_readonly("method", [](const Found& f) { return f.modes.method; })
+        .def_property_readonly("status", [](const Found& f) { return std::string(to_string(f.modes.status)); });
+    module.def(
+        "rig_modes",
+        [](const Rig& rig, Index first, std::optional<Index> count, double gravity, revchain::Progress* progress) {
+            return without_lock([&] {
+                return Found(revchain::modes(rig, {.first = first,
+                                                   .count = count.value_or(revchain::all_modes),
+                                                   .gravity = gravity,
+                                                   .progress = progress}),
+                             rig.size() + 1);
+            });
+        },
+        "rig"_a, "first"_a, "count"_a, "gravity"_a, "progress"_a = nullptr);
 }

@@ -14,7 +14,7 @@ import revchain as rc
 
 LENGTH, LINKS, HAND = 0.36, 120, 0.01  # m, and the radius of the hand's circle
 chain = rc.Chain.uniform_rods(LINKS, length=LENGTH)
-whirls = rc.modes(chain, count=3, shapes=False).angular_speed()
+whirls = rc.modes(chain, count=3).angular_speed
 
 print("turns a second  modes passed  free end, mm  over the hand's 10 mm")
 for turns in (0.5, 0.9, 1.1, 1.5, 2.2, 2.4):

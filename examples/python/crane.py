@@ -21,7 +21,7 @@ def hanging(rope):
 
 print(" rope m  slower  faster whirl speed, rad/s")
 for rope in np.arange(4.0, 29.0, 4.0):
-    speeds = rc.modes(hanging(rope)).angular_speed()
+    speeds = rc.modes(hanging(rope)).angular_speed
     print(f"{rope:7.1f}  {speeds[0]:.4f}  {speeds[1]:.4f}")
 
 met = rc.tune(hanging(10.0), mode=1, link=2, quantity="length_in_proportion", angular_speed=SLEWING)
@@ -32,5 +32,5 @@ for mode, name in ((1, "slower"), (2, "faster")):
     print(
         f"one per cent more sling lowers the {name} speed by {share[0] / 2:.3f} per cent, of rope by {share[1] / 2:.3f}"
     )
-speed = rc.modes(met.chain).uncertainty(weight=[50.0, 5.0], length_in_proportion=[0.02, 0.05]).angular_speed()
+speed = rc.modes(met.chain).uncertainty(weight=[50.0, 5.0], length_in_proportion=[0.02, 0.05]).angular_speed
 print(f"load to 50 kg, hook to 5, slings to 2 cm and rope to 5: speeds to {speed[0]:.4f} and {speed[1]:.4f} rad/s")

@@ -29,7 +29,7 @@ for name in NAMES:
     else:
         found, what = scene.modes(), "mode"
         carried = scene.response() if scene.is_carried else None
-        axes = found.plot(carried=carried) if scene.is_rigged else found.plot(gravity=scene.gravity_value())
+        axes = found.plot(carried=carried) if scene.is_rigged else found.plot()
     count = found.time.size if what == "time" else len(found)
     axes.set_title(scene.title)
     axes.figure.set_size_inches(axes.figure.get_figwidth(), 4.5)

@@ -17,16 +17,16 @@ links = rc.modes(rc.Chain.uniform_rods(120, length=CHAIN), count=2)
 
 print("                      mode  turns a second  10 turns, s  lower/upper offset")
 for k in range(2):
-    turns = weights.revolutions_per_second()[k]
+    turns = weights.frequency[k]
     ratio = weights.shape[k, 0] / weights.shape[k, 1]
     print(f"two weights, 2 x 0.5 m   {k + 1}          {turns:.4f}        {10 / turns:5.2f}             {ratio:+.4f}")
-for k, turns in enumerate(links.revolutions_per_second()):
+for k, turns in enumerate(links.frequency):
     print(f"watch chain, 0.36 m      {k + 1}          {turns:.4f}        {10 / turns:5.2f}")
 
 figure, axes = panels(4)
 views = np.cos(np.linspace(0, np.pi, 7))  # the same figure, seen from the side, at seven moments of half a turn
 for number, (name, result, height) in enumerate([("two weights", weights, 2 * THREAD), ("chain", links, CHAIN)]):
-    depth = height - np.concatenate([[0], np.cumsum(result.chain.length)])
+    depth = height - np.concatenate([[0], np.cumsum(result.system.length)])
     dots = [40, 40] if name == "two weights" else []
     for k in range(2):
         panel = axes[2 * number + k]
@@ -34,7 +34,7 @@ for number, (name, result, height) in enumerate([("two weights", weights, 2 * TH
         for view in views:
             shape = tip * view * result.shape[k]
             hang(panel, shape, depth, weights=dots, color=COLOURS[k], alpha=1 if view == 1 else 0.3)
-        turns = result.revolutions_per_second()[k]
+        turns = result.frequency[k]
         title = f"{name}, mode {k + 1}\n{turns:.2f} turns/s"
         side_view(panel, title, bottom=1.06 * height, top=0.05 * height, half_width=0.22 * height)
         panel.locator_params(axis="x", nbins=3)

@@ -44,7 +44,7 @@ def more_from(low, high):
     return high
 
 
-reversals = rc.modes(chain, count=3, shapes=False).revolutions_per_second()
+reversals = rc.modes(chain, count=3).frequency
 print(f"reversals of the plummet at {rc.conical_pendulum.revolutions_per_second(LENGTH):.4f} turns a second,", end=" ")
 print("of the chain at", *reversals.round(4))
 print(f"tip over hand, near the vertical, {LINKS} links and without end:")

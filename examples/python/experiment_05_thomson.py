@@ -29,7 +29,7 @@ for number, panel in enumerate(axes[:4]):
     panel.plot([shape[0], 0], [THREAD, level], "--", color="0.5", linewidth=1, zorder=1)
     panel.plot(0, level, "x", color="black")
     panel.annotate("C₁", (0, level), xytext=(5, -2), textcoords="offset points")
-    title = f"x = {(A - at) / A:+.1f}a\n{result.revolutions_per_second()[k]:.2f} turns/s"
+    title = f"x = {(A - at) / A:+.1f}a\n{result.frequency[k]:.2f} turns/s"
     side_view(panel, title, bottom=1.06, half_width=0.16)
     panel.set(xlabel="m", xticks=[-0.1, 0.1])
 axes[0].set_ylabel("below the support, m")

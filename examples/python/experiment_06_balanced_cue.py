@@ -47,7 +47,7 @@ print("50 g on 0.3 m of wire, on a rod of 1 m with 500 g at its end, near the ve
 print("wire    rod     turns a second  leans grow e-fold in, s")
 for standing in ([False, False], [True, False], [False, True], [True, True]):
     found = rc.modes(rc.Rig(pair, standing=standing))
-    turns = " ".join(f"{n / (2 * np.pi):.4f}" for n in found.angular_speed())
+    turns = " ".join(f"{turns:.4f}" for turns in found.frequency)
     grows = " ".join(f"{x:.3f}" for x in 1 / found.other.growth_rate)
     wire, rod = ("stands" if stands else "hangs" for stands in standing)
     print(f"{wire:6}  {rod:6}  {turns or 'none':14}  {grows or 'none'}")

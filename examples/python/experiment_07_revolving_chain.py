@@ -16,7 +16,7 @@ chain = rc.Chain.uniform_rods(200, length=LENGTH)
 result = rc.modes(chain, count=3)
 pair_speeds = rc.conical_pendulum.revolutions_per_second(rc.two_links.two_plummets(**PAIR))
 print("turns a second at which another figure leaves the vertical:")
-print("  chain of 200 links ", *result.revolutions_per_second().round(4))
+print("  chain of 200 links ", *result.frequency.round(4))
 print("  continuous chain   ", *rc.heavy_chain.revolutions_per_second(3, LENGTH).round(4))
 print("  two weights instead", *pair_speeds.round(4))
 for turns in (0.5, 1, 2, 3):

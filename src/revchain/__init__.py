@@ -13,7 +13,7 @@ Examples
 >>> import revchain as rc
 >>> chain = rc.Chain.uniform_rods(120, length=0.36)
 >>> result = rc.modes(chain, count=3)
->>> result.angular_speed().round(4)
+>>> result.angular_speed.round(4)
 array([ 6.2757, 14.4064, 22.59  ])
 """
 
@@ -53,16 +53,13 @@ from .questions.held import (
 from .questions.modes import count_modes, modes, recurrence_matrices
 from .questions.response import Response, SmallOscillation, response, small_oscillation
 from .questions.shapes import Stability, SteadyShape, SteadyShapes, steady_shapes
-from .questions.tune import Tuned, tune
-from .results.modes import Certificate, Modes
-from .results.rig_modes import OtherModes, RigModes, WhirlModes
+from .questions.tune import Tuned, momentum_for_speed, tune
+from .results.modes import Certificate, Modes, OtherModes, RigModes
 from .results.sensitivity import (
     Derivatives,
     RigSensitivity,
     Sensitivity,
     Uncertainty,
-    momentum_for_speed,
-    rig_sensitivity,
 )
 from .results.storage import load
 from .scenes.error import SceneError
@@ -117,7 +114,6 @@ __all__ = [
     "TransverseModes",
     "Tuned",
     "Uncertainty",
-    "WhirlModes",
     "__version__",
     "bell_and_clapper",
     "branch",
@@ -142,7 +138,6 @@ __all__ = [
     "plummet",
     "recurrence_matrices",
     "response",
-    "rig_sensitivity",
     "small_oscillation",
     "solve",
     "steady_shape",

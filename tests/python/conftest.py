@@ -62,6 +62,8 @@ def python(tmp_path) -> Callable:
 
     def run(*arguments, **options):
         environment = {**os.environ, "COLUMNS": "100", "PYTHONWARNINGS": "error"}
+        if folders := environment.get("PYTHONPATH"):  # else a relative one would let another revchain be found there
+            environment["PYTHONPATH"] = os.pathsep.join(map(os.path.abspath, folders.split(os.pathsep)))
         return subprocess.run(
             [sys.executable, *map(str, arguments)],
             **{"cwd": tmp_path, "env": environment, "capture_output": True, "text": True, "timeout": 60, **options},

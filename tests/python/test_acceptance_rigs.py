@@ -120,9 +120,9 @@ def agree(rig, found, tolerance=4 * EPS, digits=60):
     if not found.has_momentum:
         want = [n for n in want if n > 0]
     assert len(found) == len(want), (found, [float(n) for n in want])
-    for got, exact in zip(sorted(found.angular_speed()), sorted(want), strict=True):
+    for got, exact in zip(sorted(found.angular_speed), sorted(want), strict=True):
         assert abs(mp.mpf(got) - exact) <= tolerance * abs(exact), (got, float(exact))
-    ends = list(np.abs(found.angular_speed()))
+    ends = list(np.abs(found.angular_speed))
     assert ends == sorted(ends)
 
 
@@ -321,7 +321,7 @@ def test_bounds_hold_on_the_softest_springs(stiffness):
     rig = rc.Rig(chain, stiffness=stiffness)
     found = rc.modes(rig)
     want = sorted(n for n in real_speeds(rig, digits=120) if n > 0)
-    for n, bound, exact in zip(found.angular_speed(), found.forward.speed_error_bound, want, strict=True):
+    for n, bound, exact in zip(found.angular_speed, found.speed_error_bound, want, strict=True):
         assert abs(n - exact) <= bound * exact
 
 
@@ -532,7 +532,7 @@ def test_response_of_every_pin_against_a_dense_solution(seed):
 
 def test_response_reverses_at_each_whirl_speed_and_not_elsewhere():
     chain = rc.Chain.uniform_rods(12, length=1.0)
-    critical = rc.modes(chain).angular_speed()
+    critical = rc.modes(chain).angular_speed
     assert rc.response(chain, angular_speed=critical[:4] * (1 - 1e-9)).modes_below.tolist() == [0, 1, 2, 3]
     assert rc.response(chain, angular_speed=critical[:4] * (1 + 1e-9)).modes_below.tolist() == [1, 2, 3, 4]
     below = rc.response(chain, angular_speed=critical[:4] * (1 - 1e-9), pins=[0]).offset[:, 0]
@@ -580,7 +580,7 @@ def test_response_is_what_the_full_motion_does_for_a_small_radius(to_and_fro):
     # carried round by a ten-thousandth, started on the response, the full equations stay on it
     rng = np.random.default_rng(5)
     chain = random_chain(rng, 3, spread=0.7)
-    speed = 1.3 * float(rc.modes(chain).angular_speed()[0])
+    speed = 1.3 * float(rc.modes(chain).angular_speed[0])
     off = []
     for radius in (1e-3, 1e-4):
         rig = rc.Rig(chain, support_radius=radius)
@@ -858,9 +858,9 @@ def test_one_gyrostat_is_the_top(momentum):
         plus, minus = (momentum + root) / (2 * about), (momentum - root) / (2 * about)
         want = sorted([plus, minus], key=abs) if momentum else [plus]
         assert len(found) == len(want)
-        for got, exact in zip(found.angular_speed(), want, strict=True):
+        for got, exact in zip(found.angular_speed, want, strict=True):
             assert abs(got - exact) <= 4 * EPS * abs(exact)
-    assert found.sense.tolist() == [1 if n > 0 else -1 for n in want]
+    assert found.direction.tolist() == [1 if n > 0 else -1 for n in want]
 
 
 def test_two_gyrostats_quartic():
@@ -875,7 +875,7 @@ def test_two_gyrostats_quartic():
         one = np.array([about[0], -p[0], -w[0] * h[0]])
         two = np.array([about[1], -p[1], -w[1] * h[1] - w[0] * a[1]])
         quartic = np.polysub(np.polymul(one, two), np.array([(w[0] * h[0] * a[1] / G) ** 2, 0, 0, 0, 0]))
-        assert np.sort(found.angular_speed()) == pytest.approx(np.sort(np.roots(quartic).real), rel=1e-9)
+        assert np.sort(found.angular_speed) == pytest.approx(np.sort(np.roots(quartic).real), rel=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -892,8 +892,9 @@ def test_flywheels_against_a_dense_quadratic_pencil(seed):
     assert found.complete
     if strength:
         count = size + (seed % 2)
-        assert len(found.forward.number) == len(found.backward.number) == count
-        assert found.forward.number.tolist() == list(range(1, count + 1))
+        assert found.available == (count, count)
+        for sense in (1, -1):
+            assert found.number[found.direction == sense].tolist() == list(range(1, count + 1))
 
 
 @given(
@@ -921,9 +922,9 @@ def test_dense_linearisation_of_two_hundred_gyrostats():
     inverse = np.linalg.inv(mass / G)
     big = np.block([[np.zeros((size, size)), np.eye(size)], [inverse @ stiff, inverse @ spin]])
     want = np.sort(np.linalg.eigvals(big).real)
-    found = rc.modes(rig)
+    found = rc.modes(rig, "all")
     assert len(found) == 400
-    assert np.sort(found.angular_speed()) == pytest.approx(want, rel=1e-7, abs=1e-7)
+    assert np.sort(found.angular_speed) == pytest.approx(want, rel=1e-7, abs=1e-7)
 
 
 @pytest.mark.parametrize(("size", "slowest"), [(30, 30), (1000, 40), (10000, 12)])
@@ -936,12 +937,12 @@ def test_flywheel_speeds_of_long_chains_bracketed_in_extended_precision(size, sl
         radius_of_gyration=rng.uniform(0.1, 0.4, size),
     )
     rig = rc.Rig(chain, momentum=rng.normal(size=size) * chain.weight.sum() * 0.3)
-    found = rc.modes(rig, count=slowest, shapes=False)
+    found = rc.modes(rig, count=slowest)
     tolerance = 4 * EPS * (1 + math.log10(size))
-    assert len(found.forward.number) == len(found.backward.number) == slowest
-    for sense, half in ((1, found.forward), (-1, found.backward)):
-        inside = sense * half.angular_speed * (1 - tolerance)
-        outside = sense * half.angular_speed * (1 + tolerance)
+    for sense in (1, -1):
+        half = found.angular_speed[found.direction == sense]
+        assert len(half) == slowest and np.all(half * sense > 0)
+        inside, outside = half * (1 - tolerance), half * (1 + tolerance)
         assert pivots(rig, inside).tolist() == list(range(slowest))
         assert pivots(rig, outside).tolist() == list(range(1, slowest + 1))
 
@@ -952,7 +953,7 @@ def test_shapes_of_whirl_modes_with_flywheels():
     found = rc.modes(rig)
     with mp.workdps(40):
         stiff, spin, mass = (mp.matrix(x) for x in pencil(rig))
-        for shape, n in zip(found.shape, found.angular_speed(), strict=True):
+        for shape, n in zip(found.shape, found.angular_speed, strict=True):
             n = mp.mpf(float(n))
             y = mp.matrix([mp.mpf(float(x)) for x in shape])
             assert max(abs(x) for x in y) == 1
@@ -968,8 +969,9 @@ def test_momentum_of_the_other_sign_is_the_mirror_image():
     rng = np.random.default_rng(12)
     chain, p = random_chain(rng, 6), rng.normal(size=6)
     one, other = rc.modes(rc.Rig(chain, momentum=p)), rc.modes(rc.Rig(chain, momentum=-p))
-    assert np.array_equal(one.forward.angular_speed, other.backward.angular_speed)
-    assert np.array_equal(one.backward.angular_speed, other.forward.angular_speed)
+    assert len(one) == 12
+    assert np.array_equal(one.angular_speed, -other.angular_speed)
+    assert np.array_equal(one.direction, -other.direction)
 
 
 def test_wheels_turned_by_a_motor_feel_less_inertia():
@@ -978,14 +980,14 @@ def test_wheels_turned_by_a_motor_feel_less_inertia():
     spin = rc.driven_flywheel(weight=2.0, radius_of_gyration=0.25, spin=60.0)
     c = 2.0 * 0.25**2
     assert spin["momentum"] == pytest.approx(c * 60 / G, rel=EPS)
-    found = rc.modes(rc.Rig(chain, **spin)).angular_speed()
+    found = rc.modes(rc.Rig(chain, **spin)).angular_speed
     about = (5.0 * (0.3**2 + 0.2**2) - c) / G
     want = np.roots([about, -c * 60 / G, -5.0 * 0.3])
     assert np.sort(found) == pytest.approx(np.sort(want), rel=1e-13)
     # free of a motor: absolute spin
     free = rc.free_flywheel(weight=2.0, radius_of_gyration=0.25, spin=60.0)
     want = np.roots([about + c / G, -c * 60 / G, -5.0 * 0.3])
-    assert np.sort(rc.modes(rc.Rig(chain, **free)).angular_speed()) == pytest.approx(np.sort(want), rel=1e-13)
+    assert np.sort(rc.modes(rc.Rig(chain, **free)).angular_speed) == pytest.approx(np.sort(want), rel=1e-13)
 
 
 @pytest.mark.parametrize("lean", [0.05, 0.7, 1.5])
@@ -1039,7 +1041,7 @@ def test_slack_links_are_named_with_the_speed():
     assert len(rc.modes(rc.Rig(chain)).slack_link) == 0
     assert rc.modes(none, gravity=4.0).slack_speed.tolist() == [-2.0]
     fine = rc.modes(rc.Rig(chain, momentum=[1e-6, 0.0]))
-    fastest = fine.backward.angular_speed[-1]
+    fastest = -fine.angular_speed.min()
     assert len(fine.slack_link) == int(0.5 / 1e-6 < fastest)
 
 
@@ -1125,7 +1127,7 @@ def test_cork_on_a_thread_does_not_stay_below():
     rig = rc.Rig(rc.Chain(weight=1.0, length=0.8), displaced_weight=5.0, added_weight=2.5)
     found = rc.modes(rig)
     assert len(found) == 0
-    assert len(found.angular_speed()) == 0
+    assert len(found.angular_speed) == 0
     height = 0.8 * (1 + 2.5) / (1 - 5.0)
     assert found.other.conical_height == pytest.approx([height], rel=4 * EPS)
     rate = math.sqrt(G / -height)
@@ -1249,8 +1251,8 @@ def test_lowest_link_that_weighs_nothing_is_no_mode(size):
 def test_gyrostat_that_weighs_nothing_has_one_speed():
     # A n^2 - H n = 0: it stays where it is put, or precesses at H / A
     found = rc.modes(rc.Rig(rc.Chain(weight=1.0, length=[1.0]), displaced_weight=1.0, momentum=3.0))
-    assert np.isfinite(found.angular_speed()).all()
-    assert found.angular_speed()[-1] == pytest.approx(3 * G, rel=4 * EPS)
+    assert np.isfinite(found.angular_speed).all()
+    assert found.angular_speed[-1] == pytest.approx(3 * G, rel=4 * EPS)
 
 
 def test_float_lighter_than_all_above_is_proved():
@@ -1321,7 +1323,7 @@ def test_as_many_speeds_as_links_hang(seed):
     size = int(rng.integers(1, 30))
     standing = rng.random(size) < 0.5
     rig = rc.Rig(random_chain(rng, size), standing=standing)
-    found = rc.modes(rig)
+    found = rc.modes(rig, "all")
     assert len(found) == int((~standing).sum())  # Sylvester
     assert len(found.other) == int(standing.sum())
     assert np.all(found.other.conical_height.real < 0)
@@ -1332,7 +1334,7 @@ def test_as_many_speeds_as_links_hang(seed):
 def test_all_standing_and_acrobats():
     chain = rc.Chain.uniform_rods(50, length=2.0)
     found = rc.modes(rc.Rig(chain, standing=True))
-    hanging = rc.modes(chain).conical_height
+    hanging = rc.modes(chain, "all").conical_height
     assert len(found) == 0
     assert np.sort(-found.other.conical_height.real) == pytest.approx(np.sort(hanging), rel=1e-14)
     # what stands on a link with a fast wheel does not fall: a sleeping top, H^2 > 4 A W h
@@ -1345,7 +1347,7 @@ def test_all_standing_and_acrobats():
     assert len(fast) == 2
     assert len(fast.other) == 0
     want = np.roots([about, -1.01 * math.sqrt(4 * about * G * 0.5), G * 0.5])
-    assert np.sort(np.abs(fast.angular_speed())) == pytest.approx(np.sort(np.abs(want)), rel=1e-12)
+    assert np.sort(np.abs(fast.angular_speed)) == pytest.approx(np.sort(np.abs(want)), rel=1e-12)
 
 
 # ---- 5. attached weights ----------------------------------------------------------------------------------------
@@ -1562,7 +1564,7 @@ def test_uncertainty_is_the_propagation_of_errors():
     want = np.sqrt(((s.weight * dw) ** 2).sum(axis=1) + ((s.length * da) ** 2).sum(axis=1))
     assert found.conical_height == pytest.approx(want, rel=1e-13)
     assert found.relative == pytest.approx(want / modes.conical_height, rel=1e-13)
-    assert found.angular_speed() == pytest.approx(modes.angular_speed() * want / modes.conical_height / 2, rel=1e-13)
+    assert found.angular_speed == pytest.approx(modes.angular_speed * want / modes.conical_height / 2, rel=1e-13)
     total = found.share.weight.sum(axis=1) + found.share.length.sum(axis=1)
     assert total == pytest.approx(np.ones(5), rel=1e-12)
     # one weight shared by all links by a factor moves nothing
@@ -1577,7 +1579,7 @@ def test_uncertainty_is_the_propagation_of_errors():
             centroid=chain.centroid,
             radius_of_gyration=chain.radius_of_gyration,
         )
-        sample.append(rc.modes(new, shapes=False).conical_height)
+        sample.append(rc.modes(new).conical_height)
     assert np.std(sample, axis=0) == pytest.approx(modes.uncertainty(weight=dw).conical_height, rel=0.25)
 
 
@@ -1636,11 +1638,12 @@ def test_momentum_that_makes_a_speed_a_whirl_speed():
         momentum = rc.momentum_for_speed(rig, speed, link=link)
         p = rig.momentum.copy()
         p[link - 1] = momentum
-        got = rc.modes(rc.Rig(rig.chain, momentum=p)).angular_speed()
+        got = rc.modes(rc.Rig(rig.chain, momentum=p)).angular_speed
         assert np.abs(got / speed - 1).min() < 1e-13
 
 
-def test_speeds_differentiated_by_what_a_chain_is_rigged_with():
+@pytest.mark.parametrize("gravity", [G, 1.62])
+def test_speeds_differentiated_by_what_a_chain_is_rigged_with(gravity):
     rng = np.random.default_rng(700)
     chain = random_chain(rng, 4)
     data = dict(
@@ -1651,10 +1654,9 @@ def test_speeds_differentiated_by_what_a_chain_is_rigged_with():
         added_weight=0.2 * chain.weight,
     )
     rig = rc.Rig(chain, **data)
-    modes = rc.modes(rig)
+    modes = rc.modes(rig, gravity=gravity)
     for i in (0, 3, 6):
-        speed = modes.angular_speed()[i]
-        found = rc.rig_sensitivity(rig, speed, modes.shape[i])
+        speed = modes.angular_speed[i]
         for name in data:
             value = np.atleast_1d(data[name])
             for m in range(len(value)):
@@ -1663,10 +1665,11 @@ def test_speeds_differentiated_by_what_a_chain_is_rigged_with():
                 for sign in (1, -1):
                     new = value.copy().astype(float)
                     new[m] += sign * step
-                    altered = rc.modes(rc.Rig(chain, **{**data, name: new if len(value) > 1 else float(new[0])}))
-                    sides.append(altered.angular_speed()[np.argmin(np.abs(altered.angular_speed() - speed))])
+                    other = rc.Rig(chain, **{**data, name: new if len(value) > 1 else float(new[0])})
+                    altered = rc.modes(other, gravity=gravity)
+                    sides.append(altered.angular_speed[np.argmin(np.abs(altered.angular_speed - speed))])
                 want = (sides[0] - sides[1]) / (2 * step)
-                got = np.atleast_1d(getattr(found, name))[m]
+                got = np.atleast_1d(getattr(modes.sensitivity, name)[i])[m]
                 assert got == pytest.approx(want, rel=2e-6, abs=1e-8 * abs(speed))
 
 
@@ -1697,7 +1700,7 @@ def test_swing_against_the_exponential_of_a_matrix(seed):
                 assert abs(found.velocity[i, m] - mp.re(v[m])) <= 1e-13
     assert found.error_bound.max() < 1e-15
     assert np.all(found.truncation_error < 1e-15)
-    assert found.angular_frequency == pytest.approx(rc.modes(chain).angular_speed(), rel=4 * EPS)
+    assert found.angular_frequency == pytest.approx(rc.modes(chain).angular_speed, rel=4 * EPS)
 
 
 def test_plucked_chain_let_go_in_full():
@@ -1858,6 +1861,10 @@ def test_what_contradicts_itself_is_refused(call):
         lambda: rc.modes(rc.Rig(CHAIN, momentum=1.0), conical_height=(0.1, 0.2)),
         lambda: rc.modes(rc.Rig(CHAIN, momentum=1.0), rtol=1e-3),
         lambda: rc.modes(rc.Rig(CHAIN, momentum=1.0), gravity=0.0),
+        lambda: rc.modes(rc.Rig(CHAIN, momentum=1.0), count="every"),
+        lambda: rc.modes(rc.Rig(CHAIN, momentum=1.0), first=0),
+        lambda: rc.modes(rc.Rig(CHAIN, momentum=1.0)).at(gravity=1.62),
+        lambda: rc.modes(rc.Rig(CHAIN, momentum=1.0)).uncertainty(weight=0.1),
         lambda: rc.held_shapes(CHAIN, span=1.2000001, conical_height=0.1),
         lambda: rc.held_shapes(CHAIN, span=2.0, conical_height=0.1),
         lambda: rc.held_shapes(CHAIN, span=0.0, conical_height=0.1),
@@ -1886,9 +1893,6 @@ def test_what_contradicts_itself_is_refused(call):
         lambda: rc.small_oscillation(CHAIN, [0.1, 0.1, 0.1], None, 0.0, modes=-1),
         lambda: rc.small_oscillation(CHAIN, [0.1, 0.1, 0.1], None, 0.0, modes=4),
         lambda: rc.small_oscillation(rc.Rig(CHAIN), [0.1, 0.1, 0.1], None, 0.0),
-        lambda: rc.rig_sensitivity(CHAIN, 1.0, [1.0] * 4),
-        lambda: rc.rig_sensitivity(rc.Rig(CHAIN), 0.0, [1.0] * 4),
-        lambda: rc.rig_sensitivity(rc.Rig(CHAIN), 1.0, [1.0] * 3),
         lambda: rc.momentum_for_speed(rc.Rig(CHAIN), 0.0, link=1),
         lambda: rc.momentum_for_speed(rc.Rig(CHAIN), 1.0, link=4),
         lambda: rc.momentum_for_speed(CHAIN, 1.0, link=1),
@@ -1926,10 +1930,10 @@ def test_extreme_rigs_neither_crash_nor_hang():
     for w, e, p in itertools.product([1e-12, 1e12], [1e-12, 1e12, math.inf], [0.0, 1e-12, 1e12]):
         rig = rc.Rig(rc.Chain(weight=[w, 1.0], length=[1.0, 1e-6]), stiffness=e, momentum=[p, -p])
         found = rc.modes(rig)
-        assert np.all(np.isfinite(found.angular_speed()))
+        assert np.all(np.isfinite(found.angular_speed))
         if found.status == "success":
             want = real_speeds(rig, digits=150)
-            for n, bound in zip(found.angular_speed(), found.error_bound, strict=True):
+            for n, bound in zip(found.angular_speed, found.error_bound, strict=True):
                 assert min(abs(x - n) / abs(x) for x in want) <= max(bound, 4 * EPS)
         if p == 0:
             rc.steady_shapes(rig, conical_height=0.37, budget=20000)
@@ -1947,7 +1951,7 @@ def test_long_rigs():
     thinned = rc.modes(rc.Rig(chain, displaced_weight=chain.weight * 0.25), count=3)
     assert thinned.conical_height[:3] == pytest.approx(rc.modes(chain, count=3).conical_height / 0.75, rel=1e-13)
     slow = rc.modes(rc.Rig(chain, stiffness=10.0, carriage_weight=0.3), count=3)
-    assert slow.forward.available == 10001
+    assert slow.available == (10001, 0)
     many = rc.steady_shapes(rc.Rig(rc.Chain.uniform_rods(60, length=1.0), support_radius=0.05), conical_height=0.3)
     assert len(many) == 3
     for shape in many:
@@ -2006,24 +2010,27 @@ def test_rigs_are_equal_hashable_and_can_be_pickled():
 
 
 @pytest.mark.parametrize("ending", [".npz", ".nc"])
-def test_results_of_rigs_are_kept_bit_for_bit(tmp_path, ending):
-    found = rc.modes(
-        rc.Rig(
-            rc.Chain(weight=[0.5, 1.0, 1], length=1.0), displaced_weight=[1.0, 0.0, 0.0], fluid="turning", stiffness=3.0
-        )
-    )
+@pytest.mark.parametrize(
+    "rig",
+    [
+        rc.Rig(rc.Chain(weight=[0.5, 1, 1], length=1.0), displaced_weight=[1, 0, 0], fluid="turning", stiffness=3.0),
+        rc.Rig(rc.Chain(weight=1.0, length=[1.0]), displaced_weight=1.0, momentum=3.0),  # an infinite height
+        rc.Rig(rc.Chain(weight=1.0, length=1.0), displaced_weight=3.0),  # no mode at all
+    ],
+    ids=["turning fluid", "weightless", "rises"],
+)
+def test_results_of_rigs_are_kept_bit_for_bit(tmp_path, ending, rig):
+    found = rc.modes(rig)
     path = tmp_path / f"result{ending}"
-    if ending == ".nc":
-        with pytest.raises(ValueError):
-            found.save(path)
-        return
     found.save(path)
     again = rc.load(path)
-    assert again.rig == found.rig
-    for name in ("conical_height", "error_bound", "number", "sense", "shape", "residual", "slack_link", "slack_speed"):
+    assert again == found
+    assert again.system == found.system
+    names = ("conical_height", "error_bound", "number", "direction", "shape", "residual", "slack_link", "slack_speed")
+    for name in names:
         assert np.array_equal(getattr(again, name), getattr(found, name))
     assert np.array_equal(again.other.conical_height, found.other.conical_height)
-    assert np.array_equal(again.angular_speed(), found.angular_speed())
+    assert np.array_equal(again.angular_speed, found.angular_speed)
     assert json.loads(json.dumps(found.to_dict())) == found.to_dict()
 
 
@@ -2107,14 +2114,14 @@ def test_scene_file_end_to_end(tmp_path):
         added_weight=[0.1 * g, 0, 0],
         momentum=[0.5 * 0.04 * 300 * 2 * math.pi / 60, 0, 0],
     )
-    want = rc.modes(rig, count=3, gravity=g).angular_speed()
-    assert scene.modes().angular_speed() == pytest.approx(want, rel=1e-13)
+    want = rc.modes(rig, count=3, gravity=g).angular_speed
+    assert scene.modes().angular_speed == pytest.approx(want, rel=1e-13)
     out = tmp_path / "out"
     done = run("solve", path, "--out", out)
     assert "nan" not in done.stdout
     answer = json.loads(next(out.glob("*.json")).read_text())
     assert [m["angular_speed"] for m in answer["modes"]] == pytest.approx(list(want), rel=1e-13)
-    assert rc.load(next(out.glob("*.npz"))).angular_speed() == pytest.approx(want, rel=1e-13)
+    assert rc.load(next(out.glob("*.npz"))).angular_speed == pytest.approx(want, rel=1e-13)
     assert next(out.glob("*.png")).stat().st_size > 5000
     assert next(out.glob("*.csv")).read_text().count("\n") >= 6
 

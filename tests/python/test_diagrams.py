@@ -8,7 +8,7 @@ from mechanics import KINDS, random_chain
 from revchain import two_links
 
 def shapes_of(chain, share):
-    return rc.steady_shapes(chain, conical_height=share * rc.modes(chain, modes=[1]).conical_height[0], budget=20_000)
+    return rc.steady_shapes(chain, conical_height=share * rc.modes(chain, 1).conical_height[0], budget=20_000)
 
 
 def sine(first, second):
@@ -64,7 +64,7 @@ def test_links_of_any_kind(kind, count):
         )
         straight = shape.transferred_to_axis()
         assert straight.total_length == pytest.approx(-shape.height[0], rel=1e-14)
-        modes = rc.modes(straight)
+        modes = rc.modes(straight, "all")
         k = abs(modes.conical_height - shape.conical_height).argmin()
         assert modes.conical_height[k] == pytest.approx(shape.conical_height, rel=1e-13)
         np.testing.assert_allclose(modes.shape[k], shape.offset / abs(shape.offset).max(), atol=1e-12)

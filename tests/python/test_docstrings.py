@@ -45,6 +45,8 @@ def test_described(name):
     text = inspect.getdoc(thing)
     assert text is not None
     assert text.splitlines()[0].endswith(".")
+    for field in getattr(thing, "fields", {}).values():  # of results
+        assert field.__doc__.endswith("."), field.name
     sections = {line for line, under in zip(text.splitlines(), text.splitlines()[1:], strict=False) if under.startswith("---")}
     if inspect.isfunction(thing):
         assert ">>> " in text and "Examples" in sections

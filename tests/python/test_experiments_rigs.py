@@ -59,7 +59,7 @@ def test_sticks_on_end_fall_as_they_swing(sticks):
     chain = rc.Chain.uniform_rods(sticks, length=0.9)
     found = rc.modes(rc.Rig(chain, standing=True))
     assert len(found) == 0 and found.complete
-    np.testing.assert_allclose(found.other.growth_rate, rc.modes(chain).angular_speed(), rtol=4e-16)
+    np.testing.assert_allclose(found.other.growth_rate, rc.modes(chain).angular_speed, rtol=4e-16)
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 5])
@@ -75,7 +75,7 @@ def test_as_many_speeds_as_links_hang(size):
         pull = np.cumsum(weight) / length * np.where(standing, -1, 1)
         stiffness = np.diag(pull + np.append(0, pull[:-1])) - np.diag(pull[:-1], 1) - np.diag(pull[:-1], -1)
         squares = eigh(stiffness, np.diag(weight), eigvals_only=True) * G
-        np.testing.assert_allclose(found.angular_speed(), np.sqrt(squares[squares > 0]), rtol=1e-12)
+        np.testing.assert_allclose(found.angular_speed, np.sqrt(squares[squares > 0]), rtol=1e-12)
         falls = np.sort(found.other.growth_rate)
         np.testing.assert_allclose(falls, np.sqrt(np.sort(-squares[squares < 0])), rtol=1e-12)
 

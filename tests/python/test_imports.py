@@ -22,10 +22,10 @@ def test_everything_but_the_extras_works_without_them(python, without):
     program = without(*OPTIONAL) + (
         "import revchain as rc, pickle\n"
         "m = rc.modes(rc.Chain.uniform_rods(12), count=3)\n"
-        "m.save('a.npz'); assert rc.load('a.npz').chain == m.chain\n"
+        "m.save('a.npz'); assert rc.load('a.npz') == m and rc.load('a.npz').system == m.system\n"
         "repr(m); m._repr_html_(); m.to_dict(); pickle.loads(pickle.dumps(m)); rc.__version__\n"
         "rc.heavy_chain.conical_heights(3); rc.conical_pendulum.period(1.0)\n"
-        "for attempt in (m.plot, m.chain.plot, m.to_xarray, lambda: m.save('a.nc'), lambda: rc.load('a.nc')):\n"
+        "for attempt in (m.plot, m.system.plot, m.to_xarray, lambda: m.save('a.nc'), lambda: rc.load('a.nc')):\n"
         "    open('a.nc', 'w').close()\n"
         "    try: attempt()\n"
         "    except ImportError as error: print(error)\n"
@@ -38,7 +38,7 @@ def test_everything_but_the_extras_works_without_them(python, without):
     assert done.returncode == 0, done.stderr
     lines = done.stdout.splitlines()
     assert lines[:2] == ['plotting needs matplotlib: pip install "revchain[plot]"'] * 2
-    assert lines[2] == 'Modes.to_xarray needs xarray: pip install "revchain[netcdf]"'
+    assert lines[2] == 'to_xarray needs xarray: pip install "revchain[netcdf]"'
     assert lines[3].endswith('pip install "revchain[netcdf]"') and lines[4].endswith('pip install "revchain[netcdf]"')
     assert lines[5] == 'a scene file needs msgspec: pip install "revchain[cli]"'
 

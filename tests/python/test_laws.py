@@ -34,19 +34,15 @@ def scaled(link, **factors):
 def test_powers_of_two_scale_exactly(link, weight, length):
     factor = 2.0**length
     plain = rc.modes(rc.Chain(**link))
-    other = rc.modes(
-        scaled(link, weight=2.0**weight, length=factor, centroid=factor, radius_of_gyration=factor)
-    )
+    other = rc.modes(scaled(link, weight=2.0**weight, length=factor, centroid=factor, radius_of_gyration=factor))
     assert np.array_equal(other.conical_height, plain.conical_height * factor)
     assert np.array_equal(other.error_bound, plain.error_bound)
 
 
 @given(links(), st.floats(1e-3, 1e3), st.floats(1e-3, 1e3))
 def test_heights_scale_with_lengths_and_not_with_weights(link, weight, factor):
-    plain = rc.modes(rc.Chain(**link), shapes=False)
-    other = rc.modes(
-        scaled(link, weight=weight, length=factor, centroid=factor, radius_of_gyration=factor), shapes=False
-    )
+    plain = rc.modes(rc.Chain(**link))
+    other = rc.modes(scaled(link, weight=weight, length=factor, centroid=factor, radius_of_gyration=factor))
     # each of the four columns is rounded once (half an ulp, condition 6), and the product too
     slack = plain.error_bound + other.error_bound + (4 * CONDITION + 1) * ULP / 2
     assert (np.abs(other.conical_height / (plain.conical_height * factor) - 1) <= slack).all()
@@ -59,8 +55,8 @@ def append(link, above):
 @given(links(6), links(1))
 def test_a_link_added_above_interlaces(link, above):
     """The old chain is the new one with its old support held fast: a constraint (Rayleigh)."""
-    old = rc.modes(rc.Chain(**link), shapes=False)
-    new = rc.modes(rc.Chain(**append(link, above)), shapes=False)
+    old = rc.modes(rc.Chain(**link))
+    new = rc.modes(rc.Chain(**append(link, above)))
     assert (new.conical_height[:-1] * (1 + new.error_bound[:-1]) >= old.conical_height * (1 - old.error_bound)).all()
     assert (new.conical_height[1:] * (1 - new.error_bound[1:]) <= old.conical_height * (1 + old.error_bound)).all()
 
@@ -70,7 +66,7 @@ def test_a_plummet_added_below_interlaces(link, weight, length):
     """The chain with that weight fixed in its lowest pin is the new one with the plummet held vertical."""
     n = link["weight"].size
     below = {"weight": weight, "length": length, "centroid": length, "radius_of_gyration": 0.0}
-    new = rc.modes(rc.Chain(**{name: np.insert(link[name], 0, below[name]) for name in link}), shapes=False)
+    new = rc.modes(rc.Chain(**{name: np.insert(link[name], 0, below[name]) for name in link}))
     w, a = link["weight"][0], link["length"][0]
     h, rho = link["centroid"][0], link["radius_of_gyration"][0]
     total = w + weight
@@ -78,7 +74,7 @@ def test_a_plummet_added_below_interlaces(link, weight, length):
     square = (w * rho**2 + w * (h - centroid) ** 2 + weight * (a - centroid) ** 2) / total
     body = {"weight": total, "length": a, "centroid": centroid, "radius_of_gyration": np.sqrt(square)}
     fixed = {name: np.concatenate([[body[name]], link[name][1:]]) for name in link}
-    old = rc.modes(rc.Chain(**fixed), shapes=False)
+    old = rc.modes(rc.Chain(**fixed))
     slack = 1 + 3 * CONDITION * 4 * ULP  # the body's three numbers are computed here, within 4 ulp each
     assert len(old) == n and len(new) == n + 1
     assert (new.conical_height[:-1] * slack >= old.conical_height).all()
@@ -88,7 +84,7 @@ def test_a_plummet_added_below_interlaces(link, weight, length):
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 8, 13, 21, 34, 50])
 def test_equal_plummets_are_laguerre_zeros(count):
     chain = rc.Chain.uniform_plummets(count, length=float(count))  # threads of length 1 exactly
-    result = rc.modes(chain, shapes=False)
+    result = rc.modes(chain, "all")
     with mp.workdps(80):
         value = lambda height: mp.laguerre(count, 0, 1 / mp.mpf(height))  # noqa: E731
         for height, bound in zip(result.conical_height.tolist(), result.error_bound.tolist(), strict=True):
@@ -109,7 +105,7 @@ RODS = (0.0614, 2.065, 8.985)
 def test_rods_converge_with_the_square_of_their_number():
     n = 400
     exact = rc.heavy_chain.conical_heights(3)
-    found = rc.modes(rc.Chain.uniform_rods(n), count=3, shapes=False).conical_height
+    found = rc.modes(rc.Chain.uniform_rods(n), count=3).conical_height
     coefficient = (exact / found - 1) * n**2
     np.testing.assert_allclose(coefficient, RODS, rtol=2e-3)  # next term ~ j^2/N^2 and 3 given digits
 
@@ -117,7 +113,7 @@ def test_rods_converge_with_the_square_of_their_number():
 def test_plummets_converge_with_their_number():
     exact = rc.heavy_chain.conical_heights(3)
     for n in (1000, 10_000):
-        found = rc.modes(rc.Chain.uniform_plummets(n), count=3, shapes=False).conical_height
+        found = rc.modes(rc.Chain.uniform_plummets(n), count=3).conical_height
         np.testing.assert_allclose((exact / found - 1) * n, -0.5, rtol=4 / n)  # next term ((j^2 - 2)/48 + 1/4)/N
 
 

@@ -2,7 +2,6 @@
 """revchain.modes, count_modes, recurrence_matrices and the result they give."""
 
 import copy
-import dataclasses
 import json
 import math
 import pickle
@@ -12,6 +11,7 @@ import sys
 import threading
 import time
 
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 
 import revchain as rc
 from revchain import _core
+from revchain.results.base import restored
 
 NAN, INF = math.nan, math.inf
 ULP = 2.0**-52
@@ -57,7 +58,7 @@ def test_heights_lie_within_the_error_bound(exact_heights, worst_in_bounds, chai
 
 @given(chains(5), st.floats(1e-15, 1.0))
 def test_a_tolerance_is_met_and_the_bound_holds(exact_heights, worst_in_bounds, chain, rtol):
-    result = rc.modes(chain, rtol=rtol, shapes=False)
+    result = rc.modes(chain, rtol=rtol)
     assert result.status == "success"
     assert result.error_bound.max() <= rtol
     assert worst_in_bounds(result, exact_heights(chain)) <= 1
@@ -73,7 +74,7 @@ def test_reference_methods_agree_within_their_own_bounds(exact_heights, worst_in
 
 @given(chains())
 def test_counting_agrees_with_the_modes(chain):
-    result = rc.modes(chain, shapes=False)
+    result = rc.modes(chain)
     width = 2 * result.error_bound
     above = rc.count_modes(chain, conical_height=result.conical_height * (1 + width))
     below = rc.count_modes(chain, conical_height=result.conical_height * (1 - width))
@@ -85,7 +86,7 @@ def test_counting_agrees_with_the_modes(chain):
 @given(chains(), st.floats(0.1, 100.0), st.floats(0.01, 100.0))
 def test_counting_by_speed_is_counting_by_height(chain, speed, gravity):
     height = rc.conical_pendulum.height(speed, gravity)
-    heights = rc.modes(chain, shapes=False).conical_height
+    heights = rc.modes(chain).conical_height
     if np.abs(heights / height - 1).min() > 1e-12:  # else the rounding of the height decides
         count = rc.count_modes(chain, angular_speed=speed, gravity=gravity)
         assert count == rc.count_modes(chain, conical_height=height) == (heights > height).sum()
@@ -126,63 +127,110 @@ def test_shapes_satisfy_relation_21():
 def test_fields():
     chain = rc.Chain.uniform_rods(5, length=2.0)
     result = rc.modes(chain, count=3)
-    assert [field.name for field in dataclasses.fields(result)] == (
-        ["chain", "number", "conical_height", "error_bound", "shape", "residual", "nodes", "method", "status"]
-        + ["precision", "certificate", "conical_height_low"]
+    assert {name for name in dir(result) if name[0] != "_"} == set(rc.Modes.fields) | (
+        {"at", "plot", "save", "to_dataframe", "to_dict", "to_xarray", "uncertainty"}
     )
-    assert result.chain is chain and len(result) == 3
+    assert result.system is chain and len(result) == 3 and result.gravity == 9.80665
     assert result.conical_height.shape == result.error_bound.shape == (3,)
     assert (np.diff(result.conical_height) < 0).all()
-    assert isinstance(result.nodes, list) and result.method == "bisection"
+    assert isinstance(result.nodes, tuple) and result.method == "bisection"
 
 
-def test_without_shapes():
-    result = rc.modes(rc.Chain.uniform_rods(5), shapes=False)
-    assert result.shape is None and result.residual is None and result.nodes is None
-    assert np.array_equal(result.conical_height, rc.modes(rc.Chain.uniform_rods(5)).conical_height)
+def test_how_many_modes():
+    """Ten unless asked, or as many as there are."""
+    rods = rc.Chain.uniform_rods(30)
+    count = lambda *count, **first: rc.modes(rods, *count, **first).number.tolist()  # noqa: E731
+    assert count() == list(range(1, 11))
+    assert count(first=26) == count("all", first=26) == [26, 27, 28, 29, 30]
+    assert count("all") == count(30) == list(range(1, 31))
+    assert len(rc.modes(rods, conical_height=(0.0, INF))) == 30
+    assert len(rc.modes(THREE)) == 3
 
 
-def test_the_result_is_frozen():
+def test_what_is_computed_when_read_is_kept():
+    result = rc.modes(rc.Chain.uniform_rods(5))
+    for name in rc.Modes.fields:
+        assert getattr(result, name) is getattr(result, name), name
+
+
+def test_the_result_cannot_be_changed():
     result = rc.modes(rc.Chain.uniform_rods(3))
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        result.status = "fine"
-    with pytest.raises((AttributeError, TypeError)):
-        result.colour = "red"
-    for array in (result.number, result.conical_height, result.error_bound, result.shape, result.residual, *result.nodes):
+    for change in (
+        lambda: setattr(result, "status", "fine"),
+        lambda: setattr(result, "shape", None),
+        lambda: setattr(result, "colour", "red"),
+        lambda: delattr(result, "status"),
+    ):
+        with pytest.raises(AttributeError, match="a Modes cannot be changed"):
+            change()
+    arrays = [value for name in rc.Modes.fields if isinstance(value := getattr(result, name), np.ndarray)]
+    assert len(arrays) == 10
+    for array in (*arrays, *result.nodes):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0.0
 
 
-@pytest.mark.parametrize("shapes", [True, False])
-def test_pickle_and_copy(shapes):
-    result = rc.modes(rc.Chain.uniform_rods(6), shapes=shapes)
-    for twin in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result), copy.copy(result)):
-        assert twin.chain == result.chain and twin.status == result.status
-        assert np.array_equal(twin.conical_height, result.conical_height)
-        assert not twin.conical_height.flags.writeable
-        assert (twin.shape is None) == (not shapes)
+@pytest.mark.parametrize("read", [True, False])
+def test_pickle_and_copy(read):
+    result, shape = rc.modes(rc.Chain.uniform_rods(6)), rc.modes(rc.Chain.uniform_rods(6)).shape
+    if read:
+        assert np.array_equal(result.shape, shape)
+    assert copy.copy(result) is copy.deepcopy(result) is result
+    twin = pickle.loads(pickle.dumps(result))
+    assert twin == result and twin.system == result.system and twin.status == result.status
+    assert np.array_equal(twin.conical_height, result.conical_height)
+    assert not twin.conical_height.flags.writeable
+    assert np.array_equal(twin.shape, shape)
 
 
 def test_speeds():
-    result = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0))  # heights 3/2 and 1/2: Greenhill section 2
-    assert result.conical_height.tolist() == [1.5, 0.5]
-    np.testing.assert_allclose(result.angular_speed(6.0), [2.0, math.sqrt(12.0)], rtol=2.1 * ULP)
-    np.testing.assert_allclose(result.period(6.0), [math.pi, math.pi / math.sqrt(3)], rtol=2.6 * ULP)
-    np.testing.assert_allclose(result.revolutions_per_second(6.0) * result.period(6.0), 1.0, rtol=4.2 * ULP)
-    assert np.array_equal(result.angular_speed(), result.angular_speed(9.80665))
-    moon_and_earth = result.angular_speed([[1.62], [9.80665]])
-    assert moon_and_earth.shape == (2, 2)
-    assert np.array_equal(moon_and_earth[0], result.angular_speed(1.62))
+    chain = rc.Chain(weight=[1.0, 3.0], length=1.0)  # heights 3/2 and 1/2: Greenhill section 2
+    result = rc.modes(chain, gravity=6.0)
+    assert result.conical_height.tolist() == [1.5, 0.5] and result.gravity == 6.0
+    np.testing.assert_allclose(result.angular_speed, [2.0, math.sqrt(12.0)], rtol=2.1 * ULP)
+    np.testing.assert_allclose(result.period, [math.pi, math.pi / math.sqrt(3)], rtol=2.6 * ULP)
+    np.testing.assert_allclose(result.frequency * result.period, 1.0, rtol=4.2 * ULP)
+    assert np.array_equal(result.rpm, 60 * result.frequency)
+    earth = rc.modes(chain)
+    assert earth == rc.modes(chain, gravity=9.80665) != result
+    earth.shape, earth.rpm  # noqa: B018
+    moved = earth.at(gravity=6.0)
+    assert moved == result and moved.shape is earth.shape and moved.at(gravity=9.80665) == earth
+    for name in ("angular_speed", "period", "frequency", "rpm", "speed_error_bound"):
+        assert np.array_equal(getattr(moved, name), getattr(result, name))
+
+
+@given(chains(5), st.floats(1e-3, 1e3), st.sampled_from([None, 1e-6]))
+def test_speeds_lie_within_their_bound(exact_heights, chain, gravity, rtol):
+    result = rc.modes(chain, gravity=gravity, rtol=rtol)
+    with mp.workdps(50):
+        exact = [mp.sqrt(mp.mpf(gravity) / height) for height in exact_heights(chain)]
+        for speed, frequency, period, bound, true in zip(
+            result.angular_speed, result.frequency, result.period, result.speed_error_bound, exact, strict=True
+        ):
+            for found, wanted in ((speed, true), (frequency, true / (2 * mp.pi)), (period, 2 * mp.pi / true)):
+                assert abs(mp.mpf(float(found)) / wanted - 1) <= mp.mpf(float(bound))
 
 
 @pytest.mark.parametrize("gravity", [0.0, -9.8, NAN, INF, "9.8", None, [9.8, 0.0], True, 1j])
 def test_gravity_refused(gravity):
-    result = rc.modes(rc.Chain.uniform_rods(2))
-    for speed in (result.angular_speed, result.period, result.revolutions_per_second):
+    chain = rc.Chain.uniform_rods(2)
+    result = rc.modes(chain)
+    for call in (
+        lambda: rc.modes(chain, gravity=gravity),
+        lambda: rc.modes(chain, conical_height=(0.1, 1.0), gravity=gravity),
+        lambda: rc.modes(rc.Rig(chain), gravity=gravity),
+        lambda: result.at(gravity=gravity),
+        lambda: rc.count_modes(chain, angular_speed=[1.0, 2.0], gravity=gravity),
+    ):
         with pytest.raises(ValueError, match="gravity"):
-            speed(gravity)
-    with pytest.raises(ValueError, match="gravity"):
-        rc.count_modes(result.chain, angular_speed=[1.0, 2.0], gravity=gravity)
+            call()
+
+
+def test_one_gravity_for_all_modes():
+    for call in (rc.modes(THREE).at, lambda gravity: rc.modes(THREE, gravity=gravity)):
+        with pytest.raises(ValueError, match="gravity must be a single number"):
+            call(gravity=[9.8, 1.6])
 
 
 THREE = rc.Chain(weight=[1.0, 0.0, 2.0, 3.0], length=1.0)  # four links, three modes
@@ -192,14 +240,15 @@ BAD = {
     "count above mode_count": ({"count": 4}, "count .*3.*4"),
     "count not whole": ({"count": 2.0}, "whole number, got 2.0"),
     "count boolean": ({"count": True}, "whole number"),
-    "count text": ({"count": "all"}, "whole number"),
+    "count text": ({"count": "some"}, "a number or \"all\", got 'some'"),
     "huge count": ({"count": 10**30}, "count"),
     "rtol nan": ({"rtol": NAN}, "(rtol|tolerance).*nan"),
     "rtol negative": ({"rtol": -1e-3}, "(rtol|tolerance).*-0.001"),
     "rtol text": ({"rtol": "tight"}, "rtol must be a real number"),
     "rtol array": ({"rtol": [1e-3]}, "rtol must be a single number"),
-    "method unknown": ({"method": "qr"}, "auto, bisection, condensed, aberth, interpolated, dense, recurrence.*qr"),
-    "method no text": ({"method": None}, "auto, bisection, condensed, aberth, interpolated, dense, recurrence.*None"),
+    "method unknown": ({"method": "qr"}, "of bisection, condensed, aberth, interpolated, dense, recurrence, got 'qr'"),
+    "method auto": ({"method": "auto"}, "of bisection, condensed, aberth, interpolated, dense, recurrence, got 'auto'"),
+    "method no text": ({"method": 3}, "of bisection, condensed, aberth, interpolated, dense, recurrence, got 3"),
 }
 
 
@@ -264,32 +313,47 @@ def test_count_modes_refused(arguments):
 
 
 def test_to_dict_is_ready_for_json():
-    result = rc.modes(rc.Chain.uniform_rods(6, length=2.0, weight=3.0), count=2)
-    data = result.to_dict(gravity=1.62)
+    result = rc.modes(rc.Chain.uniform_rods(6, length=2.0, weight=3.0), count=2, gravity=1.62)
+    data = result.to_dict()
     assert json.loads(json.dumps(data, allow_nan=False)) == data
-    assert list(data) == ["modes", "method", "status", "precision", "gravity", "chain"]
+    assert list(data) == ["gravity", "method", "status", "precision", "chain", "modes"]
+    assert data["gravity"] == 1.62
     second = data["modes"][1]
+    numbers = ["angular_speed", "frequency", "rpm", "period", "speed_error_bound", "conical_height", "error_bound", "residual"]
+    assert set(second) == {"mode", *numbers, "nodes", "shape"}
     assert second["mode"] == 2
-    assert second["conical_height"] == result.conical_height[1]
-    assert second["angular_speed"] == result.angular_speed(1.62)[1]
-    assert second["period"] == result.period(1.62)[1]
-    assert second["error_bound"] == result.error_bound[1]
+    assert {name: second[name] for name in numbers} == {name: getattr(result, name)[1] for name in numbers}
     assert second["nodes"] == result.nodes[1].tolist() and len(second["nodes"]) == 1
     assert second["shape"] == result.shape[1].tolist()
-    assert "shape" not in result.to_dict(shapes=False)["modes"][0]
-    assert "nodes" not in rc.modes(result.chain, shapes=False).to_dict()["modes"][0]
-    assert data["chain"] == {"size": 6, "mode_count": 6, "length": pytest.approx(2.0), "weight": pytest.approx(3.0)}
+    assert data["chain"] == {"size": 6, "length": pytest.approx(2.0), "weight": pytest.approx(3.0)}
+
+
+def test_dataframe():
+    result = rc.modes(rc.Chain.uniform_rods(6), count=2, first=3, gravity=1.62, certify=True)
+    table = result.to_dataframe()
+    assert table.index.tolist() == [3, 4] and table.attrs["gravity"] == 1.62
+    for name in ("angular_speed", "rpm", "conical_height", "residual"):
+        assert np.array_equal(table[name], getattr(result, name))
+    assert np.array_equal(table["certificate_lower"], result.certificate.lower)
 
 
 def test_tables():
     result = rc.modes(rc.Chain.uniform_rods(30), count=25)
     lines = repr(result).splitlines()
-    assert "25 of 30 modes" in lines[0] and "success" in lines[0]
-    assert len({len(line) for line in lines[1:-1]}) == 1  # aligned
-    assert "... and 5 more" in lines[-1] and "9.80665" in lines[-1]
+    assert lines[0].startswith("25 of 30 modes of a chain of 30 links") and lines[0].endswith("success")
+    assert lines[1].split("  ")[0] == "mode" and lines[1].endswith("nodes (m from the free end)")
+    assert len({len(line) for line in lines[1:-2]}) == 1 and len(lines) == 1 + 21 + 2  # aligned
+    assert lines[-2] == "and 5 more" and "9.80665" in lines[-1]
     html = result._repr_html_()
     assert html.startswith("<table>") and html.count("<tr>") == 1 + 20 + 1
-    assert "-" in repr(rc.modes(rc.Chain.uniform_rods(2), shapes=False)).splitlines()[-2].split()[-1]
+    assert all(text in html for text in ("25 of 30 modes", "and 5 more", "9.80665"))
+
+
+def test_tables_of_long_chains_show_nodes_that_are_known():
+    result = rc.modes(rc.Chain.uniform_rods(10_001), 2)
+    assert "nodes" not in repr(result) and "nodes" not in result._repr_html_()
+    result.nodes  # noqa: B018
+    assert "nodes" in repr(result) and "nodes" in result._repr_html_()
 
 
 def test_python_runs_on_while_modes_are_computed():
@@ -300,7 +364,7 @@ def test_python_runs_on_while_modes_are_computed():
 
     def work():
         try:
-            _core.modes(chain, 1, 200, None, None, None, False, False, "double", "auto", progress)
+            _core.modes(chain, 1, 200, None, None, None, False, "double", "auto", progress)
         except _core.Cancelled as error:
             raised.append(error)
 
@@ -336,7 +400,7 @@ def test_ctrl_c_stops_a_long_computation(start):
 import revchain as rc
 print("ready", flush=True)
 try:
-    rc.modes(rc.Chain.uniform_rods(20_000), shapes=False)   # minutes
+    rc.modes(rc.Chain.uniform_rods(20_000), "all")   # minutes
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 print(rc.modes(rc.Chain.uniform_rods(1)).conical_height.size)
@@ -359,14 +423,16 @@ def test_every_pickle_protocol(protocol):
 
 def test_equal_results():
     chain = rc.Chain.uniform_rods(5)
-    assert rc.modes(chain) == rc.modes(chain)
-    assert rc.modes(chain) != rc.modes(chain, count=4)
-    assert rc.modes(chain) != rc.modes(chain, shapes=False)
-    assert rc.modes(chain) != 3
+    result = rc.modes(chain)
+    result.shape, result.sensitivity  # noqa: B018
+    assert result == rc.modes(chain)  # whatever was read
+    for other in ({"count": 4}, {"certify": True}, {"gravity": 1.62}, {"precision": "extended"}, {"method": "dense"}):
+        assert result != rc.modes(chain, **other)
+    assert result != rc.modes(rc.Rig(chain)) and result != 3
 
 
 def test_nodes_outlast_offsets_that_underflow():
-    result = rc.modes(rc.Chain.uniform_plummets(500))
+    result = rc.modes(rc.Chain.uniform_plummets(500), "all")
     assert [len(nodes) for nodes in result.nodes] == list(range(500))
 
 
@@ -380,6 +446,6 @@ def test_a_light_link_below_a_heavy_one():
 def test_a_height_that_is_not_positive_is_shown():
     """As rounding may leave it with method="dense"."""
     result = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0), method="dense")
-    result = dataclasses.replace(result, conical_height=np.array([1.5, -1e-17]))
+    result = restored(rc.Modes, {**result._state(), "conical_height": np.array([1.5, -1e-17])})
     for text in (repr(result), result._repr_html_()):
-        assert "-1.00000000000e-17" in text and "nan" in text and "1.5" in text
+        assert "-1.00000000e-17" in text and "nan" in text and "1.5" in text

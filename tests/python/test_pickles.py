@@ -22,6 +22,8 @@ def compiled():
     yield _core.stability(CHAIN._compiled, shapes.shapes[0], False)
     yield _core.Progress()
     yield rc.Rig(CHAIN, momentum=1.0)._compiled
+    yield rc.modes(CHAIN)._found()
+    yield rc.modes(rc.Rig(CHAIN, momentum=1.0))._found()
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)
@@ -46,13 +48,13 @@ def test_every_compiled_class_refuses_the_old_protocols():
 def test_public_results(protocol):
     pytest.importorskip("msgspec")
     rig = rc.Rig(CHAIN, stiffness=5.0)
-    results = [CHAIN, rig, rc.modes(CHAIN), rc.modes(rig), rc.explain(CHAIN), rc.solve(CHAIN)]
+    modes = rc.modes(CHAIN, certify=True)
+    results = [CHAIN, rig, modes, rc.modes(rig), rc.explain(CHAIN), rc.solve(CHAIN)]
+    results += [modes.certificate, modes.sensitivity, modes.uncertainty(length=0.1), rc.modes(rig).sensitivity]
+    results += [rc.modes(rc.Rig(CHAIN, momentum=0.3)).other]
     results += [rc.response(CHAIN, conical_height=4.0), rc.small_oscillation(CHAIN, [0.1, 0.0, 0.0], None, [0.0, 1.0])]
     for found in results:
-        again = pickle.loads(pickle.dumps(found, protocol))
-        if isinstance(found, rc.RigModes):  # compares by identity
-            found, again = found.to_dict(), again.to_dict()
-        assert again == found
+        assert pickle.loads(pickle.dumps(found, protocol)) == found
     shape = rc.steady_shapes(CHAIN, conical_height=0.3)[0]
     with pytest.raises(TypeError):
         pickle.dumps(shape, protocol)

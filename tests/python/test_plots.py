@@ -43,11 +43,12 @@ def overlapping(axes):
 @pytest.mark.parametrize("modes", [None, [1], [8, 3], range(1, 9)])
 @pytest.mark.parametrize("gravity", [9.80665, 1.62e-7])
 def test_modes(modes, gravity):
-    axes = RODS.plot(modes=modes, gravity=gravity)
+    result = RODS.at(gravity=gravity)
+    axes = result.plot(modes=modes)
     assert isinstance(axes, Axes)
     chosen = list(range(1, 7)) if modes is None else list(modes)
     assert [text.splitlines()[0] for text in texts(axes)] == [f"mode {mode}" for mode in chosen]
-    speeds = RODS.angular_speed(gravity)
+    speeds = result.angular_speed
     assert all(f"{speeds[mode - 1]:#.4g} rad/s" in text for mode, text in zip(chosen, texts(axes), strict=True))
     assert axes.get_ylabel() == "depth below the support (m)"
     assert axes.yaxis_inverted() or axes.get_ylim()[0] > axes.get_ylim()[1]
@@ -85,7 +86,7 @@ def test_pins_are_dots_where_they_are_few():
 def test_the_axes_given_are_used():
     axes = Figure().add_subplot()
     assert RODS.plot(axes) is axes
-    assert RODS.chain.plot(ax=axes) is axes
+    assert RODS.system.plot(ax=axes) is axes
 
 
 @pytest.mark.parametrize(
@@ -111,11 +112,6 @@ def test_chain(chain):
 def test_modes_refused(modes):
     with pytest.raises(ValueError, match="mode"):
         RODS.plot(modes=modes)
-
-
-def test_no_shapes():
-    with pytest.raises(ValueError, match="shapes=True"):
-        rc.modes(rc.Chain.uniform_rods(3), shapes=False).plot()
 
 
 def test_nothing_global_is_touched(python):

@@ -203,7 +203,7 @@ def test_swing(size):
     assert found.error_bound.max() < 1e-14
     np.testing.assert_allclose(found.offset[0], [*offsets, 0.0], atol=3e-16)
     np.testing.assert_allclose(found.velocity[0], [*velocities, 0.0], atol=3e-15)
-    np.testing.assert_allclose(found.angular_frequency, rc.modes(chain).angular_speed(), rtol=1e-15)
+    np.testing.assert_allclose(found.angular_frequency, rc.modes(chain).angular_speed, rtol=1e-15)
 
 
 def test_energy(chain):

@@ -333,7 +333,7 @@ def test_which_modes_are_asked_for(ask, numbers):
 )
 def test_which_window_is_asked_for(ask, low, high):
     scene = rc.Scene.from_dict({**RODS, "ask": ask})
-    every = rc.modes(scene.chain())
+    every = rc.modes(scene.chain(), "all")
     inside = (low < every.conical_height) & (every.conical_height <= high)
     assert scene.modes().number.tolist() == every.number[inside].tolist()
     assert rc.modes(scene.chain(), **scene.asked(scene.chain())) == scene.modes()

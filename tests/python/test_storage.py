@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results in files: nothing lost, nothing half-written, nothing pickled."""
 
+import copy
+import json
 import os
+import pickle
 
 import numpy as np
 import pytest
@@ -21,31 +24,69 @@ CHAINS = {
 
 
 def same(one, other):
-    assert one.chain == other.chain
+    assert one == other and one.system == other.system and one.gravity == other.gravity
     assert (one.method, one.status) == (other.method, other.status)
-    for name in ("conical_height", "error_bound", "shape", "residual"):
+    for name in ("conical_height", "error_bound", "shape", "residual", "angular_speed"):
         left, right = getattr(one, name), getattr(other, name)
-        assert (left is None) == (right is None)
-        assert left is None or (np.array_equal(left, right) and left.dtype == right.dtype)
-    assert (one.nodes is None) == (other.nodes is None)
-    for left, right in zip(one.nodes or [], other.nodes or [], strict=True):
+        assert np.array_equal(left, right) and left.dtype == right.dtype
+    for left, right in zip(one.nodes, other.nodes, strict=True):
         assert np.array_equal(left, right)
 
 
 @pytest.mark.parametrize("ending", [".npz", ".NPZ", ".nc"])
-@pytest.mark.parametrize("shapes", [True, False])
+@pytest.mark.parametrize("read", [True, False])
 @pytest.mark.parametrize("chain", CHAINS.values(), ids=CHAINS.keys())
-def test_round_trip(tmp_path, chain, shapes, ending):
-    result = rc.modes(chain, shapes=shapes)
+def test_round_trip(tmp_path, chain, read, ending):
+    result = rc.modes(chain, "all", gravity=1.62)
+    if read:
+        result.shape, result.sensitivity  # noqa: B018
     path = tmp_path / f"result{ending}"
     result.save(path)
     assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
     loaded = rc.load(str(path))
     same(loaded, result)
     assert not loaded.conical_height.flags.writeable
-    assert loaded.chain.weight.strides == chain.weight.strides  # one number stays one number
+    assert loaded.system.weight.strides == chain.weight.strides  # one number stays one number
     loaded.save(path)  # over itself
     same(rc.load(path), result)
+
+
+FLOATING = {"displaced_weight": [1.0, 1.0, 2.0], "displaced_centroid": 0.4, "displaced_radius_of_gyration": 0.3}
+
+
+def results():
+    """By name: every kind of result."""
+    three = rc.Chain(weight=[1.0, 1.0, 1.0], length=1.0)
+    modes, rig = rc.modes(CHAIN, certify=True), rc.modes(rc.Rig(CHAIN, momentum=0.2, stiffness=5.0))
+    yield "Modes", modes
+    yield "Certificate", modes.certificate
+    yield "Sensitivity", modes.sensitivity
+    yield "Derivatives", modes.sensitivity.relative
+    yield "Uncertainty", modes.uncertainty(weight=0.1)
+    yield "RigModes", rig
+    yield "RigSensitivity", rig.sensitivity
+    yield "OtherModes", rc.modes(rc.Rig(three, momentum=0.3, **FLOATING)).other
+    yield "links without weight in the fluid", rc.modes(rc.Rig(three, displaced_weight=[1.0, 1.0, 1.0]))
+    yield "none, of a chain", rc.modes(CHAIN, conical_height=(50.0, 60.0))
+    yield "certificate of none", rc.modes(CHAIN, conical_height=(50.0, 60.0), certify=True).certificate
+    yield "shapes read", rc.modes(CHAIN, precision="double-double", certify=True)
+
+
+@pytest.mark.parametrize("ending", [".npz", ".nc"])
+@pytest.mark.parametrize("name", [name for name, _ in results()])
+def test_every_kind_of_result(tmp_path, name, ending):
+    result = dict(results())[name]
+    if name == "shapes read":
+        repr(result)
+    path = tmp_path / f"result{ending}"
+    result.save(path)
+    for twin in (rc.load(path), pickle.loads(pickle.dumps(result))):
+        assert type(twin) is type(result) and twin == result and copy.copy(twin) is copy.deepcopy(twin) is twin
+        assert repr(twin) == repr(result) and twin._repr_html_() == result._repr_html_()
+        assert json.dumps(twin.to_dict()) == json.dumps(result.to_dict())
+        assert twin.to_dataframe().equals(result.to_dataframe()) and twin.to_xarray().equals(result.to_xarray())
+        with pytest.raises(AttributeError, match="cannot be changed"):
+            twin.anything = 1
 
 
 def test_no_pickle_inside(tmp_path):
@@ -59,7 +100,9 @@ def test_netcdf_is_labelled(tmp_path):
 
     rc.modes(CHAIN).save(tmp_path / "result.nc")
     with xarray.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as data:
-        assert data.sizes["mode"] == CHAIN.mode_count and data.sizes["pin"] == 5 and data.sizes["link"] == 4
+        assert data.sizes["mode"] == CHAIN.mode_count and data.sizes["pin"] == 5
+        assert data["shape"].dims == ("mode", "pin") and data.angular_speed.dims == ("mode",)
+        assert data.attrs["gravity"] == 9.80665
 
 
 def test_xarray():
@@ -67,11 +110,9 @@ def test_xarray():
     data = result.to_xarray()
     assert data.mode.values.tolist() == [1, 2, 3, 4, 5]
     assert float(data.conical_height.sel(mode=3)) == result.conical_height[2]
-    assert data["shape"].dims == ("mode", "pin") and data.weight.dims == ("link",)
-    assert data.pin_position.values[0] == 0 and data.pin_position.values[-1] == pytest.approx(0.36)
-    assert np.array_equal(data.node_position.sel(mode=3).dropna("node").values, result.nodes[2])
-    assert data.attrs["status"] == "success"
-    assert "shape" not in rc.modes(CHAIN, shapes=False).to_xarray()
+    assert data["shape"].dims == ("mode", "pin") and np.array_equal(data["shape"], result.shape)
+    assert np.array_equal(data.nodes.sel(mode=3).dropna("node").values, result.nodes[2])
+    assert data.attrs["status"] == "success" and data.attrs["gravity"] == 9.80665
 
 
 @pytest.mark.parametrize("name", ["result", "result.txt", "result.npz.gz"])
@@ -99,6 +140,16 @@ def test_other_arrays_and_objects(tmp_path):
         np.savez(path, **arrays)
         with pytest.raises(ValueError, match="not a result that revchain saved"):
             rc.load(path)
+
+
+@pytest.mark.parametrize("content", [{"kind": "revchain modes 1"}, {"revchain": '{"format": "revchain 1"}'}], ids=repr)
+def test_files_of_other_versions(tmp_path, content):
+    path = tmp_path / "old.npz"
+    np.savez(path, **{name: np.array(text) for name, text in content.items()})
+    with open(path, "r+b") as file:
+        file.write(_storage._seal(file))  # whole, as it was written
+    with pytest.raises(ValueError, match="save the result again|save it again"):
+        rc.load(path)
 
 
 def test_truncated(tmp_path):
@@ -155,6 +206,7 @@ if ending.startswith(".sweep"):
     result = rc.sweep({"scene": {"links": [{"mass": 1, "length": 1, "repeat": 5}]}, "vary": vary})
 else:
     result = rc.modes(rc.Chain.uniform_rods(200), count=100)
+    result.shape
 result.save(path)
 size = os.stat(path).st_size
 os.unlink(path)

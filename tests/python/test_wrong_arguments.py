@@ -55,6 +55,7 @@ STUDY = {"find": ["modes"], "scene": SCENE, "vary": {"gravity": {"values": [9.0,
 # What a parameter of that name is given where it must be given; by function where another is needed or one of several.
 GIVEN = {
     "chain": CHAIN,
+    "system": CHAIN,
     "what": CHAIN,
     "rig": RIG,
     "mode": 1,
@@ -119,7 +120,8 @@ MODULES = [rc, *(one for one in FILES if hasattr(one, "__all__"))]
 def objects():
     """Something of every class that has methods with parameters."""
     found = [CHAIN, RIG, rc.modes(CHAIN), rc.modes(RIG), rc.explain(CHAIN), rc.solve(CHAIN), rc.bell_and_clapper(CHAIN)]
-    found += [rc.modes(CHAIN).uncertainty(weight=0.1), rc.taut_modes(CHAIN, tension=9.0)]
+    found += [rc.modes(CHAIN).uncertainty(weight=0.1), rc.modes(CHAIN).sensitivity, rc.modes(RIG).sensitivity]
+    found.append(rc.taut_modes(CHAIN, tension=9.0))
     shapes = rc.steady_shapes(CHAIN, conical_height=0.4)
     branches = rc.branches(CHAIN, up_to=30.0)
     found += [shapes, shapes[0], shapes[0].force_diagram(), branches, branches[0]]
@@ -161,6 +163,7 @@ def callables():
             if isinstance(value, types.FunctionType) and name[0] != "_":
                 found[f"{type(thing).__name__}.{name}"] = getattr(thing, name)
     del found["two_links.PairShape"]  # made by functions alone
+    del found["RigModes.at"], found["RigModes.uncertainty"]  # refuse whatever they are given: test_what_rigs_do_not_have
     return found
 
 
@@ -246,6 +249,20 @@ def test_what_does_not_fit_in_the_memory_says_how_much_it_would_take(count):
         with pytest.raises(ValueError, match=words):
             call()
     assert rc.explain(rc.Chain.uniform_rods(count), 1, rtol=1e-3).chosen is not None
+
+
+def test_what_rigs_do_not_have():
+    modes = rc.modes(RIG)
+    for call, message in (
+        (lambda: modes.at(gravity=1.62), "another gravity; ask revchain.modes again"),
+        (lambda: modes.uncertainty(weight=0.1), "of a rig take sensitivity"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            call()
+    given = {"conical_height": (0.1, 1.0), "angular_speed": (1.0, 2.0), "rtol": 0.1, "method": "dense", "precision": "single"}
+    for name, value in {**given, "certify": True}.items():
+        with pytest.raises(ValueError, match=f"revchain.modes: {name} is for a Chain"):
+            rc.modes(RIG, **{name: value})
 
 
 def test_lists_of_results():

@@ -19,11 +19,10 @@ from msgspec import UNSET
 from rich.console import Console, RenderableType
 
 from .. import _core
-from ..questions.modes import solve as solve_chain
+from ..questions.modes import find_modes
 from ..questions.response import Response
 from ..results.files import written_aside
-from ..results.modes import Modes
-from ..results.rig_modes import RigModes
+from ..results.modes import Modes, RigModes
 from ..scenes.error import SceneError
 from ..scenes.scene import Scene, json_schema, load_scene
 from ..studies.study import study_schema
@@ -93,23 +92,23 @@ def solve(
         slack = given.held.span is not UNSET
         find: Callable[[Scene], Any] = Scene.steady_shapes if slack else Scene.modes
         return answer(scene, find, Wanted(plot, json, csv, quiet))
-    hung, gravity = given._hung(str(scene)), given.gravity_value()
+    hung = given._hung(str(scene))
     asked = given.asked(base_chain(hung))
     if len(named := [name for name, value in chosen.items() if value is not None]) > 0:
         if len(named) > 1:
             options = " and ".join("--" + name.replace("_", "-") for name in named)
             raise Stop(f"{options} cannot both say which modes", ExitCode.WRONG_USAGE)
-        for name in ("count", *chosen):
+        for name in ("count", "first", *chosen):
             asked.pop(name, None)
-        asked |= {"gravity": gravity, **(_numbers(modes) if modes is not None else {named[0]: chosen[named[0]]})}
+        asked |= _numbers(modes) if modes is not None else {named[0]: chosen[named[0]]}
     asked |= {name: value for name, value in overriding.items() if value is not None}
     if certify:
         asked["certify"] = True
 
     def solved() -> _Solved:
         carried = given.response() if given.is_carried else None
-        found = watched(lambda progress: solve_chain(hung, **asked, progress=progress), Console(stderr=True), quiet)
-        return _Solved(found, given.title or scene.stem, gravity, carried)
+        found = watched(lambda progress: find_modes(hung, **asked, progress=progress), Console(stderr=True), quiet)
+        return _Solved(found, given.title or scene.stem, carried)
 
     found = answered(scene, solved, Wanted(plot, json, csv, quiet, out)).found
     if found.status != "success":
@@ -124,21 +123,24 @@ class _Solved:
 
     found: Modes | RigModes
     title: str
-    gravity: float
     carried: Response | None
 
     def json(self) -> str:
-        return json_text(self.found, self.title, self.gravity, self.carried)
+        return json_text(self.found, self.title, self.carried)
 
     def csv(self) -> str:
-        return csv_text(self.found, self.gravity)
+        return csv_text(self.found)
 
     def table(self) -> RenderableType:
-        return table(self.found, self.title, self.gravity, self.carried)
+        more = []
+        if self.found.certificate is not None:
+            more.append(self.found.certificate._sheet())
+        if isinstance(self.found, RigModes) and len(self.found.other):
+            more.append(self.found.other._sheet())
+        return table(self.found, self.title, *more, carried=self.carried)
 
     def plot(self) -> Any:
-        found = self.found
-        return found.plot(carried=self.carried) if isinstance(found, RigModes) else found.plot(gravity=self.gravity)
+        return self.found.plot(carried=self.carried) if isinstance(self.found, RigModes) else self.found.plot()
 
     def save(self, path: Path) -> None:
         self.found.save(path)
@@ -243,4 +245,7 @@ def _numbers(text: str) -> dict[str, Any]:
         raise Stop(f"--modes: must be a number such as 5, or two such as 1000:1009, got {text}", ExitCode.WRONG_USAGE)
     if found[2] is None:
         return {"count": int(found[1])}
-    return {"modes": range(int(found[1]), int(found[2]) + 1)}
+    first, last = int(found[1]), int(found[2])
+    if last < first or first < 1:
+        raise Stop(f"--modes: must be ascending and from 1 on, got {text}", ExitCode.WRONG_USAGE)
+    return {"first": first, "count": last - first + 1}

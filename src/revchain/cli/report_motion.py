@@ -15,7 +15,7 @@ from rich.text import Text
 from ..questions.held import HeldShape, HeldShapes, TautModes
 from ..questions.response import Response, SmallOscillation
 from ..questions.shapes import SteadyShapes
-from ..results.tables import MOST_ROWS, digits
+from ..results.sheet import MOST_ROWS, digits
 from ..systems.numbers import Floats
 from .report import empty_grid, json_of
 

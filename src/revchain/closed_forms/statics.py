@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.base import Result
+from ..results.base import Wrapped
 from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, one_positive, positive, read_only, real
 from . import conical_pendulum
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class ForceDiagram(Result[_core.ForceDiagram, None]):
+class ForceDiagram(Wrapped[_core.ForceDiagram, None]):
     """The graphical construction of a steady shape as data; links lowest first, pins free end first.
 
     Returned by `SteadyShape.force_diagram`. Points are rows ``(x from the axis, z upwards)``. The vertices
@@ -158,7 +158,7 @@ class TransverseModes(NamedTuple):
         return seconds
 
 
-class FunicularPolygon(Result[_core.FunicularPolygon, Floats]):
+class FunicularPolygon(Wrapped[_core.FunicularPolygon, Floats]):
     """Weights on a thread between two supports, at rest in a vertical plane.
 
     Returned by `funicular_polygon`; from the first support to the last.

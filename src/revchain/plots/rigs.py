@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..results.tables import digits
+from ..results.sheet import digits
 from ..systems.numbers import integer, shown
 from ..systems.rig import Rig
 from .style import MOST_PINS_AS_DOTS, MOST_POINTS, SPACING, axes_or_new, thinned
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..questions.response import Response
-    from ..results.rig_modes import RigModes
+    from ..results.modes import RigModes
     from ..systems.numbers import Floats
 
 FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
@@ -29,12 +29,10 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
     """See `RigModes.plot`."""
     place = "RigModes.plot"
     shape = modes.shape
-    if shape is None:
-        raise ValueError(f"{place}: there are no shapes; compute them with shapes=True")
     drawn = min(len(modes), integer(place, "most", most))
     if drawn < min(1, len(modes)):
         raise ValueError(f"{place}: most must be at least 1, got {shown(most)}")
-    rig = modes.rig
+    rig = modes.system
     if carried is not None and type(carried).__name__ != "Response":
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.chain != rig or carried.offset.shape != (rig.size + 1,)):
@@ -51,10 +49,10 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
         _draw_axis(ax, SPACING, level)
         _draw_links(rig, ax, SPACING + scaled, level, CARRIED)
         ax.plot([SPACING, SPACING + carried.support_radius / np.abs(carried.offset).max()], [0.0, 0.0], **ARM)
-    speeds = modes.angular_speed()
+    speeds = modes.angular_speed
     for nth in range(drawn):
         axis = SPACING * (nth + before)
-        colour = FORWARD if modes.sense[nth] > 0 else BACKWARD
+        colour = FORWARD if modes.direction[nth] > 0 else BACKWARD
         _draw_axis(ax, axis, level)
         _draw_links(rig, ax, axis + shape[nth], level, colour)
         if np.isfinite(rig.stiffness):
@@ -62,7 +60,7 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
             ax.plot(axis + shape[nth, -1], 0.0, marker="s", color="black", markersize=6.0, zorder=4, clip_on=False)
         else:
             ax.plot(axis, 0.0, marker="^" if upwards else "v", color="black", markersize=7.0, zorder=4, clip_on=False)
-        sense = ("", " forward", " backward")[int(modes.sense[nth]) if modes.has_momentum else 0]
+        sense = ("", " forward", " backward")[int(modes.direction[nth]) if modes.has_momentum else 0]
         turns = digits(speeds[nth] * 30 / np.pi, 4)
         labels.append(f"mode {modes.number[nth]}{sense}\n{digits(speeds[nth], 4)} rad/s\n{turns} rev/min")
     ticks = [SPACING * nth for nth in range(drawn + before)]

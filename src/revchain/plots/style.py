@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..results.tables import digits
+from ..results.sheet import digits
 from ..systems.extras import require
 from ..systems.numbers import Numbers, Whole, integer, listed, one_positive, refuse_beyond_memory, shown
 
@@ -60,19 +60,15 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, gravity: float, length_unit: str) -> Axes:
+def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, *, length_unit: str) -> Axes:
     """See `Modes.plot`."""
     place = "revchain.Modes.plot"
-    if modes.shape is None or modes.nodes is None:
-        raise ValueError(f"{place}: there are no shapes; compute them with shapes=True")
-    gravity = one_positive(place, "gravity", gravity)
     chosen = _chosen(place, modes.number, which)
     first = int(modes.number[0])
     ax = axes_or_new(ax, max(4.0, 1.6 + 1.25 * len(chosen)), 6.0)
-    lengths = modes.chain.length
+    lengths = modes.system.length
     depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])  # of the pins, free end first
-    speeds = modes.angular_speed(gravity)
-    turns = 60 * modes.revolutions_per_second(gravity)
+    speeds, turns = modes.angular_speed, modes.rpm
     marker = "o" if depth.size <= MOST_PINS_AS_DOTS else ""
     for nth, mode in enumerate(chosen):
         axis = SPACING * nth

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, overload
 
 from .. import _core
 from ..closed_forms import conical_pendulum
-from ..results.base import Result, Results
+from ..results.base import Results, Wrapped
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import (
     STANDARD_GRAVITY,
@@ -48,7 +48,7 @@ class StabilityWindow:
     arc: tuple[float, float]
 
 
-class Branch(Result[_core.Branch, Chain]):
+class Branch(Wrapped[_core.Branch, Chain]):
     """A branch of steady shapes, point by point along its arc, in the units of the chain.
 
     Returned by `branch`, and in what `branches` returns. Arrays have one number for each point.
@@ -636,4 +636,4 @@ def steady_shape(
 
 def _first_height(chain: Chain) -> float:
     """The conical height of the slowest mode."""
-    return float(modes(chain, 1, shapes=False).conical_height[0])
+    return float(modes(chain, 1).conical_height[0])

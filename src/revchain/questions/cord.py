@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.base import Result, Results
+from ..results.base import Results, Wrapped
 from ..systems.numbers import (
     STANDARD_GRAVITY,
     Floats,
@@ -50,7 +50,7 @@ class ContinuousPlace(NamedTuple):
     tension: Any
 
 
-class ContinuousShape(Result[_core.ContinuousShape, _core.LineDensity | None]):
+class ContinuousShape(Wrapped[_core.ContinuousShape, _core.LineDensity | None]):
     """One steady shape of a chain without links, in the units of the chain.
 
     Returned by `continuous_shapes`. Call it for the place at an arc length; the arrays are dense where the

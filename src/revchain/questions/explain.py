@@ -251,7 +251,7 @@ def solve(
     if isinstance(hung, Rig):
         if model is not None and model != RIG_MODEL:
             raise ValueError(f"{place}: model must be {RIG_MODEL!r} for a Rig, got {shown(model)}")
-        found = modes(hung, modes=range(k, k + n), gravity=g, shapes=False)
+        found = modes(hung, n, first=k, gravity=g)
         if len(found.conical_height) < n and (count is not None or first is not None):
             there = k - 1 + len(found.conical_height)
             raise ValueError(f"{place}: there are no {n} modes from number {k} on, got {there or 'none'} in all")
@@ -360,8 +360,9 @@ def _asked(
                     f"{place}: ask.{name} of the scene is for revchain.modes: take count and first, got {said[name]}"
                 )
         if count is None and first is None:
-            wanted = said.get("modes", range(1, 1 + said.get("count", _available(hung))))
-            k, n = wanted.start, min(len(wanted), max(1, _available(hung) - wanted.start + 1))
+            k = said.get("first", 1)
+            left = max(1, _available(hung) - k + 1)
+            n = left if said["count"] == "all" else min(said["count"], left)
         if rtol is None:
             tolerance = float(said.get("rtol", 0.0))
         g = scene.gravity_value()

@@ -1,130 +1,112 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The calls that compute something of a chain."""
+"""The slowest modes of a system, and how many there are below a speed."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, overload
+from typing import Any, Literal, overload
 
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.modes import Certificate, Modes
-from ..results.rig_modes import RigModes, refuse_for_rigs, rig_modes
+from ..results.modes import Modes, RigModes
 from ..systems.chain import Chain, compiled
-from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, integer, positive, real, shown, together
+from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, one_positive, positive, real, shown, together
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import word as checked_word
 from ..systems.rig import Rig
 
+Pair = tuple[float, float]
+
 
 @overload
 def modes(
-    chain: Chain,
-    count: int | None = ...,
+    system: Chain,
+    count: int | Literal["all"] | None = ...,
     *,
-    modes: Iterable[int] | None = ...,
-    conical_height: tuple[float, float] | None = ...,
-    angular_speed: tuple[float, float] | None = ...,
-    gravity: float = ...,
-    shapes: bool = ...,
+    first: int = ...,
+    conical_height: Pair | None = ...,
+    angular_speed: Pair | None = ...,
     rtol: float | None = ...,
-    certify: bool = ...,
+    gravity: float = ...,
+    method: str | None = ...,
     precision: str = ...,
-    method: str = ...,
+    certify: bool = ...,
 ) -> Modes: ...
 @overload
 def modes(
-    chain: Rig,
-    count: int | None = ...,
-    *,
-    modes: Iterable[int] | None = ...,
-    gravity: float = ...,
-    shapes: bool = ...,
+    system: Rig, count: int | Literal["all"] | None = ..., *, first: int = ..., gravity: float = ...
 ) -> RigModes: ...
 def modes(
-    chain: Chain | Rig,
-    count: int | None = None,
+    system: Chain | Rig,
+    count: int | Literal["all"] | None = None,
     *,
-    modes: Iterable[int] | None = None,
-    conical_height: tuple[float, float] | None = None,
-    angular_speed: tuple[float, float] | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    shapes: bool = True,
+    first: int = 1,
+    conical_height: Pair | None = None,
+    angular_speed: Pair | None = None,
     rtol: float | None = None,
-    certify: bool = False,
+    gravity: float = STANDARD_GRAVITY,
+    method: str | None = None,
     precision: str = "double",
-    method: str = "auto",
+    certify: bool = False,
 ) -> Modes | RigModes:
-    """Find the ways in which a chain whirls: the slowest, those with given numbers, or those in a window.
+    """Find the modes of a system: its whirl speeds, with shapes, nodes and error bounds.
 
     Parameters
     ----------
-    chain : Chain or Rig
-        The chain of N links, by itself or rigged with supports, flywheels, standing links, a fluid.
-    count : int, optional
-        How many modes, slowest first; all ``chain.mode_count`` of them if nothing is said. Of a rig with
-        flywheels, so many in each sense of rotation.
-    modes : range, optional
-        Instead of `count`: numbers of the modes, from 1 for the slowest, without gaps and ascending.
-        ``range(1000, 1010)`` is the 1000th to the 1009th slowest; those before are not computed.
+    system : Chain or Rig
+        N links, by themselves or rigged with supports, flywheels, standing links, a fluid.
+    count : int or "all", optional
+        How many modes, slowest first: 10 if left out, or fewer where there are fewer. For a rig with flywheels, so many
+        in each direction of rotation.
+    first : int, optional
+        Number of the first mode wanted; the slowest is 1. Slower ones are not computed.
     conical_height : (low, high), optional
-        Instead of `count`: the modes with ``low < conical height <= high``, in the unit of the chain's
-        lengths. `low` may be 0, `high` infinite.
+        All modes with ``low < conical height <= high`` instead, m. `low` may be 0, `high` infinite.
     angular_speed : (low, high), optional
-        Instead of `count`: the modes with ``low <= whirl speed < high``, in rad/s. `low` may be 0,
-        `high` infinite.
-    gravity : float, optional
-        For `angular_speed`, and for the speeds of a rig; standard gravity, in metres, if left out.
-    shapes : bool
-        Whether to compute shapes, residuals and nodes.
+        All modes with ``low <= whirl speed < high`` instead, rad/s. `low` may be 0, `high` infinite.
     rtol : float, optional
-        Relative tolerance asked of the conical heights; as accurate as the precision allows (2 ulp,
-        that is 4.4e-16 in double precision) if left out.
+        Relative tolerance of the conical heights. The cheapest method whose bound keeps it is taken: closed form,
+        Bessel zero, coarser chain, ... (`explain` says which and why). Full accuracy, 2 ulp, if left out.
+    gravity : float, optional
+        In m/s^2; standard gravity if left out.
+    method : {"bisection", "condensed", "aberth", "interpolated", "dense", "recurrence"}, optional
+        ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain, to 2 ulp.
+        ``"condensed"`` condenses a long chain first: some of its slowest modes, to 2 ulp. ``"aberth"`` finds all modes
+        of a small chain at once. ``"interpolated"`` interpolates the characteristic polynomial: many modes. Where they
+        cannot, bisection is used; ``method`` of the result says so. ``"dense"`` solves the assembled pencil and
+        ``"recurrence"`` relation (21) as printed: references for small chains. The cheapest if left out.
+    precision : {"double", "single", "extended", "double-double"}
+        The arithmetic of the result. ``"single"``: the chain's numbers and the window are ROUNDED to float32 first, and
+        results are float32. ``"extended"``: results are of numpy's longdouble, which has 64 bits on x86-64 and on some
+        platforms is no more than double. ``"double-double"``: twice the digits of double;
+        ``conical_height + conical_height_low``, two float64 arrays, is the height that `error_bound` is of (3e-29 for
+        one link, 1e-24 for 2000), and shapes are float64.
     certify : bool
         Whether to return with every height the interval that holds it and the counts that prove it.
-    precision : {"double", "single", "extended", "double-double"}
-        The arithmetic of the result. ``"single"``: the chain's numbers and the window are ROUNDED to
-        float32 first, and results are float32. ``"extended"``: results are of numpy's longdouble, which
-        has 64 bits on x86-64 and on some platforms is no more than double. ``"double-double"``: twice
-        the digits of double; ``conical_height + conical_height_low``, two float64 arrays, is the height that
-        `error_bound` is of (3e-29 for one link, 1e-24 for 2000), and shapes are float64.
-    method : {"auto", "bisection", "condensed", "aberth", "interpolated", "dense", "recurrence"}
-        ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain,
-        to 2 ulp. ``"condensed"`` condenses a long chain first: some of its slowest modes, to 2 ulp.
-        ``"aberth"`` finds all modes of a small chain at once, to some 20 ulp. ``"interpolated"``
-        interpolates the characteristic polynomial: many modes, to the last digit some 60 times faster
-        than one by one, 100 times with ``rtol=1e-14``. Where they cannot, bisection is used; the
-        result's ``method`` says so. ``"dense"`` solves the assembled pencil and ``"recurrence"``
-        relation (21) as printed: references for small chains. ``"auto"`` takes the cheapest of the
-        first four that keeps `rtol`. In extended and double-double there is bisection alone; single is
-        computed in double and rounded.
 
     Returns
     -------
     Modes or RigModes
-        The latter for a `Rig`, of which nothing else but `count`, `modes`, `gravity` and `shapes` can be
-        asked; what is no steady motion is listed whole, however few modes are asked for. ``status`` is
-        ``"tolerance_not_met"`` where `rtol` is smaller than what was reached; ``error_bound`` says what was. An empty
-        window gives no modes.
+        ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached; ``error_bound`` says what
+        was. An empty window gives no modes.
 
     Raises
     ------
     ValueError
-        If more than one of `count`, `modes`, `conical_height` and `angular_speed` is given; if a mode
-        number is not from 1 to ``chain.mode_count``, `modes` has gaps, or a window is none; if `rtol`
-        is NaN or negative, or `method` or `precision` unknown. For a rig of more than 200 links whose speeds may be
-        complex: links that stand or driven wheels together with momentum, floats in fluid that turns.
+        If the modes asked for are not there or are given twice, a window is none, `rtol` is NaN or negative, or
+        `method` or `precision` unknown. For a rig if anything but `count`, `first` and `gravity` is given; for a rig of
+        more than 200 links whose speeds may be complex (links that stand or driven wheels together with momentum,
+        floats in fluid that turns).
 
     Notes
     -----
-    Which modes lie in a window is decided as `count_modes` counts, by proved counts of the exact
-    heights: windows that meet share no mode and lose none. A height just above `low` may be rounded to
-    it.
+    Which modes lie in a window is decided by proved counts of the exact heights: windows that meet share no mode and
+    lose none. A height just above `low` may be rounded to it.
 
-    Accuracy: the relative error bound is returned in ``error_bound`` (2 ulp by default, certified
-    by counting). Cost of bisection O(N) for each halving, about 50 halvings a mode; shapes O(N)
-    time and memory a mode. Other Python threads run on meanwhile.
+    Accuracy: the relative error bound is returned in ``error_bound`` (2 ulp by default, proved by counts). Cost of
+    bisection O(N) for each halving, about 50 halvings a mode; shapes O(N) time and memory a mode when they are read.
+    Other Python threads run on meanwhile.
 
     References
     ----------
@@ -133,116 +115,104 @@ def modes(
     Examples
     --------
     >>> import revchain as rc
-    >>> result = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0))
-    >>> result.conical_height
+    >>> m = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0))
+    >>> m.conical_height
     array([1.5, 0.5])
-    >>> result.status
-    'success'
+    >>> m.angular_speed.round(4)
+    array([2.5569, 4.4287])
     >>> rods = rc.Chain.uniform_rods(2000, length=0.36)
-    >>> rc.modes(rods, modes=range(1000, 1003)).number
+    >>> rc.modes(rods, 3, first=1000).number
     array([1000, 1001, 1002])
-    >>> rc.modes(rods, angular_speed=(20.0, 40.0)).angular_speed().round(3)
+    >>> rc.modes(rods, angular_speed=(20.0, 40.0)).angular_speed.round(3)
     array([22.583, 30.772, 38.964])
-    >>> rc.modes(rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)).angular_speed().round(3)
+    >>> rc.modes(rods, 3, rtol=0.01).method
+    'continuous chain'
+    >>> rc.modes(rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)).angular_speed.round(3)
     array([-2.47,  3.97])
     """
-    return solve(
-        chain,
-        count,
-        modes=modes,
-        conical_height=conical_height,
-        angular_speed=angular_speed,
-        gravity=gravity,
-        shapes=shapes,
-        rtol=rtol,
-        certify=certify,
-        precision=precision,
-        method=method,
-    )
+    given: dict[str, Any] = {"first": first, "conical_height": conical_height, "angular_speed": angular_speed}
+    given |= {"rtol": rtol, "method": method, "precision": precision, "certify": certify}
+    return find_modes(system, count, gravity=gravity, **given)
 
 
-def solve(
-    chain: Chain | Rig,
-    count: int | None = None,
+_DEFAULTS: dict[str, Any] = {"conical_height": None, "angular_speed": None, "rtol": None, "method": None}
+_DEFAULTS |= {"precision": "double", "certify": False}
+
+
+def find_modes(
+    system: Chain | Rig,
+    count: int | Literal["all"] | None = None,
     *,
-    modes: Iterable[int] | None = None,
-    conical_height: tuple[float, float] | None = None,
-    angular_speed: tuple[float, float] | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    shapes: bool = True,
+    first: int = 1,
+    conical_height: Pair | None = None,
+    angular_speed: Pair | None = None,
     rtol: float | None = None,
-    certify: bool = False,
+    gravity: float = STANDARD_GRAVITY,
+    method: str | None = None,
     precision: str = "double",
-    method: str = "auto",
+    certify: bool = False,
     progress: _core.Progress | None = None,
 ) -> Modes | RigModes:
     """`modes`, watched: `progress` tells how far it is and can cancel it from another thread."""
     place = "revchain.modes"
-    if isinstance(chain, Rig):
-        refuse_for_rigs(
-            place,
-            (
-                ("conical_height", conical_height, None),
-                ("angular_speed", angular_speed, None),
-                ("rtol", rtol, None),
-                ("certify", certify, False),
-                ("precision", precision, "double"),
-                ("method", method, "auto"),
-            ),
-        )
-        if count is not None and modes is not None:
-            raise ValueError(f"{place}: give only one of count, modes, got count and modes")
-        first, wanted = (1, None if count is None else checked_count(place, "count", count))
-        if modes is not None:
-            first, wanted = _run_of_numbers(place, modes)
-        return rig_modes(place, chain, first, wanted, gravity, shapes, progress)
-    core = compiled(place, chain)
-    if (modes is not None) + (conical_height is not None) + (angular_speed is not None) + (count is not None) > 1:
-        selectors = {"count": count, "modes": modes, "conical_height": conical_height, "angular_speed": angular_speed}
-        given = " and ".join(name for name, value in selectors.items() if value is not None)
-        raise ValueError(f"{place}: give only one of {', '.join(selectors)}, got {given}")
-    first = 1
+    g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(place, "gravity", gravity)
+    start = checked_count(place, "first", first)
+    windows = {"conical_height": conical_height, "angular_speed": angular_speed}
+    named = [name for name, window in windows.items() if window is not None]
+    if len(named) > 1 or (named and (count is not None or start != 1)):
+        others = [name for name, there in (("count", count is not None), ("first", start != 1)) if there]
+        both = " and ".join([*named, *others])
+        raise ValueError(f"{place}: give a window or count and first, not both, got {both}")
+    if isinstance(system, Rig):
+        asked = {**windows, "rtol": rtol, "method": method, "precision": precision, "certify": certify}
+        _refuse_for_rigs(place, asked)
+        of_rig = _core.rig_modes(system._compiled, start, _count(place, count, 10), g, progress)
+        found = RigModes._made(of_rig, system=system, gravity=g)
+        if start > max(1, *found.available):
+            raise ValueError(f"{place}: there are {max(found.available)} modes in a direction, got first = {start}")
+        return found
+    if not isinstance(system, Chain):
+        raise TypeError(f"{place}: system must be a revchain.Chain or Rig, got {shown(system)}")
+    core = compiled(place, system)
+    wanted: int | None = None
     heights = speeds = None
-    if count is not None:
-        count = checked_count(place, "count", count)
-    elif modes is not None:
-        first, count = _run_of_numbers(place, modes)
-    elif conical_height is not None:
+    if conical_height is not None:
         heights = _window(place, "conical_height", conical_height)
     elif angular_speed is not None:
-        speeds = (*_window(place, "angular_speed", angular_speed), real(place, "gravity", gravity))
+        speeds = (*_window(place, "angular_speed", angular_speed), g)
+    else:
+        wanted = _count(place, count, max(min(10, core.mode_count - start + 1), 1))
     if rtol is not None:
         rtol = real(place, "rtol", rtol)
-    for name, word, known in (("method", method, _core.METHODS), ("precision", precision, _core.PRECISIONS)):
-        checked_word(place, name, word, known)
-    shapes, certify = boolean(place, "shapes", shapes), boolean(place, "certify", certify)
-    number, height, low, bound, shape, residual, nodes, proof, used, status = _core.modes(
-        core, first, count, heights, speeds, rtol, shapes, certify, precision, method, progress
-    )
-    certificate = None if proof is None else Certificate(*proof)
-    return Modes(chain, number, height, bound, shape, residual, nodes, used, status, precision, certificate, low)
+    if method is not None:
+        checked_word(place, "method", method, _core.METHODS[1:])
+    checked_word(place, "precision", precision, _core.PRECISIONS)
+    certify = boolean(place, "certify", certify)
+    of_chain = _core.modes(core, start, wanted, heights, speeds, rtol, certify, precision, method or "auto", progress)
+    return Modes._made(of_chain, system=system, gravity=g, precision=precision, rtol=rtol)
 
 
-def _run_of_numbers(place: str, modes: Iterable[int]) -> tuple[int, int]:
-    """First and count of consecutive mode numbers."""
-    wanted = "modes must be mode numbers without gaps, ascending, such as range(1000, 1010)"
-    if not isinstance(modes, range):
-        try:
-            numbers = [integer(place, "modes", number) for number in modes]
-        except TypeError:
-            raise ValueError(f"{place}: {wanted}, got {shown(modes)}") from None
-        modes = range(numbers[0], numbers[0] + len(numbers)) if numbers else range(0)
-        if list(modes) != numbers:
-            raise ValueError(f"{place}: {wanted}, got {shown(numbers)}")
-    if not modes:
-        raise ValueError(f"{place}: modes names no mode, got {shown(modes)}")
-    first, last = modes[0], modes[-1]
-    if first != last and modes.step != 1:
-        raise ValueError(f"{place}: {wanted}, got {modes}")
-    return checked_count(place, "modes: its first number", first), checked_count(place, "modes", last - first + 1)
+def _count(place: str, count: int | str | None, default: int) -> int | None:
+    """How many; None for all."""
+    if count is None:
+        return default
+    if isinstance(count, str):
+        if count != "all":
+            raise ValueError(f'{place}: count must be a number or "all", got {shown(count)}')
+        return None
+    return checked_count(place, "count", count)
 
 
-def _window(place: str, name: str, window: object) -> tuple[float, float]:
+def _refuse_for_rigs(place: str, given: dict[str, Any]) -> None:
+    """What `modes` offers for chains alone."""
+    for name, value in given.items():
+        if value is not _DEFAULTS[name] and not (isinstance(value, str) and value == _DEFAULTS[name]):
+            raise ValueError(
+                f"{place}: {name} is for a Chain; the modes of a Rig are chosen by count and first, got {shown(value)}"
+            )
+
+
+def _window(place: str, name: str, window: object) -> Pair:
     """The two ends of a window; whether they make one is checked where it is used."""
     if isinstance(window, str) or not isinstance(window, Iterable):
         raise ValueError(f"{place}: {name} must be a pair (low, high), got {shown(window)}")

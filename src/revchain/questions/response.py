@@ -494,5 +494,4 @@ def _resonances(found: Response) -> list[float]:
     count = int(below[1] - below[0])
     if not 0 < count <= MOST_RESONANCES:
         return []
-    numbers = range(int(below[0]) + 1, int(below[1]) + 1)
-    return [float(x) for x in modes(chain, modes=numbers, shapes=False).angular_speed(gravity)]
+    return list(modes(chain, count, first=int(below[0]) + 1, gravity=gravity).angular_speed)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .. import _core
 from ..closed_forms import conical_pendulum
 from ..closed_forms.statics import ForceDiagram
-from ..results.base import Result, Results
+from ..results.base import Results, Wrapped
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, exactly_one, integer, limit, one_positive, shown
 from ..systems.rig import Rig
@@ -27,7 +27,7 @@ def is_driven(place: str, frame: str) -> bool:
     return frame == "driven"
 
 
-class Stability(Result[_core.Stability, str]):
+class Stability(Wrapped[_core.Stability, str]):
     """What becomes of a small disturbance of a steady shape; times in units of 1/n, the turning speed.
 
     Returned by `SteadyShape.stability`.
@@ -81,7 +81,7 @@ class TurnedRig(NamedTuple):
     sense: int
 
 
-class SteadyShape(Result[_core.SteadyShape, _core.Chain | TurnedRig]):
+class SteadyShape(Wrapped[_core.SteadyShape, _core.Chain | TurnedRig]):
     """One steady shape: links lowest first, pins free end first, in the units of the chain.
 
     Returned by `steady_shapes`.

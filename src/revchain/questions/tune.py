@@ -9,6 +9,7 @@ from typing import Any
 from .. import _core
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import STANDARD_GRAVITY, Floats, count, real, shown, word
+from ..systems.rig import Rig
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -123,7 +124,7 @@ def tune(
     >>> tuned = rc.tune(chain, mode=2, link=1, quantity="weight", angular_speed=4.0, gravity=9.81)
     >>> round(tuned.value, 12)
     0.528051454425
-    >>> rc.modes(tuned.chain).angular_speed(gravity=9.81).round(12)[1]
+    >>> rc.modes(tuned.chain, gravity=9.81).angular_speed.round(12)[1]
     np.float64(4.0)
     """
     place = "revchain.tune"
@@ -162,3 +163,50 @@ def _ends(place: str, between: Any) -> tuple[float, float]:
     except (TypeError, ValueError):
         raise ValueError(f"{place}: between must be a pair (low, high), got {shown(between)}") from None
     return real(place, "between (each end)", low), real(place, "between (each end)", high)
+
+
+def momentum_for_speed(rig: Rig, angular_speed: float, *, link: int, gravity: float = STANDARD_GRAVITY) -> float:
+    """Return the momentum of one flywheel that makes a speed a whirl speed.
+
+    Parameters
+    ----------
+    rig : Rig
+        A chain of N links and what it is rigged with.
+    angular_speed : float
+        The speed wanted, rad/s, of either sign.
+    link : int
+        Number of the link with the flywheel, from 1 for the lowest.
+    gravity : float, optional
+        In the unit of length per s^2; standard gravity, in metres, if left out.
+
+    Returns
+    -------
+    float
+        The only one there is, of whichever mode.
+
+    Raises
+    ------
+    ValueError
+        If the speed is 0 or not finite, gravity not positive, or there is no such link; where no finite momentum of
+        the link makes the speed a whirl speed.
+    TypeError
+        If `rig` is not a `Rig`.
+
+    Examples
+    --------
+    A plummet alone whirls at sqrt(10) rad/s; at 5 rad/s with
+
+    >>> import revchain as rc
+    >>> rig = rc.Rig(rc.Chain(weight=10.0, length=1.0))
+    >>> rc.momentum_for_speed(rig, 5.0, link=1, gravity=10.0)
+    3.0
+    """
+    place = "revchain.momentum_for_speed"
+    if not isinstance(rig, Rig):
+        raise TypeError(f"{place}: rig must be a revchain.Rig, got {shown(rig)}")
+    return _core.momentum_for_speed(
+        rig._compiled,
+        count(place, "link", link),
+        real(place, "angular_speed", angular_speed),
+        real(place, "gravity", gravity),
+    )

@@ -3,50 +3,43 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..systems.chain import Chain
-from ..systems.numbers import STANDARD_GRAVITY, Floats, Numbers, Whole, positive, read_only, together
+from ..systems.numbers import Floats, Numbers, Whole, one_positive
+from ..systems.rig import Rig
+from .base import Field, Result
+from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from xarray import Dataset
 
-    from .sensitivity import Sensitivity, Uncertainty
+    from .sensitivity import RigSensitivity, Sensitivity, Uncertainty
 
-
+Complex = NDArray[np.complex128]
 TURN = 8 * np.arctan(np.longdouble(1))
+MOST_LINKS = 10_000  # of chains whose nodes are found for a table
+TURN64 = 2 * np.pi
+SPEED_ROUNDING = 2.1 * 2.0**-52  # of a speed found from a height
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Certificate:
+class Certificate(Result):
     """Intervals that are proved to hold the conical heights, and the counts that prove it.
 
-    Exactly ``above_lower[i]`` conical heights of the chain exceed ``lower[i]`` and ``above_upper[i]``
-    exceed ``upper[i]``. As ``above_upper[i] < number[i] <= above_lower[i]``, the height with that number
-    lies in between: ``lower < height <= upper``.
-
-    Attributes
-    ----------
-    lower, upper : ndarray, shape (k,)
-        Ends of the intervals, as far from the height as `Modes.error_bound` says, rounded. An end at
-        which nothing could be proved is 0 or infinite.
-    above_lower, above_upper : ndarray of int64, shape (k,)
-        Proved counts of the heights above each end.
-    lower_low, upper_low : ndarray, shape (k,), or None
-        With ``precision="double-double"``: what is to be added to `lower` and `upper`.
+    Exactly ``above_lower[i]`` conical heights of the chain exceed ``lower[i]`` and ``above_upper[i]`` exceed
+    ``upper[i]``. Because ``above_upper[i] < number[i] <= above_lower[i]``, the height with that number lies in between:
+    ``lower < height <= upper``.
 
     Notes
     -----
-    `revchain.count_modes` gives the same counts at the very same numbers, in double precision. The
-    heights are those of the numbers stored, with another precision those of the rounded ones.
+    `revchain.count_modes` gives the same counts at the very same numbers, in double precision. The heights are those of
+    the numbers stored, with another precision those of the rounded ones.
 
     Examples
     --------
@@ -59,242 +52,163 @@ class Certificate:
     array([1, 2])
     """
 
-    lower: Numbers
-    upper: Numbers
-    above_lower: Whole
-    above_upper: Whole
-    lower_low: Floats | None = None
-    upper_low: Floats | None = None
+    __slots__ = ()
+    lower: Field[Numbers] = Field("Lower end of each interval, shape (k,); 0 where nothing could be proved.", part=True)
+    upper: Field[Numbers] = Field("Upper ends, shape (k,); infinite where nothing could be proved.", part=True)
+    above_lower: Field[Whole] = Field("Proved count of the heights above each lower end, shape (k,).", part=True)
+    above_upper: Field[Whole] = Field("Proved count of the heights above each upper end, shape (k,).", part=True)
+    lower_low: Field[Floats | None] = Field(
+        "With ``precision='double-double'`` the second double of each lower end, else None.", part=True
+    )
+    upper_low: Field[Floats | None] = Field("Likewise of each upper end.", part=True)
 
-    def __post_init__(self) -> None:
-        _freeze(self)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Certificate, _values(self)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Certificate):
-            return NotImplemented
-        return all(map(_same, _values(self), _values(other)))
-
-    __hash__ = None  # type: ignore[assignment]
-
-
-class _Derived:
-    """What is computed when first asked for: no field, and no part of what two results are compared by."""
-
-    __slots__ = ("_sensitivity",)
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = [
+            Column("number", np.arange(1, len(self.lower) + 1), "interval"),
+            Column("lower", self.lower, "height is above (m)", 17),
+            Column("upper", self.upper, "and up to (m)", 17),
+            Column("above_lower", self.above_lower, "heights above the first"),
+            Column("above_upper", self.above_upper, "and above the second"),
+        ]
+        columns += _rest("lower", self.lower, self.lower_low) + _rest("upper", self.upper, self.upper_low)
+        return Sheet("number", "Certificate: intervals proved to hold the conical heights", columns)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Modes(_Derived):
-    """Modes of a chain, slowest first.
+def _speeds(function: Callable[[Any, Any], Any]) -> Callable[[Modes], Numbers]:
+    """Of each mode, by a function of its height and gravity; a direction does not change it."""
 
-    Attributes
-    ----------
-    chain : Chain
-        The chain of N links they belong to.
-    number : ndarray of int64, shape (k,)
-        Mode numbers: the slowest of all modes has number 1.
-    conical_height : ndarray, shape (k,)
-        Height ``gravity / angular_speed**2`` of the equivalent conical pendulum, descending, in the
-        unit of the chain's lengths.
-    error_bound : ndarray, shape (k,)
-        Bound of the relative error of each conical height against the exact one of the numbers
-        stored in `chain` (2 ulp by default, certified by counting).
-    shape : ndarray, shape (k, N + 1), or None
-        Offsets of the pins from the axis, free end first, support last (0); the largest magnitude
-        is 1 and the free end positive.
-    residual : ndarray, shape (k,), or None
-        Residual of each shape, relative.
-    nodes : list of k ndarrays, or None
-        Distances from the free end, along the chain, where the mode crosses the axis; the support
-        left out.
-    method : str
-        The method that was used.
-    status : str
-        ``"success"`` or ``"tolerance_not_met"``.
-    precision : str
-        As asked of `revchain.modes`, which says what it means for the arrays.
-    certificate : Certificate or None
-        What proves the error bounds, if ``certify=True`` was asked.
-    conical_height_low : ndarray, shape (k,), or None
-        With ``precision="double-double"``: what is to be added to `conical_height`, whose sum
-        `error_bound` is of.
+    def compute(modes: Modes) -> Numbers:
+        extended = modes.precision == "extended"
+        height = modes.conical_height if extended else modes.conical_height.astype(np.float64, copy=False)
+        gravity = (np.longdouble if extended else np.float64)(modes.gravity)
+        good = height > 0  # of the dense references rounding may leave others
+        with np.errstate(invalid="ignore", divide="ignore"):
+            if extended:
+                speed: Numbers = np.sqrt(gravity) / np.sqrt(height)
+                return function(speed, None)  # type: ignore[no-any-return]
+            found: Numbers = function(None, (np.where(good, height, 1.0), np.asarray(gravity)))
+        return found if good.all() else np.where(good, found, np.nan)
 
-    Notes
-    -----
-    Arrays are read-only. Two results are equal when everything in them is. `shape`, `residual` and
-    `nodes` are None if ``shapes=False`` was asked. There may be no modes (k = 0) in a window.
+    return compute
+
+
+class Modes(Result):
+    """The modes of a system, slowest first: speeds, shapes, nodes and error bounds; `k` modes of `N` links.
+
+    Heights and bounds are known at once; shapes, nodes, residuals and sensitivities are computed when they are first
+    read, and kept. Arrays are read-only. There may be no modes (k = 0) in a window.
 
     Examples
     --------
     >>> import revchain as rc
-    >>> result = rc.modes(rc.Chain.uniform_plummets(2, length=2.0))
-    >>> result.shape.round(4)
+    >>> m = rc.modes(rc.Chain.uniform_plummets(2, length=2.0))
+    >>> m
+    2 of 2 modes of a chain of 2 links, length 2, weight 1: by bisection, success
+    mode  speed (rad/s)  speed (rpm)  period (s)   height (m)  error bound  nodes (m from the free end)
+       1        2.39679      22.8877     2.62150   1.70710678      4.4e-16                            0
+       2        5.78636      55.2557     1.08586  0.292893219      4.4e-16                     1: 0.293
+    gravity 9.80665 m/s^2; error bound: relative, of the conical height
+    >>> m.shape.round(4)
     array([[ 1.    ,  0.4142,  0.    ],
            [ 0.4142, -1.    ,  0.    ]])
-    >>> [nodes.round(4).tolist() for nodes in result.nodes]
+    >>> [nodes.round(4).tolist() for nodes in m.nodes]
     [[], [0.2929]]
     """
 
-    chain: Chain
-    number: Whole
-    conical_height: Numbers
-    error_bound: Numbers
-    shape: Numbers | None
-    residual: Numbers | None
-    nodes: list[Numbers] | None
-    method: str
-    status: str
-    precision: str = "double"
-    certificate: Certificate | None = None
-    conical_height_low: Floats | None = None
-
-    def __post_init__(self) -> None:
-        _freeze(self)
-        if self.nodes is not None and any(nodes.flags.writeable for nodes in self.nodes):
-            object.__setattr__(self, "nodes", [read_only(nodes) for nodes in self.nodes])
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Modes, _values(self)
+    __slots__ = ()
+    system: Field[Any] = Field("The system that was asked about.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    number: Field[Whole] = Field("Mode numbers, shape (k,): the slowest of all modes has number 1.", part=True)
+    angular_speed: Field[Numbers] = Field(
+        "Whirl speed of each mode, rad/s, shape (k,): for a hanging chain also the natural angular frequency of its "
+        "swing in a plane. ``sqrt(gravity / conical_height)``; longdouble with ``precision='extended'``, else float64.",
+        _speeds(lambda n, at: n if at is None else _core.conical_pendulum_angular_speed(*at)),
+    )
+    frequency: Field[Numbers] = Field(
+        "Revolutions in a second, Hz, shape (k,).",
+        _speeds(lambda n, at: n / TURN if at is None else _core.conical_pendulum_revolutions_per_second(*at)),
+    )
+    rpm: Field[Numbers] = Field("Revolutions in a minute, shape (k,).", lambda m: 60 * m.frequency)
+    period: Field[Numbers] = Field(
+        "Time of one revolution, s, shape (k,).",
+        _speeds(lambda n, at: TURN / n if at is None else _core.conical_pendulum_period(*at)),
+    )
+    speed_error_bound: Field[Floats] = Field(
+        "Bound of the relative error of each angular speed, frequency and period, shape (k,), for gravity as given.",
+        lambda m: 0.5 * m.error_bound.astype(np.float64) * (1 + 1e-9) + SPEED_ROUNDING,
+    )
+    conical_height: Field[Numbers] = Field(
+        "Height ``gravity / angular_speed**2`` of the equivalent conical pendulum, m, shape (k,), descending.",
+        part=True,
+    )
+    error_bound: Field[Numbers] = Field(
+        "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored; proved.",
+        part=True,
+    )
+    conical_height_low: Field[Floats | None] = Field(
+        "With ``precision='double-double'`` what is to be added to `conical_height`, else None; `error_bound` is that of "
+        "the sum.",
+        part=True,
+    )
+    shape: Field[Numbers] = Field(
+        "Offsets of the pins from the axis, shape (k, N + 1), free end first, support last; the largest magnitude of "
+        "each mode is 1 and the free end positive."
+    )
+    residual: Field[Numbers] = Field(
+        "Of each shape, shape (k,): largest force left unbalanced at a pin over the largest sum of forces at a pin."
+    )
+    nodes: Field[tuple[Numbers, ...]] = Field(
+        "For each mode the distances from the free end, along the chain, at which it crosses the axis, without the "
+        "support."
+    )
+    certificate: Field[Certificate | None] = Field(
+        "What proves the error bounds, if ``certify=True`` was asked.",
+        lambda m: _certificate(m._found().certificate),
+        part=True,
+    )
+    method: Field[str] = Field("The method that found the heights.", part=True)
+    status: Field[str] = Field("``'success'`` or ``'tolerance_not_met'``.", part=True)
+    precision: Field[str] = Field("As asked of `revchain.modes`, which says what it means.", part=True)
+    rtol: Field[float | None] = Field("Relative tolerance asked; None: full accuracy.", part=True)
+    sensitivity: Field[Sensitivity | RigSensitivity] = Field(
+        "Derivatives with respect to every datum of every link; 2 microseconds a link and mode.",
+        lambda m: _sensitivity(m),
+    )
 
     def __len__(self) -> int:
         return int(self.conical_height.size)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Modes):
-            return NotImplemented
-        return all(map(_same, _values(self), _values(other)))
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def angular_speed(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Numbers:
-        """Return the whirl speed of each mode, ``sqrt(gravity / conical_height)``.
+    def at(self, gravity: float) -> Self:
+        """Return the same modes under another gravity.
 
         Parameters
         ----------
-        gravity : array_like, optional
-            Acceleration of gravity in the unit of length per s^2; standard gravity, in metres, if
-            left out. Broadcasts against shape (k,).
+        gravity : float
+            In m/s^2, positive.
 
         Returns
         -------
-        ndarray, shape (k,)
-            In rad/s, ascending; longdouble with ``precision="extended"``, else float64. Relative error
-            at most half of `error_bound` and 2.1 ulp.
+        Modes
+            Conical heights, shapes and nodes do not depend on gravity; speeds do.
 
         Raises
         ------
         ValueError
-            If gravity is not positive and finite.
+            If gravity is not positive and finite; for a rig, whose springs and flywheels do not scale with gravity.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> rc.modes(rc.Chain(weight=1.0, length=2.4525)).angular_speed(gravity=9.81)
+        >>> m = rc.modes(rc.Chain(weight=1.0, length=2.4525))
+        >>> m.at(gravity=9.81).angular_speed
         array([2.])
         """
-        height, g = self._with_gravity("angular_speed", gravity)
-        if self.precision == "extended":
-            extended: Numbers = np.sqrt(g) / np.sqrt(height)
-            return extended
-        return _core.conical_pendulum_angular_speed(height, g)
-
-    def period(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Numbers:
-        """Return the time of one turn of each mode, ``2 pi sqrt(conical_height / gravity)``.
-
-        Parameters
-        ----------
-        gravity : array_like, optional
-            As for `angular_speed`.
-
-        Returns
-        -------
-        ndarray, shape (k,)
-            In seconds, descending. Relative error at most half of `error_bound` and 2.1 ulp.
-
-        Raises
-        ------
-        ValueError
-            If gravity is not positive and finite.
-
-        Notes
-        -----
-        Greenhill (1908) section 1 (2).
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rc.modes(rc.Chain(weight=1.0, length=39.1396)).period(gravity=386.2924).round(5)
-        array([2.])
-        """
-        height, g = self._with_gravity("period", gravity)
-        if self.precision == "extended":
-            extended: Numbers = TURN * (np.sqrt(height) / np.sqrt(g))
-            return extended
-        return _core.conical_pendulum_period(height, g)
-
-    def revolutions_per_second(self, gravity: ArrayLike = STANDARD_GRAVITY) -> Numbers:
-        """Return the turns in a second of each mode.
-
-        Parameters
-        ----------
-        gravity : array_like, optional
-            As for `angular_speed`.
-
-        Returns
-        -------
-        ndarray, shape (k,)
-            In 1/s, ascending. Relative error at most half of `error_bound` and 2.1 ulp.
-
-        Raises
-        ------
-        ValueError
-            If gravity is not positive and finite.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=2).revolutions_per_second().round(4)
-        array([0.9988, 2.2928])
-        """
-        height, g = self._with_gravity("revolutions_per_second", gravity)
-        if self.precision == "extended":
-            extended: Numbers = np.sqrt(g) / np.sqrt(height) / TURN
-            return extended
-        return _core.conical_pendulum_revolutions_per_second(height, g)
-
-    @property
-    def sensitivity(self) -> Sensitivity:
-        """Derivatives of every conical height with respect to every datum of every link.
-
-        Computed when first asked for, from the heights alone: about 2 microseconds a link and mode, O(N k) memory.
-        They are those of the numbers stored in `chain`, in double precision whatever the modes' own.
-
-        Returns
-        -------
-        Sensitivity
-
-        Raises
-        ------
-        ValueError
-            If the chain's weights are more than 1e123 apart.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rc.modes(rc.Chain.uniform_rods(2)).sensitivity.relative.length_in_proportion.round(4)
-        array([[0.4055, 0.5945],
-               [0.5945, 0.4055]])
-        """
-        found: Sensitivity | None = getattr(self, "_sensitivity", None)
-        if found is None:
-            from .sensitivity import of_modes
-
-            found = of_modes(self)
-            object.__setattr__(self, "_sensitivity", found)
-        return found
+        if isinstance(self.system, Rig):
+            raise ValueError("revchain.RigModes.at: a rig has other modes under another gravity; ask revchain.modes again")
+        speeds = ("angular_speed", "frequency", "rpm", "period")
+        kept = {name: value for name, value in self._kept.items() if name not in speeds}
+        kept["gravity"] = one_positive("revchain.Modes.at", "gravity", gravity)
+        return type(self)._made(self._core, **kept)
 
     def uncertainty(
         self,
@@ -311,9 +225,9 @@ class Modes(_Derived):
         ----------
         weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
             Standard deviation of each: one number for all links, shape (N,) one for each, or shape (N, N) the
-            covariance of the links (its diagonal variances, not deviations). Left out: exactly known. What is
-            held while one changes: see `Sensitivity`. Deviations of different links are independent unless a
-            covariance says otherwise, those of different quantities always.
+            covariance of the links (its diagonal variances, not deviations). Left out: exactly known. `Sensitivity`
+            says what is held while one changes. Deviations of different links are independent unless a covariance says
+            otherwise, those of different quantities always.
 
         Returns
         -------
@@ -322,12 +236,12 @@ class Modes(_Derived):
         Raises
         ------
         ValueError
-            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric.
+            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric; for a rig.
 
         Notes
         -----
-        First order: heights are taken as linear in the data. Where a derivative is all but 0, or a deviation a
-        large part of its datum, sample instead.
+        First order: heights are taken as linear in the data. Where a derivative is nearly 0, or a deviation is a large
+        part of its datum, sample instead.
 
         Examples
         --------
@@ -339,6 +253,8 @@ class Modes(_Derived):
         """
         from .sensitivity import uncertainty
 
+        if isinstance(self.system, Rig):
+            raise ValueError("revchain.RigModes.uncertainty: is for chains; of a rig take sensitivity")
         given = {
             "weight": weight,
             "length": length,
@@ -348,14 +264,7 @@ class Modes(_Derived):
         }
         return uncertainty(self, given)
 
-    def plot(
-        self,
-        ax: Axes | None = None,
-        modes: Iterable[int] | None = None,
-        *,
-        gravity: float = STANDARD_GRAVITY,
-        length_unit: str = "m",
-    ) -> Axes:
+    def plot(self, ax: Axes | None = None, modes: Iterable[int] | None = None, *, length_unit: str = "m") -> Axes:
         """Draw the shapes side by side, each hanging from its own axis.
 
         Parameters
@@ -364,8 +273,6 @@ class Modes(_Derived):
             Where to draw; a new figure if left out.
         modes : iterable of int, optional
             Which modes, by their numbers; the six slowest of this result if left out.
-        gravity : float, optional
-            For the speeds written below the axes.
         length_unit : str
             What to write on the axis of depth.
 
@@ -376,152 +283,276 @@ class Modes(_Derived):
         Raises
         ------
         ValueError
-            If there are no shapes, or `modes` names one that is not there.
+            If `modes` names one that is not there, or there are none.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=4).plot()
+        >>> ax = rc.modes(rc.Chain.uniform_rods(120, length=0.36), 4).plot()
         >>> ax.get_ylabel()
         'depth below the support (m)'
         """
         from ..plots.style import plot_modes
 
-        return plot_modes(self, ax, modes, gravity=gravity, length_unit=length_unit)
+        return plot_modes(self, ax, modes, length_unit=length_unit)
 
-    def to_dict(self, gravity: float = STANDARD_GRAVITY, shapes: bool = True) -> dict[str, Any]:
-        """Return everything as plain Python numbers, lists and strings, ready for JSON.
+    def _again(self) -> Any:
+        if not len(self):
+            none = np.empty((0, self.system.size + 1), self.conical_height.dtype)
+            return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
+        method = self.method if self.method in _core.METHODS else "auto"
+        first, certified = int(self.number[0]), self.certificate is not None
+        return _core.modes(
+            self.system._compiled, first, len(self), None, None, self.rtol, certified, self.precision, method
+        )
+
+    def _which(self) -> str:
+        """How many modes of how many, or which where they are not the slowest."""
+        total = f"{self.system.mode_count:,}"
+        if len(self) == 0 or self.number[0] == 1:
+            return f"{len(self):,} of {total} mode{'s' * (self.system.mode_count != 1)}"
+        if len(self) == 1:
+            return f"mode {self.number[0]:,} of {total}"
+        return f"modes {self.number[0]:,} to {self.number[-1]:,} of {total}"
+
+    def _speed_columns(self) -> list[Column]:
+        return [
+            Column("angular_speed", self.angular_speed, "speed (rad/s)"),
+            Column("frequency", self.frequency),
+            Column("rpm", self.rpm, "speed (rpm)"),
+            Column("period", self.period, "period (s)"),
+            Column("speed_error_bound", self.speed_error_bound),
+            Column("conical_height", self.conical_height, "height (m)", 9),
+            Column("error_bound", self.error_bound, "error bound"),
+        ]
+
+    def _shape_columns(self, brief: bool) -> list[Column]:
+        """A table is brief: it shows nodes where they are known or soon found."""
+        if brief and "nodes" not in self._kept and self.system.size > MOST_LINKS:
+            return []
+        nodes = Column("nodes", self.nodes, "nodes (m from the free end)", axes=("node",), shown=_texts(self.nodes))
+        return [nodes] if brief else [nodes, Column("residual", self.residual), Column("shape", self.shape, axes=("pin",))]
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = [Column("mode", self.number, "mode"), *self._speed_columns(), *self._shape_columns(brief)]
+        columns += _rest("conical_height", self.conical_height, self.conical_height_low)
+        if self.certificate is not None:
+            for column in self.certificate._sheet().columns[1:]:
+                columns.append(Column(f"certificate_{column.name}", column.values))
+        chain = repr(self.system).replace("Chain", "a chain")
+        return Sheet(
+            "mode",
+            f"{self._which()} of {chain}: by {self.method}, {self.status.replace('_', ' ')}",
+            columns,
+            {name: getattr(self, name) for name in ("gravity", "method", "status", "precision")} | _facts(self.system),
+            [f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"],
+            self.status == "success",
+        )
+
+
+class OtherModes(Result):
+    """What is no steady motion of a rig: conical heights that are negative or complex, or complex speeds; `m` of them.
+
+    Infinite heights, speed 0, are those of links that weigh nothing in the fluid: these stay wherever they are put.
+    """
+
+    __slots__ = ()
+    conical_height: Field[Complex] = Field("Conical heights, m, shape (m,).", part=True)
+    angular_speed: Field[Complex] = Field(
+        "``n`` with ``n**2 * conical_height = gravity``, rad/s, shape (m,); offsets turn and grow as ``exp(1j * n * t)``.",
+        part=True,
+    )
+    growth_rate: Field[Floats] = Field(
+        "Size of the imaginary part of each speed, 1/s: small offsets grow as ``exp(growth_rate * t)``.", part=True
+    )
+    error_bound: Field[Floats] = Field("Of each height, relative to its size; proved.", part=True)
+
+    def __len__(self) -> int:
+        return int(self.conical_height.size)
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        shown = [f"{h.real:.9g}" if h.imag == 0 else f"{h.real:.6g} {h.imag:+.6g}i" for h in self.conical_height]
+        columns = [
+            Column("number", np.arange(1, len(self) + 1), ""),
+            Column("conical_height", self.conical_height, "height (m)", shown=shown),
+            Column("angular_speed", self.angular_speed),
+            Column("growth_rate", self.growth_rate, "falls away as exp(r t), r (1/s)"),
+            Column("error_bound", self.error_bound, "error bound"),
+        ]
+        return Sheet("number", f"{len(self)} without a steady motion", columns)
+
+
+class RigModes(Modes):
+    """The modes of a rig, slowest first, whichever the direction of rotation.
+
+    Examples
+    --------
+    A gyrostat on a link, ``A n^2 - H n - W h = 0``:
+
+    >>> import revchain as rc
+    >>> top = rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)
+    >>> rc.modes(top).angular_speed.round(4)
+    array([-2.4701,  3.9701])
+    """
+
+    __slots__ = ()
+    number: Field[Whole] = Field("Of each mode among those of its direction, shape (k,), from 1.", part=True)
+    direction: Field[Whole] = Field(
+        "Of each mode, shape (k,): 1 forward, -1 backward; all 1 without momentum, where both are alike.", part=True
+    )
+    angular_speed: Field[Numbers] = Field(
+        "Whirl speed of each mode, rad/s, shape (k,), negative for backward modes.", part=True
+    )
+    frequency: Field[Numbers] = Field("Revolutions in a second, Hz, shape (k,), signed.", lambda m: m.angular_speed / TURN64)
+    period: Field[Numbers] = Field("Time of one revolution, s, shape (k,).", lambda m: TURN64 / np.abs(m.angular_speed))
+    speed_error_bound: Field[Floats] = Field("Bound of the relative error of each speed, shape (k,); proved.", part=True)
+    conical_height_low: Field[Floats | None] = Field("None.", lambda m: None)
+    certificate: Field[Certificate | None] = Field("None.", lambda m: None)
+    precision: Field[str] = Field("``'double'``.", lambda m: "double")
+    rtol: Field[float | None] = Field("None.", lambda m: None)
+    available: Field[tuple[int, int]] = Field("Number of modes forward and backward, found or not.", part=True)
+    has_momentum: Field[bool] = Field(
+        "Whether a flywheel has momentum of its own, so that the two directions differ.", part=True
+    )
+    other: Field[OtherModes] = Field(
+        "What is no steady motion.",
+        lambda m: OtherModes._made(
+            None,
+            conical_height=m._found().other_height,
+            angular_speed=m._found().other_speed,
+            growth_rate=m._found().growth_rate,
+            error_bound=m._found().other_error_bound,
+        ),
+        part=True,
+    )
+    slack_link: Field[Whole] = Field(
+        "Links, from 0, lowest first, whose effective tension, ``tension + n * momentum / length``, vanishes between 0 "
+        "and the fastest speed found in its direction.",
+        part=True,
+    )
+    slack_speed: Field[Floats] = Field("The speeds at which it does, rad/s, signed, slowest first.", part=True)
+    complete: Field[bool] = Field(
+        "Whether the numbers of modes and the list of others are proved to be all there is.", part=True
+    )
+
+    def plot(  # type: ignore[override]
+        self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m", carried: Any = None
+    ) -> Axes:
+        """Draw the rig at rest, and beside it its shapes along the straight chain, standing links upwards and stout.
+
+        Forward modes are blue, backward ones red, as are the wheels, seen edge-on; bodies that float are hollow.
 
         Parameters
         ----------
-        gravity : float, optional
-            For speeds and periods.
-        shapes : bool
-            Whether to include the shapes, which are long.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        most : int
+            How many modes, slowest first.
+        length_unit : str
+            What to write on the axis of depth.
+        carried : Response, optional
+            Of the same rig at one speed, every pin: drawn first, its support on its circle.
 
         Returns
         -------
-        dict
-            ``{"modes": [{"mode": 1, "conical_height": ..., "angular_speed": ..., "period": ...,
-            "revolutions_per_minute": ..., "error_bound": ..., "nodes": [...], "residual": ...,
-            "shape": [...]}, ...], "method": ..., "status": ..., "precision": ..., "gravity": ...,
-            "chain": {...}}``;
-            what was not computed is left out. ``"conical_height_low"`` is added to the height where
-            a float is too short for it, ``"certificate"`` where there is one.
+        matplotlib.axes.Axes
 
         Raises
         ------
         ValueError
-            If gravity is not positive and finite.
+            If there are no modes, or `carried` is no such response.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_dict()["modes"][0]["conical_height"]
-        1.5
+        >>> rig = rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), momentum=0.3)
+        >>> rc.modes(rig).plot().get_ylabel()
+        'depth below the support (m)'
         """
-        from .record import to_dict
+        from ..plots.rigs import plot_rig_modes
 
-        return to_dict(self, gravity, shapes)
+        return plot_rig_modes(self, ax, most, length_unit, carried)
 
-    def to_xarray(self) -> Dataset:
-        """Return everything as a labelled data set.
+    def _again(self) -> Any:
+        if not len(self):
+            return super()._again()
+        counts = [int((self.direction == way).sum()) for way in (1, -1)]
+        return _core.rig_modes(self.system._compiled, int(self.number.min()), max(counts), self.gravity)
 
-        Returns
-        -------
-        xarray.Dataset
-            Variables over the dimensions ``mode`` (its number), ``pin`` (from the free end), ``link``
-            (lowest first) and ``node`` (padded with NaN).
-
-        Raises
-        ------
-        ImportError
-            If xarray is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> data = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).to_xarray()
-        >>> float(data.conical_height.sel(mode=2))
-        0.5
-        """
-        from .record import to_xarray
-
-        return to_xarray(self)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to a file, to be read again by `revchain.load`.
-
-        Parameters
-        ----------
-        path : path-like
-            Ends in ``.npz`` (numpy alone) or ``.nc`` (netCDF 4, needs xarray and h5netcdf).
-
-        Raises
-        ------
-        ValueError
-            If the path has another ending.
-        ImportError
-            If what ``.nc`` needs is not installed; the message says how to install it.
-        OSError
-            (a ValueError too) If the file cannot be written. It is written aside and renamed: what
-            was there before stays until the new file is whole.
-
-        Notes
-        -----
-        Nothing is rounded: what is loaded equals what was saved, bit for bit. No pickles inside.
-
-        Examples
-        --------
-        >>> import revchain as rc, tempfile, pathlib
-        >>> path = pathlib.Path(tempfile.mkdtemp()) / "result.npz"
-        >>> rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).save(path)
-        >>> rc.load(path).conical_height
-        array([1.5, 0.5])
-        """
-        from .storage import save
-
-        save(self, path)
-
-    def _with_gravity(self, name: str, gravity: ArrayLike) -> tuple[Numbers, Numbers]:
-        place = f"revchain.Modes.{name}"
-        wide = np.longdouble if self.precision == "extended" else np.float64
-        height = self.conical_height.astype(wide, copy=False)
-        g = positive(place, "gravity", gravity).astype(wide, copy=False)
-        height, g = together(place, conical_height=height, gravity=g)
-        return height, g
-
-    def __repr__(self) -> str:
-        from .tables import text_table
-
-        return text_table(self)
-
-    def _repr_html_(self) -> str:
-        from .tables import html_table
-
-        return html_table(self)
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = [
+            Column("mode", self.number, "mode"),
+            Column("direction", self.direction),
+            *self._speed_columns(),
+            *self._shape_columns(brief),
+        ]
+        notes = [f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"]
+        if self.has_momentum:
+            notes.append("negative speeds: backward, against wheels whose momentum is positive")
+        notes += [
+            f"link {link} goes slack at {at:.6g} rad/s"
+            for link, at in zip(self.slack_link, self.slack_speed, strict=True)
+        ]
+        if len(self.other):
+            notes.append(f"{len(self.other)} without a steady motion, listed in other")
+        total = sum(self.available)
+        return Sheet(
+            "mode",
+            f"{len(self):,} of {total:,} mode{'s' * (total != 1)} of a {repr(self.system)[0].lower()}"
+            f"{repr(self.system)[1:]}: by {self.method}, {self.status.replace('_', ' ')}",
+            columns,
+            {
+                **{name: getattr(self, name) for name in ("gravity", "method", "status", "complete")},
+                "other": self.other.to_dict()["numbers"],
+                "slack": [
+                    {"link": int(link), "angular_speed": float(at)}
+                    for link, at in zip(self.slack_link, self.slack_speed, strict=True)
+                ],
+                **_facts(self.system.chain),
+                "rig": repr(self.system),
+            },
+            notes,
+            self.status == "success",
+        )
 
 
-def _values(record: Certificate | Modes) -> tuple[Any, ...]:
-    return tuple(getattr(record, field.name) for field in fields(record))
+def _texts(nodes: Iterable[Numbers]) -> list[str]:
+    """How many nodes each mode has, and where the first and the last are."""
+
+    def text(places: Numbers) -> str:
+        shown = [f"{place:.3g}" if place < 1000 else f"{place:.0f}" for place in places[[0, -1]]] if places.size else []
+        if places.size <= 1:
+            return ": ".join([str(places.size), *shown[:1]])
+        return f"{places.size}: {shown[0]} {'…' if places.size > 2 else ''} {shown[1]}".replace("  ", " ")
+
+    return [text(places) for places in nodes]
 
 
-def _freeze(record: Certificate | Modes) -> None:
-    """Make the arrays read-only that are not."""
-    for name in record.__slots__:
-        value = getattr(record, name)
-        if isinstance(value, np.ndarray) and value.flags.writeable:
-            object.__setattr__(record, name, read_only(value))
+def _rest(name: str, values: Numbers, low: Floats | None) -> list[Column]:
+    """What a float of a dictionary or a text file cannot hold of the values, as a column; none where they are doubles."""
+    if low is None and values.dtype == np.longdouble:
+        with np.errstate(invalid="ignore"):
+            low = np.nan_to_num(values - values.astype(np.float64)).astype(np.float64)
+    return [] if low is None else [Column(f"{name}_low", low)]
 
 
-def _same(one: Any, other: Any) -> bool:
-    """Whether two fields are equal, number for number."""
-    if isinstance(one, list) and isinstance(other, list):
-        return len(one) == len(other) and all(map(_same, one, other))
-    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
-        return np.array_equal(one, other, equal_nan=True)
-    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
-        return False
-    return bool(one == other)
+def _certificate(found: tuple[Any, ...] | None) -> Certificate | None:
+    names = ("lower", "upper", "above_lower", "above_upper", "lower_low", "upper_low")
+    return None if found is None else Certificate._made(None, **dict(zip(names, found, strict=True)))
+
+
+def _sensitivity(modes: Modes) -> Any:
+    from . import sensitivity
+
+    if isinstance(modes.system, Rig):
+        return sensitivity.of_rig(modes.system, modes.angular_speed, modes.shape, modes.gravity)
+    return sensitivity.of_modes(modes)
+
+
+def _facts(chain: Chain) -> dict[str, Any]:
+    """What every dictionary and file says of the chain."""
+    return {"chain": {"size": chain.size, "length": chain.total_length, "weight": chain.total_weight}}

@@ -3,53 +3,50 @@
 
 from __future__ import annotations
 
+import json
 import os
 import zlib
 from collections.abc import Mapping
-from dataclasses import fields
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 
-from .. import _core
 from ..systems.chain import Chain
 from ..systems.extras import require
 from ..systems.numbers import file_path
 from ..systems.rig import Rig
+from .base import Result, restored
 from .files import hdf5_file, naming, written_aside
-from .modes import Modes
-from .record import extra_columns, extra_fields, to_xarray
-from .rig_modes import OtherModes, RigModes, WhirlModes
 
-KIND = "revchain modes 1"
-RIG_KIND = "revchain rig modes 1"
-STATE = "chain_state_"
-RIGGING = "rig_"
+FORMAT = "revchain 2"
+HEADER = "revchain"  # the name under which a file says what it holds
 SEAL = b"revchain"  # then the CRC-32 of all bytes before it
+SYSTEMS: dict[str, Any] = {"Chain": Chain, "Rig": Rig}
 
 
-def save(modes: Modes | RigModes, path: str | os.PathLike[str]) -> None:
-    """See `Modes.save`, `RigModes.save`."""
-    ending = _ending(f"revchain.{type(modes).__name__}.save", path)
-    if isinstance(modes, RigModes) and ending != ".npz":
-        raise ValueError(f"modes of a rig are kept in .npz files, got {os.fspath(path)}")
-    dataset = _dataset(modes) if isinstance(modes, Modes) and ending == ".nc" else None
+def save(result: Result, path: str | os.PathLike[str]) -> None:
+    """See `Result.save`."""
+    ending = _ending(f"revchain.{type(result).__name__}.save", path)
+    arrays: dict[str, np.ndarray[Any, Any]] = {}
+    header = json.dumps({"format": FORMAT, "result": _packed(result, type(result).__name__, arrays)})
+    dataset = None
+    if ending == ".nc":
+        _netcdf("saving .nc files")
+        dataset = _dataset(result, header, arrays)
     with naming(path), written_aside(path) as [aside]:
         if dataset is not None:
             _write_netcdf(dataset, aside)
         else:
             with open(aside, "wb") as file:  # given a name, numpy may add to it
-                np.savez(
-                    file, allow_pickle=False, **(_arrays(modes) if isinstance(modes, Modes) else _rig_arrays(modes))
-                )
+                np.savez(file, allow_pickle=False, **{HEADER: np.asarray(header)}, **arrays)
         if aside.is_file():
             with open(aside, "r+b") as whole:
                 whole.write(_seal(whole))
 
 
-def load(path: str | os.PathLike[str]) -> Modes | RigModes:
-    """Read a result that `Modes.save` or `RigModes.save` wrote.
+def load(path: str | os.PathLike[str]) -> Any:
+    """Read a result that its method `save` wrote.
 
     Parameters
     ----------
@@ -58,7 +55,7 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
 
     Returns
     -------
-    Modes or RigModes
+    Modes or another result
         Equal to what was saved, bit for bit.
 
     Raises
@@ -75,8 +72,8 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
     >>> import revchain as rc, tempfile, pathlib
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "result.npz"
     >>> chain = rc.Chain.uniform_rods(120, length=0.36)
-    >>> rc.modes(chain, count=3).save(path)
-    >>> rc.load(path).chain == chain
+    >>> rc.modes(chain, 3).save(path)
+    >>> rc.load(path).system == chain
     True
     """
     ending = _ending("revchain.load", path)
@@ -88,9 +85,69 @@ def load(path: str | os.PathLike[str]) -> Modes | RigModes:
             reason = "not a result that revchain saved, or damaged since; compute and save it again"
             raise ValueError(f"{os.fspath(path)}: {reason}")
         if ending == ".npz":
-            return _from_arrays(dict(np.load(path, allow_pickle=False)))
-    with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-        return _from_dataset(dataset.load())
+            arrays = dict(np.load(path, allow_pickle=False))
+            return _loaded(path, arrays.get(HEADER), arrays)
+    with xarray.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
+        whole = dataset.load()
+        return _loaded(path, whole.attrs.get(HEADER), {name: whole[name].values for name in whole.variables})
+
+
+def _loaded(path: str | os.PathLike[str], header: Any, arrays: Mapping[str, Any]) -> Result:
+    said = {} if header is None else json.loads(str(header))
+    if said.get("format") != FORMAT:
+        other = said.get("format", "an earlier one")
+        raise ValueError(f"{os.fspath(path)}: is a file of another version, {other}; compute and save the result again")
+    found: Result = _unpacked(said["result"], arrays)
+    return found
+
+
+def _packed(value: Any, name: str, arrays: dict[str, Any]) -> Any:
+    """`value` as JSON has it; its arrays go into `arrays` by name."""
+    if isinstance(value, np.ndarray):
+        if value.dtype.kind != "c":
+            arrays[name] = value
+            return {"array": name}
+        arrays[name] = np.stack([value.real, value.imag], axis=-1)  # netCDF has no complex numbers
+        return {"complex": name}
+    if isinstance(value, Result):
+        state = {key: _packed(item, f"{name}.{key}", arrays) for key, item in value._state().items()}
+        return {"result": type(value).__name__, "state": state}
+    if isinstance(value, tuple(SYSTEMS.values())):
+        of_system: Any = value
+        return {"system": type(value).__name__, "state": _packed(of_system._state(), name, arrays)}
+    if isinstance(value, dict):
+        return {"dict": {key: _packed(item, f"{name}.{key}", arrays) for key, item in value.items()}}
+    if isinstance(value, tuple):
+        return {"tuple": [_packed(item, f"{name}.{k}", arrays) for k, item in enumerate(value)]}
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _unpacked(value: Any, arrays: Mapping[str, Any]) -> Any:
+    if not isinstance(value, dict):
+        return value
+    if "array" in value:
+        return arrays[value["array"]]
+    if "complex" in value:
+        pairs = arrays[value["complex"]]
+        number = np.empty(pairs.shape[:-1], np.complex128)
+        number.real, number.imag = pairs[..., 0], pairs[..., 1]
+        return number
+    if "result" in value:
+        state = {key: _unpacked(item, arrays) for key, item in value["state"].items()}
+        return restored(Result.kinds[value["result"]], state)
+    if "system" in value:
+        return SYSTEMS[value["system"]]._from_state(_unpacked(value["state"], arrays))
+    if "dict" in value:
+        return {key: _unpacked(item, arrays) for key, item in value["dict"].items()}
+    return tuple(_unpacked(item, arrays) for item in value["tuple"])
+
+
+def _dataset(result: Result, header: str, arrays: dict[str, Any]) -> Any:
+    """The labelled data set, and beside it, exactly, what the result is made of again from."""
+    dataset = result.to_xarray().assign_attrs({HEADER: header})
+    for name, array in arrays.items():
+        dataset[name] = ([f"{name}_{axis}" for axis in range(array.ndim)], array)
+    return dataset
 
 
 def _seal(file: IO[bytes], size: int | None = None) -> bytes:
@@ -122,117 +179,3 @@ def _ending(place: str, path: str | os.PathLike[str]) -> str:
     if ending not in (".npz", ".nc"):
         raise ValueError(f"results are kept in .npz or .nc files, got {os.fspath(path)}")
     return ending
-
-
-def _state(chain: Chain) -> dict[str, Any]:
-    return {f"{STATE}{index}": np.asarray(item) for index, item in enumerate(chain._compiled.__getstate__())}
-
-
-def _chain(state: Mapping[str, Any]) -> Chain:
-    items = [np.asarray(state[f"{STATE}{index}"]) for index in range(sum(name.startswith(STATE) for name in state))]
-    core = _core.Chain.__new__(_core.Chain)
-    core.__setstate__(tuple(item.item() if item.dtype.kind in "iub" else item for item in items))
-    return Chain._wrap(core)
-
-
-def _arrays(modes: Modes) -> dict[str, Any]:
-    arrays = {
-        "kind": np.asarray(KIND),
-        "method": np.asarray(modes.method),
-        "status": np.asarray(modes.status),
-        "precision": np.asarray(modes.precision),
-        "number": modes.number,
-        "conical_height": modes.conical_height,
-        "error_bound": modes.error_bound,
-        **extra_columns(modes),
-        **_state(modes.chain),
-    }
-    if modes.shape is not None and modes.residual is not None and modes.nodes is not None:
-        arrays["shape"] = modes.shape
-        arrays["residual"] = modes.residual
-        arrays["node_count"] = np.array([nodes.size for nodes in modes.nodes], dtype=np.int64)
-        arrays["node_position"] = np.concatenate([modes.conical_height[:0], *modes.nodes])
-    return arrays
-
-
-def _rig_arrays(modes: RigModes) -> dict[str, Any]:
-    arrays = {
-        "kind": np.asarray(RIG_KIND),
-        **{name: np.asarray(getattr(modes, name)) for name in _RIG_FACTS},
-        **_state(modes.rig.chain),
-        **{RIGGING + name: np.asarray(value) for name, value in modes.rig._given.items() if value is not None},
-    }
-    for part, kind in _RIG_PARTS.items():
-        for field in fields(kind):
-            value = getattr(getattr(modes, part), field.name)
-            if value is not None:
-                arrays[f"{part}_{field.name}"] = np.asarray(value)
-    return arrays
-
-
-def _rig_from_arrays(arrays: Mapping[str, Any]) -> RigModes:
-    given = {name.removeprefix(RIGGING): value for name, value in arrays.items() if name.startswith(RIGGING)}
-    rig = Rig(_chain(arrays), **{name: value if value.ndim else value.item() for name, value in given.items()})
-    parts: dict[str, Any] = {}
-    for part, kind in _RIG_PARTS.items():
-        columns = [arrays.get(f"{part}_{field.name}") for field in fields(kind)]
-        parts[part] = kind(*(x if x is None or x.ndim else x.item() for x in columns))
-    facts = {name: arrays[name] if arrays[name].ndim else arrays[name].item() for name in _RIG_FACTS}
-    return RigModes(rig=rig, **parts, **facts)
-
-
-_RIG_FACTS = ("gravity", "has_momentum", "slack_link", "slack_speed", "complete", "method", "status")
-_RIG_PARTS: dict[str, type[Any]] = {"forward": WhirlModes, "backward": WhirlModes, "other": OtherModes}
-
-
-def _from_arrays(arrays: Mapping[str, Any]) -> Modes | RigModes:
-    if str(arrays["kind"]) == RIG_KIND:
-        return _rig_from_arrays(arrays)
-    if str(arrays["kind"]) != KIND:
-        raise ValueError(f"its kind is {arrays['kind']}")
-    nodes = None
-    if "shape" in arrays:
-        nodes = np.split(arrays["node_position"], np.cumsum(arrays["node_count"]))[:-1]
-    return Modes(
-        chain=_chain(arrays),
-        number=arrays["number"],
-        conical_height=arrays["conical_height"],
-        error_bound=arrays["error_bound"],
-        shape=arrays.get("shape"),
-        residual=arrays.get("residual"),
-        nodes=nodes,
-        method=str(arrays["method"]),
-        status=str(arrays["status"]),
-        precision=str(arrays["precision"]),
-        **extra_fields(arrays),
-    )
-
-
-def _dataset(modes: Modes) -> Any:
-    _netcdf("saving .nc files")
-    dataset = to_xarray(modes).assign_attrs(kind=KIND)
-    for name, item in _state(modes.chain).items():
-        dataset[name] = ([f"{name}_{axis}" for axis in range(item.ndim)], item)
-    return dataset
-
-
-def _from_dataset(dataset: Any) -> Modes:
-    if dataset.attrs["kind"] != KIND:
-        raise ValueError(f"its kind is {dataset.attrs['kind']}")
-    names = set(dataset.variables)
-    nodes = None
-    if "shape" in names:
-        nodes = [row[~np.isnan(row)] for row in dataset["node_position"].values]
-    return Modes(
-        chain=_chain({name: dataset[name].values for name in names if name.startswith(STATE)}),
-        number=dataset["mode"].values,
-        conical_height=dataset["conical_height"].values,
-        error_bound=dataset["error_bound"].values,
-        shape=dataset["shape"].values if nodes is not None else None,
-        residual=dataset["residual"].values if nodes is not None else None,
-        nodes=nodes,
-        method=dataset.attrs["method"],
-        status=dataset.attrs["status"],
-        precision=dataset.attrs["precision"],
-        **extra_fields({name: dataset[name].values for name in names}),
-    )

@@ -12,7 +12,6 @@ from ..systems.chain import Chain
 from .ask_tables import Ask, AskShapes
 from .chain import Numbers
 from .error import SceneError
-from .tables import MOST_LINKS
 
 DEFAULT_MODES = 10
 
@@ -23,7 +22,7 @@ def asked(ask: Ask, chain: Chain, gravity: float, source: str, rigged: bool) -> 
     """What differs from the defaults of `revchain.modes`, checked; `source` is what errors name."""
     if rigged:
         return _asked_of_rig(ask, gravity, source)
-    arguments = _selection(ask, chain, gravity, source)
+    arguments = {"gravity": gravity, **_selection(ask, chain, source)}
     if ask.rtol is not UNSET:
         if not math.isfinite(ask.rtol):
             raise SceneError(source, "ask.rtol", f"must be finite, got {ask.rtol}")
@@ -53,10 +52,8 @@ def _asked_of_rig(ask: Ask, gravity: float, source: str) -> dict[str, Any]:
     reason = "is for a chain alone: with a support, standing links, flywheels or a fluid give modes"
     _refuse_any(_OF_HANGING_CHAINS, ask, Numbers(source, "ask"), reason)
     first = 1 if ask.first is UNSET else ask.first
-    if ask.modes == "all":
-        return {"gravity": gravity} if first == 1 else {"gravity": gravity, "modes": range(first, 2 * MOST_LINKS)}
     count = DEFAULT_MODES if ask.modes is UNSET else ask.modes
-    return {"gravity": gravity, "modes": range(first, first + count)}
+    return {"gravity": gravity, "first": first, "count": count}
 
 
 def _refuse_any(names: tuple[str, ...], table: Ask | AskShapes, numbers: Numbers, reason: str) -> None:
@@ -72,7 +69,7 @@ def _as_written(value: Any) -> str:
     return f"{value}" if isinstance(value, float) else json.encode(value).decode()  # JSON has no infinity
 
 
-def _selection(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str, Any]:
+def _selection(ask: Ask, chain: Chain, source: str) -> dict[str, Any]:
     """Which modes."""
     windows = [name for name in ("conical_height", "angular_speed") if getattr(ask, name) is not UNSET]
     numbers = [name for name in ("modes", "first") if getattr(ask, name) is not UNSET]
@@ -88,11 +85,11 @@ def _selection(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str,
             low, high = given
         if not low < high:
             raise SceneError(source, f"ask.{name}", f"its low end must lie below its high end, got {list(given)}")
-        return {name: (low, high), "gravity": gravity} if name == "angular_speed" else {name: (low, high)}
+        return {name: (low, high)}
     available = chain.mode_count
     if ask.first is UNSET:
         if ask.modes == "all":
-            return {}
+            return {"count": "all"}
         if ask.modes is UNSET:
             return {"count": min(DEFAULT_MODES, available)}
         if ask.modes > available:
@@ -104,4 +101,4 @@ def _selection(ask: Ask, chain: Chain, gravity: float, source: str) -> dict[str,
     count = left if ask.modes == "all" else min(DEFAULT_MODES, left) if ask.modes is UNSET else ask.modes
     if count > left:
         raise SceneError(source, "ask.modes", f"must be at most {left} from number {ask.first} on, got {count}")
-    return {"modes": range(ask.first, ask.first + count)}
+    return {"first": ask.first, "count": count}

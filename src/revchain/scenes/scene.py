@@ -12,8 +12,7 @@ from ..questions.held import HeldShape, HeldShapes, TautModes
 from ..questions.modes import modes
 from ..questions.response import Response, SmallOscillation
 from ..questions.shapes import SteadyShapes
-from ..results.modes import Modes
-from ..results.rig_modes import RigModes
+from ..results.modes import Modes, RigModes
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import STANDARD_GRAVITY, text
 from ..systems.rig import Rig, base_chain
@@ -257,7 +256,7 @@ class Scene(Table, frozen=True):
         >>> import revchain as rc
         >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1, "repeat": 30}], "ask": {"first": 25}})
         >>> scene.asked(scene.chain())
-        {'modes': range(25, 31)}
+        {'gravity': 9.80665, 'first': 25, 'count': 6}
         """
         compiled("revchain.Scene.asked", chain, link_by_link=False)
         if self.is_held:
@@ -273,8 +272,7 @@ class Scene(Table, frozen=True):
         -------
         Modes, RigModes or TautModes
             As `revchain.modes` does for the chain, or the rig, and what is asked, or `revchain.taut_modes` where both
-            ends are held. Speeds of a chain need the scene's gravity:
-            ``scene.modes().angular_speed(scene.gravity_value())``; a rig's have it.
+            ends are held; with the gravity of the scene.
 
         Raises
         ------
@@ -292,7 +290,7 @@ class Scene(Table, frozen=True):
 
         >>> support = {"stiffness": "50 N/m", "mass": 0.2}
         >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1.5, "kind": "rod"}], "support": support})
-        >>> scene.modes().angular_speed().round(4)
+        >>> scene.modes().angular_speed.round(4)
         array([ 2.9086, 11.3491])
         """
         hung = self._hung("scene")

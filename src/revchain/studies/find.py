@@ -11,8 +11,7 @@ import numpy as np
 from msgspec import UNSET
 from numpy.typing import NDArray
 
-from ..results.modes import Modes
-from ..results.rig_modes import RigModes, WhirlModes
+from ..results.modes import Modes, RigModes
 
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
@@ -108,21 +107,21 @@ def put(arrays: Arrays, blocks: tuple[Block, ...], row: int, found: dict[str, An
 def _modes(scene: Scene, found: dict[str, Any]) -> bool:
     modes = scene.modes()
     if isinstance(modes, RigModes):
-        _whirls(found, "forward", modes.forward)
-        _whirls(found, "backward", modes.backward)
+        _whirls(found, "forward", modes, modes.direction > 0)
+        _whirls(found, "backward", modes, modes.direction < 0)
         found |= {"other_modes": len(modes.other), "modes_complete": modes.complete}
         return modes.status == "success"
     found |= {
-        "angular_speed": modes.angular_speed(scene.gravity_value()),
+        "angular_speed": modes.angular_speed if isinstance(modes, Modes) else modes.angular_speed(scene.gravity_value()),
         "conical_height": modes.conical_height,
         "error_bound": modes.error_bound,
     }
     return modes.status == "success" if isinstance(modes, Modes) else True
 
 
-def _whirls(found: dict[str, Any], sense: str, modes: WhirlModes) -> None:
+def _whirls(found: dict[str, Any], direction: str, modes: RigModes, which: NDArray[np.bool_]) -> None:
     for name in ("angular_speed", "conical_height", "error_bound", "speed_error_bound"):
-        found[f"{sense}_{name}"] = getattr(modes, name)
+        found[f"{direction}_{name}"] = np.abs(getattr(modes, name)[which])
 
 
 def _shapes(scene: Scene, found: dict[str, Any]) -> bool:

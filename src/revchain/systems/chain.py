@@ -417,14 +417,18 @@ class Chain(Unchangeable):
         return f"Chain of {links}, length {self.total_length:.6g}, weight {self.total_weight:.6g}"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self._compiled.__getstate__(),)
+        return Chain._from_state, (self._state(),)
 
+    def _state(self) -> tuple[Any, ...]:
+        """All it is made of: numbers and arrays."""
+        return self._compiled.__getstate__()
 
-def _restored(state: tuple[Any, ...]) -> Chain:
-    """A chain from its pickled state: for every pickle protocol, which the compiled one is not."""
-    compiled = _core.Chain.__new__(_core.Chain)
-    compiled.__setstate__(state)
-    return Chain._wrap(compiled)
+    @classmethod
+    def _from_state(cls, state: tuple[Any, ...]) -> Chain:
+        """For every pickle protocol, which the compiled one is not."""
+        compiled = _core.Chain.__new__(_core.Chain)
+        compiled.__setstate__(tuple(state))
+        return cls._wrap(compiled)
 
 
 def _check_shapes(columns: dict[str, Floats]) -> None:

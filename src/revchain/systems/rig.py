@@ -262,7 +262,21 @@ class Rig(Unchangeable):
         return f"Rig of a chain of {links}: {', '.join(with_what) or 'nothing added'}"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self._chain, {name: value for name, value in self._given.items() if value is not None})
+        return Rig._from_state, (self._state(),)
+
+    def _state(self) -> tuple[Any, ...]:
+        """All it is made of."""
+        return self._chain, {name: value for name, value in self._given.items() if value is not None}
+
+    @classmethod
+    def _from_state(cls, state: tuple[Any, ...]) -> Rig:
+        chain, given = state
+        return cls(chain, **given)
+
+    @property
+    def mode_count(self) -> int:
+        """Number of modes in each direction at most: one for each link, and one for a support that yields."""
+        return self.size + int(math.isfinite(self.stiffness))
 
 
 _NUMBERS = ("stiffness", "carriage_weight", "support_radius", "fluid")
@@ -393,11 +407,6 @@ def _refuse_link(place: str, wrong: NDArray[np.bool_], column: Floats, sentence:
     if wrong.any():
         link = int(np.argmax(wrong))
         raise ValueError(f"{place}: link {link + 1}: {sentence}, got {column[link]:g}")
-
-
-def _restored(chain: Chain, given: dict[str, Any]) -> Rig:
-    """A rig from its pickled state."""
-    return Rig(chain, **given)
 
 
 def base_chain(hung: Chain | Rig) -> Chain:

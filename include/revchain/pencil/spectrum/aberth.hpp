@@ -93,7 +93,7 @@ template <bool rigid, bool several>
         highest = number;
         roots.shift[std::min(static_cast<std::size_t>(number), roots.count - 1)] = guess[i];
     }
-    if (*std::min_element(roots.shift, roots.shift + roots.count) > 0) {
+    if (std::all_of(roots.shift, roots.shift + roots.count, [](double shift) { return shift > 0; })) {
         roots.fill_up();
         return true;
     }

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A result as a table: what people read, and what goes into dictionaries, files, pandas and xarray."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import dataclass, field
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..systems.extras import require
+from ..systems.numbers import Numbers
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+MOST_ROWS = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One quantity: a number for each row, or an array whose first axis counts the rows.
+
+    Attributes
+    ----------
+    name : str
+        In programs and files.
+    values : array or list
+        A list of arrays where rows have different lengths.
+    heading : str
+        In tables for people, with the unit; a column without one is not shown there.
+    digits : int
+        That are shown.
+    axes : tuple of str
+        Names of the axes after the first.
+    shown : array, optional
+        What tables show instead, such as degrees or words.
+    """
+
+    name: str
+    values: Any
+    heading: str = ""
+    digits: int = 6
+    axes: tuple[str, ...] = ()
+    shown: Any = None
+
+    def cell(self, row: int) -> str:
+        """What a table shows in a row."""
+        value = (self.values if self.shown is None else self.shown)[row]
+        if isinstance(value, str):
+            return value
+        if isinstance(value, bool | np.bool_):
+            return "yes" if value else "no"
+        if isinstance(value, int | np.integer):
+            return f"{value:,}"
+        if np.ndim(value):
+            return f"{len(value):,}"
+        return f"{value:.1e}" if self.name.endswith(("error_bound", "error_estimate")) else digits(value, self.digits)
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A result as columns.
+
+    Attributes
+    ----------
+    row : str
+        What a row is, such as ``"mode"``.
+    heading : str
+        Above the table.
+    columns : list of Column
+    facts : dict
+        What belongs to the whole.
+    notes : list of str
+        Below the table.
+    good : bool
+        Whether everything was found and proved.
+    """
+
+    row: str
+    heading: str
+    columns: list[Column]
+    facts: dict[str, Any] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    good: bool = True
+
+    def __len__(self) -> int:
+        return len(self.columns[0].values) if self.columns else 0
+
+
+def digits(number: float, count: int) -> str:
+    """`number` with `count` significant digits, zeros at the end kept."""
+    return f"{number:#.{count}g}".removesuffix(".")
+
+
+def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
+    """Headings, the first rows as text, and the lines below."""
+    shown = [column for column in sheet.columns if column.heading]
+    rows = [[column.cell(k) for column in shown] for k in range(min(len(sheet), MOST_ROWS))]
+    hidden = len(sheet) - MOST_ROWS
+    return [column.heading for column in shown], rows, ([f"and {hidden:,} more"] if hidden > 0 else []) + sheet.notes
+
+
+def as_text(sheet: Sheet) -> str:
+    """For a prompt."""
+    headings, rows, notes = cells(sheet)
+    widths = [max(map(len, column)) for column in zip(headings, *rows, strict=True)]
+    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in (headings, *rows)]
+    return "\n".join([sheet.heading, *(lines if rows else []), *notes])
+
+
+def as_html(sheet: Sheet) -> str:
+    """For a notebook."""
+    headings, rows, notes = cells(sheet)
+    head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
+    body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+    foot = f'<tr><td colspan="{len(headings)}">{escape("; ".join(notes))}</td></tr>' if notes else ""
+    return (
+        f"<table><caption>{escape(sheet.heading)}</caption><thead><tr>{head}</tr></thead>"
+        f"<tbody>{body}</tbody><tfoot>{foot}</tfoot></table>"
+    )
+
+
+def as_dict(sheet: Sheet) -> dict[str, Any]:
+    """Facts, then a dictionary for each row."""
+    columns = {column.name: plain(column.values) for column in sheet.columns}
+    rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+    return {**plain(sheet.facts), f"{sheet.row}s": rows}
+
+
+def plain(value: Any) -> Any:
+    """As Python's numbers, text, lists and dictionaries; a complex number as a pair."""
+    if isinstance(value, dict):
+        return {name: plain(item) for name, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        if value.dtype == np.longdouble:
+            value = value.astype(np.float64)
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    return [value.real, value.imag] if isinstance(value, complex) else value
+
+
+def finite(value: Any) -> Any:
+    """The same for JSON, which has no infinity and no NaN: None in their place."""
+    if isinstance(value, dict):
+        return {name: finite(item) for name, item in value.items()}
+    if isinstance(value, list):
+        return [finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def as_csv(sheet: Sheet) -> str:
+    """One line for each row, with all digits; arrays as numbers separated by blanks."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(column.name for column in sheet.columns)
+    columns = [[_cell(value) for value in plain(column.values)] for column in sheet.columns]
+    writer.writerows(zip(*columns, strict=True))
+    return text.getvalue()
+
+
+def _cell(value: Any) -> Any:
+    return " ".join(map(repr, value)) if isinstance(value, list) else value
+
+
+def as_dataframe(sheet: Sheet) -> Any:
+    """A row of pandas for each row; facts are its ``attrs``; columns of arrays are left out."""
+    pandas = require("pandas", "tables", "to_dataframe")
+    columns = {column.name: column.values for column in sheet.columns if not column.axes}
+    table = pandas.DataFrame(columns).set_index(sheet.row)
+    table.attrs.update(plain(sheet.facts))
+    return table
+
+
+def as_dataset(sheet: Sheet) -> Dataset:
+    """A data set of xarray: the first axis counts the rows."""
+    xarray = require("xarray", "netcdf", "to_xarray")
+    variables = {
+        column.name: ((sheet.row, *column.axes), padded(column.values, 1 + len(column.axes)))
+        for column in sheet.columns
+        if column.name != sheet.row
+    }
+    coordinates = {column.name: column.values for column in sheet.columns if column.name == sheet.row}
+    facts = {name: value for name, value in plain(sheet.facts).items() if isinstance(value, str | int | float)}
+    data: Dataset = xarray.Dataset(variables, coordinates, {name: _attribute(value) for name, value in facts.items()})
+    return data
+
+
+def _attribute(value: str | int | float) -> str | int | float:
+    return int(value) if isinstance(value, bool) else value  # netCDF has no bool
+
+
+def padded(rows: Any, axes: int) -> Numbers:
+    """Rows of different lengths as one array, the gaps filled with NaN."""
+    if isinstance(rows, np.ndarray) or axes == 1:
+        return np.asarray(rows)
+    if not len(rows):
+        return np.empty((0,) * axes)
+    table = np.full((len(rows), max((len(row) for row in rows), default=0)), np.nan, rows[0].dtype)
+    for line, row in zip(table, rows, strict=True):
+        line[: row.size] = row
+    return table
