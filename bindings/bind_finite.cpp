@@ -28,6 +28,25 @@ void bind_finite(py::module_& module) {
         return [member](const SteadyShape& shape) { return to_numpy(shape.*member); };
     };
     py::class_<SteadyShape>(module, "SteadyShape", "A steady shape of a whirling chain.")
+        .def(py::init([](const Array& inclination, const Array& offset, const Array& height, const Array& tension,
+                         const Array& reaction_inclination, revchain::Index half_waves, double conical_height,
+                         double residual, double error_bound, double condition, double moment_of_inertia,
+                         double effective_energy) {
+                 const auto vector = [](const Array& x) {
+                     return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(x.data(), x.size()));
+                 };
+                 SteadyShape shape{};
+                 shape.inclination = vector(inclination), shape.offset = vector(offset);
+                 shape.height = vector(height), shape.tension = vector(tension);
+                 shape.reaction_inclination = vector(reaction_inclination), shape.half_waves = half_waves;
+                 shape.conical_height = conical_height, shape.residual = residual, shape.error_bound = error_bound;
+                 shape.condition = condition, shape.moment_of_inertia = moment_of_inertia;
+                 shape.effective_energy = effective_energy;
+                 return shape;
+             }),
+             "inclination"_a, "offset"_a, "height"_a, "tension"_a, "reaction_inclination"_a, "half_waves"_a,
+             "conical_height"_a, "residual"_a, "error_bound"_a, "condition"_a, "moment_of_inertia"_a,
+             "effective_energy"_a)
         .def_property_readonly("inclination", column(&SteadyShape::inclination))
         .def_property_readonly("offset", column(&SteadyShape::offset))
         .def_property_readonly("height", column(&SteadyShape::height))

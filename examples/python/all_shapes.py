@@ -11,7 +11,7 @@ import revchain as rc
 SPEED = 4.4  # in units of sqrt(g/a), a the length of a thread
 chain = rc.Chain.uniform_plummets(3, length=3.0)
 shapes = rc.steady_shapes(chain, angular_speed=SPEED, gravity=1.0)
-print(f"three plummets at {SPEED} sqrt(g/a): {shapes}")
+print(f"three plummets at {SPEED} sqrt(g/a): {len(shapes)} shapes, {'all' if shapes.complete else 'at least'}")
 print("half waves  inclinations, degrees   error bound  stability")
 for shape in shapes:
     degrees = " ".join(f"{57.29577951308232 * d:6.2f}" for d in shape.inclination)
@@ -20,7 +20,8 @@ for shape in shapes:
 diagram = rc.branches(chain, up_to=5.0, gravity=1.0)
 born = diagram[3]
 print(f"two are born at {born.angular_speed(1.0)[born.folds[0]]:.9f} sqrt(g/a)")
-print("eight plummets at 5.95 sqrt(g/a):", rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=5.95**-2))
+eight = rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=5.95**-2)
+print(f"eight plummets at 5.95 sqrt(g/a): {len(eight)} shapes, {'all' if eight.complete else 'at least'}")
 
 figure, axes = panels(2, [2, 3])
 seen = set()

@@ -28,9 +28,9 @@ met = rc.tune(hanging(10.0), mode=1, link=2, quantity="length_in_proportion", an
 assert met.complete and len(met.values) == 1
 print(f"slewing at {SLEWING} rad/s meets the slower one with {met.value:.3f} m of rope: keep away from that")
 for mode, name in ((1, "slower"), (2, "faster")):
-    share = rc.modes(met.chain).sensitivity.relative.length_in_proportion[mode - 1]
+    share = rc.modes(met.system).sensitivity.relative.length_in_proportion[mode - 1]
     print(
         f"one per cent more sling lowers the {name} speed by {share[0] / 2:.3f} per cent, of rope by {share[1] / 2:.3f}"
     )
-speed = rc.modes(met.chain).uncertainty(weight=[50.0, 5.0], length_in_proportion=[0.02, 0.05]).angular_speed
+speed = rc.modes(met.system).uncertainty(weight=[50.0, 5.0], length_in_proportion=[0.02, 0.05]).angular_speed
 print(f"load to 50 kg, hook to 5, slings to 2 cm and rope to 5: speeds to {speed[0]:.4f} and {speed[1]:.4f} rad/s")

@@ -32,7 +32,7 @@ axes["out"].set_title("flying out")
 axes["out"].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
 
 shapes = rc.steady_shapes(chairs, angular_speed=SPEED)
-print(f"at {SPEED:g} rad/s: {shapes}, every inclination within {max(s.error_bound for s in shapes):.1e} rad")
+print(f"at {SPEED:g} rad/s: {len(shapes)} shapes, proved complete: {shapes.complete}; every inclination within {max(s.error_bound for s in shapes):.1e} rad")
 for shape in shapes:
     axes["all"].plot(shape.offset, shape.height, "o-", markersize=4, color=colour(shape))
     print(f"  {shape.half_waves} half waves, chairs at {np.degrees(shape.inclination).round(1)} degrees, lowest first")

@@ -30,7 +30,7 @@ from .closed_forms.buffer import BufferImpact
 from .closed_forms.governor import GovernorMotion
 from .closed_forms.gyrostatic_string import GyrostaticString
 from .closed_forms.rope import SkippingRope, TortuousRope
-from .closed_forms.statics import ForceDiagram, FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
+from .closed_forms.statics import FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
 from .questions.batch import conical_heights
 from .questions.branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
 from .questions.cord import (
@@ -51,17 +51,21 @@ from .questions.held import (
     taut_modes,
 )
 from .questions.modes import count_modes, modes, recurrence_matrices
-from .questions.response import Response, SmallOscillation, response, small_oscillation
-from .questions.shapes import Stability, SteadyShape, SteadyShapes, steady_shapes
-from .questions.tune import Tuned, momentum_for_speed, tune
+from .questions.response import response, small_oscillation
+from .questions.shapes import steady_shapes
+from .questions.tune import momentum_for_speed, tune
+from .results.diagrams import ForceDiagram
 from .results.modes import Certificate, Modes, OtherModes, RigModes
+from .results.motions import Response, SmallOscillation
 from .results.sensitivity import (
     Derivatives,
     RigSensitivity,
     Sensitivity,
     Uncertainty,
 )
+from .results.shapes import Stability, SteadyShape, SteadyShapes
 from .results.storage import load
+from .results.tuned import Tuned
 from .scenes.error import SceneError
 from .systems.chain import Chain
 from .systems.rig import Rig, driven_flywheel, free_flywheel

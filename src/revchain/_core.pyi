@@ -484,6 +484,21 @@ def continuous_critical_heights(
 ) -> _Floats: ...
 
 class SteadyShape:
+    def __init__(
+        self,
+        inclination: _Floats,
+        offset: _Floats,
+        height: _Floats,
+        tension: _Floats,
+        reaction_inclination: _Floats,
+        half_waves: int,
+        conical_height: float,
+        residual: float,
+        error_bound: float,
+        condition: float,
+        moment_of_inertia: float,
+        effective_energy: float,
+    ) -> None: ...
     @property
     def inclination(self) -> _Floats: ...
     @property

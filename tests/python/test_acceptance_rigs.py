@@ -1005,7 +1005,7 @@ def test_steady_precession_of_a_gyrostat_is_the_textbook_tops(lean, sense):
     assert shapes.complete
     assert [s.inclination[0] for s in shapes] == pytest.approx([lean], abs=1e-12)
     assert Motion(rig, n).run(shapes[0].inclination, 0.0, turns=1) < 1e-8
-    turning = shapes[0].angular_momentum()
+    turning = shapes[0].angular_momentum
     want = about * math.sin(lean) ** 2 * n + momentum * math.cos(lean)
     assert turning == pytest.approx(want, rel=1e-12)
 
@@ -1600,7 +1600,7 @@ def test_tuning_hits_the_height_wanted(quantity):
             continue
         tuned = rc.tune(chain, mode=mode, link=link, quantity=quantity, conical_height=height)
         assert tuned.status == "found"
-        got = rc.modes(tuned.chain).conical_height[mode - 1]
+        got = rc.modes(tuned.system).conical_height[mode - 1]
         assert got == pytest.approx(height, rel=1e-13)
         planted = new[quantity if quantity in new else "length"][link - 1]
         if tuned.complete:
@@ -1613,7 +1613,7 @@ def test_tuning_what_cannot_be():
     tuned = rc.tune(chain, link=1, quantity="weight", conical_height=2.5)  # never above 2
     assert tuned.status == "no_value"
     assert tuned.value is None and tuned.error_bound is None
-    assert tuned.chain is None
+    assert tuned.system is None
     assert tuned.reachable[1] < 2.0
     for bad in (
         dict(link=0, quantity="weight", conical_height=1.0),

@@ -172,10 +172,10 @@ def test_what_the_programs_say(python):
     bell = python(ROOT / "examples/python/silent_bell.py")
     assert "0.1785  +1.000000" in bell.stdout
     shapes = python(ROOT / "examples/python/all_shapes.py")
-    assert "SteadyShapes: 5, proved complete" in shapes.stdout and "SteadyShapes: 84" in shapes.stdout
+    assert "5 shapes, all" in shapes.stdout and "84 shapes, all" in shapes.stdout
     assert "two are born at 3.903762157 sqrt(g/a)" in shapes.stdout
     carousel = python(ROOT / "examples/python/swing_carousel.py")
-    assert "at 6 rad/s: SteadyShapes: 5, proved complete" in carousel.stdout
+    assert "at 6 rad/s: 5 shapes, proved complete: True" in carousel.stdout
 
 
 @pytest.mark.parametrize("path", EXPERIMENTS, ids=lambda path: path.stem)

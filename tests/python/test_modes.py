@@ -127,7 +127,7 @@ def test_shapes_satisfy_relation_21():
 def test_fields():
     chain = rc.Chain.uniform_rods(5, length=2.0)
     result = rc.modes(chain, count=3)
-    assert {name for name in dir(result) if name[0] != "_"} == set(rc.Modes.fields) | (
+    assert {name for name in dir(result) if name[0] != "_"} == set(rc.Modes._fields) | (
         {"at", "plot", "save", "to_dataframe", "to_dict", "to_xarray", "uncertainty"}
     )
     assert result.system is chain and len(result) == 3 and result.gravity == 9.80665
@@ -149,7 +149,7 @@ def test_how_many_modes():
 
 def test_what_is_computed_when_read_is_kept():
     result = rc.modes(rc.Chain.uniform_rods(5))
-    for name in rc.Modes.fields:
+    for name in rc.Modes._fields:
         assert getattr(result, name) is getattr(result, name), name
 
 
@@ -163,7 +163,7 @@ def test_the_result_cannot_be_changed():
     ):
         with pytest.raises(AttributeError, match="a Modes cannot be changed"):
             change()
-    arrays = [value for name in rc.Modes.fields if isinstance(value := getattr(result, name), np.ndarray)]
+    arrays = [value for name in rc.Modes._fields if isinstance(value := getattr(result, name), np.ndarray)]
     assert len(arrays) == 10
     for array in (*arrays, *result.nodes):
         with pytest.raises(ValueError, match="read-only"):
@@ -200,7 +200,7 @@ def test_speeds():
         assert np.array_equal(getattr(moved, name), getattr(result, name))
 
 
-@given(chains(5), st.floats(1e-3, 1e3), st.sampled_from([None, 1e-6]))
+@given(chains(5), st.floats(1e-3, 1e3), st.sampled_from([None, 1e-6, 0.3]))
 def test_speeds_lie_within_their_bound(exact_heights, chain, gravity, rtol):
     result = rc.modes(chain, gravity=gravity, rtol=rtol)
     with mp.workdps(50):
@@ -350,7 +350,7 @@ def test_tables():
 
 
 def test_tables_of_long_chains_show_nodes_that_are_known():
-    result = rc.modes(rc.Chain.uniform_rods(10_001), 2)
+    result = rc.modes(rc.Chain.uniform_rods(60_000), 2)
     assert "nodes" not in repr(result) and "nodes" not in result._repr_html_()
     result.nodes  # noqa: B018
     assert "nodes" in repr(result) and "nodes" in result._repr_html_()

@@ -53,11 +53,13 @@ def test_public_results(protocol):
     results += [modes.certificate, modes.sensitivity, modes.uncertainty(length=0.1), rc.modes(rig).sensitivity]
     results += [rc.modes(rc.Rig(CHAIN, momentum=0.3)).other]
     results += [rc.response(CHAIN, conical_height=4.0), rc.small_oscillation(CHAIN, [0.1, 0.0, 0.0], None, [0.0, 1.0])]
+    shape = rc.steady_shapes(CHAIN, conical_height=0.3)[0]
+    results += [shape, shape.stability(), shape.force_diagram(), rc.steady_shape(CHAIN, mode=1, conical_height=0.3)]
     for found in results:
         assert pickle.loads(pickle.dumps(found, protocol)) == found
-    shape = rc.steady_shapes(CHAIN, conical_height=0.3)[0]
-    with pytest.raises(TypeError):
-        pickle.dumps(shape, protocol)
+    shapes = rc.steady_shapes(CHAIN, conical_height=0.3)
+    again = pickle.loads(pickle.dumps(shapes, protocol))
+    assert again == shapes and again[0].stability() == shapes[0].stability()
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)

@@ -106,7 +106,7 @@ def test_resonance():
     assert np.isinf(found.error_bound[[0, 2]]).all() and np.isnan(found.offset[[0, 2], :2]).all()
     assert found.offset[1].tolist() == [-4.0, 0.0, 1.0]
     assert found.modes_below.tolist() == [0, 1, 1]
-    assert repr(found) == "Response at 3 speeds: 3 pins, 2 at a resonance"
+    assert repr(found).startswith("support carried round a circle of ") and repr(found).count("nan") >= 2
 
 
 def test_rig(chain):
@@ -238,7 +238,7 @@ def test_massless_pin():
     swing = rc.small_oscillation(chain, [0.02, 0.5], None, 0.0)
     assert swing.projected and swing.start.tolist() == [0.02, 0.01, 0.0]
     assert not rc.small_oscillation(chain, [0.02, 0.01], None, 0.0).projected
-    assert repr(swing) == "SmallOscillation at 1 time: 1 of 1 modes"
+    assert repr(swing).startswith("1 modes; of the energy 100 % in mode 1")
 
 
 @pytest.mark.parametrize(

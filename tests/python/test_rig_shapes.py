@@ -60,7 +60,7 @@ def test_a_gyrostat_in_either_sense(sense: int) -> None:
         (shape,) = shapes
         cosine = (weight * length + momentum * n) / (moment * n * n)
         assert np.cos(shape.inclination[0]) == pytest.approx(cosine, rel=1e-14)
-        assert shape.angular_momentum() == pytest.approx(moment * n * (1 - cosine**2) + momentum * cosine, rel=1e-14)
+        assert shape.angular_momentum == pytest.approx(moment * n * (1 - cosine**2) + momentum * cosine, rel=1e-14)
 
 
 def test_an_effective_tension_may_be_negative_but_not_nothing() -> None:

@@ -139,7 +139,7 @@ def test_one_selector_alone(one, other):
     if {one, other} <= {"count", "first"} or one == other:
         rc.modes(RODS, **{one: SELECTORS[one], other: SELECTORS[other]})
         return
-    message = r"revchain\.modes: give a window or count and first, not both, got "
+    message = r"revchain\.modes: give one window, or count and first, not both, got "
     with pytest.raises(ValueError, match=message) as caught:
         rc.modes(RODS, **{one: SELECTORS[one], other: SELECTORS[other]})
     assert set(str(caught.value).partition("got ")[2].split(" and ")) == {one, other}

@@ -134,14 +134,14 @@ def test_tuning_two_plummets_against_lagrange():
         assert tuned.status == "found"
         assert tuned.value == pytest.approx(3 * share / (1 - share), rel=1e-14)
         assert tuned.error_bound < 1e-14
-        assert rc.modes(tuned.chain).conical_height[mode - 1] == pytest.approx(height, rel=4e-16)
+        assert rc.modes(tuned.system).conical_height[mode - 1] == pytest.approx(height, rel=4e-16)
         assert tuned.reachable is None
 
 
 def test_tuning_says_where_no_value_does():
     chain = Chain(weight=[1.0, 3.0], length=1.0)
     none = rc.tune(chain, link=1, quantity="weight", conical_height=2.5)
-    assert none.status == "no_value" and none.chain is None and none.value is None
+    assert none.status == "no_value" and none.system is None and none.value is None
     assert none.reachable[1] < 2 < none.reachable[1] + 0.01
     assert none.between == (0.001, 1000.0)
     narrow = rc.tune(chain, link=1, quantity="length_in_proportion", conical_height=2.5, between=(0.9, 1.1))
@@ -163,7 +163,7 @@ def test_what_was_changed_is_found_again(quantity):
     height = rc.modes(Chain(**data)).conical_height[1]
     tuned = rc.tune(chain, mode=2, link=m + 1, quantity=quantity, conical_height=height)
     assert np.abs(tuned.values / wanted - 1).min() < 1e-12
-    assert rc.modes(tuned.chain).conical_height[1] == pytest.approx(height, rel=1e-14)
+    assert rc.modes(tuned.system).conical_height[1] == pytest.approx(height, rel=1e-14)
 
 
 def test_questions_that_are_none_are_refused():

@@ -5,6 +5,7 @@ import copy
 import json
 import os
 import pickle
+import threading
 
 import numpy as np
 import pytest
@@ -70,6 +71,19 @@ def results():
     yield "none, of a chain", rc.modes(CHAIN, conical_height=(50.0, 60.0))
     yield "certificate of none", rc.modes(CHAIN, conical_height=(50.0, 60.0), certify=True).certificate
     yield "shapes read", rc.modes(CHAIN, precision="double-double", certify=True)
+    shapes = rc.steady_shapes(CHAIN, conical_height=0.5 * float(modes.conical_height[0]))
+    yield "SteadyShapes", shapes
+    yield "SteadyShape", shapes[0]
+    yield "SteadyShapes, none", rc.steady_shapes(CHAIN, conical_height=10 * float(modes.conical_height[0]))
+    yield "SteadyShape of a rig", rc.steady_shapes(rc.Rig(CHAIN, support_radius=0.3), angular_speed=0.5)[0]
+    yield "Stability", shapes[0].stability()
+    yield "ForceDiagram", shapes[0].force_diagram()
+    yield "Response", rc.response(CHAIN, conical_height=[4.0, 0.3])
+    yield "Response at no speed", rc.response(CHAIN, conical_height=[])
+    yield "Response of no pin", rc.response(CHAIN, conical_height=[4.0], pins=[])
+    yield "Response at one speed", rc.response(rc.Rig(CHAIN, stiffness=5.0), angular_speed=2.0, pins=0)
+    yield "SmallOscillation", rc.small_oscillation(CHAIN, np.ones(CHAIN.size) / 9, None, [0.0, 1.0])
+    yield "Tuned", rc.tune(CHAIN, link=1, quantity="weight", conical_height=float(modes.conical_height[0]) * 0.99)
 
 
 @pytest.mark.parametrize("ending", [".npz", ".nc"])
@@ -79,6 +93,8 @@ def test_every_kind_of_result(tmp_path, name, ending):
     if name == "shapes read":
         repr(result)
     path = tmp_path / f"result{ending}"
+    fields = {field: getattr(result, field) for field in type(result)._fields}
+    assert not any(value.flags.writeable for value in fields.values() if isinstance(value, np.ndarray))
     result.save(path)
     for twin in (rc.load(path), pickle.loads(pickle.dumps(result))):
         assert type(twin) is type(result) and twin == result and copy.copy(twin) is copy.deepcopy(twin) is twin
@@ -286,3 +302,49 @@ def test_links_devices_and_permissions(tmp_path):
     with _files.written_aside(tmp_path / "new.txt") as [aside]:
         aside.write_text("")
     assert (tmp_path / "new.txt").stat().st_mode == plain.stat().st_mode  # the umask, as for any other file
+
+
+def test_what_a_caller_gave_stays_the_callers():
+    speeds, times = np.array([0.5, 1.0]), np.array([0.0, 1.0])
+    driven = rc.response(CHAIN, angular_speed=speeds)
+    swing = rc.small_oscillation(CHAIN, np.ones(CHAIN.size) / 9, None, times)
+    speeds[0] = times[0] = 99.0
+    assert driven.angular_speed[0] == 0.5 and swing.time[0] == 0.0
+
+
+def test_a_class_of_a_caller_does_not_take_the_place_of_ours(tmp_path):
+    class Modes(rc.Modes):
+        __slots__ = ()
+
+    assert Modes.__name__ == "Modes"
+    result = rc.modes(CHAIN)
+    result.save(tmp_path / "result.npz")
+    assert type(rc.load(tmp_path / "result.npz")) is rc.Modes
+
+
+def test_a_chain_is_in_a_file_once(tmp_path):
+    chain = rc.Chain(weight=np.ones(8), length=np.ones(8))
+    shapes = rc.steady_shapes(chain, conical_height=1 / 35.4025)
+    shapes.save(tmp_path / "shapes.npz")
+    again = rc.load(tmp_path / "shapes.npz")
+    assert len(again) == 84 and all(shape.system is again.system for shape in again)
+
+
+def test_threads_may_read_and_pickle_the_same_result():
+    result = rc.modes(rc.Chain.uniform_rods(200), "all")
+    raised = []
+
+    def read():
+        try:
+            for name in type(result)._fields:
+                assert getattr(result, name) is getattr(result, name)
+                pickle.dumps(result.at(gravity=1.62))
+        except Exception as error:
+            raised.append(error)
+
+    threads = [threading.Thread(target=read) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert raised == []

@@ -20,9 +20,9 @@ from rich.console import Console, RenderableType
 
 from .. import _core
 from ..questions.modes import find_modes
-from ..questions.response import Response
 from ..results.files import written_aside
 from ..results.modes import Modes, RigModes
+from ..results.motions import Response
 from ..scenes.error import SceneError
 from ..scenes.scene import Scene, json_schema, load_scene
 from ..studies.study import study_schema
@@ -77,7 +77,7 @@ def solve(
     rtol: Annotated[float | None, typer.Option(metavar="X", help="Relative tolerance of the heights.")] = None,
     certify: Annotated[bool, typer.Option("--certify", help="Also the intervals and counts that prove them.")] = False,
     precision: Annotated[str | None, typer.Option(metavar="P", help=f"One of {', '.join(_core.PRECISIONS)}.")] = None,
-    method: Annotated[str | None, typer.Option(metavar="M", help=f"One of {', '.join(_core.METHODS)}.")] = None,
+    method: Annotated[str | None, typer.Option(metavar="M", help=f"One of {', '.join(_core.METHODS[1:])}.")] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progress bar.")] = False,
 ) -> None:
     """Find the whirl speeds of a scene and print them as a table; of a slack chain held at both ends, its shapes."""
@@ -126,10 +126,10 @@ class _Solved:
     carried: Response | None
 
     def json(self) -> str:
-        return json_text(self.found, self.title, self.carried)
+        return json_text(self.found._sheet(), self.title, self.carried)
 
     def csv(self) -> str:
-        return csv_text(self.found)
+        return csv_text(self.found._sheet())
 
     def table(self) -> RenderableType:
         more = []
@@ -137,7 +137,7 @@ class _Solved:
             more.append(self.found.certificate._sheet())
         if isinstance(self.found, RigModes) and len(self.found.other):
             more.append(self.found.other._sheet())
-        return table(self.found, self.title, *more, carried=self.carried)
+        return table(self.found._sheet(brief=True), self.title, *more, carried=self.carried)
 
     def plot(self) -> Any:
         return self.found.plot(carried=self.carried) if isinstance(self.found, RigModes) else self.found.plot()

@@ -14,7 +14,8 @@ from rich.console import RenderableType
 from ..scenes.scene import Scene, load_scene
 from .exit_codes import ExitCode
 from .frame import EXIT_CODES, Stop, Wanted, answered, app, guarded
-from .report_motion import Found, csv_text, json_text, sheet_of, table
+from .report import csv_text, json_text, table
+from .report_motion import sheet_of
 
 SceneFile = Annotated[
     Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json); [b]revchain new[/b] writes one.")
@@ -113,18 +114,18 @@ def _given(options: dict[str, Any]) -> dict[str, Any]:
 class _Motion:
     """Shapes or a motion, or modes between two held ends, as the commands show them."""
 
-    found: Found
+    found: Any
     title: str
     gravity: float
 
     def json(self) -> str:
-        return json_text(self.found, self.title, self.gravity)
+        return json_text(sheet_of(self.found, self.gravity), self.title)
 
     def csv(self) -> str:
-        return csv_text(self.found, self.gravity)
+        return csv_text(sheet_of(self.found, self.gravity))
 
     def table(self) -> RenderableType:
-        return table(self.found, self.title, self.gravity)
+        return table(sheet_of(self.found, self.gravity, brief=True), self.title)
 
     def plot(self) -> Any:
         return self.found.plot()

@@ -16,8 +16,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..questions.explain import Solution
-from ..questions.response import Response
-from ..results.base import Result
+from ..results.motions import Response
 from ..results.sheet import MOST_ROWS, Sheet, as_csv, as_dict, cells, digits, finite, plain
 
 NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
@@ -44,9 +43,8 @@ def answer_table(found: Solution) -> Table:
     return grid
 
 
-def table(found: Result, title: str, *more: Sheet, carried: Response | None = None) -> Group:
+def table(sheet: Sheet, title: str, *more: Sheet, carried: Response | None = None) -> Group:
     """The table of a result with its heading, then `more` of them."""
-    sheet = found._sheet(brief=True)
     heading = Text(sheet.heading, style="" if sheet.good else "bold yellow")
     parts: list[Text | Table] = [Text(title, style="bold"), heading]
     if len(sheet):
@@ -87,9 +85,9 @@ def _carried(found: Response) -> list[Text | Table]:
     return [heading, grid, *more]
 
 
-def json_text(found: Result, title: str, carried: Response | None = None) -> str:
-    """Everything but the shapes; numbers with all their digits."""
-    data = as_dict(without_shapes(found._sheet()))
+def json_text(sheet: Sheet, title: str, carried: Response | None = None) -> str:
+    """Everything but the shapes of modes; numbers with all their digits."""
+    data = as_dict(without_shapes(sheet))
     if carried is not None:
         numbers = {name: float(getattr(carried, name)) for name in ("angular_speed", "support_radius", "error_bound")}
         offset = None if carried.resonant else carried.offset
@@ -98,8 +96,8 @@ def json_text(found: Result, title: str, carried: Response | None = None) -> str
 
 
 def without_shapes(sheet: Sheet) -> Sheet:
-    """The sheet without its longest columns: a number for each pin."""
-    return replace(sheet, columns=[column for column in sheet.columns if "pin" not in column.axes])
+    """The sheet without the shapes of modes, which are long."""
+    return replace(sheet, columns=[column for column in sheet.columns if (column.name, *column.axes) != ("shape", "pin")])
 
 
 def json_of(data: dict[str, Any]) -> str:
@@ -107,6 +105,6 @@ def json_of(data: dict[str, Any]) -> str:
     return json.dumps(finite(plain(data)), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def csv_text(found: Result) -> str:
-    """One line for each row; the positions of the nodes separated by blanks."""
-    return as_csv(without_shapes(found._sheet()))
+def csv_text(sheet: Sheet) -> str:
+    """One line for each row; numbers of an array separated by blanks."""
+    return as_csv(without_shapes(sheet))

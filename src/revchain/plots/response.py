@@ -15,7 +15,7 @@ from .style import MOST_PINS_AS_DOTS, axes_or_new, thinned
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..questions.response import Response, SmallOscillation
+    from ..results.motions import Response, SmallOscillation
 
 MOST_CURVES = 4  # of pins, unless asked
 
@@ -31,7 +31,7 @@ def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, 
     order = np.argsort(speed)
     speed = speed[order]
     offset = found.offset.reshape(speed.size, -1)[order]
-    chosen = _spread(available, found.chain.size) if pins is None else _known(pins, available)
+    chosen = _spread(available, found.system.size) if pins is None else _known(pins, available)
     ax = axes_or_new(ax, 7.0, 4.5)
     for number, pin in enumerate(chosen):
         y = offset[:, available.index(pin)]
@@ -88,7 +88,7 @@ def plot_small_oscillation(
     """See `SmallOscillation.plot`."""
     place = "SmallOscillation.plot"
     word(place, "kind", kind, ("shapes", "time"))
-    size = found.chain.size
+    size = found.system.size
     chosen = [integer(place, "pins", pin) for pin in listed(place, "pins", pins)]
     for pin in chosen:
         if not 0 <= pin <= size:
@@ -109,7 +109,7 @@ def plot_small_oscillation(
     from ..systems.extras import require
 
     colours = require("matplotlib", "plot", "plotting").colormaps["viridis"]
-    lengths = found.chain.length
+    lengths = found.system.length
     depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])
     marker = "o" if depth.size <= MOST_PINS_AS_DOTS else ""
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)

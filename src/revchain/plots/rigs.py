@@ -15,8 +15,8 @@ from .style import MOST_PINS_AS_DOTS, MOST_POINTS, SPACING, axes_or_new, thinned
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..questions.response import Response
     from ..results.modes import RigModes
+    from ..results.motions import Response
     from ..systems.numbers import Floats
 
 FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
@@ -35,7 +35,7 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
     rig = modes.system
     if carried is not None and type(carried).__name__ != "Response":
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
-    if carried is not None and (carried.chain != rig or carried.offset.shape != (rig.size + 1,)):
+    if carried is not None and (carried.system != rig or carried.offset.shape != (rig.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
     before = 1 if carried is None else 2
     ax = axes_or_new(ax, 1.6 + 1.25 * (before + max(drawn, 2)), 6.0)
@@ -82,7 +82,7 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
 
 def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
     """The response at one speed as a shape, the support on its circle."""
-    rig = found.chain if isinstance(found.chain, Rig) else Rig(found.chain)
+    rig = found.system if isinstance(found.system, Rig) else Rig(found.system)
     upwards, level = _levels(rig)
     offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
     ax = axes_or_new(ax, 5.0, 6.0)

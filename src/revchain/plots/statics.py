@@ -14,7 +14,8 @@ from .style import checked_axes, keep_room, new_figure
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..closed_forms.statics import ForceDiagram, FunicularPolygon
+    from ..closed_forms.statics import FunicularPolygon
+    from ..results.diagrams import ForceDiagram
 
 MOST_LETTERED = 8  # points of one kind with a letter each
 

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from ..closed_forms.rope import SkippingRope, TortuousRope
     from ..questions.cord import ContinuousShape
     from ..questions.held import _Held
-    from ..questions.shapes import SteadyShape
     from ..results.modes import Modes
+    from ..results.shapes import SteadyShape
     from ..systems.chain import Chain
 
 BYTES = 64  # of a point of a curve

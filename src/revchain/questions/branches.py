@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Literal, overload
 
 from .. import _core
 from ..closed_forms import conical_pendulum
-from ..results.base import Results, Wrapped
+from ..results.base import Wrapped, WrappedList
+from ..results.shapes import SteadyShape, is_driven
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import (
     STANDARD_GRAVITY,
@@ -23,7 +24,6 @@ from ..systems.numbers import (
     one_positive,
 )
 from .modes import modes
-from .shapes import SteadyShape, is_driven
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -175,14 +175,14 @@ class Branch(Wrapped[_core.Branch, Chain]):
         --------
         >>> import revchain as rc
         >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
-        >>> branch.shape(-1)
-        SteadyShape: half_waves 1, lowest link at 87.1326 degrees
+        >>> branch.shape(-1).inclination.round(4)
+        array([1.5208, 1.5041])
         """
         place = "revchain.Branch.shape"
         wanted = integer(place, "point", point)
         if not -len(self) <= wanted < len(self):
             raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
-        return SteadyShape._wrap(self._compiled.shape(wanted % len(self)), self._given._compiled)
+        return _shape(self._compiled.shape(wanted % len(self)), self._given, STANDARD_GRAVITY)
 
     def at(
         self,
@@ -217,11 +217,12 @@ class Branch(Wrapped[_core.Branch, Chain]):
         --------
         >>> import revchain as rc
         >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
-        >>> branch.at(conical_height=0.2)
-        (SteadyShape: half_waves 1, lowest link at 84.2496 degrees,)
+        >>> [shape.half_waves for shape in branch.at(conical_height=0.2)]
+        [1]
         """
         height = height_of("revchain.Branch.at", conical_height, angular_speed, gravity)
-        return tuple(SteadyShape._wrap(s, self._given._compiled) for s in self._compiled.states_at(height))
+        g = one_positive("revchain.Branch.at", "gravity", gravity)
+        return tuple(_shape(s, self._given, g) for s in self._compiled.states_at(height))
 
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
@@ -306,7 +307,7 @@ class Branch(Wrapped[_core.Branch, Chain]):
         return f"Branch {name}: {len(self)} points{folds}, ends at {self.end}"
 
 
-class Branches(Results[Branch]):
+class Branches(WrappedList[Branch]):
     """All branches found down to one conical height: those of the modes, slowest first, then isolated ones."""
 
     __slots__ = ("_chain", "_compiled")
@@ -608,8 +609,8 @@ def steady_shape(
     >>> import revchain as rc
     >>> chain = rc.Chain.uniform_rods(120, length=0.36)
     >>> shape = rc.steady_shape(chain, mode=2, angular_speed=20.0)
-    >>> shape
-    SteadyShape: half_waves 2, lowest link at 75.0262 degrees
+    >>> shape.half_waves, round(shape.angular_speed, 9)
+    (2, 20.0)
     >>> again = rc.steady_shape(chain, mode=2, tip_radius=shape.offset[0])
     >>> round((9.80665 / again.conical_height) ** 0.5, 9)
     20.0
@@ -629,9 +630,13 @@ def steady_shape(
     lowest = None if min_conical_height is None else one_positive(place, "min_conical_height", min_conical_height)
     core = compiled(place, chain)
     if not every:
-        return SteadyShape._wrap(_core.steady_shape(core, number, name, value, g, lowest), core)
+        return _shape(_core.steady_shape(core, number, name, value, g, lowest), chain, g)
     found = _core.shapes_on_branch(core, number, name, value, g, lowest)
-    return tuple(SteadyShape._wrap(shape, core) for shape in found)
+    return tuple(_shape(shape, chain, g) for shape in found)
+
+
+def _shape(found: _core.SteadyShape, chain: Chain, gravity: float) -> SteadyShape:
+    return SteadyShape._made(found, system=chain, gravity=gravity, direction=1)
 
 
 def _first_height(chain: Chain) -> float:

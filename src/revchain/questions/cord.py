@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.base import Results, Wrapped
+from ..results.base import Wrapped, WrappedList
 from ..systems.numbers import (
     STANDARD_GRAVITY,
     Floats,
@@ -183,7 +183,7 @@ class ContinuousShape(Wrapped[_core.ContinuousShape, _core.LineDensity | None]):
         return f"ContinuousShape: half_waves {self.half_waves}, free end at {tip:.6g} degrees"
 
 
-class ContinuousShapes(Results[ContinuousShape]):
+class ContinuousShapes(WrappedList[ContinuousShape]):
     """Steady shapes of a chain without links at one speed, by half waves, then offset of the free end."""
 
     __slots__ = ("_complete",)

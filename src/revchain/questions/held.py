@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.base import Results
+from ..results.base import WrappedList
+from ..results.shapes import Stability, is_driven
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, numbers, positive, real
 from ..systems.numbers import count as counted
-from .shapes import Stability, is_driven
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -183,7 +183,7 @@ class HeldShape(_Held):
         ['minimum', 'spectrally stable']
         """
         driven = is_driven("revchain.HeldShape.stability", frame)
-        return Stability._wrap(_core.held_stability(self._chain, self._compiled, driven), frame)
+        return Stability._made(_core.held_stability(self._chain, self._compiled, driven), frame=frame)
 
 
 class HeldCordPlaces(NamedTuple):
@@ -252,7 +252,7 @@ class HeldCordShape(_Held):
 Shape = TypeVar("Shape", bound=_Held)
 
 
-class HeldShapes(Results[Shape]):
+class HeldShapes(WrappedList[Shape]):
     """Steady shapes between two points of the axis, by half waves: those reached from the straight chain."""
 
     __slots__ = ("_missing",)

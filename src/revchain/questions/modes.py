@@ -162,7 +162,7 @@ def find_modes(
     if len(named) > 1 or (named and (count is not None or start != 1)):
         others = [name for name, there in (("count", count is not None), ("first", start != 1)) if there]
         both = " and ".join([*named, *others])
-        raise ValueError(f"{place}: give a window or count and first, not both, got {both}")
+        raise ValueError(f"{place}: give one window, or count and first, not both, got {both}")
     if isinstance(system, Rig):
         asked = {**windows, "rtol": rtol, "method": method, "precision": precision, "certify": certify}
         _refuse_for_rigs(place, asked)

@@ -3,22 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.base import Record
+from ..results.motions import SWING, Response, SmallOscillation
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import (
     STANDARD_GRAVITY,
     Floats,
     Whole,
     array_of,
-    boolean,
     floats,
     integer,
     limit,
@@ -28,128 +23,6 @@ from ..systems.numbers import (
     shown,
 )
 from ..systems.rig import Rig
-from .modes import count_modes, modes
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-Flags = NDArray[np.bool_]
-
-
-MOST_RESONANCES = 60  # marked in a plot: more would blacken it
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Response(Record):
-    """What a chain does whose support is carried round a circle, at one speed or many; returned by `response`.
-
-    Arrays have the shape of the speeds asked, ``(...)``, those of pins one axis more. Carried to and fro
-    along a line instead, the numbers are the same as amplitudes, everything in phase or against.
-
-    Attributes
-    ----------
-    chain : Chain or Rig
-        What was asked.
-    conical_height : ndarray, shape (...)
-        Of the speeds: ``gravity / angular_speed**2``.
-    angular_speed : ndarray, shape (...)
-        In rad/s.
-    support_radius : float
-        Of the circle.
-    pins : ndarray of int64, shape (P,)
-        Which pins, from 0 for the free end; of shape () where one was asked for by its number, and `offset` then
-        has no axis for it.
-    offset : ndarray, shape (..., P)
-        Of the pins from the axis, positive on the side on which the support is. NaN at a resonance.
-    error_bound : ndarray, shape (...)
-        Proved bound of the error of every offset of the chain, over the largest of them: half an ulp but next
-        to a resonance, infinite at one.
-    modes_below : ndarray of int64, shape (...)
-        How many whirl speeds of the chain, with its support held, the speed has passed. A resonance that
-        the speed cannot be told from is not counted.
-    reversed : ndarray of bool, shape (...)
-        Whether the free end is on the side opposite to the support.
-    resonant : ndarray of bool, shape (...)
-        Whether the speed cannot be told from a resonance.
-    support_force : ndarray, shape (...)
-        Horizontal pull of the chain on what carries its support, outwards, in the unit of the weights.
-    support_force_error : ndarray, shape (...)
-        Proved bound of its error, in the same unit.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> found = rc.response(rc.Chain(weight=[1.0, 3.0], length=1.0), conical_height=[3.0, 1.0, 0.1])
-    >>> found.offset
-    array([[ 2.4       ,  1.6       ,  1.        ],
-           [-4.        ,  0.        ,  1.        ],
-           [ 0.01785714, -0.16071429,  1.        ]])
-    >>> found.modes_below
-    array([0, 1, 2])
-    """
-
-    chain: Chain | Rig
-    conical_height: Floats
-    angular_speed: Floats
-    support_radius: float
-    pins: Whole
-    offset: Floats
-    error_bound: Floats
-    modes_below: Whole
-    reversed: Flags
-    resonant: Flags
-    support_force: Floats
-    support_force_error: Floats
-
-    @property
-    def amplification(self) -> Floats:
-        """Offsets over the radius of the support's circle, shape (..., P)."""
-        return self.offset / self.support_radius
-
-    def plot(self, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True) -> Axes:
-        """Draw how far chosen pins are from the axis against the speed, the largest scale logarithmic.
-
-        Dashed where a pin is on the side opposite to the support; vertical lines mark the resonances.
-        A response at one speed is drawn as a shape: the offsets of the pins against their depths.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
-        pins : iterable of int, optional
-            Which pins of this result. If left out: the lowest and up to three others, evenly spaced; at one
-            speed all.
-        resonances : bool
-            Whether to mark the whirl speeds in the range of the plot; never done for a `Rig`.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-
-        Raises
-        ------
-        ValueError
-            If `pins` names one that is not in this result, or the result has no speed.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import revchain as rc
-        >>> chain = rc.Chain.uniform_rods(20, length=0.36)
-        >>> ax = rc.response(chain, angular_speed=np.linspace(1.0, 30.0, 400)).plot()
-        >>> ax.get_xlabel()
-        'angular speed (rad/s)'
-        """
-        from ..plots.response import plot_response
-
-        marked = boolean("Response.plot", "resonances", resonances) and isinstance(self.chain, Chain)
-        return plot_response(self, ax, pins, _resonances(self) if marked else [])
-
-    def __repr__(self) -> str:
-        speeds = "1 speed" if self.error_bound.size == 1 else f"{self.error_bound.size:,} speeds"
-        return f"Response at {speeds}: {self.pins.size:,} pins, {np.count_nonzero(self.resonant):,} at a resonance"
 
 
 def response(
@@ -253,19 +126,21 @@ def response(
         found = _core.response(compiled(place, chain), *asked)
     offset, bound, below, against, resonant, force, force_error = found
     shape = given.shape
-    return Response(
-        chain,
-        height,
-        speed,
-        radius,
-        which,
-        offset.reshape(shape + axis),
-        bound.reshape(shape),
-        below.reshape(shape),
-        against.reshape(shape),
-        resonant.reshape(shape),
-        force.reshape(shape),
-        force_error.reshape(shape),
+    return Response._made(
+        None,
+        system=chain,
+        gravity=g,
+        conical_height=np.array(height),
+        angular_speed=np.array(speed),
+        support_radius=radius,
+        pins=which,
+        offset=offset.reshape(shape + axis),
+        error_bound=bound.reshape(shape),
+        modes_below=below.reshape(shape),
+        reversed=against.reshape(shape),
+        resonant=resonant.reshape(shape),
+        support_force=force.reshape(shape),
+        support_force_error=force_error.reshape(shape),
     )
 
 
@@ -283,109 +158,6 @@ def _pins(place: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[i
     if wrong.any():
         raise ValueError(f"{place}: pins must be numbers from 0 to {size}, got {asked[wrong].flat[0]}")
     return np.where(asked < 0, asked + size + 1, asked), asked.shape
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class SmallOscillation(Record):
-    """A hanging chain swinging in a plane, as the sum of its modes; returned by `small_oscillation`.
-
-    Attributes
-    ----------
-    chain : Chain
-        The chain of N links.
-    time : ndarray, shape (T,)
-        Times asked, in s.
-    offset, velocity : ndarray, shape (T, N + 1)
-        Of the pins, free end first, the support's 0 last. Sums of the k modes kept.
-    angular_frequency : ndarray, shape (k,)
-        Of each mode, ``sqrt(gravity / conical_height)``, ascending: the whirl speeds of `modes`.
-    energy : ndarray, shape (k,)
-        Of each mode, in weight times length; no mode gives any to another.
-    shape : ndarray, shape (k, N + 1)
-        Of each mode, the largest offset 1.
-    cosine, sine : ndarray, shape (k,)
-        Offsets are the sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.
-    start : ndarray, shape (N + 1,)
-        Offsets from which the chain starts: those given, but that pins without inertia are where the
-        pull of their neighbours has them at once.
-    projected : bool
-        Whether that is elsewhere than given.
-    energy_left_out : float
-        Of all that the start has beside the modes kept; an upper bound.
-    truncation_error : ndarray, shape (N + 1,)
-        Proved bound of what that may do to each offset, at any time.
-    error_bound : ndarray, shape (T,)
-        Proved bound of the error of every offset as a sum of the modes kept: rounding. It grows with time
-        only after some 1e9 swings.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> swing = rc.small_oscillation(rc.Chain(weight=1.0, length=9.80665), [0.1, 0.0], None, [0.0, 3.0])
-    >>> swing.offset.round(4)
-    array([[ 0.1  ,  0.   ],
-           [-0.099,  0.   ]])
-    """
-
-    chain: Chain
-    time: Floats
-    offset: Floats
-    velocity: Floats
-    angular_frequency: Floats
-    energy: Floats
-    shape: Floats
-    cosine: Floats
-    sine: Floats
-    start: Floats
-    projected: bool
-    energy_left_out: float
-    truncation_error: Floats
-    error_bound: Floats
-
-    def plot(
-        self, ax: Axes | None = None, *, kind: str = "shapes", pins: Iterable[int] = (0,), length_unit: str = "m"
-    ) -> Axes:
-        """Draw the chain at the times asked, or offsets of pins against time.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
-        kind : {"shapes", "time"}
-            Shapes from dark (early) to light, offsets stretched; or offsets against time.
-        pins : iterable of int
-            For ``"time"``: which pins, 0 the free end.
-        length_unit : str
-            What to write on the axes.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-
-        Raises
-        ------
-        ValueError
-            If `kind` is neither, or for pins there are not.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import revchain as rc
-        >>> chain = rc.Chain.uniform_plummets(10, length=1.0)
-        >>> plucked = np.interp(np.arange(11), [0, 5, 10], [0.0, 0.05, 0.0])
-        >>> ax = rc.small_oscillation(chain, plucked, None, np.linspace(0, 4, 300)).plot(kind="time", pins=[0, 5])
-        >>> ax.get_xlabel()
-        'time (s)'
-        """
-        from ..plots.response import plot_small_oscillation
-
-        return plot_small_oscillation(self, ax, kind, pins, length_unit=length_unit)
-
-    def __repr__(self) -> str:
-        times = "1 time" if self.time.size == 1 else f"{self.time.size:,} times"
-        return f"SmallOscillation at {times}: {self.energy.size:,} of {self.chain.mode_count:,} modes"
 
 
 def small_oscillation(
@@ -466,7 +238,8 @@ def small_oscillation(
     count = None if modes is None else limit(place, "modes", integer(place, "modes", modes))
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
     time = np.atleast_1d(time)
-    return SmallOscillation(chain, time, *_core.small_oscillation(core, start, speed, time, count, g))
+    found = _core.small_oscillation(core, start, speed, time, count, g)
+    return SmallOscillation._made(None, system=chain, gravity=g, time=np.array(time), **dict(zip(SWING, found, strict=True)))
 
 
 def _start(place: str, name: str, value: ArrayLike, size: int) -> Floats:
@@ -478,20 +251,3 @@ def _start(place: str, name: str, value: ArrayLike, size: int) -> Floats:
         )
     refuse_where(~np.isfinite(array), array, f"{place}: {name} must be finite")
     return array
-
-
-def _resonances(found: Response) -> list[float]:
-    """Whirl speeds between the least and the largest speed."""
-    speed = found.angular_speed.reshape(-1)
-    if speed.size == 0 or not isinstance(found.chain, Chain):
-        return []
-    chain, least, most = found.chain, float(speed.min()), float(speed.max())
-    height = found.conical_height.reshape(-1)
-    gravity = float(height[0] * found.angular_speed.reshape(-1)[0] ** 2)
-    if not 0 < least < most:
-        return []
-    below = count_modes(chain, angular_speed=np.array([least, most]), gravity=gravity)
-    count = int(below[1] - below[0])
-    if not 0 < count <= MOST_RESONANCES:
-        return []
-    return list(modes(chain, count, first=int(below[0]) + 1, gravity=gravity).angular_speed)

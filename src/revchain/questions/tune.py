@@ -3,60 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from .. import _core
+from ..results.tuned import Tuned
 from ..systems.chain import Chain, compiled
-from ..systems.numbers import STANDARD_GRAVITY, Floats, count, real, shown, word
+from ..systems.numbers import STANDARD_GRAVITY, count, real, shown, word
 from ..systems.rig import Rig
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Tuned:
-    """What `revchain.tune` found.
-
-    Attributes
-    ----------
-    status : str
-        ``"found"``; ``"no_value"`` where none does in the range; ``"undecided"`` where none was found and
-        that there is none could not be shown.
-    chain : Chain or None
-        The chain with `value` in place.
-    value : float or None
-        The one nearest to the present value (of weights, in ratio, and but for others within a few per cent of
-        it); None where none was found.
-    error_bound : float or None
-        Absolute, proved: `value` is that near to one that does exactly; None where none was found.
-    values : ndarray
-        Those found in the range, ascending.
-    complete : bool
-        Whether `values` are all there are in the range. Of a weight, what is known is the nearest on
-        either side of the present value.
-    present : float
-        The datum as it is.
-    between : (float, float)
-        The range searched.
-    reachable : (float, float) or None
-        Where none was found: the least and the largest conical height seen in the range, at 33 places.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> chain = rc.Chain(weight=[1.0, 3.0], length=1.0)
-    >>> rc.tune(chain, link=1, quantity="weight", conical_height=2.5).status
-    'no_value'
-    """
-
-    status: str
-    chain: Chain | None
-    value: float | None
-    error_bound: float | None
-    values: Floats
-    complete: bool
-    present: float
-    between: tuple[float, float]
-    reachable: tuple[float, float] | None
 
 
 def tune(
@@ -124,7 +77,7 @@ def tune(
     >>> tuned = rc.tune(chain, mode=2, link=1, quantity="weight", angular_speed=4.0, gravity=9.81)
     >>> round(tuned.value, 12)
     0.528051454425
-    >>> rc.modes(tuned.chain, gravity=9.81).angular_speed.round(12)[1]
+    >>> rc.modes(tuned.system, gravity=9.81).angular_speed.round(12)[1]
     np.float64(4.0)
     """
     place = "revchain.tune"
@@ -144,16 +97,18 @@ def tune(
         low,
         high,
     )
-    return Tuned(
-        status,
-        None if found is None else Chain._wrap(found),
-        None if found is None else value,
-        None if found is None else bound,
-        values,
-        complete,
-        present,
-        (low, high),
-        (lowest, highest) if status != "found" else None,
+    return Tuned._made(
+        None,
+        status=status,
+        system=None if found is None else Chain._wrap(found),
+        value=None if found is None else value,
+        error_bound=None if found is None else bound,
+        values=values,
+        complete=complete,
+        present=present,
+        between=(low, high),
+        reachable=(lowest, highest) if status != "found" else None,
+        datum=f"{quantity} of links[{link - 1}]",
     )
 
 

@@ -46,16 +46,17 @@ class Field(Generic[Value]):
         if result is None:
             return self
         kept = result._kept
-        if self.name not in kept:  # two threads may both compute it; they find the same
-            kept[self.name] = frozen(self.compute(result) if self.compute else getattr(result._found(), self.name))
-        return kept[self.name]
+        if self.name in kept:
+            return kept[self.name]
+        found = frozen(self.compute(result) if self.compute else getattr(result._found(), self.name))
+        return kept.setdefault(self.name, found)  # two threads that compute it at once get the same
 
     def __set__(self, result: Result, value: object) -> None:
         raise AttributeError(f"a {type(result).__name__} cannot be changed: {self.name} was not set")
 
 
 class Result(Unchangeable):
-    """What a question returns. It cannot be changed; two are equal when all that was found is; it can be pickled.
+    """What a question returns. It cannot be changed and can be pickled; two are equal if all their parts are.
 
     A class says what it holds by `Field`s, how it is shown by `_sheet`, and by `_again` how the question is asked again
     where a file did not hold what is asked for.
@@ -64,21 +65,22 @@ class Result(Unchangeable):
     __slots__ = ("_core", "_kept")
     _core: Any
     _kept: dict[str, Any]
-    fields: ClassVar[dict[str, Field[Any]]] = {}
-    kinds: ClassVar[dict[str, type[Result]]] = {}
+    _fields: ClassVar[dict[str, Field[Any]]] = {}
+    _kinds: ClassVar[dict[str, type[Result]]] = {}
 
     def __init_subclass__(cls, **given: Any) -> None:
         super().__init_subclass__(**given)
         own = {name: value for name, value in vars(cls).items() if isinstance(value, Field)}
-        cls.fields = {**cls.fields, **own}
-        Result.kinds[cls.__name__] = cls
+        cls._fields = {**cls._fields, **own}
+        if cls.__module__.startswith("revchain."):  # a class of a caller must not take the place of ours
+            Result._kinds[cls.__name__] = cls
 
     @classmethod
     def _made(cls, core: Any, **parts: Any) -> Self:
         """A result around a compiled one, and the parts that this does not hold."""
         result = object.__new__(cls)
         _set(result, "_core", core)
-        _set(result, "_kept", parts)
+        _set(result, "_kept", {name: frozen(value) for name, value in parts.items()})
         return result
 
     def _found(self) -> Any:
@@ -96,8 +98,8 @@ class Result(Unchangeable):
 
     def _state(self) -> dict[str, Any]:
         """All parts, and what else was computed."""
-        parts = {name: getattr(self, name) for name, field in self.fields.items() if field.part}
-        return parts | {name: value for name, value in self._kept.items() if name in self.fields}
+        parts = {name: getattr(self, name) for name, field in self._fields.items() if field.part}
+        return parts | {name: value for name, value in dict(self._kept).items() if name in self._fields}
 
     def to_dict(self) -> dict[str, Any]:
         """Return everything that the table is made of as plain Python data.
@@ -167,7 +169,7 @@ class Result(Unchangeable):
         if type(other) is not type(self):
             return NotImplemented
         return all(
-            same(getattr(self, name), getattr(other, name)) for name, field in self.fields.items() if field.part
+            same(getattr(self, name), getattr(other, name)) for name, field in self._fields.items() if field.part
         )
 
     __hash__ = None  # type: ignore[assignment]
@@ -187,8 +189,41 @@ class Result(Unchangeable):
     def _repr_html_(self) -> str:
         return as_html(self._sheet(brief=True))
 
-    def __dir__(self) -> list[str]:
-        return [name for name in super().__dir__() if name not in ("fields", "kinds")]
+
+class Results(Result, Sequence[Item]):
+    """A list of results, with fields of its own."""
+
+    __slots__ = ()
+    items: Field[tuple[Any, ...]] = Field("The results.", part=True)
+
+    @overload
+    def __getitem__(self, index: int) -> Item: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Item, ...]: ...
+    def __getitem__(self, index: int | slice) -> Any:
+        return self.items[index]
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __contains__(self, value: object) -> bool:
+        return self.count(value) > 0
+
+    def count(self, value: object) -> int:
+        """How many of the results equal `value`."""
+        return sum(value is item or (type(value) is type(item) and value == item) for item in self)
+
+    def index(self, value: object, start: int = 0, stop: int | None = None) -> int:
+        """The place of the first result that equals `value`, from `start` on and before `stop`."""
+        place = f"{type(self).__name__}.index"
+        ends = integer(place, "start", start), None if stop is None else integer(place, "stop", stop)
+        for number in range(len(self))[slice(*ends)]:
+            if value is self[number] or (type(value) is type(self[number]) and value == self[number]):
+                return number
+        raise ValueError(f"{place}: none of the {len(self)} results is {shown(value)}")
+
+    def __iter__(self) -> Iterator[Item]:
+        return iter(self.items)
 
 
 _set = object.__setattr__
@@ -196,7 +231,7 @@ _set = object.__setattr__
 
 def restored(kind: type[Result], state: dict[str, Any]) -> Result:
     """A result from its state."""
-    return kind._made(None, **{name: frozen(value) for name, value in state.items()})
+    return kind._made(None, **state)
 
 
 def frozen(value: Any) -> Any:
@@ -232,7 +267,7 @@ class Wrapped(Generic[Compiled, Given]):
         return result
 
 
-class Results(Sequence[Item]):
+class WrappedList(Sequence[Item]):
     """A list of results that cannot be changed; what is said of the list as a whole is up to its kind."""
 
     __slots__ = ("_items",)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 Complex = NDArray[np.complex128]
 TURN = 8 * np.arctan(np.longdouble(1))
-MOST_LINKS = 10_000  # of chains whose nodes are found for a table
+MOST_OFFSETS = 100_000  # that are computed for the nodes of a table
 TURN64 = 2 * np.pi
 SPEED_ROUNDING = 2.1 * 2.0**-52  # of a speed found from a height
 
@@ -53,6 +53,7 @@ class Certificate(Result):
     """
 
     __slots__ = ()
+    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
     lower: Field[Numbers] = Field("Lower end of each interval, shape (k,); 0 where nothing could be proved.", part=True)
     upper: Field[Numbers] = Field("Upper ends, shape (k,); infinite where nothing could be proved.", part=True)
     above_lower: Field[Whole] = Field("Proved count of the heights above each lower end, shape (k,).", part=True)
@@ -64,14 +65,14 @@ class Certificate(Result):
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
-            Column("number", np.arange(1, len(self.lower) + 1), "interval"),
+            Column("mode", self.number, "mode"),
             Column("lower", self.lower, "height is above (m)", 17),
             Column("upper", self.upper, "and up to (m)", 17),
             Column("above_lower", self.above_lower, "heights above the first"),
             Column("above_upper", self.above_upper, "and above the second"),
         ]
         columns += _rest("lower", self.lower, self.lower_low) + _rest("upper", self.upper, self.upper_low)
-        return Sheet("number", "Certificate: intervals proved to hold the conical heights", columns)
+        return Sheet("mode", "Certificate: intervals proved to hold the conical heights", columns)
 
 
 def _speeds(function: Callable[[Any, Any], Any]) -> Callable[[Modes], Numbers]:
@@ -135,7 +136,7 @@ class Modes(Result):
     )
     speed_error_bound: Field[Floats] = Field(
         "Bound of the relative error of each angular speed, frequency and period, shape (k,), for gravity as given.",
-        lambda m: 0.5 * m.error_bound.astype(np.float64) * (1 + 1e-9) + SPEED_ROUNDING,
+        lambda m: _speed_bound(m.error_bound.astype(np.float64)),
     )
     conical_height: Field[Numbers] = Field(
         "Height ``gravity / angular_speed**2`` of the equivalent conical pendulum, m, shape (k,), descending.",
@@ -163,7 +164,7 @@ class Modes(Result):
     )
     certificate: Field[Certificate | None] = Field(
         "What proves the error bounds, if ``certify=True`` was asked.",
-        lambda m: _certificate(m._found().certificate),
+        lambda m: _certificate(m.number, m._found().certificate),
         part=True,
     )
     method: Field[str] = Field("The method that found the heights.", part=True)
@@ -206,7 +207,7 @@ class Modes(Result):
         if isinstance(self.system, Rig):
             raise ValueError("revchain.RigModes.at: a rig has other modes under another gravity; ask revchain.modes again")
         speeds = ("angular_speed", "frequency", "rpm", "period")
-        kept = {name: value for name, value in self._kept.items() if name not in speeds}
+        kept = {name: value for name, value in dict(self._kept).items() if name not in speeds}
         kept["gravity"] = one_positive("revchain.Modes.at", "gravity", gravity)
         return type(self)._made(self._core, **kept)
 
@@ -330,7 +331,7 @@ class Modes(Result):
 
     def _shape_columns(self, brief: bool) -> list[Column]:
         """A table is brief: it shows nodes where they are known or soon found."""
-        if brief and "nodes" not in self._kept and self.system.size > MOST_LINKS:
+        if brief and "nodes" not in self._kept and self.system.size * len(self) > MOST_OFFSETS:
             return []
         nodes = Column("nodes", self.nodes, "nodes (m from the free end)", axes=("node",), shown=_texts(self.nodes))
         return [nodes] if brief else [nodes, Column("residual", self.residual), Column("shape", self.shape, axes=("pin",))]
@@ -353,7 +354,7 @@ class Modes(Result):
 
 
 class OtherModes(Result):
-    """What is no steady motion of a rig: conical heights that are negative or complex, or complex speeds; `m` of them.
+    """The `m` solutions of a rig that are not steady motions: negative or complex conical heights, or complex speeds.
 
     Infinite heights, speed 0, are those of links that weigh nothing in the fluid: these stay wherever they are put.
     """
@@ -378,10 +379,10 @@ class OtherModes(Result):
             Column("number", np.arange(1, len(self) + 1), ""),
             Column("conical_height", self.conical_height, "height (m)", shown=shown),
             Column("angular_speed", self.angular_speed),
-            Column("growth_rate", self.growth_rate, "falls away as exp(r t), r (1/s)"),
+            Column("growth_rate", self.growth_rate, "growth rate (1/s)"),
             Column("error_bound", self.error_bound, "error bound"),
         ]
-        return Sheet("number", f"{len(self)} without a steady motion", columns)
+        return Sheet("number", f"{len(self)} solutions that are not steady motions", columns)
 
 
 class RigModes(Modes):
@@ -417,7 +418,7 @@ class RigModes(Modes):
         "Whether a flywheel has momentum of its own, so that the two directions differ.", part=True
     )
     other: Field[OtherModes] = Field(
-        "What is no steady motion.",
+        "The solutions that are not steady motions.",
         lambda m: OtherModes._made(
             None,
             conical_height=m._found().other_height,
@@ -493,12 +494,10 @@ class RigModes(Modes):
         notes = [f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"]
         if self.has_momentum:
             notes.append("negative speeds: backward, against wheels whose momentum is positive")
-        notes += [
-            f"link {link} goes slack at {at:.6g} rad/s"
-            for link, at in zip(self.slack_link, self.slack_speed, strict=True)
-        ]
+        slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(self.slack_link, self.slack_speed, strict=True)]
+        notes += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
         if len(self.other):
-            notes.append(f"{len(self.other)} without a steady motion, listed in other")
+            notes.append(f"{len(self.other)} solutions are not steady motions: other")
         total = sum(self.available)
         return Sheet(
             "mode",
@@ -532,6 +531,13 @@ def _texts(nodes: Iterable[Numbers]) -> list[str]:
     return [text(places) for places in nodes]
 
 
+def _speed_bound(error: Floats) -> Floats:
+    """Bound for a speed whose height is off by so much: ``(1 - error)**-0.5 - 1``, and rounding; infinite from 1 on."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bound = np.expm1(-0.5 * np.log1p(-np.minimum(error, 1.0)))
+    return np.asarray(bound * (1 + 1e-9) + SPEED_ROUNDING)
+
+
 def _rest(name: str, values: Numbers, low: Floats | None) -> list[Column]:
     """What a float of a dictionary or a text file cannot hold of the values, as a column; none where they are doubles."""
     if low is None and values.dtype == np.longdouble:
@@ -540,16 +546,16 @@ def _rest(name: str, values: Numbers, low: Floats | None) -> list[Column]:
     return [] if low is None else [Column(f"{name}_low", low)]
 
 
-def _certificate(found: tuple[Any, ...] | None) -> Certificate | None:
+def _certificate(number: Whole, found: tuple[Any, ...] | None) -> Certificate | None:
     names = ("lower", "upper", "above_lower", "above_upper", "lower_low", "upper_low")
-    return None if found is None else Certificate._made(None, **dict(zip(names, found, strict=True)))
+    return None if found is None else Certificate._made(None, number=number, **dict(zip(names, found, strict=True)))
 
 
 def _sensitivity(modes: Modes) -> Any:
     from . import sensitivity
 
-    if isinstance(modes.system, Rig):
-        return sensitivity.of_rig(modes.system, modes.angular_speed, modes.shape, modes.gravity)
+    if isinstance(modes, RigModes):
+        return sensitivity.of_rig(modes)
     return sensitivity.of_modes(modes)
 
 

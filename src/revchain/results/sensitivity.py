@@ -9,19 +9,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import Floats, floats, shown
+from ..systems.numbers import Floats, Whole, floats, shown
 from .base import Field, Result
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
-    from ..systems.rig import Rig
-    from .modes import Modes
+    from .modes import Modes, RigModes
 
 
 class _ByDatum(Result):
     """One array for each datum of a link."""
 
     __slots__ = ()
+    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
 
     def __getitem__(self, quantity: str) -> Floats:
         """The array of a quantity by its name."""
@@ -30,11 +30,10 @@ class _ByDatum(Result):
         return getattr(self, quantity)  # type: ignore[no-any-return]
 
     def _columns(self, shown_link: int = 0) -> list[Column]:
-        count = len(self["weight"])
-        columns = [Column("mode", np.arange(1, count + 1), "row")]
+        columns = [Column("mode", self.number, "mode")]
         for name in _core.DATA:
             values = self[name]
-            heading = f"{name} of link {shown_link}" if values.ndim == 2 and values.shape[1] else ""
+            heading = f"{name} of links[{shown_link}]" if values.ndim == 2 and values.shape[1] else ""
             columns.append(
                 Column(name, values, heading, axes=("link",), shown=values[:, shown_link] if heading else None)
             )
@@ -130,7 +129,8 @@ class Uncertainty(Result):
     """
 
     __slots__ = ()
-    conical_height: Field[Floats] = Field("Of each conical height, m, shape (k,).", part=True)
+    number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
+    conical_height: Field[Floats] = Field("Standard deviation of each conical height, m, shape (k,).", part=True)
     relative: Field[Floats] = Field(
         "The same over the heights, shape (k,). For speeds, periods and frequencies half as much.", part=True
     )
@@ -146,11 +146,11 @@ class Uncertainty(Result):
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
-            Column("mode", np.arange(1, len(self.relative) + 1), "row"),
+            Column("mode", self.number, "mode"),
             Column("conical_height", self.conical_height, "of the height (m)"),
             Column("relative", self.relative, "relative"),
             Column("angular_speed", self.angular_speed, "of the speed (rad/s)"),
-            Column("largest", [f"{datum} of link {link}" for datum, link in self.largest], "most comes from"),
+            Column("largest", [f"{datum} of links[{link}]" for datum, link in self.largest], "most comes from"),
         ]
         return Sheet("mode", "Standard deviations", columns)
 
@@ -170,11 +170,17 @@ def of_modes(modes: Modes) -> Sensitivity:
     }
     named = dict(zip(_core.DATA, values, strict=True))
     relative = {name: value * (data[name] / heights[:, None]) for name, value in named.items()}
-    return Sensitivity._made(None, **named, error_bound=_derivatives(bounds), relative=_derivatives(relative.values()))
+    return Sensitivity._made(
+        None,
+        number=modes.number,
+        **named,
+        error_bound=_derivatives(modes, bounds),
+        relative=_derivatives(modes, relative.values()),
+    )
 
 
-def _derivatives(values: Any) -> Derivatives:
-    return Derivatives._made(None, **dict(zip(_core.DATA, values, strict=True)))
+def _derivatives(modes: Modes, values: Any) -> Derivatives:
+    return Derivatives._made(None, number=modes.number, **dict(zip(_core.DATA, values, strict=True)))
 
 
 def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty:
@@ -198,10 +204,11 @@ def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty
     )
     return Uncertainty._made(
         None,
+        number=modes.number,
         conical_height=height,
         relative=relative,
         angular_speed=0.5 * relative * np.asarray(modes.angular_speed, np.float64),
-        share=_derivatives(share),
+        share=_derivatives(modes, share),
         largest=tuple(zip(datum, link, strict=True)),
     )
 
@@ -225,6 +232,8 @@ class RigSensitivity(Result):
     """
 
     __slots__ = ()
+    number: Field[Whole] = Field("Mode numbers, shape (k,), each among those of its direction.", part=True)
+    direction: Field[Whole] = Field("1 forward, -1 backward, shape (k,).", part=True)
     weight: Field[Floats] = Field("With respect to the weight of each link, shape (k, N).", part=True)
     length: Field[Floats] = Field(
         "With respect to the distance between its pins: the lower pin moves; flywheels keep their momentum, what is "
@@ -243,7 +252,7 @@ class RigSensitivity(Result):
     carriage_weight: Field[Floats] = Field("Of the support, shape (k,); 0 where it is firm.", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("mode", np.arange(1, len(self.stiffness) + 1), "row")]
+        columns = [Column("mode", self.number, "mode"), Column("direction", self.direction, "direction")]
         for name in _OF_LINKS:
             values = getattr(self, name)
             columns.append(Column(name, values, name, axes=("link",), shown=values[:, 0]))
@@ -264,11 +273,16 @@ _OF_LINKS = (
 _OF_SUPPORT = ("stiffness", "carriage_weight")
 
 
-def of_rig(rig: Rig, speeds: Floats, offsets: Floats, gravity: float) -> RigSensitivity:
+def of_rig(modes: RigModes) -> RigSensitivity:
     """`RigModes.sensitivity`."""
-    rows = [_core.rig_sensitivity(rig._compiled, float(n), y, gravity) for n, y in zip(speeds, offsets, strict=True)]
+    rig = modes.system
+    rows = [
+        _core.rig_sensitivity(rig._compiled, float(n), y, modes.gravity)
+        for n, y in zip(modes.angular_speed, modes.shape, strict=True)
+    ]
     if rows:
         columns: list[Any] = [np.array(column) for column in zip(*rows, strict=True)]
     else:
         columns = [np.empty((0, rig.size))] * len(_OF_LINKS) + [np.empty(0)] * len(_OF_SUPPORT)
-    return RigSensitivity._made(None, **dict(zip((*_OF_LINKS, *_OF_SUPPORT), columns, strict=True)))
+    named = dict(zip((*_OF_LINKS, *_OF_SUPPORT), columns, strict=True))
+    return RigSensitivity._made(None, number=modes.number, direction=modes.direction, **named)

@@ -34,7 +34,7 @@ class Column:
     heading : str
         In tables for people, with the unit; a column without one is not shown there.
     digits : int
-        That are shown.
+        Significant digits in tables.
     axes : tuple of str
         Names of the axes after the first.
     shown : array, optional
@@ -79,6 +79,8 @@ class Sheet:
         Below the table.
     good : bool
         Whether everything was found and proved.
+    spread : bool
+        Whether a table too long to be shown shows rows evenly spaced, not the first.
     """
 
     row: str
@@ -87,6 +89,7 @@ class Sheet:
     facts: dict[str, Any] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     good: bool = True
+    spread: bool = False
 
     def __len__(self) -> int:
         return len(self.columns[0].values) if self.columns else 0
@@ -98,27 +101,32 @@ def digits(number: float, count: int) -> str:
 
 
 def cells(sheet: Sheet) -> tuple[list[str], list[list[str]], list[str]]:
-    """Headings, the first rows as text, and the lines below."""
+    """Headings, some rows as text, and the lines below."""
     shown = [column for column in sheet.columns if column.heading]
-    rows = [[column.cell(k) for column in shown] for k in range(min(len(sheet), MOST_ROWS))]
-    hidden = len(sheet) - MOST_ROWS
+    if not shown:
+        return [], [], sheet.notes
+    count = min(len(sheet), MOST_ROWS)
+    last = len(sheet) if sheet.spread else count
+    rows = [[column.cell(int(k)) for column in shown] for k in np.linspace(0, last - 1, count).round()]
+    hidden = len(sheet) - count
     return [column.heading for column in shown], rows, ([f"and {hidden:,} more"] if hidden > 0 else []) + sheet.notes
 
 
 def as_text(sheet: Sheet) -> str:
-    """For a prompt."""
+    """The table that a prompt shows."""
     headings, rows, notes = cells(sheet)
-    widths = [max(map(len, column)) for column in zip(headings, *rows, strict=True)]
-    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in (headings, *rows)]
-    return "\n".join([sheet.heading, *(lines if rows else []), *notes])
+    widths = [max(map(len, column)) for column in zip(headings, *rows, strict=True)] if rows else []
+    table = [headings, *rows] if rows else []
+    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in table]
+    return "\n".join([sheet.heading, *lines, *notes])
 
 
 def as_html(sheet: Sheet) -> str:
-    """For a notebook."""
+    """The table that a notebook shows."""
     headings, rows, notes = cells(sheet)
     head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
     body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
-    foot = f'<tr><td colspan="{len(headings)}">{escape("; ".join(notes))}</td></tr>' if notes else ""
+    foot = f'<tr><td colspan="{max(len(headings), 1)}">{escape("; ".join(notes))}</td></tr>' if notes else ""
     return (
         f"<table><caption>{escape(sheet.heading)}</caption><thead><tr>{head}</tr></thead>"
         f"<tbody>{body}</tbody><tfoot>{foot}</tfoot></table>"
@@ -172,7 +180,9 @@ def as_dataframe(sheet: Sheet) -> Any:
     """A row of pandas for each row; facts are its ``attrs``; columns of arrays are left out."""
     pandas = require("pandas", "tables", "to_dataframe")
     columns = {column.name: column.values for column in sheet.columns if not column.axes}
-    table = pandas.DataFrame(columns).set_index(sheet.row)
+    table = pandas.DataFrame(columns)
+    if sheet.row in columns and table[sheet.row].is_unique:
+        table = table.set_index(sheet.row)
     table.attrs.update(plain(sheet.facts))
     return table
 

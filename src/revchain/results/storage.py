@@ -29,11 +29,11 @@ def save(result: Result, path: str | os.PathLike[str]) -> None:
     """See `Result.save`."""
     ending = _ending(f"revchain.{type(result).__name__}.save", path)
     arrays: dict[str, np.ndarray[Any, Any]] = {}
-    header = json.dumps({"format": FORMAT, "result": _packed(result, type(result).__name__, arrays)})
-    dataset = None
     if ending == ".nc":
         _netcdf("saving .nc files")
-        dataset = _dataset(result, header, arrays)
+        labelled = result.to_xarray()  # reads what it shows: that is saved, too
+    header = json.dumps({"format": FORMAT, "result": _packed(result, type(result).__name__, arrays, {})})
+    dataset = _dataset(labelled, header, arrays) if ending == ".nc" else None
     with naming(path), written_aside(path) as [aside]:
         if dataset is not None:
             _write_netcdf(dataset, aside)
@@ -85,7 +85,9 @@ def load(path: str | os.PathLike[str]) -> Any:
             reason = "not a result that revchain saved, or damaged since; compute and save it again"
             raise ValueError(f"{os.fspath(path)}: {reason}")
         if ending == ".npz":
-            arrays = dict(np.load(path, allow_pickle=False))
+            file.seek(0)
+            with np.load(file, allow_pickle=False) as kept:
+                arrays = dict(kept)
             return _loaded(path, arrays.get(HEADER), arrays)
     with xarray.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
         whole = dataset.load()
@@ -97,12 +99,12 @@ def _loaded(path: str | os.PathLike[str], header: Any, arrays: Mapping[str, Any]
     if said.get("format") != FORMAT:
         other = said.get("format", "an earlier one")
         raise ValueError(f"{os.fspath(path)}: is a file of another version, {other}; compute and save the result again")
-    found: Result = _unpacked(said["result"], arrays)
+    found: Result = _unpacked(said["result"], arrays, {})
     return found
 
 
-def _packed(value: Any, name: str, arrays: dict[str, Any]) -> Any:
-    """`value` as JSON has it; its arrays go into `arrays` by name."""
+def _packed(value: Any, name: str, arrays: dict[str, Any], made: dict[int, str]) -> Any:
+    """`value` as JSON has it; its arrays go into `arrays` by name, and each system once, named in `made`."""
     if isinstance(value, np.ndarray):
         if value.dtype.kind != "c":
             arrays[name] = value
@@ -110,19 +112,25 @@ def _packed(value: Any, name: str, arrays: dict[str, Any]) -> Any:
         arrays[name] = np.stack([value.real, value.imag], axis=-1)  # netCDF has no complex numbers
         return {"complex": name}
     if isinstance(value, Result):
-        state = {key: _packed(item, f"{name}.{key}", arrays) for key, item in value._state().items()}
+        state = {key: _packed(item, f"{name}.{key}", arrays, made) for key, item in value._state().items()}
         return {"result": type(value).__name__, "state": state}
     if isinstance(value, tuple(SYSTEMS.values())):
         of_system: Any = value
-        return {"system": type(value).__name__, "state": _packed(of_system._state(), name, arrays)}
+        if id(value) in made:
+            return {"same": made[id(value)]}
+        made[id(value)] = name
+        return {"system": type(value).__name__, "name": name, "state": _packed(of_system._state(), name, arrays, made)}
     if isinstance(value, dict):
-        return {"dict": {key: _packed(item, f"{name}.{key}", arrays) for key, item in value.items()}}
+        return {"dict": {key: _packed(item, f"{name}.{key}", arrays, made) for key, item in value.items()}}
+    if isinstance(value, tuple) and value and all(isinstance(x, np.ndarray) and x.ndim == 1 for x in value):
+        arrays[name] = np.concatenate(value)  # one array, not one for each mode
+        return {"arrays": name, "lengths": [len(x) for x in value]}
     if isinstance(value, tuple):
-        return {"tuple": [_packed(item, f"{name}.{k}", arrays) for k, item in enumerate(value)]}
+        return {"tuple": [_packed(item, f"{name}.{k}", arrays, made) for k, item in enumerate(value)]}
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _unpacked(value: Any, arrays: Mapping[str, Any]) -> Any:
+def _unpacked(value: Any, arrays: Mapping[str, Any], made: dict[str, Any]) -> Any:
     if not isinstance(value, dict):
         return value
     if "array" in value:
@@ -133,21 +141,31 @@ def _unpacked(value: Any, arrays: Mapping[str, Any]) -> Any:
         number.real, number.imag = pairs[..., 0], pairs[..., 1]
         return number
     if "result" in value:
-        state = {key: _unpacked(item, arrays) for key, item in value["state"].items()}
-        return restored(Result.kinds[value["result"]], state)
+        state = {key: _unpacked(item, arrays, made) for key, item in value["state"].items()}
+        if value["result"] not in Result._kinds:
+            raise ValueError(f"a file holds a {value['result']}, which this version of revchain does not know")
+        return restored(Result._kinds[value["result"]], state)
     if "system" in value:
-        return SYSTEMS[value["system"]]._from_state(_unpacked(value["state"], arrays))
+        made[value["name"]] = SYSTEMS[value["system"]]._from_state(_unpacked(value["state"], arrays, made))
+        return made[value["name"]]
+    if "same" in value:
+        return made[value["same"]]
+    if "arrays" in value:
+        return tuple(np.split(arrays[value["arrays"]], np.cumsum(value["lengths"])[:-1]))
     if "dict" in value:
-        return {key: _unpacked(item, arrays) for key, item in value["dict"].items()}
-    return tuple(_unpacked(item, arrays) for item in value["tuple"])
+        return {key: _unpacked(item, arrays, made) for key, item in value["dict"].items()}
+    return tuple(_unpacked(item, arrays, made) for item in value["tuple"])
 
 
-def _dataset(result: Result, header: str, arrays: dict[str, Any]) -> Any:
+def _dataset(dataset: Any, header: str, arrays: dict[str, Any]) -> Any:
     """The labelled data set, and beside it, exactly, what the result is made of again from."""
-    dataset = result.to_xarray().assign_attrs({HEADER: header})
-    for name, array in arrays.items():
-        dataset[name] = ([f"{name}_{axis}" for axis in range(array.ndim)], array)
-    return dataset
+    dataset = dataset.assign_attrs({HEADER: header})
+    for name in [name for name, column in dataset.variables.items() if column.dtype.kind == "c"]:
+        dataset[f"{name}_real"], dataset[f"{name}_imaginary"] = dataset[name].real, dataset[name].imag
+        dataset = dataset.drop_vars(name)
+    return dataset.assign(
+        {name: ([f"{name}_{axis}" for axis in range(array.ndim)], array) for name, array in arrays.items()}
+    )
 
 
 def _seal(file: IO[bytes], size: int | None = None) -> bytes:

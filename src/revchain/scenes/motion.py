@@ -9,8 +9,10 @@ import numpy as np
 from msgspec import UNSET, UnsetType
 
 from ..questions.held import HeldShape, HeldShapes, TautModes, held_shapes, taut_modes
-from ..questions.response import Response, SmallOscillation, response, small_oscillation
-from ..questions.shapes import SteadyShapes, steady_shapes
+from ..questions.response import response, small_oscillation
+from ..questions.shapes import steady_shapes
+from ..results.motions import Response, SmallOscillation
+from ..results.shapes import SteadyShapes
 from ..systems.chain import Chain
 from ..systems.numbers import Floats, one_positive
 from ..systems.rig import Rig

@@ -10,9 +10,9 @@ from msgspec import UNSET, Meta, UnsetType, json, to_builtins
 
 from ..questions.held import HeldShape, HeldShapes, TautModes
 from ..questions.modes import modes
-from ..questions.response import Response, SmallOscillation
-from ..questions.shapes import SteadyShapes
 from ..results.modes import Modes, RigModes
+from ..results.motions import Response, SmallOscillation
+from ..results.shapes import SteadyShapes
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import STANDARD_GRAVITY, text
 from ..systems.rig import Rig, base_chain
@@ -323,8 +323,9 @@ class Scene(Table, frozen=True):
         >>> import revchain as rc
         >>> chair = {"mass": 80, "length": 4.0}
         >>> scene = rc.Scene.from_dict({"links": [chair], "support": {"radius": "1 m"}})
-        >>> scene.steady_shapes(angular_speed=3.0)
-        SteadyShapes: 3, proved complete
+        >>> shapes = scene.steady_shapes(angular_speed=3.0)
+        >>> len(shapes), shapes.complete
+        (3, True)
         """
         return shapes_of(self._hung("scene"), self.held, self.ask.shapes, changed, self.gravity_value(), "scene")
 

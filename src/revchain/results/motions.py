@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small motions: the response to a support carried round, and the swing after release."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from ..systems.chain import Chain
+from ..systems.numbers import Floats, Whole, boolean
+from .base import Field, Result
+from .sheet import Column, Sheet
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Flags = NDArray[np.bool_]
+MOST_RESONANCES = 60  # marked in a plot: more would blacken it
+
+
+class Response(Result):
+    """What a chain or rig does whose support is carried round a circle, at one speed or many; returned by `response`.
+
+    Arrays have the shape of the speeds asked, ``(...)``, those of pins one axis more. Carried to and fro along a line
+    instead (base excitation), the numbers are the same as amplitudes, everything in phase or in antiphase.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> found = rc.response(rc.Chain(weight=[1.0, 3.0], length=1.0), conical_height=[3.0, 1.0, 0.1])
+    >>> found.offset
+    array([[ 2.4       ,  1.6       ,  1.        ],
+           [-4.        ,  0.        ,  1.        ],
+           [ 0.01785714, -0.16071429,  1.        ]])
+    >>> found.modes_below
+    array([0, 1, 2])
+    """
+
+    __slots__ = ()
+    system: Field[Any] = Field("The chain or rig.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    angular_speed: Field[Floats] = Field("Speeds of the support, rad/s, shape (...).", part=True)
+    conical_height: Field[Floats] = Field("Their conical heights, ``gravity / angular_speed**2``, m.", part=True)
+    support_radius: Field[float] = Field("Radius of the circle, m.", part=True)
+    pins: Field[Whole] = Field(
+        "Which pins, from 0 for the free end, shape (P,); of shape () where one was asked for by its number, and `offset` "
+        "then has no axis for it.",
+        part=True,
+    )
+    offset: Field[Floats] = Field(
+        "Offsets of the pins from the axis, m, shape (..., P), positive on the side on which the support is. NaN at a "
+        "resonance.",
+        part=True,
+    )
+    amplification: Field[Floats] = Field(
+        "Offsets over the radius of the circle, shape (..., P).", lambda r: np.asarray(r.offset / r.support_radius)
+    )
+    error_bound: Field[Floats] = Field(
+        "Proved bound of the error of every offset of the chain, over the largest of them, shape (...): half an ulp but "
+        "next to a resonance, infinite at one.",
+        part=True,
+    )
+    modes_below: Field[Whole] = Field(
+        "How many whirl speeds of the chain, with its support held, are below the speed, shape (...). A resonance that "
+        "the speed cannot be told from is not counted.",
+        part=True,
+    )
+    reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).", part=True)
+    resonant: Field[Flags] = Field("Whether the speed cannot be told from a resonance, shape (...).", part=True)
+    support_force: Field[Floats] = Field(
+        "Horizontal pull of the chain on what carries its support, outwards, in the unit of the weights, shape (...).",
+        part=True,
+    )
+    support_force_error: Field[Floats] = Field("Proved bound of its error, in the same unit.", part=True)
+
+    def plot(self, ax: Axes | None = None, pins: Iterable[int] | None = None, *, resonances: bool = True) -> Axes:
+        """Draw how far chosen pins are from the axis against the speed, the largest scale logarithmic.
+
+        Dashed where a pin is on the side opposite to the support; vertical lines mark the resonances.
+        A response at one speed is drawn as a shape: the offsets of the pins against their depths.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        pins : iterable of int, optional
+            Which pins of this result. If left out: the lowest and up to three others, evenly spaced; at one
+            speed all.
+        resonances : bool
+            Whether to mark the whirl speeds in the range of the plot; never done for a `Rig`.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If `pins` names one that is not in this result, or the result has no speed.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import revchain as rc
+        >>> chain = rc.Chain.uniform_rods(20, length=0.36)
+        >>> ax = rc.response(chain, angular_speed=np.linspace(1.0, 30.0, 400)).plot()
+        >>> ax.get_xlabel()
+        'angular speed (rad/s)'
+        """
+        from ..plots.response import plot_response
+
+        marked = boolean("Response.plot", "resonances", resonances) and isinstance(self.system, Chain)
+        return plot_response(self, ax, pins, self._resonances() if marked else [])
+
+    def _resonances(self) -> list[float]:
+        """Whirl speeds between the least and the largest speed."""
+        speed, core = self.angular_speed.reshape(-1), self.system._compiled
+        if speed.size == 0 or not 0 < speed.min() < speed.max():
+            return []
+        ends = np.array([speed.min(), speed.max()])
+        below = _core.count_modes_at_speed(core, ends, np.full(2, self.gravity))
+        count = int(below[1] - below[0])
+        if not 0 < count <= MOST_RESONANCES:
+            return []
+        found = _core.modes(core, int(below[0]) + 1, count, None, None, None, False, "double", "auto")
+        return list(np.sqrt(self.gravity / found.conical_height))
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        speed = self.angular_speed.reshape(-1)
+        pins = np.atleast_1d(self.pins)
+        offset = self.offset.reshape(speed.size, pins.size) if pins.size else np.full((speed.size, 1), np.nan)
+        pin = int(pins[0]) if pins.size else 0
+        name = "free end" if pin == 0 else f"pin {pin}"
+        columns = [
+            Column("angular_speed", speed, "speed (rad/s)", 5),
+            Column("rpm", speed * (30 / np.pi), "speed (rpm)", 5),
+            Column("modes_below", self.modes_below.reshape(-1), "modes below"),
+            Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5),
+            Column("first_pin_amplification", offset[:, 0] / self.support_radius, "over support", 4),
+            Column("largest_offset", np.abs(offset).max(axis=1, initial=0.0), "farthest pin (m)", 5),
+            Column("support_force", self.support_force.reshape(-1), "pull on support (N)", 5),
+            Column("error_bound", self.error_bound.reshape(-1), "error bound"),
+            Column("conical_height", self.conical_height.reshape(-1)),
+            Column("resonant", self.resonant.reshape(-1)),
+            Column("reversed", self.reversed.reshape(-1)),
+            Column("support_force_error", self.support_force_error.reshape(-1)),
+            Column("offset", offset, axes=("pin",)),
+        ]
+        notes = [
+            "negative: against the support; nan: a resonance",
+            "error bound: of every offset, over the largest; pull: of the chain, outwards",
+        ]
+        heading = f"support carried round a circle of {self.support_radius:g} m, or to and fro as far"
+        facts = {"gravity": self.gravity, "support_radius": self.support_radius, "pins": self.pins}
+        return Sheet("speed", heading, columns, facts, notes, spread=True)
+
+
+SWING = (
+    "offset",
+    "velocity",
+    "angular_frequency",
+    "energy",
+    "shape",
+    "cosine",
+    "sine",
+    "start",
+    "projected",
+    "energy_left_out",
+    "truncation_error",
+    "error_bound",
+)
+
+
+class SmallOscillation(Result):
+    """A hanging chain swinging in a plane after release, as the sum of its modes; returned by `small_oscillation`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> swing = rc.small_oscillation(rc.Chain(weight=1.0, length=9.80665), [0.1, 0.0], None, [0.0, 3.0])
+    >>> swing.offset.round(4)
+    array([[ 0.1  ,  0.   ],
+           [-0.099,  0.   ]])
+    """
+
+    __slots__ = ()
+    system: Field[Chain] = Field("The chain of N links.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    time: Field[Floats] = Field("Times asked, s, shape (T,).", part=True)
+    offset: Field[Floats] = Field(
+        "Offsets of the pins, m, shape (T, N + 1), free end first, the support's 0 last: sums of the k modes kept.",
+        part=True,
+    )
+    velocity: Field[Floats] = Field("Velocities of the pins, m/s, shape (T, N + 1).", part=True)
+    angular_frequency: Field[Floats] = Field(
+        "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`.", part=True
+    )
+    energy: Field[Floats] = Field(
+        "Energy of each mode, weight times length, shape (k,); no mode gives any to another.", part=True
+    )
+    shape: Field[Floats] = Field("Shape of each mode, shape (k, N + 1), the largest offset 1.", part=True)
+    cosine: Field[Floats] = Field(
+        "Shape (k,): offsets are the sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.", part=True
+    )
+    sine: Field[Floats] = Field("Shape (k,), as said of `cosine`.", part=True)
+    start: Field[Floats] = Field(
+        "Offsets from which the chain starts, shape (N + 1,): those given, but pins without inertia are where the pull of "
+        "their neighbours has them at once.",
+        part=True,
+    )
+    projected: Field[bool] = Field("True if `start` differs from the offsets given.", part=True)
+    energy_left_out: Field[float] = Field(
+        "Upper bound of the energy that the start has beside the modes kept.", part=True
+    )
+    truncation_error: Field[Floats] = Field(
+        "Proved bound of what that may do to each offset at any time, shape (N + 1,).", part=True
+    )
+    error_bound: Field[Floats] = Field(
+        "Proved bound of the rounding error of every offset as a sum of the modes kept, shape (T,). It grows with time "
+        "only after some 1e9 swings.",
+        part=True,
+    )
+
+    def plot(
+        self, ax: Axes | None = None, *, kind: str = "shapes", pins: Iterable[int] = (0,), length_unit: str = "m"
+    ) -> Axes:
+        """Draw the chain at the times asked, or offsets of pins against time.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        kind : {"shapes", "time"}
+            Shapes from dark (early) to light, offsets stretched; or offsets against time.
+        pins : iterable of int
+            For ``"time"``: which pins, 0 the free end.
+        length_unit : str
+            What to write on the axes.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If `kind` is neither, or for pins there are not.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import revchain as rc
+        >>> chain = rc.Chain.uniform_plummets(10, length=1.0)
+        >>> plucked = np.interp(np.arange(11), [0, 5, 10], [0.0, 0.05, 0.0])
+        >>> ax = rc.small_oscillation(chain, plucked, None, np.linspace(0, 4, 300)).plot(kind="time", pins=[0, 5])
+        >>> ax.get_xlabel()
+        'time (s)'
+        """
+        from ..plots.response import plot_small_oscillation
+
+        return plot_small_oscillation(self, ax, kind, pins, length_unit=length_unit)
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = [
+            Column("time", self.time, "time (s)"),
+            Column("free_end_offset", self.offset[:, 0], "free end (m)"),
+            Column("free_end_velocity", self.velocity[:, 0], "free end (m/s)"),
+            Column("largest_offset", np.abs(self.offset).max(axis=1), "farthest pin (m)"),
+            Column("error_bound", self.error_bound, "error bound (m)"),
+            Column("offset", self.offset, axes=("pin",)),
+            Column("velocity", self.velocity, axes=("pin",)),
+        ]
+        share = self.energy / self.energy.sum() if self.energy.sum() > 0 else self.energy
+        most = np.argsort(share)[::-1][:3]
+        words = ", ".join(f"{100 * share[k]:.3g} % in mode {k + 1}" for k in most if share[k] > 0)
+        names: tuple[str, ...] = ("gravity", "angular_frequency", "energy", "cosine", "sine", "start", "projected", "energy_left_out")
+        names += ("truncation_error",)
+        return Sheet(
+            "time",
+            f"{self.energy.size} modes; of the energy {words}" if words else f"{self.energy.size} modes, at rest",
+            columns,
+            {name: getattr(self, name) for name in names},
+            ["error bound: of every offset as a sum of modes, rounding"],
+            spread=True,
+        )

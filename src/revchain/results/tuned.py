@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `revchain.tune` returns."""
+
+from __future__ import annotations
+
+from ..systems.chain import Chain
+from ..systems.numbers import Floats
+from .base import Field, Result
+from .sheet import Column, Sheet
+
+Pair = tuple[float, float]
+
+
+class Tuned(Result):
+    """Which value of a datum gives a mode the speed wanted; returned by `tune`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> chain = rc.Chain(weight=[1.0, 3.0], length=1.0)
+    >>> rc.tune(chain, link=1, quantity="weight", conical_height=1.7)
+    Tuned: weight of links[0] = 2.88235
+      value
+    2.88235
+    >>> rc.tune(chain, link=1, quantity="weight", conical_height=2.5).status
+    'no_value'
+    """
+
+    __slots__ = ()
+    status: Field[str] = Field(
+        "``'found'``; ``'no_value'`` where none does in the range; ``'undecided'`` where none was found and that there is "
+        "none could not be shown.",
+        part=True,
+    )
+    datum: Field[str] = Field("What was changed.", part=True)
+    system: Field[Chain | None] = Field("The chain with `value` in place; None where none was found.", part=True)
+    value: Field[float | None] = Field(
+        "The one nearest to the present value (for weights, in ratio, and but for others within a few per cent of it); "
+        "None where none was found.",
+        part=True,
+    )
+    error_bound: Field[float | None] = Field(
+        "Absolute, proved: `value` is that near to one that does exactly; None where none was found.", part=True
+    )
+    values: Field[Floats] = Field("All that were found in the range, ascending.", part=True)
+    complete: Field[bool] = Field(
+        "Whether `values` are all there are in the range. For a weight, what is known is the nearest on either side of the "
+        "present value.",
+        part=True,
+    )
+    present: Field[float] = Field("The datum as it is.", part=True)
+    between: Field[Pair] = Field("The range searched.", part=True)
+    reachable: Field[Pair | None] = Field(
+        "Where none was found: the least and the largest conical height seen in the range, at 33 places.", part=True
+    )
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        names = ("status", "datum", "value", "error_bound", "complete", "present", "between", "reachable")
+        found = f"= {self.value:.6g}" if self.value is not None else self.status.replace("_", " ")
+        heading = f"Tuned: {self.datum} {found}{', all found' if self.complete else ''}"
+        columns = [Column("value", self.values, "value")]
+        return Sheet("value", heading, columns, {name: getattr(self, name) for name in names}, good=self.status == "found")
