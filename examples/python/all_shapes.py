@@ -19,7 +19,7 @@ for shape in shapes:
 
 diagram = rc.branches(chain, up_to=5.0, gravity=1.0)
 born = diagram[3]
-print(f"two are born at {born.angular_speed(1.0)[born.folds[0]]:.9f} sqrt(g/a)")
+print(f"two are born at {born.angular_speed[born.folds[0]]:.9f} sqrt(g/a)")
 eight = rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=5.95**-2)
 print(f"eight plummets at 5.95 sqrt(g/a): {len(eight)} shapes, {'all' if eight.complete else 'at least'}")
 
@@ -35,7 +35,7 @@ axes[0].invert_yaxis()
 axes[0].set_aspect("equal")
 axes[0].legend(title="half waves", fontsize=8, frameon=False)
 for branch in diagram:
-    speed, tip = branch.angular_speed(1.0), branch.tip_inclination
+    speed, tip = branch.angular_speed, branch.tip_inclination
     k = branch.half_waves[-1]
     axes[1].plot(speed, 57.29577951308232 * tip, color=COLOURS[k - 1])
 axes[1].axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")

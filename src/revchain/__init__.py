@@ -32,7 +32,7 @@ from .closed_forms.gyrostatic_string import GyrostaticString
 from .closed_forms.rope import SkippingRope, TortuousRope
 from .closed_forms.statics import FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
 from .questions.batch import conical_heights
-from .questions.branches import Branch, Branches, StabilityWindow, branch, branches, steady_shape
+from .questions.branches import branch, branches, steady_shape
 from .questions.cord import (
     ContinuousPlace,
     ContinuousShape,
@@ -54,6 +54,7 @@ from .questions.modes import count_modes, modes, recurrence_matrices
 from .questions.response import response, small_oscillation
 from .questions.shapes import steady_shapes
 from .questions.tune import momentum_for_speed, tune
+from .results.branches import Branch, Branches, StabilityWindow
 from .results.diagrams import ForceDiagram
 from .results.modes import Certificate, Modes, OtherModes, RigModes
 from .results.motions import Response, SmallOscillation

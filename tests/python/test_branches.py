@@ -26,7 +26,7 @@ def test_speed_and_height_are_two_words_for_one():
     by_speed = rc.steady_shape(chain, mode=2, angular_speed=12.0)
     by_height = rc.steady_shape(chain, mode=2, conical_height=9.80665 / 144)
     assert np.abs(by_speed.inclination - by_height.inclination).max() <= 1e-14
-    assert rc.branch(chain, 2, angular_speed=12.0).angular_speed()[-1] == pytest.approx(12.0, rel=1e-12)
+    assert rc.branch(chain, 2, angular_speed=12.0).angular_speed[-1] == pytest.approx(12.0, rel=1e-12)
 
 
 @pytest.mark.parametrize("links", [2, 3, 7, 60])
@@ -66,7 +66,7 @@ def test_a_pair_is_born_on_no_branch_of_the_vertical():
     born = diagram[-1]
     assert born.mode is None
     assert [branch.mode for branch in diagram] == [1, 2, 3, None]
-    assert abs(born.angular_speed(1.0)[born.folds[0]] - 3.90376215692) <= 1e-11
+    assert abs(born.angular_speed[born.folds[0]] - 3.90376215692) <= 1e-11
     assert set(born.half_waves.tolist()) == {3}
     assert len(born.at(angular_speed=4.5, gravity=1.0)) == 2
     assert born.at(angular_speed=3.9, gravity=1.0) == ()

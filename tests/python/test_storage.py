@@ -76,6 +76,11 @@ def results():
     yield "SteadyShape", shapes[0]
     yield "SteadyShapes, none", rc.steady_shapes(CHAIN, conical_height=10 * float(modes.conical_height[0]))
     yield "SteadyShape of a rig", rc.steady_shapes(rc.Rig(CHAIN, support_radius=0.3), angular_speed=0.5)[0]
+    diagram = rc.branches(rc.Chain(weight=[1.0, 1.0, 1.0], length=1.0), up_to=5.0, gravity=1.0)
+    yield "Branches", diagram
+    yield "Branch, isolated", diagram[3]
+    yield "Branch", rc.branch(CHAIN, 1, conical_height=0.5 * float(modes.conical_height[0]))
+    yield "StabilityWindow", diagram[0].stability_windows()[0]
     yield "Stability", shapes[0].stability()
     yield "ForceDiagram", shapes[0].force_diagram()
     yield "Response", rc.response(CHAIN, conical_height=[4.0, 0.3])
@@ -348,3 +353,11 @@ def test_threads_may_read_and_pickle_the_same_result():
     for thread in threads:
         thread.join()
     assert raised == []
+
+
+def test_shapes_of_a_branch_after_loading(tmp_path):
+    diagram = rc.branches(rc.Chain(weight=[1.0, 1.0, 1.0], length=1.0), up_to=5.0, gravity=1.0)
+    diagram.save(tmp_path / "branches.npz")
+    for again, branch in zip(rc.load(tmp_path / "branches.npz"), diagram, strict=True):
+        assert again.shape(-1) == branch.shape(-1) and again.at(angular_speed=4.5) == branch.at(angular_speed=4.5)
+        assert again.shape(-1).gravity == 1.0

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from ..questions.branches import Branch
+    from ..results.branches import Branch
 
 QUANTITIES = {
     "tip_inclination": "tip inclination (degrees)",

@@ -3,386 +3,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, overload
 
 from .. import _core
-from ..closed_forms import conical_pendulum
-from ..results.base import Wrapped, WrappedList
-from ..results.shapes import SteadyShape, is_driven
+from ..results.branches import Branch, Branches, branches_made
+from ..results.shapes import SteadyShape
 from ..systems.chain import Chain, compiled
 from ..systems.numbers import (
     STANDARD_GRAVITY,
-    Floats,
-    Whole,
     boolean,
     count,
     exactly_one,
     height_of,
-    integer,
     limit,
     one_positive,
 )
-from .modes import modes
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-
-@dataclass(frozen=True, slots=True)
-class StabilityWindow:
-    """A part of a branch throughout which a small disturbance is seen to fare alike.
-
-    Attributes
-    ----------
-    verdict : str
-        ``minimum``, ``spectrally stable``, ``unstable`` or ``undecided``, as `Stability` says.
-    conical_height : tuple of two floats
-        At both ends, the one nearer to the start of the branch first.
-    arc : tuple of two floats
-        At the same ends.
-    """
-
-    verdict: str
-    conical_height: tuple[float, float]
-    arc: tuple[float, float]
-
-
-class Branch(Wrapped[_core.Branch, Chain]):
-    """A branch of steady shapes, point by point along its arc, in the units of the chain.
-
-    Returned by `branch`, and in what `branches` returns. Arrays have one number for each point.
-    """
-
-    __slots__ = ()
-
-    @property
-    def mode(self) -> int | None:
-        """Number of the mode at which it leaves the vertical; None: an isolated branch."""
-        return self._compiled.mode or None
-
-    @property
-    def arc(self) -> Floats:
-        """Along the branch, from its first point.
-
-        Measured by the root of the mean square of the links' ``d arsinh(tan(inclination))`` and the square of
-        ``d log(conical_height)``.
-        """
-        return self._compiled.arc
-
-    @property
-    def conical_height(self) -> Floats:
-        """Of the speed."""
-        return self._compiled.conical_height
-
-    @property
-    def tip_inclination(self) -> Floats:
-        """Of the lowest link to the vertical, rad.
-
-        Of the two mirror images the branch is followed in one: that in which `modes` gives the mode; an isolated one
-        in that with the free end at a positive offset where it begins. The sign is the lowest link's there; where
-        it changes along the branch the link hangs vertically.
-        """
-        return self._compiled.tip_inclination
-
-    @property
-    def tip_radius(self) -> Floats:
-        """Of the free end from the axis."""
-        return self._compiled.tip_radius
-
-    @property
-    def top_tension(self) -> Floats:
-        """Size of the reaction at the support."""
-        return self._compiled.top_tension
-
-    @property
-    def moment_of_inertia(self) -> Floats:
-        """About the axis, weight times length squared: divide by gravity for mass."""
-        return self._compiled.moment_of_inertia
-
-    @property
-    def effective_energy(self) -> Floats:
-        """Potential energy less half of ``moment_of_inertia / conical_height``."""
-        return self._compiled.effective_energy
-
-    @property
-    def half_waves(self) -> Whole:
-        """Sign changes of the offsets, and one."""
-        return self._compiled.half_waves
-
-    @property
-    def folds(self) -> Whole:
-        """Points at which the conical height turns, each located by itself: two shapes are born or meet there."""
-        return self._compiled.folds
-
-    @property
-    def end(self) -> str:
-        """Why it was not followed farther.
-
-        ``height``: at the one asked for; ``closed``: back where it began; ``vertical``: back at the
-        straight chain; ``budget``: after `max_points`; ``stuck``: no step passed every check.
-        """
-        return self._compiled.end
-
-    def angular_speed(self, gravity: float = STANDARD_GRAVITY) -> Floats:
-        """Return the speed at every point.
-
-        Parameters
-        ----------
-        gravity : float, optional
-            In the unit of length of the chain per s^2, positive; standard gravity in m/s^2 if left out.
-
-        Returns
-        -------
-        ndarray
-            In rad/s.
-
-        Raises
-        ------
-        ValueError
-            If `gravity` is not positive and finite.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
-        >>> branch.angular_speed()[[0, -1]].round(4)
-        array([2.3968, 9.9029])
-        """
-        g = one_positive("revchain.Branch.angular_speed", "gravity", gravity)
-        speed: Floats = conical_pendulum.angular_speed(self.conical_height, g)
-        return speed
-
-    def shape(self, point: int) -> SteadyShape:
-        """Return the whole shape at a point.
-
-        Parameters
-        ----------
-        point : int
-            Which; negative ones count from the end.
-
-        Returns
-        -------
-        SteadyShape
-            Balanced in two words. Its ``error_bound`` is proved, but at a fold, where it is an estimate.
-
-        Raises
-        ------
-        ValueError
-            If there is no such point, or it is the straight chain, where the branch of a mode begins.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
-        >>> branch.shape(-1).inclination.round(4)
-        array([1.5208, 1.5041])
-        """
-        place = "revchain.Branch.shape"
-        wanted = integer(place, "point", point)
-        if not -len(self) <= wanted < len(self):
-            raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
-        return _shape(self._compiled.shape(wanted % len(self)), self._given, STANDARD_GRAVITY)
-
-    def at(
-        self,
-        *,
-        conical_height: float | None = None,
-        angular_speed: float | None = None,
-        gravity: float = STANDARD_GRAVITY,
-    ) -> tuple[SteadyShape, ...]:
-        """Return the shapes at which the branch, as far as it was followed, passes a speed.
-
-        Parameters
-        ----------
-        conical_height : float
-            Of the speed, positive.
-        angular_speed : float
-            Instead of `conical_height`: the speed in rad/s, positive.
-        gravity : float, optional
-            For `angular_speed`; standard gravity, in metres, if left out.
-
-        Returns
-        -------
-        tuple of SteadyShape
-            In the order of the arc; empty where it does not pass there.
-
-        Raises
-        ------
-        ValueError
-            If not exactly one of `conical_height` and `angular_speed` is given, or a number is not positive
-            and finite.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
-        >>> [shape.half_waves for shape in branch.at(conical_height=0.2)]
-        [1]
-        """
-        height = height_of("revchain.Branch.at", conical_height, angular_speed, gravity)
-        g = one_positive("revchain.Branch.at", "gravity", gravity)
-        return tuple(_shape(s, self._given, g) for s in self._compiled.states_at(height))
-
-    def stability_windows(
-        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
-    ) -> list[StabilityWindow]:
-        """Say where along the branch small disturbances grow and where not.
-
-        Parameters
-        ----------
-        frame : {"free", "driven"}, optional
-            As for `SteadyShape.stability`.
-        tolerance : float, optional
-            Of the edges, relative in conical height and absolute in arc.
-        samples : int, optional
-            Places looked at between two points of the branch, one end counted.
-
-        Returns
-        -------
-        list of StabilityWindow
-            In the order of the arc. They cover the branch but for the vertical and the way from there to the
-            first point. Edges are located by halving; a window shorter than the places are apart can be missed.
-
-        Raises
-        ------
-        ValueError
-            If `frame` is neither, `tolerance` is not positive or `samples` is below 1.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> chain = rc.Chain.uniform_plummets(2, length=2.0)
-        >>> second = rc.modes(chain).conical_height[1]
-        >>> for window in rc.branch(chain, 2, conical_height=0.1 * second).stability_windows():
-        ...     print(window.verdict, round(window.conical_height[1] / second, 5))
-        spectrally stable 0.46332
-        unstable 0.1
-        """
-        place = "revchain.Branch.stability_windows"
-        driven = is_driven(place, frame)
-        wide = one_positive(place, "tolerance", tolerance)
-        places = min(count(place, "samples", samples), 10**6)
-        found = _core.stability_windows(self._given._compiled, self._compiled, driven, wide, places)
-        return [StabilityWindow(verdict, (h0, h1), (s0, s1)) for s0, s1, h0, h1, verdict in found]
-
-    def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
-        """Draw a number of the branch against the speed over the first critical one; folds are marked.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
-        quantity : {"tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"}
-            What to draw; inclinations in degrees.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-
-        Raises
-        ------
-        ValueError
-            If `quantity` is none of these.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1).plot()
-        >>> ax.get_ylabel()
-        'tip inclination (degrees)'
-        """
-        from ..plots.branches import plot_branches
-
-        return plot_branches([self], _first_height(self._given), ax, quantity=quantity, place="revchain.Branch.plot")
-
-    def __len__(self) -> int:
-        return int(self.arc.size)
-
-    def __repr__(self) -> str:
-        name = "isolated" if self.mode is None else f"of mode {self.mode}"
-        folds = f", {self.folds.size} fold{'s' * (self.folds.size != 1)}" if self.folds.size else ""
-        return f"Branch {name}: {len(self)} points{folds}, ends at {self.end}"
-
-
-class Branches(WrappedList[Branch]):
-    """All branches found down to one conical height: those of the modes, slowest first, then isolated ones."""
-
-    __slots__ = ("_chain", "_compiled")
-    _compiled: _core.Branches
-    _chain: Chain
-
-    @classmethod
-    def _wrap(cls, compiled: _core.Branches, chain: Chain) -> Branches:
-        result = object.__new__(cls)
-        result._compiled, result._chain = compiled, chain
-        result._items = tuple(Branch._wrap(each, chain) for each in compiled.branches)
-        return result
-
-    @property
-    def consistent(self) -> bool:
-        """Whether at every speed looked at each shape of the proved list was met by a branch, and met once."""
-        return self._compiled.consistent
-
-    @property
-    def complete(self) -> bool:
-        """Whether it is proved besides that no branch is missing, not even a loop between two of those speeds."""
-        return self._compiled.complete
-
-    @property
-    def looked_at(self) -> Floats:
-        """The conical heights of those speeds, descending."""
-        return self._compiled.looked_at
-
-    @property
-    def remark(self) -> str:
-        """What may be missing, in a sentence."""
-        return self._compiled.remark
-
-    def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
-        """Draw the diagram: a number of every branch against the speed over the first critical one.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
-        quantity : {"tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"}
-            What to draw; inclinations in degrees.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            Coloured by half waves; isolated branches dashed, with the speed at which each is born. The title
-            says whether the diagram is `complete`.
-
-        Raises
-        ------
-        ValueError
-            If `quantity` is none of these.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), conical_height=0.04).plot()
-        >>> ax.get_xlabel()
-        'speed over the first critical speed'
-        """
-        from ..plots.branches import plot_branches
-
-        ax = plot_branches(self, _first_height(self._chain), ax, quantity=quantity, place="revchain.Branches.plot")
-        if not self:
-            ax.set_title("no shape at or above this conical height")
-        else:
-            ax.set_title("all branches: proved complete" if self.complete else "branches found: not proved complete")
-        return ax
-
-    def __repr__(self) -> str:
-        isolated = sum(each.mode is None for each in self)
-        return f"Branches: {len(self) - isolated} from the vertical, {isolated} isolated; {self.remark}"
+    pass
 
 
 def branch(
@@ -445,7 +83,9 @@ def branch(
     height = height_of(place, conical_height, angular_speed, gravity)
     points = count(place, "max_points", max_points)
     step = one_positive(place, "max_step", max_step)
-    return Branch._wrap(_core.branch(compiled(place, chain), number, height, points, step), chain)
+    asked = (number, height, points, step)
+    found = _core.branch(compiled(place, chain), *asked)
+    return Branch._made(found, system=chain, gravity=one_positive(place, "gravity", gravity), asked=asked)
 
 
 def branches(
@@ -507,14 +147,16 @@ def branches(
     >>> len(diagram), diagram.consistent, diagram.complete
     (4, True, True)
     >>> born = diagram[3]
-    >>> round(born.angular_speed(1.0)[born.folds[0]], 10)
+    >>> round(born.angular_speed[born.folds[0]], 10)
     np.float64(3.9037621569)
     """
     place = "revchain.branches"
     height = height_of(place, conical_height, up_to, gravity, speed_name="up_to")
     at = min(count(place, "lists", lists), 10**6)
     most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
-    return Branches._wrap(_core.branches(compiled(place, chain), height, at, most, most_of_proof), chain)
+    asked = (height, at, most, most_of_proof)
+    found = _core.branches(compiled(place, chain), *asked)
+    return branches_made(found, chain, one_positive(place, "gravity", gravity), asked)
 
 
 @overload
@@ -637,8 +279,3 @@ def steady_shape(
 
 def _shape(found: _core.SteadyShape, chain: Chain, gravity: float) -> SteadyShape:
     return SteadyShape._made(found, system=chain, gravity=gravity, direction=1)
-
-
-def _first_height(chain: Chain) -> float:
-    """The conical height of the slowest mode."""
-    return float(modes(chain, 1).conical_height[0])
