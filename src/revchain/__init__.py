@@ -40,7 +40,7 @@ from .questions.cord import (
     continuous_critical_heights,
     continuous_shapes,
 )
-from .questions.explain import Explanation, ModelEstimate, Solution, explain, solve
+from .questions.explain import explain, solve
 from .questions.held import (
     HeldCordShape,
     HeldShape,
@@ -56,6 +56,7 @@ from .questions.shapes import steady_shapes
 from .questions.tune import momentum_for_speed, tune
 from .results.branches import Branch, Branches, StabilityWindow
 from .results.diagrams import ForceDiagram
+from .results.explanation import Explanation, ModelEstimate, Solution
 from .results.modes import Certificate, Modes, OtherModes, RigModes
 from .results.motions import Response, SmallOscillation
 from .results.sensitivity import (

@@ -81,6 +81,8 @@ def results():
     yield "Branch, isolated", diagram[3]
     yield "Branch", rc.branch(CHAIN, 1, conical_height=0.5 * float(modes.conical_height[0]))
     yield "StabilityWindow", diagram[0].stability_windows()[0]
+    yield "Explanation", rc.explain(rc.Chain.uniform_rods(5000), 2, rtol=1e-3)
+    yield "Solution", rc.solve(CHAIN, 2)
     yield "Stability", shapes[0].stability()
     yield "ForceDiagram", shapes[0].force_diagram()
     yield "Response", rc.response(CHAIN, conical_height=[4.0, 0.3])

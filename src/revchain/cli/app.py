@@ -30,7 +30,7 @@ from ..systems.rig import base_chain
 from .exit_codes import ExitCode
 from .frame import EXIT_CODES, STDOUT, Stop, Wanted, answered, app, guarded, run_app, told_of
 from .progress import watched
-from .report import answer_table, csv_text, json_of, json_text, table
+from .report import csv_text, json_of, json_text, table
 
 
 def run(arguments: list[str] | None = None) -> int:
@@ -185,7 +185,6 @@ def explain(
         print(why)
         if found is not None:
             print(found)
-            Console().print(answer_table(found))
     if found is not None and found.status != "success":
         raise Stop("no model keeps the tolerance", ExitCode.TOLERANCE_NOT_MET)
     if found is None and not why.meets_tolerance:

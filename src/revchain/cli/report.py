@@ -15,7 +15,6 @@ from rich.console import Group
 from rich.table import Table
 from rich.text import Text
 
-from ..questions.explain import Solution
 from ..results.motions import Response
 from ..results.sheet import MOST_ROWS, Sheet, as_csv, as_dict, cells, digits, finite, plain
 
@@ -30,16 +29,6 @@ def empty_grid(numbers: Iterable[str], words: Iterable[str] = (), title: str | N
         grid.add_column(heading, justify="right", no_wrap=True)
     for heading in words:
         grid.add_column(heading, no_wrap=True)
-    return grid
-
-
-def answer_table(found: Solution) -> Table:
-    """Of each height what is known."""
-    grid = empty_grid(("mode", "speed (rad/s)", "height (m)", "error bound"))
-    for i, (speed, height, bound) in enumerate(
-        zip(found.angular_speed, found.conical_height, found.error_bound, strict=True)
-    ):
-        grid.add_row(str(found.first + i), f"{speed:.12g}", f"{height:.12g}", f"{bound:.1e}")
     return grid
 
 

@@ -3,15 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from .. import _core
-from ..results.base import Record
+from ..results.explanation import Explanation, Solution
 from ..systems.chain import Chain, compiled
-from ..systems.numbers import STANDARD_GRAVITY, Floats, integer, one_positive, positive, real, shown, word
+from ..systems.numbers import STANDARD_GRAVITY, integer, one_positive, positive, real, shown, word
 from ..systems.numbers import count as checked_count
 from ..systems.rig import Rig, base_chain
 from .modes import modes
@@ -20,167 +19,6 @@ if TYPE_CHECKING:
     from ..scenes.scene import Scene
 
 RIG_MODEL = "rig, by counts or discs"
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Solution(Record):
-    """Heights that keep a tolerance, and the model that gave them; returned by `solve`.
-
-    Attributes
-    ----------
-    conical_height : ndarray, shape (k,)
-        Of the modes asked for, descending, in the unit of the chain's lengths.
-    error_bound : ndarray, shape (k,)
-        Of each, relative: no height is farther from the exact one of the stored numbers.
-    conical_height_low : ndarray, shape (k,), or None
-        What a double cannot hold of the heights, where the model knows: `error_bound` is then of the sum.
-    model : str
-        Who answered; one of those that `explain` lists. Empty where no model has an answer.
-    status : str
-        ``"success"``, or ``"tolerance_not_met"`` where no model keeps `rtol` (within the budget); the bounds are then
-        the best there are.
-    rtol : float
-        What was asked; 0: as accurate as there is.
-    first : int
-        Number of the slowest mode, from 1.
-    gravity : float
-        For speeds.
-    """
-
-    conical_height: Floats
-    error_bound: Floats
-    conical_height_low: Floats | None
-    model: str
-    status: str
-    rtol: float
-    first: int
-    gravity: float
-
-    @property
-    def angular_speed(self) -> Floats:
-        """Of each mode, rad/s; relative error half that of the height, and an ulp."""
-        return np.sqrt(self.gravity / self.conical_height)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return everything as plain Python data.
-
-        Returns
-        -------
-        dict
-            The attributes, and ``"angular_speed"``; arrays as lists.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rc.solve(rc.Chain.uniform_rods(2, length=3.0), rtol=1e-9).to_dict()["model"]
-        'closed forms'
-        """
-        low = self.conical_height_low
-        return {
-            "model": self.model,
-            "status": self.status,
-            "rtol": self.rtol,
-            "first": self.first,
-            "gravity": self.gravity,
-            "conical_height": self.conical_height.tolist(),
-            "conical_height_low": None if low is None else low.tolist(),
-            "error_bound": self.error_bound.tolist(),
-            "angular_speed": self.angular_speed.tolist(),
-        }
-
-    def __len__(self) -> int:
-        return int(self.conical_height.size)
-
-    def __repr__(self) -> str:
-        bound = f", error below {self.error_bound.max():.1e}" if len(self) else ""
-        by = f" by {self.model}" if self.model else ", no model has an answer"
-        return f"Solution: {len(self)} heights{by}{bound}, {self.status.replace('_', ' ')}"
-
-
-class ModelEstimate(NamedTuple):
-    """What is known of a model before it is asked: a row of `Explanation`."""
-
-    name: str
-    applies: bool
-    reason: str
-    error_bound: float
-    cost: float
-    chosen: bool
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Explanation(Record):
-    """Which model `solve` takes, and why; returned by `explain`.
-
-    Attributes
-    ----------
-    rows : tuple of ModelEstimate
-        Each model: its name, whether it applies and if not the reason, the bound of its relative error, the time it is
-        expected to take in seconds, and whether it is the one chosen.
-    meets_tolerance : bool
-        Whether the one chosen keeps `rtol`; if not, none does (within the budget), and it is the most accurate.
-    rtol : float
-        What was asked; 0: as accurate as there is.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> why = rc.explain(rc.Chain.uniform_rods(100_000), rtol=0.01)
-    >>> why.chosen.name, f"{why.chosen.error_bound:.1e}"
-    ('continuous chain', '8.9e-16')
-    """
-
-    rows: tuple[ModelEstimate, ...]
-    meets_tolerance: bool
-    rtol: float
-
-    @property
-    def chosen(self) -> ModelEstimate | None:
-        """The row of the model chosen; None where no model applies."""
-        return next((row for row in self.rows if row.chosen), None)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return everything as plain Python data.
-
-        Returns
-        -------
-        dict
-            ``{"rtol": ..., "meets_tolerance": ..., "models": [{"name": ..., "applies": ..., "reason": ...,
-            "error_bound": ..., "cost": ..., "chosen": ...}, ...]}``; of a model that does not apply bound and cost are
-            None.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rc.explain(rc.Chain.uniform_rods(2)).to_dict()["models"][0]["name"]
-        'closed forms'
-        """
-        rows = [row._asdict() | ({} if row.applies else {"error_bound": None, "cost": None}) for row in self.rows]
-        return {"rtol": self.rtol, "meets_tolerance": self.meets_tolerance, "models": rows}
-
-    def __repr__(self) -> str:
-        rows = [("", "model", "error bound", "expected to take", "")]
-        for row in self.rows:
-            mark = "->" if row.chosen else ""
-            if row.applies:
-                rows.append((mark, row.name, f"{row.error_bound:.1e}", time_text(row.cost), ""))
-            else:
-                rows.append((mark, row.name, "-", "-", row.reason))
-        widths = [max(len(row[column]) for row in rows) for column in range(4)]
-        lines = [
-            f"{mark:{widths[0]}} {name:{widths[1]}}  {bound:>{widths[2]}}  {cost:>{widths[3]}}  {reason}".rstrip()
-            for mark, name, bound, cost, reason in rows
-        ]
-        asked = f"rtol {self.rtol:g}" if self.rtol else "as accurate as there is"
-        return "\n".join([asked + ("" if self.meets_tolerance else ": no model keeps it"), *lines])
-
-
-def time_text(seconds: float) -> str:
-    """With the unit that suits it."""
-    for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9)):
-        if seconds >= size or unit == "ns":
-            return f"{seconds / size:.3g} {unit}"
-    raise AssertionError
 
 
 def solve(
@@ -239,8 +77,8 @@ def solve(
     --------
     >>> import revchain as rc
     >>> rods = rc.Chain.uniform_rods(100_000, length=0.36)
-    >>> rc.solve(rods, 3, rtol=0.01)
-    Solution: 3 heights by continuous chain, error below 9.0e-16, success
+    >>> rc.solve(rods, 3, rtol=0.01).model
+    'continuous chain'
     >>> rc.solve(rods, 3).model
     'condensed'
     >>> [rc.solve(rc.Chain.uniform_rods(9), rtol=r, inclination=0.2).model for r in (0.1, 1e-3)]
@@ -257,13 +95,18 @@ def solve(
             raise ValueError(f"{place}: there are no {n} modes from number {k} on, got {there or 'none'} in all")
         met = tolerance == 0 or bool(np.all(found.error_bound <= tolerance))
         status = found.status if found.status != "success" or met else "tolerance_not_met"
-        return Solution(found.conical_height, found.error_bound, None, RIG_MODEL, status, tolerance, k, g)
+        return _solution((found.conical_height, found.error_bound, None, RIG_MODEL, status), tolerance, k, g)
     core = compiled(place, hung, link_by_link=tolerance == 0)
     if model is None:
         answer = _core.solve(core, k, n, tolerance, lean, budget)
     else:
         answer = _core.solve_by(core, k, n, tolerance, lean, word(place, "model", model, _core.MODELS))
-    return Solution(*answer, tolerance, k, g)
+    return _solution(answer, tolerance, k, g)
+
+
+def _solution(answer: tuple[Any, ...], rtol: float, first: int, gravity: float) -> Solution:
+    names = ("conical_height", "error_bound", "conical_height_low", "model", "status")
+    return Solution._made(None, **dict(zip(names, answer, strict=True)), rtol=rtol, first=first, gravity=gravity)
 
 
 def explain(
@@ -305,17 +148,14 @@ def explain(
     if isinstance(hung, Rig):
         spinning = bool(np.any(hung.momentum))
         bound = 2.0**-50 if spinning else 2.0**-51  # foreseen: measured 3.5 ulp and 2
-        row = ModelEstimate(RIG_MODEL, True, "", bound, 2.5e-5 + 1e-6 * hung.size * n * (1 + spinning), True)
-        return Explanation((row,), tolerance == 0 or tolerance >= bound, tolerance)
+        row = (RIG_MODEL, True, "", bound, 2.5e-5 + 1e-6 * hung.size * n * (1 + spinning), True)
+        return Explanation._made(None, estimates=(row,), meets_tolerance=tolerance == 0 or tolerance >= bound, rtol=tolerance)
     rows, chosen, met = _core.select(compiled(place, hung, link_by_link=False), k, n, tolerance, lean, budget)
-    return Explanation(
-        tuple(
-            ModelEstimate(name, reason is None, reason or "", bound, cost, i == chosen and reason is None)
-            for i, (name, reason, bound, cost) in enumerate(rows)
-        ),
-        met,
-        tolerance,
+    estimates = tuple(
+        (name, reason is None, reason or "", bound, cost, i == chosen and reason is None)
+        for i, (name, reason, bound, cost) in enumerate(rows)
     )
+    return Explanation._made(None, estimates=estimates, meets_tolerance=met, rtol=tolerance)
 
 
 class _Asked(NamedTuple):

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, Self, TypeVar, overload
 
 import numpy as np
@@ -238,7 +237,7 @@ def frozen(value: Any) -> Any:
     """`value`, its arrays read-only."""
     if isinstance(value, np.ndarray):
         return read_only(value) if value.flags.writeable else value
-    if isinstance(value, list | tuple):
+    if type(value) in (list, tuple):
         return tuple(map(frozen, value))
     return value
 
@@ -301,32 +300,3 @@ class WrappedList(Sequence[Item]):
 
     def __iter__(self) -> Iterator[Item]:
         return iter(self._items)
-
-
-class Record:
-    """For dataclasses of arrays: these are frozen, compared number for number, and can be pickled."""
-
-    __slots__ = ()
-
-    def __post_init__(self) -> None:
-        for field in fields(self):  # type: ignore[arg-type]
-            value = getattr(self, field.name)
-            if isinstance(value, np.ndarray) and value.flags.writeable:
-                object.__setattr__(self, field.name, read_only(value))
-
-    def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
-            return NotImplemented
-        for field in fields(self):  # type: ignore[arg-type]
-            one, two = getattr(self, field.name), getattr(other, field.name)
-            if isinstance(one, np.ndarray):
-                if not np.array_equal(one, two, equal_nan=one.dtype.kind == "f"):
-                    return False
-            elif one != two:
-                return False
-        return True
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), tuple(getattr(self, field.name) for field in fields(self))  # type: ignore[arg-type]

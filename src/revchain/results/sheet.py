@@ -39,6 +39,8 @@ class Column:
         Names of the axes after the first.
     shown : array, optional
         What tables show instead, such as degrees or words.
+    left : bool
+        Whether tables align it on the left, as words are.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Column:
     digits: int = 6
     axes: tuple[str, ...] = ()
     shown: Any = None
+    left: bool = False
 
     def cell(self, row: int) -> str:
         """What a table shows in a row."""
@@ -116,8 +119,13 @@ def as_text(sheet: Sheet) -> str:
     """The table that a prompt shows."""
     headings, rows, notes = cells(sheet)
     widths = [max(map(len, column)) for column in zip(headings, *rows, strict=True)] if rows else []
-    table = [headings, *rows] if rows else []
-    lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in table]
+    left = [column.left for column in sheet.columns if column.heading]
+
+    def line(row: list[str]) -> str:
+        places = zip(row, widths, left, strict=True)
+        return "  ".join(cell.ljust(width) if words else cell.rjust(width) for cell, width, words in places).rstrip()
+
+    lines = [line(row) for row in [headings, *rows]] if rows else []
     return "\n".join([sheet.heading, *lines, *notes])
 
 
