@@ -33,7 +33,7 @@ class Solution(Result):
     first: Field[int] = Field("Number of the slowest mode, from 1.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     angular_speed: Field[Floats] = Field(
-        "Of each mode, rad/s; relative error half that of the height, and an ulp.",
+        "Whirl speed of each mode, rad/s, shape (k,).",
         lambda s: np.sqrt(s.gravity / s.conical_height),
     )
 
