@@ -2,6 +2,7 @@
 """What `import revchain` brings along, and what works without the extras."""
 
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -66,3 +67,10 @@ def test_what_is_shipped():
         assert (folder / "studies" / name).is_file()
     for path in folder.rglob("*.py"):
         assert path.read_text(encoding="utf-8").startswith("# SPDX-License-Identifier: GPL-3.0-or-later\n"), path
+
+
+def test_messages_name_extras_that_exist(repository):
+    extras = tomllib.loads((repository / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+    for path in (repository / "src/revchain").rglob("*.py"):
+        for _, extra in re.findall(r'require\("([\w.]+)", "(\w+)"', path.read_text(encoding="utf-8")):
+            assert extra in extras, (path, extra)

@@ -11,7 +11,8 @@ namespace revchain {
 
 namespace detail {
 
-/// What the derivatives of a rig's whirl speed share: n, the offsets of its mode, and dn for a change of the balance.
+/// Data that all derivatives of a whirl speed n use: the offsets y of its mode, and the change dn for a change of the
+/// balance of forces.
 struct RigMode {
     using S = Wide<double>;
     const Rig& rig;

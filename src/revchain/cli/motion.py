@@ -5,12 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from rich.console import RenderableType
 
+from ..results.sheet import Sheet
 from ..scenes.scene import Scene, load_scene
 from .exit_codes import ExitCode
 from .frame import EXIT_CODES, Stop, Wanted, answered, app, guarded
@@ -118,14 +120,19 @@ class _Motion:
     title: str
     gravity: float
 
+    @cached_property
+    def sheet(self) -> Sheet:
+        """All that is shown and written."""
+        return sheet_of(self.found, self.gravity)
+
     def json(self) -> str:
-        return json_text(sheet_of(self.found, self.gravity), self.title)
+        return json_text(self.sheet, self.title)
 
     def csv(self) -> str:
-        return csv_text(sheet_of(self.found, self.gravity))
+        return csv_text(self.sheet)
 
     def table(self) -> RenderableType:
-        return table(sheet_of(self.found, self.gravity, brief=True), self.title)
+        return table(self.sheet, self.title)
 
     def plot(self) -> Any:
         return self.found.plot()
@@ -139,5 +146,5 @@ def answer(scene: Path, find: Callable[[Scene], Any], wanted: Wanted) -> None:
     read = load_scene(scene)
     title, gravity = read.title or scene.stem, read.gravity_value()
     motion = answered(scene, lambda: _Motion(find(read), title, gravity), wanted)
-    if not sheet_of(motion.found, gravity).good:
+    if not motion.sheet.good:
         raise Stop("not proved to be all there is", ExitCode.TOLERANCE_NOT_MET)

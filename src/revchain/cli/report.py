@@ -22,13 +22,11 @@ NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
 HEADING = 10  # columns of a line of a heading
 
 
-def empty_grid(numbers: Iterable[str], words: Iterable[str] = (), title: str | None = None) -> Table:
-    """A table without rows yet: headings of columns of numbers, then of words; none of them is ever cut."""
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True, title=title, title_justify="left")
-    for heading in numbers:
+def empty_grid(headings: Iterable[str]) -> Table:
+    """A table without rows yet; none of its columns is ever cut."""
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for heading in headings:
         grid.add_column(heading, justify="right", no_wrap=True)
-    for heading in words:
-        grid.add_column(heading, no_wrap=True)
     return grid
 
 

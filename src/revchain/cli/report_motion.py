@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a chain held at both ends does, as sheets."""
+"""Sheets for chains held at both ends."""
 
 from __future__ import annotations
 
@@ -9,16 +9,15 @@ import numpy as np
 
 from ..questions.held import HeldShape, HeldShapes, TautModes
 from ..results.base import Result
-from ..results.sheet import Column, Sheet
-from ..systems.numbers import Floats
+from ..results.sheet import Column, Sheet, speed_columns
 
 Found = Result | HeldShapes[HeldShape] | TautModes
 
 
-def sheet_of(found: Found, gravity: float, brief: bool = False) -> Sheet:
-    """The sheet of any of them; `brief`: for a table."""
+def sheet_of(found: Found, gravity: float) -> Sheet:
+    """The sheet of any of them."""
     if isinstance(found, Result):
-        return found._sheet(brief)
+        return found._sheet()
     return _taut(found, gravity) if isinstance(found, TautModes) else _held(found, gravity)
 
 
@@ -54,7 +53,7 @@ def _taut(modes: TautModes, gravity: float) -> Sheet:
     speed = np.asarray(modes.angular_speed(gravity))
     columns = [
         Column("mode", list(range(1, speed.size + 1)), "mode"),
-        *_speed_columns(speed),
+        *speed_columns(speed),
         Column("conical_height", modes.conical_height, "height (m)", 10),
         Column("error_bound", modes.error_bound, "error bound"),
         Column("shape", modes.shape, axes=("pin",)),
@@ -62,10 +61,3 @@ def _taut(modes: TautModes, gravity: float) -> Sheet:
     notes = ["height: of the equivalent conical pendulum; error bound: relative, of the height"]
     heading = f"straight between two points of the axis, tension {modes.tension:g} N at the lower"
     return Sheet("mode", heading, columns, {"gravity": gravity, "tension": modes.tension}, notes)
-
-
-def _speed_columns(speed: Floats, digits: int = 6) -> list[Column]:
-    return [
-        Column("angular_speed", speed, "speed (rad/s)", digits),
-        Column("rpm", speed * (30 / np.pi), "speed (rpm)", digits),
-    ]

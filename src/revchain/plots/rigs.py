@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..results.motions import Response
 from ..results.sheet import digits
 from ..systems.numbers import integer, shown
 from ..systems.rig import Rig
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..results.modes import RigModes
-    from ..results.motions import Response
     from ..systems.numbers import Floats
 
 FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
@@ -33,7 +33,7 @@ def plot_rig_modes(modes: RigModes, ax: Axes | None, most: int, length_unit: str
     if drawn < min(1, len(modes)):
         raise ValueError(f"{place}: most must be at least 1, got {shown(most)}")
     rig = modes.system
-    if carried is not None and type(carried).__name__ != "Response":
+    if carried is not None and not isinstance(carried, Response):
         raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
     if carried is not None and (carried.system != rig or carried.offset.shape != (rig.size + 1,)):
         raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, overload
+from typing import Literal, overload
 
 from .. import _core
 from ..results.branches import Branch, Branches, branches_made
@@ -18,9 +18,6 @@ from ..systems.numbers import (
     limit,
     one_positive,
 )
-
-if TYPE_CHECKING:
-    pass
 
 
 def branch(
@@ -113,7 +110,7 @@ def branches(
     lists : int, optional
         At how many speeds to list all shapes and bring them together with the branches.
     budget : int, optional
-        Of each list, as for `steady_shapes`.
+        Work allowed for each list; see `steady_shapes`.
     proof_budget : int, optional
         Links to look at for the proof, 1 to 4 microseconds each; 0: no proof.
 
@@ -209,7 +206,7 @@ def steady_shape(
     mode : int, optional
         At which the branch leaves the vertical, from 1, the slowest.
     conical_height : float
-        Of the speed, less than that of the mode.
+        Conical height of the speed, less than that of the mode.
     angular_speed : float
         Instead: the speed in rad/s.
     tip_inclination : float

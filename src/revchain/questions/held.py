@@ -390,7 +390,7 @@ def held_shapes(
     top_tension : float
         Instead of `span`: the tension at the upper end, positive.
     conical_height : float
-        Of the speed, in the unit of the chain's lengths, positive.
+        Conical height of the speed, in the unit of the chain's lengths, positive.
     angular_speed : float
         Instead of `conical_height`: the speed in rad/s, positive.
     gravity : float, optional

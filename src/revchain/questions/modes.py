@@ -130,9 +130,18 @@ def modes(
     >>> rc.modes(rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)).angular_speed.round(3)
     array([-2.47,  3.97])
     """
-    given: dict[str, Any] = {"first": first, "conical_height": conical_height, "angular_speed": angular_speed}
-    given |= {"rtol": rtol, "method": method, "precision": precision, "certify": certify}
-    return find_modes(system, count, gravity=gravity, **given)
+    return find_modes(
+        system,
+        count,
+        first=first,
+        conical_height=conical_height,
+        angular_speed=angular_speed,
+        rtol=rtol,
+        gravity=gravity,
+        method=method,
+        precision=precision,
+        certify=certify,
+    )
 
 
 _DEFAULTS: dict[str, Any] = {"conical_height": None, "angular_speed": None, "rtol": None, "method": None}
@@ -204,7 +213,7 @@ def _count(place: str, count: int | str | None, default: int) -> int | None:
 
 
 def _refuse_for_rigs(place: str, given: dict[str, Any]) -> None:
-    """What `modes` offers for chains alone."""
+    """Raise a ValueError for options that are for chains only."""
     for name, value in given.items():
         if value is not _DEFAULTS[name] and not (isinstance(value, str) and value == _DEFAULTS[name]):
             raise ValueError(

@@ -29,7 +29,7 @@ def steady_shapes(
     chain : Chain or Rig
         The chain of N links, or what it is rigged with: a support on a spring or carried round, flywheels, a fluid.
     conical_height : float
-        Of the speed, in the unit of the chain's lengths, positive.
+        Conical height of the speed, in the unit of the chain's lengths, positive.
     angular_speed : float
         Instead of `conical_height`: the speed in rad/s, positive.
     gravity : float, optional
@@ -42,7 +42,7 @@ def steady_shapes(
         Whether to leave out shapes with links that stand: more than a right angle from the downward
         vertical. Of a rig: shapes with links that do not stand or hang as the rig has them.
     sense : {1, -1}, optional
-        Of the rotation. It matters to a rig with flywheels.
+        Direction of rotation; it matters to a rig with flywheels.
 
     Returns
     -------
@@ -53,7 +53,7 @@ def steady_shapes(
         inclined link); by half waves, then inclination of the lowest link. ``complete`` is true where it
         is proved that none is missing. Inclinations within ``error_bound``, proved, mostly 2.2e-16.
         Empty and complete where the height is greater than the first of `modes`, in any posture.
-        Of a rig whose support is carried round: every shape, outwards positive, those inwards too.
+        If the support is carried round: every shape, outwards positive, those inwards too.
 
     Raises
     ------
@@ -105,11 +105,10 @@ def steady_shapes(
     if integer(place, "sense", sense) not in (1, -1):
         raise ValueError(f"{place}: sense must be 1 or -1, got {shown(sense)}")
     g, turns = one_positive(place, "gravity", gravity), int(sense)
-    height, speed = value, value
     if name == "angular_speed":
-        height = float(_core.conical_pendulum_height(np.asarray(value), np.asarray(g)))
+        height, speed = float(_core.conical_pendulum_height(np.asarray(value), np.asarray(g))), value
     else:
-        speed = float(_core.conical_pendulum_angular_speed(np.asarray(value), np.asarray(g)))
+        height, speed = value, float(_core.conical_pendulum_angular_speed(np.asarray(value), np.asarray(g)))
     if isinstance(chain, Rig):
         rig = chain._compiled
         if name == "conical_height":

@@ -126,7 +126,7 @@ def momentum_for_speed(rig: Rig, angular_speed: float, *, link: int, gravity: fl
     Parameters
     ----------
     rig : Rig
-        A chain of N links and what it is rigged with.
+        The rig of N links.
     angular_speed : float
         The speed wanted, rad/s, of either sign.
     link : int

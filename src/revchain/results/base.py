@@ -189,21 +189,21 @@ class Result(Unchangeable):
         return as_html(self._sheet(brief=True))
 
 
-class Results(Result, Sequence[Item]):
-    """A list of results, with fields of its own."""
+class Listed(Sequence[Item]):
+    """A sequence of the results in `_items`."""
 
     __slots__ = ()
-    items: Field[tuple[Any, ...]] = Field("The results.", part=True)
+    _items: Any
 
     @overload
     def __getitem__(self, index: int) -> Item: ...
     @overload
     def __getitem__(self, index: slice) -> tuple[Item, ...]: ...
     def __getitem__(self, index: int | slice) -> Any:
-        return self.items[index]
+        return self._items[index]
 
     def __len__(self) -> int:
-        return len(self.items)
+        return len(self._items)
 
     def __contains__(self, value: object) -> bool:
         return self.count(value) > 0
@@ -222,7 +222,14 @@ class Results(Result, Sequence[Item]):
         raise ValueError(f"{place}: none of the {len(self)} results is {shown(value)}")
 
     def __iter__(self) -> Iterator[Item]:
-        return iter(self.items)
+        return iter(self._items)
+
+
+class Results(Result, Listed[Item]):
+    """A list of results, with fields of its own."""
+
+    __slots__ = ()
+    _items: Field[tuple[Any, ...]] = Field("The results.", part=True)
 
 
 _set = object.__setattr__
@@ -266,37 +273,7 @@ class Wrapped(Generic[Compiled, Given]):
         return result
 
 
-class WrappedList(Sequence[Item]):
-    """A list of results that cannot be changed; what is said of the list as a whole is up to its kind."""
+class WrappedList(Listed[Item]):
+    """A list of wrapped results that cannot be changed."""
 
     __slots__ = ("_items",)
-    _items: tuple[Item, ...]
-
-    @overload
-    def __getitem__(self, index: int) -> Item: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Item, ...]: ...
-    def __getitem__(self, index: int | slice) -> Any:
-        return self._items[index]
-
-    def __len__(self) -> int:
-        return len(self._items)
-
-    def __contains__(self, value: object) -> bool:
-        return self.count(value) > 0
-
-    def count(self, value: object) -> int:
-        """How many of the results equal `value`."""
-        return sum(value is item or (type(value) is type(item) and value == item) for item in self)
-
-    def index(self, value: object, start: int = 0, stop: int | None = None) -> int:
-        """The place of the first result that equals `value`, from `start` on and before `stop`."""
-        place = f"{type(self).__name__}.index"
-        ends = integer(place, "start", start), None if stop is None else integer(place, "stop", stop)
-        for number in range(len(self))[slice(*ends)]:
-            if value is self[number] or (type(value) is type(self[number]) and value == self[number]):
-                return number
-        raise ValueError(f"{place}: none of the {len(self)} results is {shown(value)}")
-
-    def __iter__(self) -> Iterator[Item]:
-        return iter(self._items)

@@ -347,7 +347,7 @@ def branches_made(found: _core.Branches, system: Chain, gravity: float, asked: t
     """A list around compiled branches."""
     given: dict[str, Any] = {"system": system, "gravity": gravity}
     items = tuple(Branch._made(each, asked=(*asked, k), **given) for k, each in enumerate(found.branches))
-    return Branches._made(found, items=items, **given)
+    return Branches._made(found, _items=items, **given)
 
 
 def _first_height(chain: Chain) -> float:

@@ -20,6 +20,7 @@ from .sheet import Column, Sheet
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from .motions import Response
     from .sensitivity import RigSensitivity, Sensitivity, Uncertainty
 
 Complex = NDArray[np.complex128]
@@ -75,20 +76,18 @@ class Certificate(Result):
         return Sheet("mode", "Certificate: intervals proved to hold the conical heights", columns)
 
 
-def _speeds(function: Callable[[Any, Any], Any]) -> Callable[[Modes], Numbers]:
-    """Of each mode, by a function of its height and gravity; a direction does not change it."""
+def _speeds(compiled: Callable[[Floats, Floats], Floats], extended: Callable[[Any], Any]) -> Callable[[Modes], Numbers]:
+    """A number of each mode: `compiled` finds it from height and gravity, `extended` from the speed in longdouble."""
 
     def compute(modes: Modes) -> Numbers:
-        extended = modes.precision == "extended"
-        height = modes.conical_height if extended else modes.conical_height.astype(np.float64, copy=False)
-        gravity = (np.longdouble if extended else np.float64)(modes.gravity)
-        good = height > 0  # of the dense references rounding may leave others
-        with np.errstate(invalid="ignore", divide="ignore"):
-            if extended:
-                speed: Numbers = np.sqrt(gravity) / np.sqrt(height)
-                return function(speed, None)  # type: ignore[no-any-return]
-            found: Numbers = function(None, (np.where(good, height, 1.0), np.asarray(gravity)))
-        return found if good.all() else np.where(good, found, np.nan)
+        if modes.precision == "extended":
+            with np.errstate(invalid="ignore", divide="ignore"):
+                found: Numbers = extended(np.sqrt(np.longdouble(modes.gravity)) / np.sqrt(modes.conical_height))
+            return found
+        height = modes.conical_height.astype(np.float64, copy=False)
+        good = height > 0  # rounding may leave others in the dense references
+        numbers = compiled(np.where(good, height, 1.0), np.asarray(modes.gravity))
+        return numbers if good.all() else np.where(good, numbers, np.nan)
 
     return compute
 
@@ -123,16 +122,16 @@ class Modes(Result):
     angular_speed: Field[Numbers] = Field(
         "Whirl speed of each mode, rad/s, shape (k,): for a hanging chain also the natural angular frequency of its "
         "swing in a plane. ``sqrt(gravity / conical_height)``; longdouble with ``precision='extended'``, else float64.",
-        _speeds(lambda n, at: n if at is None else _core.conical_pendulum_angular_speed(*at)),
+        _speeds(_core.conical_pendulum_angular_speed, lambda speed: speed),
     )
     frequency: Field[Numbers] = Field(
         "Revolutions in a second, Hz, shape (k,).",
-        _speeds(lambda n, at: n / TURN if at is None else _core.conical_pendulum_revolutions_per_second(*at)),
+        _speeds(_core.conical_pendulum_revolutions_per_second, lambda speed: speed / TURN),
     )
     rpm: Field[Numbers] = Field("Revolutions in a minute, shape (k,).", lambda m: 60 * m.frequency)
     period: Field[Numbers] = Field(
         "Time of one revolution, s, shape (k,).",
-        _speeds(lambda n, at: TURN / n if at is None else _core.conical_pendulum_period(*at)),
+        _speeds(_core.conical_pendulum_period, lambda speed: TURN / speed),
     )
     speed_error_bound: Field[Floats] = Field(
         "Bound of the relative error of each angular speed, frequency and period, shape (k,), for gravity as given.",
@@ -336,19 +335,25 @@ class Modes(Result):
         nodes = Column("nodes", self.nodes, "nodes (m from the free end)", axes=("node",), shown=_texts(self.nodes))
         return [nodes] if brief else [nodes, Column("residual", self.residual), Column("shape", self.shape, axes=("pin",))]
 
+    def _heading(self, which: str) -> str:
+        system = repr(self.system)
+        return f"{which} of a {system[0].lower()}{system[1:]}: by {self.method}, {self.status.replace('_', ' ')}"
+
+    def _note(self) -> str:
+        return f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"
+
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [Column("mode", self.number, "mode"), *self._speed_columns(), *self._shape_columns(brief)]
         columns += _rest("conical_height", self.conical_height, self.conical_height_low)
         if self.certificate is not None:
             for column in self.certificate._sheet().columns[1:]:
                 columns.append(Column(f"certificate_{column.name}", column.values))
-        chain = repr(self.system).replace("Chain", "a chain")
         return Sheet(
             "mode",
-            f"{self._which()} of {chain}: by {self.method}, {self.status.replace('_', ' ')}",
+            self._heading(self._which()),
             columns,
             {name: getattr(self, name) for name in ("gravity", "method", "status", "precision")} | _facts(self.system),
-            [f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"],
+            [self._note()],
             self.status == "success",
         )
 
@@ -409,10 +414,10 @@ class RigModes(Modes):
     frequency: Field[Numbers] = Field("Revolutions in a second, Hz, shape (k,), signed.", lambda m: m.angular_speed / TURN64)
     period: Field[Numbers] = Field("Time of one revolution, s, shape (k,).", lambda m: TURN64 / np.abs(m.angular_speed))
     speed_error_bound: Field[Floats] = Field("Bound of the relative error of each speed, shape (k,); proved.", part=True)
-    conical_height_low: Field[Floats | None] = Field("None.", lambda m: None)
-    certificate: Field[Certificate | None] = Field("None.", lambda m: None)
-    precision: Field[str] = Field("``'double'``.", lambda m: "double")
-    rtol: Field[float | None] = Field("None.", lambda m: None)
+    conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
+    certificate: Field[Certificate | None] = Field("Always None: `revchain.modes` certifies chains only.", lambda m: None)
+    precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
+    rtol: Field[float | None] = Field("Always None: full accuracy.", lambda m: None)
     available: Field[tuple[int, int]] = Field("Number of modes forward and backward, found or not.", part=True)
     has_momentum: Field[bool] = Field(
         "Whether a flywheel has momentum of its own, so that the two directions differ.", part=True
@@ -439,7 +444,7 @@ class RigModes(Modes):
     )
 
     def plot(  # type: ignore[override]
-        self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m", carried: Any = None
+        self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m", carried: Response | None = None
     ) -> Axes:
         """Draw the rig at rest, and beside it its shapes along the straight chain, standing links upwards and stout.
 
@@ -491,7 +496,7 @@ class RigModes(Modes):
             *self._speed_columns(),
             *self._shape_columns(brief),
         ]
-        notes = [f"gravity {self.gravity:.6g} m/s^2; error bound: relative, of the conical height"]
+        notes = [self._note()]
         if self.has_momentum:
             notes.append("negative speeds: backward, against wheels whose momentum is positive")
         slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(self.slack_link, self.slack_speed, strict=True)]
@@ -501,8 +506,7 @@ class RigModes(Modes):
         total = sum(self.available)
         return Sheet(
             "mode",
-            f"{len(self):,} of {total:,} mode{'s' * (total != 1)} of a {repr(self.system)[0].lower()}"
-            f"{repr(self.system)[1:]}: by {self.method}, {self.status.replace('_', ' ')}",
+            self._heading(f"{len(self):,} of {total:,} mode{'s' * (total != 1)}"),
             columns,
             {
                 **{name: getattr(self, name) for name in ("gravity", "method", "status", "complete")},

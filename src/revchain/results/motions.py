@@ -13,7 +13,7 @@ from .. import _core
 from ..systems.chain import Chain
 from ..systems.numbers import Floats, Whole, boolean
 from .base import Field, Result
-from .sheet import Column, Sheet
+from .sheet import Column, Sheet, speed_columns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -138,8 +138,7 @@ class Response(Result):
         pin = int(pins[0]) if pins.size else 0
         name = "free end" if pin == 0 else f"pin {pin}"
         columns = [
-            Column("angular_speed", speed, "speed (rad/s)", 5),
-            Column("rpm", speed * (30 / np.pi), "speed (rpm)", 5),
+            *speed_columns(speed, 5),
             Column("modes_below", self.modes_below.reshape(-1), "modes below"),
             Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5),
             Column("first_pin_amplification", offset[:, 0] / self.support_radius, "over support", 4),

@@ -29,14 +29,11 @@ class _ByDatum(Result):
             raise KeyError(f"quantity must be one of {', '.join(_core.DATA)}, got {shown(quantity)}")
         return getattr(self, quantity)  # type: ignore[no-any-return]
 
-    def _columns(self, shown_link: int = 0) -> list[Column]:
+    def _columns(self) -> list[Column]:
         columns = [Column("mode", self.number, "mode")]
         for name in _core.DATA:
             values = self[name]
-            heading = f"{name} of links[{shown_link}]" if values.ndim == 2 and values.shape[1] else ""
-            columns.append(
-                Column(name, values, heading, axes=("link",), shown=values[:, shown_link] if heading else None)
-            )
+            columns.append(Column(name, values, f"{name} of links[0]", axes=("link",), shown=values[:, 0]))
         return columns
 
 

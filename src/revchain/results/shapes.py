@@ -381,4 +381,4 @@ def shapes_made(
     """A list around compiled shapes."""
     given: dict[str, Any] = {"system": system, "gravity": gravity}
     items = tuple(SteadyShape._made(shape, direction=direction, **given) for shape in found.shapes)
-    return SteadyShapes._made(found, items=items, conical_height=height, angular_speed=speed, **given)
+    return SteadyShapes._made(found, _items=items, conical_height=height, angular_speed=speed, **given)

@@ -98,6 +98,14 @@ class Sheet:
         return len(self.columns[0].values) if self.columns else 0
 
 
+def speed_columns(speed: Any, digits: int = 6) -> list[Column]:
+    """Speeds, given in rad/s, in both units."""
+    return [
+        Column("angular_speed", speed, "speed (rad/s)", digits),
+        Column("rpm", speed * (30 / math.pi), "speed (rpm)", digits),
+    ]
+
+
 def digits(number: float, count: int) -> str:
     """`number` with `count` significant digits, zeros at the end kept."""
     return f"{number:#.{count}g}".removesuffix(".")
@@ -186,7 +194,7 @@ def _cell(value: Any) -> Any:
 
 def as_dataframe(sheet: Sheet) -> Any:
     """A row of pandas for each row; facts are its ``attrs``; columns of arrays are left out."""
-    pandas = require("pandas", "tables", "to_dataframe")
+    pandas = require("pandas", "sweep", "to_dataframe")
     columns = {column.name: column.values for column in sheet.columns if not column.axes}
     table = pandas.DataFrame(columns)
     if sheet.row in columns and table[sheet.row].is_unique:

@@ -273,11 +273,6 @@ class Rig(Unchangeable):
         chain, given = state
         return cls(chain, **given)
 
-    @property
-    def mode_count(self) -> int:
-        """Number of modes in each direction at most: one for each link, and one for a support that yields."""
-        return self.size + int(math.isfinite(self.stiffness))
-
 
 _NUMBERS = ("stiffness", "carriage_weight", "support_radius", "fluid")
 
