@@ -4,7 +4,7 @@
     python bench/sweep.py [--points 1000000] [--links 2 3 5 10] [--modes 0] [--threads 1] [--rounds 9] [--works memory nc]
 
 Rows of CSV: what varies (`two`: two masses on a grid; `all`: all masses and a length, random), kind, links, modes (`all`, or
-the first of them), chains, threads; what is done (`memory`: the sweep without a file; `journal`: every point kept on disk,
+the first of them), chains, threads; what is done (`memory`: the sweep without a file; `chunks`: every point kept on disk,
 but no output; `nc`, `parquet`, `csv`: that and the output, made to last by fsync); median seconds of the bare call and of
 the sweep, in wall and in CPU time; the share of the bare speed that the sweep has, the median of interleaved rounds, in
 each; megabytes that are written. It ends with an error where the heights of the two are not the same to the last bit.
@@ -12,11 +12,16 @@ each; megabytes that are written. It ends with an error where the heights of the
     python bench/sweep.py --memory nc --points 10000000
 
 prints the most memory that one sweep took, from a process of its own: all of it, and what is not pages of files.
+
+    python bench/sweep.py --single --links 2 10 40
+
+prints microseconds a point for points that are solved one by one, by a loop in C++ and by the sweep.
 """
 
 import argparse
 import contextlib
 import os
+import shutil
 import tempfile
 import threading
 import time
@@ -27,13 +32,13 @@ import numpy as np
 
 import revchain as rc
 
-WORKS = ("memory", "journal", "nc", "parquet", "csv")
+WORKS = ("memory", "chunks", "nc", "parquet", "csv")
 
 
 def study_of(kind, links, points, varied="all", modes=0):
     """All numbers of the chains random, or two of them on a grid; 0 modes are all."""
     link = {"mass": 1.0, "length": 1.0, "kind": kind}
-    scene = {"links": [dict(link) for _ in range(links)], "ask": {"modes": modes or "all"}}
+    scene = {"links": [dict(link) for _ in range(links)], "ask": {"modes": {"count": modes or "all"}}}
     if varied == "two":
         grid = {"from": 0.5, "to": 2.0, "steps": isqrt(points)}
         return rc.Study.from_dict({"scene": scene, "vary": {"links[0].mass": grid, "links[1].mass": grid}})
@@ -50,27 +55,14 @@ def arrays_of(kind, links, swept):
         link = int(name[6 : name.index("]")])
         (mass if name.endswith("mass") else length)[:, link] = swept[name]
     body = {"centroid": length / 2, "radius_of_gyration": length / np.sqrt(12)} if kind == "rod" else {}
-    return {"weight": mass * swept.study.scene.gravity_value(), "length": length, **body}
-
-
-class Nothing:
-    """An output that is none."""
-
-    def __init__(self, path, study, plan):
-        path.touch()
-
-    def add(self, start, stop, pieces):
-        pass
-
-    def close(self):
-        pass
+    return {"weight": mass, "length": length, **body}
 
 
 def work_of(name, study, threads, folder):
     """What is measured."""
     if name == "memory":
         return lambda: rc.sweep(study, threads=threads)
-    out = os.path.join(folder, "out." + ("nc" if name == "journal" else name))
+    out = os.path.join(folder, "out." + ("nc" if name == "chunks" else name))
 
     def with_a_file():
         if os.path.exists(out):
@@ -81,12 +73,12 @@ def work_of(name, study, threads, folder):
 
     def without_output():
         with (
-            mock.patch("revchain.studies.sweep.writer_of", lambda path: Nothing),
-            mock.patch("revchain.studies.keep.pieces_of", lambda *given: {}),
+            mock.patch("revchain.studies.store.Store.join", lambda store, study: shutil.rmtree(store.folder)),
+            mock.patch("revchain.studies.sweep.stamp", lambda path: (0, 0)),
         ):
             return with_a_file()
 
-    return without_output if name == "journal" else with_a_file
+    return without_output if name == "chunks" else with_a_file
 
 
 def timed(work):
@@ -143,6 +135,25 @@ def peak(name, study, threads):
     print(f"{name},{study.points},{len(study.scene.links)},{seconds:.1f},{most[0]:.0f},{most[1]:.0f}")
 
 
+def singles(links, points, rounds):
+    """Points that are solved one by one, ten modes with proved bounds: the sweep beside the same loop in C++."""
+    data = study_of("rod", links, points, modes=min(links, 10)).to_dict()
+    study = rc.Study.from_dict({**data, "error_bounds": True})
+    swept = rc.sweep(study, threads=1)
+    arrays = arrays_of("rod", links, swept)
+    loop = rc._core.Points(points, links, "links", arrays, [], [], False, [], False)
+
+    def bare():
+        return loop.modes(min(links, 10), 1, min(links, 10), None, False, "auto", rc._core.Progress())
+
+    if bare()[1].tobytes() != swept["conical_height"].tobytes():
+        raise SystemExit("the heights of the sweep and of the loop differ")
+    spent = np.array([[timed(lambda: bare() and None), timed(lambda: rc.sweep(study, threads=1))] for _ in range(rounds)])
+    plain, whole = np.median(spent, axis=0)
+    seconds = ",".join(f"{1e6 * number / points:.1f}" for number in (*plain, *whole))
+    print(f"{links},{points},{seconds},{np.median(spent[:, 1, 1] / spent[:, 0, 1]):.2f}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--points", type=int, default=1_000_000)
@@ -150,13 +161,19 @@ def main():
     parser.add_argument("--modes", type=int, nargs="+", default=[0])
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--rounds", type=int, default=9)
-    parser.add_argument("--works", nargs="+", choices=WORKS, default=["memory", "journal", "nc"])
+    parser.add_argument("--works", nargs="+", choices=WORKS, default=["memory", "chunks", "nc"])
     parser.add_argument("--varied", nargs="+", choices=("two", "all"), default=["two", "all"])
     parser.add_argument("--kinds", nargs="+", choices=("plummet", "rod"), default=["plummet", "rod"])
     parser.add_argument("--memory", choices=WORKS)
+    parser.add_argument("--single", action="store_true")
     asked = parser.parse_args()
     if asked.memory:
         peak(asked.memory, study_of("plummet", asked.links[-1], asked.points), asked.threads)
+        return
+    if asked.single:
+        print("links,points,loop_us,loop_cpu_us,sweep_us,sweep_cpu_us,cpu_ratio")
+        for links in asked.links:
+            singles(links, min(asked.points, 20_000), asked.rounds)
         return
     print("varied,kind,links,modes,chains,threads,work,bare_s,bare_cpu_s,sweep_s,sweep_cpu_s,share,cpu_share,MB")
     for varied in asked.varied:

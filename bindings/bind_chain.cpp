@@ -49,7 +49,7 @@ auto combined(Index size, Make make, const Column<V>&... columns) {
     values.reserve(static_cast<std::size_t>(size));
     for (Index m = 0; m < size; ++m) {
         if (m % 1024 == 0) revchain::detail::look();
-        values.push_back(make("Chain: link " + std::to_string(m + 1), columns[m]...));
+        values.push_back(make("Chain: links[" + std::to_string(m) + "]", columns[m]...));
     }
     return Column<Made>(std::move(values));
 }

@@ -37,6 +37,7 @@ void bind_core(py::module_& module) {
     py::class_<revchain::Progress>(module, "Progress", "How far modes() is, readable from another thread.")
         .def(py::init<>())
         .def_property_readonly("fraction", &revchain::Progress::fraction, "From 0 to 1.")
+        .def_property_readonly("cancelled", &revchain::Progress::cancelled, "Whether cancel() was called.")
         .def("cancel", &revchain::Progress::cancel, "Make the running modes() raise Cancelled.");
 
     module.def("conical_pendulum_angular_speed",
@@ -63,8 +64,6 @@ void bind_core(py::module_& module) {
     module.def("conical_pendulum_gravity",
                vectorized([](double length, double period) { return pendulum::gravity(length, period); }), "length"_a,
                "period"_a);
-    module.def("conical_pendulum_gravity_from_seconds_pendulum",
-               vectorized([](double length) { return pendulum::gravity_from_seconds_pendulum(length); }), "length"_a);
     module.def("conical_pendulum_height_from_seconds_pendulum", vectorized([](double seconds_pendulum, double period) {
                    return pendulum::height_from_seconds_pendulum(seconds_pendulum, period);
                }),

@@ -127,8 +127,7 @@ void bind_ropes(py::module_& module) {
             [](const SkippingRope& r, const Array& arc) {
                 return columns<5>([&](double at) { return row(r.at_arc(at)); }, arc);
             },
-            "arc"_a, "What there is at so much rope.")
-        .def("drawn_to", &SkippingRope::drawn_to, "span"_a, "The ends moved, angular momentum kept.");
+            "arc"_a, "What there is at so much rope.");
 
     using analytic::TortuousRope;
     py::class_<TortuousRope>(module, "TortuousRope",

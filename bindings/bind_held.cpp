@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
+#include <optional>
 
 #include "bindings.hpp"
 #include "interrupt.hpp"
@@ -10,48 +10,27 @@ namespace {
 
 using Chain = revchain::Chain<double>;
 using revchain::Held;
-using revchain::HeldBy;
 using revchain::HeldCordShape;
 using revchain::HeldShape;
-using revchain::HeldShapesOptions;
 
-/// Shapes at a conical height, where 0 stands for no gravity; without holding the GIL.
+/// Shapes of a chain or a cord; without holding the GIL.
 template <class System>
-auto shapes_at_height(const System& system, HeldBy by, double height, HeldShapesOptions options) {
+auto shapes(const System& system, std::optional<double> span, std::optional<double> tension, bool weightless,
+            std::optional<double> conical_height, std::optional<double> angular_speed, double gravity,
+            int max_half_waves, bool prove) {
     const py::gil_scoped_release release;
-    by.weightless = height == 0;
-    if (height != 0) options.conical_height = height;
-    return revchain::steady_shapes(Held(system, by), options);
+    return revchain::steady_shapes(Held(system, {.span = span, .tension = tension, .weightless = weightless}),
+                                   {.conical_height = conical_height,
+                                    .angular_speed = angular_speed,
+                                    .gravity = gravity,
+                                    .max_half_waves = max_half_waves,
+                                    .prove = prove});
 }
 
-/// The same for a tension at the upper end times the height; without gravity, tension at 1 rad/s.
 template <class System>
-auto shapes_under_tension(const System& system, double height_times_tension, double height, HeldShapesOptions options) {
-    if (height == 0) options.angular_speed = 1;
-    return shapes_at_height(system, {.tension = height_times_tension / (height == 0 ? 1 : height)}, height, options);
-}
-
-/// Whirl speeds of a chain held straight.
-struct TautModes {
-    double tension;  // at the lower end, in the unit of the weights
-    revchain::Vector<double> conical_height, error_bound;
-    revchain::Table<double> shape;
-};
-
-TautModes taut_modes(const Chain& chain, double tension, revchain::Index count) {
-    revchain::detail::require_positive("taut_modes", "tension", tension);
-    if (count < 1) revchain::detail::throw_invalid("taut_modes", "count must be at least 1", count);
-    // the lower tension as it is: from that at the upper end its last digits would be lost beside the weight
-    const revchain::finite::TautChain taut(chain, revchain::Wide<double>(tension));
-    const revchain::Index found = std::min(count, taut.mode_count());
-    TautModes modes{tension, revchain::Vector<double>(found),
-                    revchain::Vector<double>::Constant(found, revchain::epsilon<double>()),
-                    revchain::Table<double>(found, chain.size() + 1)};
-    for (revchain::Index k = 0; k < found; ++k) {
-        modes.conical_height[k] = taut.height(k);
-        modes.shape.row(k) = taut.shape(modes.conical_height[k]).transpose();
-    }
-    return modes;
+void def_shapes(py::module_& module) {
+    module.def("held_shapes", &shapes<System>, "system"_a, "span"_a, "tension"_a, "weightless"_a, "conical_height"_a,
+               "angular_speed"_a, "gravity"_a, "max_half_waves"_a, "prove"_a);
 }
 
 template <class Shape>
@@ -109,41 +88,8 @@ void bind_held(py::module_& module) {
             },
             "arc"_a);
     bind_shapes<revchain::HeldCordShapes>(module, "HeldCordShapes");
-    module.def(
-        "held_shapes",
-        [](const Chain& chain, double span, double height, int most, bool prove) {
-            return shapes_at_height(chain, {.span = span}, height, {.max_half_waves = most, .prove = prove});
-        },
-        "chain"_a, "span"_a, "height"_a, "most_half_waves"_a, "prove"_a);
-    module.def(
-        "held_shapes_at_speed",
-        [](const Chain& chain, double span, double speed, double gravity, int most, bool prove) {
-            const py::gil_scoped_release release;
-            return revchain::steady_shapes(
-                Held(chain, {.span = span, .weightless = gravity == 0}),
-                {.angular_speed = speed, .gravity = gravity, .max_half_waves = most, .prove = prove});
-        },
-        "chain"_a, "span"_a, "angular_speed"_a, "gravity"_a, "most_half_waves"_a, "prove"_a);
-    module.def(
-        "held_shapes_under_tension",
-        [](const Chain& chain, double tension, double height, int most, bool prove) {
-            return shapes_under_tension(chain, tension, height, {.max_half_waves = most, .prove = prove});
-        },
-        "chain"_a, "height_times_tension"_a, "height"_a, "most_half_waves"_a, "prove"_a);
-    module.def(
-        "held_cord_shapes",
-        [](double length, double span, double height, double weight, int most) {
-            return shapes_at_height(revchain::Cord(length, {.weight = weight}), {.span = span}, height,
-                                    {.max_half_waves = most});
-        },
-        "length"_a, "span"_a, "height"_a, "weight"_a, "most_half_waves"_a);
-    module.def(
-        "held_cord_shapes_under_tension",
-        [](double length, double tension, double height, double weight, int most) {
-            return shapes_under_tension(revchain::Cord(length, {.weight = weight}), tension, height,
-                                        {.max_half_waves = most});
-        },
-        "length"_a, "height_times_tension"_a, "height"_a, "weight"_a, "most_half_waves"_a);
+    def_shapes<Chain>(module);
+    def_shapes<revchain::Cord>(module);
     module.def(
         "held_stability",
         [](const Chain& chain, const HeldShape& shape, bool driven) {
@@ -151,10 +97,4 @@ void bind_held(py::module_& module) {
             return aside(chain, nullptr, [=](const Chain& own) { return revchain::stability(own, shape, frame); });
         },
         "chain"_a, "shape"_a, "driven"_a);
-    py::class_<TautModes>(module, "TautModes", "Whirl speeds of a chain held straight.")
-        .def_readonly("tension", &TautModes::tension)
-        .def_property_readonly("conical_height", column(&TautModes::conical_height))
-        .def_property_readonly("error_bound", column(&TautModes::error_bound))
-        .def_property_readonly("shape", [](const TautModes& modes) { return to_numpy(modes.shape); });
-    module.def("taut_modes", &taut_modes, "chain"_a, "tension"_a, "count"_a);
 }

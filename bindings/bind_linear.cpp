@@ -8,6 +8,7 @@
 #include "bindings.hpp"
 #include "interrupt.hpp"
 #include "revchain/count.hpp"
+#include "revchain/held.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/questions/dense_reference.hpp"
 #include "revchain/questions/modes.hpp"  // also for double-double
@@ -154,6 +155,16 @@ FoundModes modes(const Chain& chain, Index first, std::optional<Index> count, st
     return solved<double>(chain, asked, method, progress);
 }
 
+using HeldChain = revchain::Held<Chain>;
+
+/// Modes of a chain held straight under a tension at its upper end.
+FoundModes held_modes(const HeldChain& held, Index first, std::optional<Index> count,
+                      std::optional<Pair> conical_height, std::optional<Triple> angular_speed,
+                      std::optional<double> rtol, revchain::Progress* progress) {
+    const Asked asked{first, count, conical_height, angular_speed, rtol, false, revchain::ModesMethod::automatic};
+    return {without_lock([&] { return revchain::modes(held, asked.options<double>(progress)); }), false};
+}
+
 template <std::size_t N>
 py::tuple words(const std::array<std::string_view, N>& names) {
     py::tuple result(N);
@@ -229,6 +240,26 @@ void bind_linear(py::module_& module) {
                           [n, g](const auto& counter, py::ssize_t i) { return counter.below_speed(n[i], g[i]); });
         },
         "chain"_a, "angular_speed"_a, "gravity"_a);
+    py::class_<HeldChain>(module, "Held", "A chain held at both ends; immutable.")
+        .def(py::init([](const Chain& chain, std::optional<double> span, std::optional<double> tension,
+                         bool weightless) {
+                 return HeldChain(chain, {.span = span, .tension = tension, .weightless = weightless});
+             }),
+             "chain"_a, "span"_a, "tension"_a, "weightless"_a);
+    module.def("held_modes", &held_modes, "held"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
+               "rtol"_a, "progress"_a = py::none());
+    module.def(
+        "count_held_modes",
+        [](const HeldChain& held, const Array& height) {
+            py::array_t<std::int64_t> result(std::vector<py::ssize_t>(height.shape(), height.shape() + height.ndim()));
+            const py::gil_scoped_release release;
+            std::transform(height.data(), height.data() + height.size(), result.mutable_data(), [&](double h) {
+                revchain::detail::look();
+                return revchain::count_modes(held, {.conical_height = h});
+            });
+            return result;
+        },
+        "held"_a, "conical_height"_a);
     module.def(
         "recurrence_matrices",
         [](const Chain& chain) {

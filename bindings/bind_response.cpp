@@ -42,7 +42,7 @@ py::tuple response(const Carried& carried, const Array& given, bool speeds, doub
                           to_numpy(found.support_force_error));
 }
 
-py::tuple small_oscillation(const Chain<double>& chain, const Array& offsets, const Array& velocities,
+py::tuple swing(const Chain<double>& chain, const Array& offsets, const Array& velocities,
                             const Array& time, std::optional<Index> modes, double gravity) {
     const auto column = [](const Array& array) {
         return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(array.data(), array.size()));
@@ -52,20 +52,7 @@ py::tuple small_oscillation(const Chain<double>& chain, const Array& offsets, co
                                          .time = as_vector(time),
                                          .count = modes,
                                          .gravity = gravity};
-    const auto found = without_lock([&] {
-        try {
-            return revchain::swing(chain, options);
-        } catch (const revchain::InvalidArgument& error) {  // with the names that the arguments have in Python
-            std::string text = error.what();
-            for (const auto& [from, to] :
-                 std::array<std::pair<std::string, std::string>, 4>{{{"swing: ", "small_oscillation: "},
-                                                                     {": offset ", ": offsets "},
-                                                                     {": velocity ", ": velocities "},
-                                                                     {": count must", ": modes must"}}})
-                if (const auto at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
-            throw revchain::InvalidArgument(text);
-        }
-    });
+    const auto found = without_lock([&] { return revchain::swing(chain, options); });
     return py::make_tuple(to_numpy(found.offset), to_numpy(found.velocity), to_numpy(found.angular_frequency),
                           to_numpy(found.energy), to_numpy(found.shape), to_numpy(found.cosine), to_numpy(found.sine),
                           to_numpy(found.start), found.projected, found.energy_left_out,
@@ -79,6 +66,6 @@ void bind_response(py::module_& module) {
                "gravity"_a);
     module.def("rig_response", &response<Rig>, "rig"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
                "gravity"_a);
-    module.def("small_oscillation", &small_oscillation, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a,
+    module.def("swing", &swing, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a,
                "gravity"_a);
 }

@@ -40,7 +40,7 @@ Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weigh
         fluid.centroid = at(displaced_centroid, m, link.centroid);
         if (displaced_radius_of_gyration)
             fluid.gyration_ratio = revchain::detail::gyration_from_radius<double>(
-                "Rig: link " + std::to_string(m + 1), link.length, displaced_radius_of_gyration->data()[m]);
+                "Rig: links[" + std::to_string(m) + "]", link.length, displaced_radius_of_gyration->data()[m]);
         with.displaced.push_back(fluid);
     }
     return Rig(chain, std::move(with));
@@ -64,7 +64,9 @@ void bind_rig(py::module_& module) {
     py::class_<Rig>(module, "Rig", "A chain and what it is rigged with; immutable.")
         .def(py::init(&make_rig), "chain"_a, "stiffness"_a, "carriage_weight"_a, "support_radius"_a, "standing"_a,
              "momentum"_a, "axial_moment"_a, "displaced_weight"_a, "displaced_centroid"_a,
-             "displaced_radius_of_gyration"_a, "added_weight"_a, "turning_fluid"_a);
+             "displaced_radius_of_gyration"_a, "added_weight"_a, "turning_fluid"_a)
+        .def(
+            "__eq__", [](const Rig& x, const Rig& y) { return x == y; }, py::is_operator());
 
     const auto def = [&](const char* name, const auto& function) {
         module.def(name, function, "at"_a, "weight"_a, "length"_a, "tension"_a, "momentum"_a, "centroid"_a,

@@ -3,8 +3,6 @@
 #include "revchain/buffer.hpp"
 #include "revchain/two_links.hpp"
 
-#include <sstream>
-
 namespace {
 
 using Link = revchain::CompoundLink<double>;
@@ -80,8 +78,7 @@ void bind_two_links(py::module_& module) {
                }),
                "deflection"_a, "centroid"_a, "radius_of_gyration"_a);
 
-    py::class_<Shape> shape(module, "PairShape", "A steady figure of two links, the lower one first.");
-    shape
+    py::class_<Shape>(module, "PairShape", "A steady shape of two links, the lower one first.")
         .def_property_readonly(
             "inclination", [](const Shape& s) { return pair(s.inclination); }, "To the vertical, rad.")
         .def_property_readonly(
@@ -89,13 +86,6 @@ void bind_two_links(py::module_& module) {
         .def_property_readonly(
             "tension", [](const Shape& s) { return pair(s.tension); }, "Over the whole weight.")
         .def_property_readonly("half_waves", &Shape::half_waves, "Sign changes of the offsets, and one.");
-    shape.def("__repr__", [](const Shape& s) {
-        std::ostringstream text;
-        text.precision(6);
-        text << "PairShape: half_waves " << s.half_waves() << ", inclination [" << s.inclination[0] << ", "
-             << s.inclination[1] << "]";
-        return text.str();
-    });
     module.def("two_plummets_shapes", &revchain::two_plummets_shapes<double>, "lower_weight"_a, "lower_thread"_a,
                "upper_weight"_a, "upper_thread"_a, "height"_a);
     module.def(

@@ -49,11 +49,12 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_rig_modes(module);
     bind_finite(module);
     bind_branches(module);
-    bind_continuous(module);
+    bind_cord(module);
     bind_held(module);
     bind_two_links(module);
     bind_diagrams(module);
     bind_batch(module);
+    bind_points(module);
     bind_analytic(module);
     bind_elliptic(module);
     bind_response(module);

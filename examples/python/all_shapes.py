@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every shape in which three plummets whirl, proved complete; their branches, and which of them are stable.
+"""All steady shapes of three point masses at one speed, proved complete; their branches and their stability.
 
 python all_shapes.py [FOLDER]
 """
@@ -11,17 +11,17 @@ import revchain as rc
 SPEED = 4.4  # in units of sqrt(g/a), a the length of a thread
 chain = rc.Chain.uniform_plummets(3, length=3.0)
 shapes = rc.steady_shapes(chain, angular_speed=SPEED, gravity=1.0)
-print(f"three plummets at {SPEED} sqrt(g/a): {len(shapes)} shapes, {'all' if shapes.complete else 'at least'}")
+print(f"three point masses at {SPEED} sqrt(g/a): {len(shapes)} shapes, {'all' if shapes.complete else 'at least'}")
 print("half waves  inclinations, degrees   error bound  stability")
 for shape in shapes:
     degrees = " ".join(f"{57.29577951308232 * d:6.2f}" for d in shape.inclination)
     print(f"{shape.half_waves:10}   {degrees}   {shape.error_bound:11.1e}  {shape.stability().verdict}")
 
-diagram = rc.branches(chain, up_to=5.0, gravity=1.0)
+diagram = rc.branches(chain, max_angular_speed=5.0, gravity=1.0)
 born = diagram[3]
 print(f"two are born at {born.angular_speed[born.folds[0]]:.9f} sqrt(g/a)")
 eight = rc.steady_shapes(rc.Chain.uniform_plummets(8, length=8.0), conical_height=5.95**-2)
-print(f"eight plummets at 5.95 sqrt(g/a): {len(eight)} shapes, {'all' if eight.complete else 'at least'}")
+print(f"eight point masses at 5.95 sqrt(g/a): {len(eight)} shapes, {'all' if eight.complete else 'at least'}")
 
 figure, axes = panels(2, [2, 3])
 seen = set()

@@ -49,8 +49,8 @@ shapes.legend(loc="upper left", fontsize=7)
 # Plucked in the middle by 1 cm: all 120 modes, and the three slowest.
 plucked = HAND * np.interp(depth, [0, LENGTH / 2, LENGTH], [0, 1, 0])
 moments = np.linspace(0, 4, 2000)
-swing = rc.small_oscillation(chain, plucked, None, moments)
-few = rc.small_oscillation(chain, plucked, None, moments, modes=3)
+swing = rc.swing(chain, plucked, None, moments)
+few = rc.swing(chain, plucked, None, moments, count=3)
 share = swing.energy / swing.energy.sum()
 print("plucked in the middle, share of the energy of modes 1 to 5:", " ".join(f"{100 * x:.1f} %" for x in share[:5]))
 print(

@@ -20,17 +20,9 @@ NAMES = [
 
 for name in NAMES:
     scene = rc.load_scene(SCENES / f"{name}.toml")
-    if scene.is_held:
-        found: Any = scene.steady_shapes()
-        axes, what = found.plot(), "shape"
-    elif scene.ask.swing:
-        found = scene.small_oscillation()
-        axes, what = found.plot(), "time"
-    else:
-        found, what = scene.modes(), "mode"
-        carried = scene.response() if scene.is_carried else None
-        axes = found.plot(carried=carried) if scene.is_rigged else found.plot()
-    count = found.time.size if what == "time" else len(found)
+    [question, found], *_ = scene.answers().items()
+    axes = found.plot()
+    count, what = (len(found), question.removesuffix("s")) if question != "swing" else (found.time.size, "time")
     axes.set_title(scene.title)
     axes.figure.set_size_inches(axes.figure.get_figwidth(), 4.5)
     print(f"{scene.title}: {count} {what}{'s' * (count != 1)},", end=" ")

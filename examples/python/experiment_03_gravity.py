@@ -16,7 +16,7 @@ pendulum = rc.conical_pendulum
 print(f"thread 1 m, almost vertical: 100 turns in {100 * pendulum.period(THREAD):.2f} s")
 print(f"thread that beats seconds: {pendulum.height_from_period(2.0):.4f} m")
 inches = 39.1396  # London, as the paper has it
-london = pendulum.gravity_from_seconds_pendulum(inches)
+london = pendulum.gravity(inches)  # of the pendulum that beats seconds
 print(f"{inches} inches beat seconds in London: g = {london:.2f} inches/s^2 = {london * 0.0254:.4f} m/s^2")
 
 print("radius, m  inclination, degrees  100 turns, s  g if the circle is neglected, m/s^2")

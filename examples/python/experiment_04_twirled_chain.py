@@ -15,7 +15,7 @@ HAND = 0.005  # m, radius of the circle
 LINKS = 100
 
 chain = rc.Chain.uniform_rods(LINKS, length=LENGTH)
-carried = rc.Rig(chain, support_radius=HAND)
+carried = rc.Rig(chain, support=rc.Support(radius=HAND))
 
 
 def near_the_vertical(turns):

@@ -16,7 +16,7 @@ SPEED = 2 * np.pi * TURNS
 
 def on_the_hand(length, sticks=1):
     """Equal sticks hinged end to end, upright."""
-    return rc.Rig(rc.Chain.uniform_rods(sticks, length=length), standing=True, support_radius=HAND)
+    return rc.Rig(rc.Chain.uniform_rods(sticks, length=length), inverted=True, support=rc.Support(radius=HAND))
 
 
 def leaning(rig):
@@ -42,17 +42,17 @@ for rig in columns:
     grows = " ".join(f"{x:.3f}" for x in 1 / rc.modes(rig).other.growth_rate)
     print(f"{rig.size:6}  {top:+13.3f}  {grows:23} ", *(f"{x:.2f}" for x in leaning(rig)[1]))
 
-pair = rc.Chain(weight=[0.05, 0.5], length=[0.3, 1.0])  # kg will do: only ratios count
+pair = rc.Chain(mass=[0.05, 0.5], length=[0.3, 1.0])
 print("50 g on 0.3 m of wire, on a rod of 1 m with 500 g at its end, near the vertical:")
 print("wire    rod     turns a second  leans grow e-fold in, s")
-for standing in ([False, False], [True, False], [False, True], [True, True]):
-    found = rc.modes(rc.Rig(pair, standing=standing))
+for inverted in ([False, False], [True, False], [False, True], [True, True]):
+    found = rc.modes(rc.Rig(pair, inverted=inverted))
     turns = " ".join(f"{turns:.4f}" for turns in found.frequency)
     grows = " ".join(f"{x:.3f}" for x in 1 / found.other.growth_rate)
-    wire, rod = ("stands" if stands else "hangs" for stands in standing)
+    wire, rod = ("stands" if stands else "hangs" for stands in inverted)
     print(f"{wire:6}  {rod:6}  {turns or 'none':14}  {grows or 'none'}")
 faster = 0.55
-(upright,) = rc.steady_shapes(rc.Rig(pair, standing=[True, False]), angular_speed=2 * np.pi * faster)
+(upright,) = rc.steady_shapes(rc.Rig(pair, inverted=[True, False]), angular_speed=2 * np.pi * faster)
 wire, rod = np.degrees(np.abs(upright.inclination))
 print(f"the wire standing, at {faster} turns a second: wire and rod lean {180 - wire:.2f} {rod:.2f} degrees")
 

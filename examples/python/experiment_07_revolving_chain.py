@@ -12,7 +12,7 @@ import revchain as rc
 LENGTH = 1.0  # m
 PAIR = dict(lower_weight=1, lower_thread=0.5, upper_weight=1, upper_thread=0.25)  # each in the middle of half a chain
 
-chain = rc.Chain.uniform_rods(200, length=LENGTH)
+chain, cord = rc.Chain.uniform_rods(200, length=LENGTH), rc.Cord(LENGTH)
 result = rc.modes(chain, count=3)
 pair_speeds = rc.conical_pendulum.revolutions_per_second(rc.two_links.two_plummets(**PAIR))
 print("turns a second at which another figure leaves the vertical:")
@@ -29,7 +29,7 @@ print("turns a second  figure  continuous  200 links")
 for turns in (0.7, 1.0, 2.0, 3.0):
     links = rc.steady_shapes(chain, angular_speed=2 * np.pi * turns)
     assert links.complete
-    for shape, linked in zip(rc.continuous_shapes(LENGTH, angular_speed=2 * np.pi * turns), links, strict=True):
+    for shape, linked in zip(rc.steady_shapes(cord, angular_speed=2 * np.pi * turns), links, strict=True):
         print(f"{turns:14.1f}  {shape.half_waves:6}  {shape.offset[0]:10.5f}  {linked.offset[0]:9.5f}")
 
 
@@ -45,7 +45,7 @@ for turns in (0.7, 1.0, 2.0, 3.0):
         print(f"{turns:14.1f}  {shape.half_waves:6}  {lower:12.2f}  {upper:5.2f}")
 
 figure, axes = panels(3, [1.5, 1.5, 1.5])
-for shape in rc.continuous_shapes(LENGTH, angular_speed=2 * np.pi * 3.0):
+for shape in rc.steady_shapes(cord, angular_speed=2 * np.pi * 3.0):
     hang(axes[0], shape.offset, -shape.height, color=COLOURS[shape.half_waves - 1], label=f"{shape.half_waves}")
 side_view(axes[0], "chain at 3 turns a second", bottom=1.03, half_width=0.85)
 axes[0].set_xlim(-0.4, 1.05)
@@ -68,7 +68,7 @@ for half_waves in (1, 2):
     axes[2].plot(turns, [max(tip, default=0) for tip in tips], color=COLOURS[half_waves - 1])
 for half_waves in (1, 2, 3):
     faster = turns[turns > rc.heavy_chain.revolutions_per_second(3, LENGTH)[half_waves - 1]]
-    shapes = [rc.continuous_shapes(LENGTH, angular_speed=2 * np.pi * n)[half_waves - 1] for n in faster]
+    shapes = [rc.steady_shapes(cord, angular_speed=2 * np.pi * n)[half_waves - 1] for n in faster]
     axes[2].plot(faster, [s.offset[0] for s in shapes], ":", color=COLOURS[half_waves - 1])
 axes[2].set(xlabel="turns a second", ylabel="lowest point from the axis, m", ylim=(-0.02, 1.02))
 axes[2].set_title("two weights; dotted: the chain")

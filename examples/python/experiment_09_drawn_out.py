@@ -24,23 +24,23 @@ for rope in ropes:
     print("{:7.2f}  {:6.3f}  {:14.3f}  {:24.5f}  {:22.1f}  {:12.2f}".format(*numbers))
 print(f"at first the middle is flung outwards with {start.sag * start.angular_speed**2 / 9.80665:.1f} times its weight")
 
-WEIGHT = MASS * LENGTH * 9.80665
+held = rc.Held(rc.Cord(LENGTH, mass=MASS * LENGTH), span=SPAN)
+linked = rc.Held(rc.Chain.uniform_rods(LINKS, length=LENGTH, mass=MASS * LENGTH), span=SPAN)
 places = np.linspace(0, LENGTH, 2001)
 print(f"ends {SPAN:.0f} m above one another, with gravity; and {LINKS} links in place of the rope:")
 print("turns a second  sag, m  of links  widest below the middle, m  pull along the axis, N: above  below")
 upright = {}
 for turns in (5.0, 3.0, 2.0, 1.0, 0.6):
-    asked = dict(span=SPAN, angular_speed=2 * np.pi * turns)
-    (cord,) = rc.held_cord_shapes(LENGTH, weight=WEIGHT, **asked)
-    (links,) = rc.held_shapes(rc.Chain.uniform_rods(LINKS, length=LENGTH), **asked)
-    widest = cord.at_arc(np.interp(0, cord.at_arc(places).inclination, places))  # where it is parallel to the axis
+    (cord,) = rc.steady_shapes(held, angular_speed=2 * np.pi * turns)
+    (links,) = rc.steady_shapes(linked, angular_speed=2 * np.pi * turns)
+    widest = cord.at(np.interp(0, cord.at(places).inclination, places))  # where it is parallel to the axis
     numbers = (turns, widest.offset, links.offset.max(), SPAN / 2 - widest.height)
     pulls = (-cord.upper_pull[1], cord.lower_pull[1])  # what the hands feel, outwards
     print("{:14.1f}  {:6.4f}  {:8.4f}  {:26.4f}  {:29.2f}  {:5.2f}".format(*numbers, *pulls))
-    upright[turns] = cord.at_arc(places)
+    upright[turns] = cord.at(places)
 longer = (LENGTH + SPAN) / 2  # of the two parts of a rope that hangs down, the upper hand's
 (folded,) = rc.heavy_chain.revolutions_per_second(1, longer)
-assert not rc.held_cord_shapes(LENGTH, span=SPAN, angular_speed=2 * np.pi * folded)
+assert not rc.steady_shapes(held, angular_speed=2 * np.pi * folded)
 print(f"it hangs down, folded in the axis, up to {folded:.4f} turns a second, as a chain of {longer} m would")
 
 figure, (side, curve, vertical) = panels(3, [1.7, 1, 0.9])

@@ -33,7 +33,7 @@ for turns in (0.6, 0.8, 1.5, 3.0):
         print(f"{turns:14.1f}  {shape.half_waves:6}  {stick:7.2f}  {string:7.2f}  {shape.tension[1]:11.3f}")
 
 chain = rc.Chain(weight=[1, 0], length=[STICK, STRING], centroid=[STICK / 2, 0], radius_of_gyration=[GYRATION, 0])
-carried = rc.Rig(chain, support_radius=HAND)
+carried = rc.Rig(chain, support=rc.Support(radius=HAND))
 print("hand carried round, near the vertical, over its offset:")
 print("turns a second  end of the stick    joint")
 alone = rc.conical_pendulum.revolutions_per_second(rc.two_links.pendulum_length(STICK / 2, GYRATION))

@@ -12,7 +12,7 @@ import revchain as rc
 STICK = 1.2  # m, the paper's 2h
 LIKE = dict(centroid=STICK / 2, radius_of_gyration=STICK / 12**0.5)
 
-on_the_hand = rc.Rig(rc.Chain.uniform_rods(1, length=STICK), standing=True)
+on_the_hand = rc.Rig(rc.Chain.uniform_rods(1, length=STICK), inverted=True)
 length = rc.two_links.pendulum_length(**LIKE)  # the paper's l
 print(f"it swings like {length:.3f} m; its top stays at rest at", end=" ")
 print(f"{rc.conical_pendulum.revolutions_per_second(STICK - length):.4f} swings a second")

@@ -14,7 +14,7 @@ RHO2, A2, W2 = 0.30, 0.15, 500.0  # bell: radius of gyration, gudgeons to the cl
 
 def hung(h2):
     """The bell hung this high above its centre of gravity, and its clapper."""
-    return rc.Chain(weight=[W1, W2], length=[A1, A2], centroid=[H1, h2], radius_of_gyration=[RHO1, RHO2])
+    return rc.Chain(mass=[W1, W2], length=[A1, A2], centroid=[H1, h2], radius_of_gyration=[RHO1, RHO2])
 
 
 print("centroid of the bell m  clapper/bell inclination, mode 1 and 2")

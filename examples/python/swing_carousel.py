@@ -12,7 +12,7 @@ import revchain as rc
 
 ARM = 0.5  # m
 SPEED = 6.0  # rad/s, for the picture of all shapes
-chairs = rc.Rig(rc.Chain(weight=[900.0, 900.0], length=[2.0, 2.0]), support_radius=ARM)
+chairs = rc.Rig(rc.Chain(mass=90.0, length=[2.0, 2.0]), support=rc.Support(radius=ARM))
 
 
 def colour(shape):

@@ -10,7 +10,6 @@ from _picture import COLOURS, panels, save
 import revchain as rc
 
 LENGTH, SPAN, MASS, WIND = 24.0, 17.0, 160.0, 10.0  # m of blade, m of mast, kg of blade, m/s
-GRAVITY = 9.80665
 
 light = rc.SkippingRope(span=SPAN, length=LENGTH)
 RADIUS = light.sag
@@ -53,11 +52,12 @@ rope = light.at_arc(arc)
 print(f"straight ends of {form[1]:.2f} m at {np.degrees(form[0]):.1f} degrees, an arc of radius {form[2]:.2f} m")
 print("tip-speed  turns a   sag, m  height of   pull below,  pull above,  from the light")
 print("ratio      minute            sag, m      kN           kN           rope, m")
-blade = rc.Chain.uniform_rods(200, length=LENGTH, weight=MASS * GRAVITY)
+cord = rc.Held(rc.Cord(LENGTH, mass=MASS), span=SPAN)
+blade = rc.Held(rc.Chain.uniform_rods(200, length=LENGTH, mass=MASS), span=SPAN)
 for ratio, colour in zip((1.25, 2.0, 4.0, 8.0), COLOURS, strict=False):
     speed = ratio * WIND / RADIUS
-    shape = rc.held_shapes(blade, span=SPAN, angular_speed=speed, gravity=GRAVITY)[0]
-    along = rc.held_cord_shapes(LENGTH, span=SPAN, angular_speed=speed, gravity=GRAVITY)[0].at_arc(arc)
+    shape = rc.steady_shapes(blade, angular_speed=speed)[0]
+    along = rc.steady_shapes(cord, angular_speed=speed)[0].at(arc)
     lowest = int(np.argmax(along.offset))
     off = np.hypot(along.offset - rope.offset, along.height - rope.x)
     numbers = (ratio, 30 * speed / np.pi, along.offset[lowest], along.height[lowest])

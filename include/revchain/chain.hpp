@@ -34,7 +34,7 @@ struct ChainUnits {
 /// A hanging chain of links, lowest first: link m joins pin m (lower) and pin m + 1 (upper), pin 0 is the free end, pin
 /// `size()` the support. Checked once here, immutable, and trusted by everything that reads it.
 ///
-/// Throws InvalidArgument, naming the link (counted from 1, lowest first), for: no links; numbers that are not finite;
+/// Throws InvalidArgument, naming the link (counted from 0, lowest first), for: no links; numbers that are not finite;
 /// lengths <= 0; negative weights; a massless lowest link; weights whose sum overflows; a link that would stand rather
 /// than hang (W h + a S <= 0, S the weight hung below it); lengths, of any kind, too far apart for T
 /// (2^(max_exponent/4): 1e77 in double).
@@ -261,7 +261,7 @@ void Chain<T>::check() {
 template <Real T>
 void Chain<T>::check_each_link() const {
     using std::isfinite;
-    const auto at = [](Index m) { return "Chain: link " + std::to_string(m + 1); };
+    const auto at = [](Index m) { return "Chain: links[" + std::to_string(m) + "]"; };
     Wide<T> below(T(0)), straight(T(0));
     for (Index m = 0; m < distinct_links(); ++m) {
         const Link<T> it = link(m);
@@ -297,7 +297,7 @@ void Chain<T>::check_that_links_hang(const Summary<T>& centroids) const {
                 ldexp(below, -exponent);
             if (!(share > Wide<T>(T(0))))
                 detail::throw_invalid(
-                    "Chain: link " + std::to_string(m + 1),
+                    "Chain: links[" + std::to_string(m) + "]",
                     "it would stand, not hang: weight x centroid + length x (weight below) must be positive",
                     ldexp(detail::times_length(share, length_[m]), exponent));
         }

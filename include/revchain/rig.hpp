@@ -184,7 +184,7 @@ inline void Rig::check() const {
     detail::require_not_negative("Rig", "carriage weight", support.carriage_weight, "radius of the support",
                                  support.radius);
     for (Index m = 0; m < size(); ++m) {
-        const std::string place = "Rig: link " + std::to_string(m + 1);
+        const std::string place = "Rig: links[" + std::to_string(m) + "]";
         const Flywheel wheel = flywheel(m);
         detail::require_finite(place, "momentum", wheel.momentum);
         detail::require_not_negative(place, "axial moment", wheel.axial_moment);

@@ -119,7 +119,7 @@ struct RigSensitivity {
 RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<double>& offset,
                            double gravity = conical_pendulum::standard_gravity);
 
-/// The momentum of the flywheel of link number `link` (from 1 for the lowest), all else held, with which
+/// The momentum of the flywheel of the link at index `link`, all else held, with which
 /// `angular_speed` is a whirl speed, of whichever mode. There is one: momentum adds to the tension, and what hangs
 /// below and what holds above are springs at the link's pins at that speed. Formed in double-double:
 /// relative error 1e-15 beside the tension (tests/cpp/linear/rig_sensitivity.cpp). Cost O(N).
@@ -127,6 +127,14 @@ RigSensitivity sensitivity(const Rig& rig, double angular_speed, const Vector<do
 /// finite momentum has that effect.
 double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
                           double gravity = conical_pendulum::standard_gravity);
+
+/// The stiffness of the support's spring, all else held, with which `angular_speed` is a whirl speed, of any mode: the
+/// chain and what moves with its support act on the spring as one more spring at that speed. Formed in
+/// double-double, as `momentum_for_speed` is. Cost O(N).
+/// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, and where no positive finite
+/// stiffness has that effect.
+double stiffness_for_speed(const Rig& rig, double angular_speed,
+                           double gravity = conical_pendulum::standard_gravity);
 
 }  // namespace revchain
 

@@ -14,7 +14,7 @@
 /// The value of one datum of a chain that gives one of its modes a wanted speed.
 ///
 ///     const revchain::Chain<double> chain({revchain::plummet(1.0, 0.5), revchain::uniform_rod(2.0, 0.3)});
-///     const auto t = revchain::tune(chain, {.mode = 1, .link = 1, .datum = revchain::Datum::length_in_proportion,
+///     const auto t = revchain::tune(chain, {.mode = 1, .link = 0, .datum = revchain::Datum::length_in_proportion,
 ///                                           .angular_speed = 3.0});
 ///     t.value;        // 0.924471 m: the length of the lowest link; t.error_bound is proved
 ///     t.chain;        // the chain with that length
@@ -23,7 +23,7 @@ namespace revchain {
 /// Mode `mode` is to have this conical height or this whirl speed, by one datum of one link, between `low` and `high`.
 struct TuneOptions {
     Index mode = 1;                                       ///< from 1 for the slowest
-    Index link = 1;                                       ///< from 1 for the lowest
+    Index link = 0;                                       ///< from 0, the lowest
     Datum datum = Datum::weight;                          ///< of that link
     std::optional<double> conical_height{};               ///< give this or `angular_speed`
     std::optional<double> angular_speed{};                ///< rad/s

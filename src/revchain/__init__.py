@@ -1,177 +1,153 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whirl speeds and shapes of chains of links turning about a vertical axis.
+"""Chains that whirl: natural frequencies, whirl speeds, steady shapes (relative equilibria), each with an error bound.
 
-A chain hangs from a turning point. At certain speeds it leaves the vertical and whirls as a rigid
-figure: ``modes`` finds these speeds, their shapes and how sure they are. The theory is that of
-G. Greenhill, "The Revolving Chain" (1908), section 8.
+A chain of rigid links hangs from a support, from a single point mass to the limit of a flexible cord. At certain
+speeds, its critical speeds, it leaves the vertical and whirls about it as one rigid figure. The whirl speed of small
+amplitude of a chain hung from a fixed point is the natural angular frequency of its swing in a plane. Theory:
+G. Greenhill, "The Revolving Chain" (1908).
 
-Links are listed lowest first. A result is a *conical height* ``g / n**2``, the height of the conical
-pendulum that turns as fast: it does not depend on gravity and is in the unit of the lengths given.
+Systems
+    Chain, Rig (with Support, Flywheel, Displaced), Cord, Held
+Questions
+    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, explain; of many chains
+    at once conical_heights
+Results
+    Modes, RigModes, CordModes, SteadyShapes, SteadyShape, CordShape, HeldShape, HeldCordShape, Branches, Branch,
+    Stability, ForceDiagram, Response, Swing, Tuned, Explanation, Sensitivity, Uncertainty; ``load`` reads what their
+    method ``save`` wrote
+Closed forms
+    conical_pendulum, plummet, two_links, heavy_chain, tapered_chain, tip_mass, elliptic, hoop, bell_and_clapper,
+    funicular_polygon, transverse_modes, recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion,
+    GyrostaticString, SkippingRope, TortuousRope, FunicularPolygon, TransverseModes
+Files
+    Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError
+
+Links are listed from the free end up. Numbers are in SI units; text such as "39 inch" is converted. Arrays are counted
+from 0, modes from 1. A *conical height* is ``gravity / speed**2``, the height of the conical pendulum that turns as
+fast; it does not depend on gravity.
 
 Examples
 --------
+A double pendulum of 1 kg and 3 kg on threads of 1 m:
+
 >>> import revchain as rc
->>> chain = rc.Chain.uniform_rods(120, length=0.36)
->>> result = rc.modes(chain, count=3)
->>> result.angular_speed.round(4)
-array([ 6.2757, 14.4064, 22.59  ])
+>>> chain = rc.Chain(mass=[1.0, 3.0], length=1.0)
+>>> rc.modes(chain)
+2 of 2 modes of a chain of 2 links, length 2, mass 4: by bisection, success
+mode  speed (rad/s)  speed (rpm)  period (s)   height (m)  error bound  nodes (m from the free end)
+   1        2.55691      24.4167     2.45734   1.50000000      4.4e-16                            0
+   2        4.42869      42.2909     1.41875  0.500000000      4.4e-16                       1: 0.5
+gravity 9.80665 m/s^2; error bound: relative, of the conical height
 """
 
-from __future__ import annotations
+from importlib import import_module as _import_module
+from importlib.util import find_spec as _find_spec
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+from typing import Any as _Any
 
-from contextlib import suppress
-from importlib import import_module
-from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from .questions.batch import conical_heights as conical_heights
+from .questions.branches import branch as branch
+from .questions.branches import branches as branches
+from .questions.branches import steady_shape as steady_shape
+from .questions.explain import explain as explain
+from .questions.modes import count_modes as count_modes
+from .questions.modes import modes as modes
+from .questions.modes import recurrence_matrices as recurrence_matrices
+from .questions.response import response as response
+from .questions.response import swing as swing
+from .questions.shapes import steady_shapes as steady_shapes
+from .questions.tune import tune as tune
+from .results.bent import CordShape as CordShape
+from .results.bent import HeldCordShape as HeldCordShape
+from .results.bent import HeldShape as HeldShape
+from .results.branches import Branch as Branch
+from .results.branches import Branches as Branches
+from .results.diagrams import ForceDiagram as ForceDiagram
+from .results.explanation import Explanation as Explanation
+from .results.modes import CordModes as CordModes
+from .results.modes import Modes as Modes
+from .results.modes import RigModes as RigModes
+from .results.motions import Response as Response
+from .results.motions import Swing as Swing
+from .results.sensitivity import Sensitivity as Sensitivity
+from .results.sensitivity import Uncertainty as Uncertainty
+from .results.shapes import Stability as Stability
+from .results.shapes import SteadyShape as SteadyShape
+from .results.shapes import SteadyShapes as SteadyShapes
+from .results.tuned import Tuned as Tuned
+from .scenes.error import SceneError as SceneError
+from .systems.chain import Chain as Chain
+from .systems.cord import Cord as Cord
+from .systems.held import Held as Held
+from .systems.rig import Displaced as Displaced
+from .systems.rig import Flywheel as Flywheel
+from .systems.rig import Rig as Rig
+from .systems.rig import Support as Support
 
-from .closed_forms import conical_pendulum, elliptic, heavy_chain, hoop, plummet, tapered_chain, tip_mass, two_links
-from .closed_forms.bell import BellAndClapper, bell_and_clapper
-from .closed_forms.buffer import BufferImpact
-from .closed_forms.governor import GovernorMotion
-from .closed_forms.gyrostatic_string import GyrostaticString
-from .closed_forms.rope import SkippingRope, TortuousRope
-from .closed_forms.statics import FunicularPolygon, TransverseModes, funicular_polygon, transverse_modes
-from .questions.batch import conical_heights
-from .questions.branches import branch, branches, steady_shape
-from .questions.cord import (
-    ContinuousPlace,
-    ContinuousShape,
-    ContinuousShapes,
-    continuous_critical_heights,
-    continuous_shapes,
-)
-from .questions.explain import explain, solve
-from .questions.held import (
-    HeldCordShape,
-    HeldShape,
-    HeldShapes,
-    TautModes,
-    held_cord_shapes,
-    held_shapes,
-    taut_modes,
-)
-from .questions.modes import count_modes, modes, recurrence_matrices
-from .questions.response import response, small_oscillation
-from .questions.shapes import steady_shapes
-from .questions.tune import momentum_for_speed, tune
-from .results.branches import Branch, Branches, StabilityWindow
-from .results.diagrams import ForceDiagram
-from .results.explanation import Explanation, ModelEstimate, Solution
-from .results.modes import Certificate, Modes, OtherModes, RigModes
-from .results.motions import Response, SmallOscillation
-from .results.sensitivity import (
-    Derivatives,
-    RigSensitivity,
-    Sensitivity,
-    Uncertainty,
-)
-from .results.shapes import Stability, SteadyShape, SteadyShapes
-from .results.storage import load
-from .results.tuned import Tuned
-from .scenes.error import SceneError
-from .systems.chain import Chain
-from .systems.rig import Rig, driven_flywheel, free_flywheel
-
-if TYPE_CHECKING:
-    from .scenes.scene import Scene, load_scene
-    from .studies.result import SweepResult
-    from .studies.study import Study, load_study
-    from .studies.sweep import sweep
+if _TYPE_CHECKING:
+    from .closed_forms import conical_pendulum as conical_pendulum
+    from .closed_forms import elliptic as elliptic
+    from .closed_forms import heavy_chain as heavy_chain
+    from .closed_forms import hoop as hoop
+    from .closed_forms import plummet as plummet
+    from .closed_forms import tapered_chain as tapered_chain
+    from .closed_forms import tip_mass as tip_mass
+    from .closed_forms import two_links as two_links
+    from .closed_forms.bell import BellAndClapper as BellAndClapper
+    from .closed_forms.bell import bell_and_clapper as bell_and_clapper
+    from .closed_forms.buffer import BufferImpact as BufferImpact
+    from .closed_forms.governor import GovernorMotion as GovernorMotion
+    from .closed_forms.gyrostatic_string import GyrostaticString as GyrostaticString
+    from .closed_forms.rope import SkippingRope as SkippingRope
+    from .closed_forms.rope import TortuousRope as TortuousRope
+    from .closed_forms.statics import FunicularPolygon as FunicularPolygon
+    from .closed_forms.statics import TransverseModes as TransverseModes
+    from .closed_forms.statics import funicular_polygon as funicular_polygon
+    from .closed_forms.statics import transverse_modes as transverse_modes
+    from .results.storage import load as load
+    from .scenes.scene import Scene as Scene
+    from .scenes.scene import load_scene as load_scene
+    from .studies.result import SweepResult as SweepResult
+    from .studies.study import Study as Study
+    from .studies.study import load_study as load_study
+    from .studies.sweep import sweep as sweep
 
     __version__: str
 
-__all__ = [
-    "BellAndClapper",
-    "Branch",
-    "Branches",
-    "BufferImpact",
-    "Certificate",
-    "Chain",
-    "ContinuousPlace",
-    "ContinuousShape",
-    "ContinuousShapes",
-    "Derivatives",
-    "Explanation",
-    "ForceDiagram",
-    "FunicularPolygon",
-    "GovernorMotion",
-    "GyrostaticString",
-    "HeldCordShape",
-    "HeldShape",
-    "HeldShapes",
-    "ModelEstimate",
-    "Modes",
-    "OtherModes",
-    "Response",
-    "Rig",
-    "RigModes",
-    "RigSensitivity",
-    "SceneError",
-    "Sensitivity",
-    "SkippingRope",
-    "SmallOscillation",
-    "Solution",
-    "Stability",
-    "StabilityWindow",
-    "SteadyShape",
-    "SteadyShapes",
-    "TautModes",
-    "TortuousRope",
-    "TransverseModes",
-    "Tuned",
-    "Uncertainty",
-    "__version__",
-    "bell_and_clapper",
-    "branch",
-    "branches",
-    "conical_heights",
-    "conical_pendulum",
-    "continuous_critical_heights",
-    "continuous_shapes",
-    "count_modes",
-    "driven_flywheel",
-    "elliptic",
-    "explain",
-    "free_flywheel",
-    "funicular_polygon",
-    "heavy_chain",
-    "held_cord_shapes",
-    "held_shapes",
-    "hoop",
-    "load",
-    "modes",
-    "momentum_for_speed",
-    "plummet",
-    "recurrence_matrices",
-    "response",
-    "small_oscillation",
-    "solve",
-    "steady_shape",
-    "steady_shapes",
-    "tapered_chain",
-    "taut_modes",
-    "tip_mass",
-    "transverse_modes",
-    "tune",
-    "two_links",
-]
-_OF_FILES = dict.fromkeys(("Scene", "load_scene"), "scenes.scene") | dict.fromkeys(("Study", "load_study"), "studies.study")
+_CLOSED_FORMS = "conical_pendulum elliptic heavy_chain hoop plummet tapered_chain tip_mass two_links".split()
+_LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
+    "BellAndClapper": "closed_forms.bell",
+    "bell_and_clapper": "closed_forms.bell",
+    "BufferImpact": "closed_forms.buffer",
+    "GovernorMotion": "closed_forms.governor",
+    "GyrostaticString": "closed_forms.gyrostatic_string",
+    "SkippingRope": "closed_forms.rope",
+    "TortuousRope": "closed_forms.rope",
+    "FunicularPolygon": "closed_forms.statics",
+    "TransverseModes": "closed_forms.statics",
+    "funicular_polygon": "closed_forms.statics",
+    "transverse_modes": "closed_forms.statics",
+    "load": "results.storage",
+}
+_OF_FILES = {"Scene": "scenes.scene", "load_scene": "scenes.scene", "Study": "studies.study", "load_study": "studies.study"}
 _OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}
-with suppress(ImportError):  # without it, `from revchain import *` must not ask for them
-    if find_spec("msgspec") is not None:
-        __all__ += list(_OF_FILES)
 
 
-def __getattr__(name: str) -> Any:
-    """Import what needs more than numpy at the moment it is asked for."""
-    if name in _OF_FILES:
+def __getattr__(name: str) -> _Any:
+    """Import what few calls need at the moment it is asked for."""
+    value: _Any
+    if name in _CLOSED_FORMS:
+        value = _import_module(f".closed_forms.{name}", __name__)
+    elif name in _LATER:
+        value = getattr(_import_module(f".{_LATER[name]}", __name__), name)
+    elif name in _OF_FILES:
         from .systems.extras import require
 
         try:
             require("msgspec", "cli", "a scene file")
         except ImportError as error:
             raise AttributeError(str(error)) from error
-        value = getattr(import_module(f".{_OF_FILES[name]}", __name__), name)
+        value = getattr(_import_module(f".{_OF_FILES[name]}", __name__), name)
     elif name == "__version__":
         from importlib.metadata import version
 
@@ -183,4 +159,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    """Public names. There is no `__all__`, with which `help` would print every class."""
+    of_files = list(_OF_FILES) if _find_spec("msgspec") is not None else []
+    own = [name for name, value in globals().items() if name[0] != "_" and not hasattr(value, "__path__")]
+    return sorted({*own, *_LATER, *of_files, "__version__"})

@@ -267,15 +267,15 @@ TEST_CASE("batch: wrong numbers are named with their chain and link, before anyt
             if (column == &links.centroid && bad == -1.0) continue;
             const double good = (*column)[4 * 17 + 2];
             (*column)[4 * 17 + 2] = bad;
-            CHECK_THAT(message(), ContainsSubstring("revchain::conical_heights: chain 17: link 3: "));
-            CHECK_THAT(message({.threads = 2}), ContainsSubstring("chain 17: link 3: "));
-            CHECK_THAT(message({}, {8, 5}), ContainsSubstring("chain (3, 2): link 3: "));
+            CHECK_THAT(message(), ContainsSubstring("revchain::conical_heights: chain 17: links[2]: "));
+            CHECK_THAT(message({.threads = 2}), ContainsSubstring("chain 17: links[2]: "));
+            CHECK_THAT(message({}, {8, 5}), ContainsSubstring("chain (3, 2): links[2]: "));
             (*column)[4 * 17 + 2] = good;
         }
     }
     links.weight[4 * 30] = nan;
     links.weight[4 * 3] = -7;
-    CHECK_THAT(message(), ContainsSubstring("chain 3: link 1: weight must be finite and not negative, got -7"));
+    CHECK_THAT(message(), ContainsSubstring("chain 3: links[0]: weight must be finite and not negative, got -7"));
     links.weight[4 * 3] = links.weight[4 * 30] = 1;
     links.weight[4 * 5 + 1] = links.weight[4 * 5 + 2] = links.weight[4 * 5 + 3] = 0;
     CHECK_THAT(message(), ContainsSubstring("chain 5 has only 2 modes; count must not exceed them, got 4"));

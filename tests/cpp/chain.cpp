@@ -92,23 +92,23 @@ TEST_CASE("modes are counted by the rank of the mass matrix", "[chain]") {
 TEST_CASE("a wrong chain is refused, naming the link and the value", "[chain]") {
     CHECK_THROWS_WITH(Chain(Links{}), ContainsSubstring("at least one link"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1.0), plummet(1.0, 1.0), plummet(1.0, -0.5)}),
-                      Catch::Matchers::Equals("revchain::Chain: link 3: length must be positive and finite, got -0.5"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 0.0)}), ContainsSubstring("link 1: length"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, nan_value)}), ContainsSubstring("link 1: length"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(nan_value, 1.0)}), ContainsSubstring("link 1: weight"));
-    CHECK_THROWS_WITH(Chain(Links{plummet(infinity, 1.0)}), ContainsSubstring("link 1: weight"));
+                      Catch::Matchers::Equals("revchain::Chain: links[2]: length must be positive and finite, got -0.5"));
+    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 0.0)}), ContainsSubstring("links[0]: length"));
+    CHECK_THROWS_WITH(Chain(Links{plummet(1.0, nan_value)}), ContainsSubstring("links[0]: length"));
+    CHECK_THROWS_WITH(Chain(Links{plummet(nan_value, 1.0)}), ContainsSubstring("links[0]: weight"));
+    CHECK_THROWS_WITH(Chain(Links{plummet(infinity, 1.0)}), ContainsSubstring("links[0]: weight"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1.0), plummet(-2.0, 1.0)}),
-                      ContainsSubstring("link 2: weight") && ContainsSubstring("-2"));
+                      ContainsSubstring("links[1]: weight") && ContainsSubstring("-2"));
     CHECK_THROWS_WITH(Chain(Links{plummet(0.0, 1.0), plummet(1.0, 1.0)}),
                       ContainsSubstring("lowest link must have weight"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1e308, 1.0), plummet(1e308, 1.0)}),
-                      ContainsSubstring("link 2: the weights add up to infinity"));
+                      ContainsSubstring("links[1]: the weights add up to infinity"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1e308), plummet(1.0, 1e308)}), ContainsSubstring("lengths add up"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, infinity, 0.0}}), ContainsSubstring("centroid"));
     CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 0.5, -1.0}}), ContainsSubstring("radius of gyration"));
-    CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 0.0, 1.0}}), ContainsSubstring("link 1: it would stand"));
+    CHECK_THROWS_WITH(Chain(Links{{1.0, 1.0, 0.0, 1.0}}), ContainsSubstring("links[0]: it would stand"));
     CHECK_THROWS_WITH(Chain(Links{plummet(1.0, 1.0), {10.0, 1.0, -0.2, 1.0}}),
-                      ContainsSubstring("link 2: it would stand") && ContainsSubstring("-1"));
+                      ContainsSubstring("links[1]: it would stand") && ContainsSubstring("-1"));
     CHECK_NOTHROW(Chain(Links{plummet(1.0, 1.0), {4.9, 1.0, -0.2, 1.0}}));
     CHECK_THROWS_WITH(Chain(2, std::vector<double>{1, 2, 3}, 1.0, 1.0, revchain::Wide<double>(0)),
                       ContainsSubstring("weight must have one number"));

@@ -155,11 +155,11 @@ TEST_CASE("a rig refuses what cannot be", "[rig]") {
     refused({.support = {.carriage_weight = infinity}}, "carriage weight must be finite and not negative");
     refused({.support = {.radius = -1}}, "radius of the support must be finite and not negative, got -1");
     refused({.posture = {Posture::stands}}, "posture must be empty or have one entry for each of the 2 links, got 1");
-    refused({.flywheels = {{}, {infinity, 0}}}, "link 2: momentum must be finite, got inf");
-    refused({.flywheels = {{0, -1}, {}}}, "link 1: axial moment must be finite and not negative, got -1");
-    refused({.displaced = {{}, {.weight = -1}}}, "link 2: weight displaced must be finite and not negative, got -1");
-    refused({.displaced = {{.centroid = std::nan("")}, {}}}, "link 1: centre of buoyancy must be finite");
-    refused({.displaced = {{.added_weight = -1}, {}}}, "link 1: added weight must be finite and not negative");
+    refused({.flywheels = {{}, {infinity, 0}}}, "links[1]: momentum must be finite, got inf");
+    refused({.flywheels = {{0, -1}, {}}}, "links[0]: axial moment must be finite and not negative, got -1");
+    refused({.displaced = {{}, {.weight = -1}}}, "links[1]: weight displaced must be finite and not negative, got -1");
+    refused({.displaced = {{.centroid = std::nan("")}, {}}}, "links[0]: centre of buoyancy must be finite");
+    refused({.displaced = {{.added_weight = -1}, {}}}, "links[0]: added weight must be finite and not negative");
     CHECK_THROWS_WITH(horizontal_spring(0), ContainsSubstring("stiffness must be positive"));
     CHECK_THROWS_WITH(horizontal_spring(1, -1), ContainsSubstring("carriage weight"));
     CHECK_THROWS_WITH(carried_round(infinity), ContainsSubstring("radius must be finite"));

@@ -162,7 +162,7 @@ TEST_CASE("growth as the whole nonlinear chain shows it", "[finite]") {
     CHECK_THROWS_AS(revchain::stability(Chain<double>::uniform_plummets(2, 2, 1), found.shapes[0]),
                     revchain::InvalidArgument);
     CHECK_THROWS_WITH(revchain::stability(Chain<double>::uniform_plummets(3, 3, 1), found.shapes[0]),
-                      Catch::Matchers::ContainsSubstring("in it link 1 is as long as"));
+                      Catch::Matchers::ContainsSubstring("in it links[1] is as long as"));
 }
 
 TEST_CASE("links without weight: those in line are one", "[finite][stability]") {

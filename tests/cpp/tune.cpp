@@ -40,7 +40,7 @@ TEST_CASE("two plummets: the weight, the thread for a height, against §2 (5)", 
         for (const Index mode : {1, 2}) {
             const double height = heights[static_cast<std::size_t>(mode - 1)];
             const auto tuned =
-                revchain::tune(plummets(w1, l1, w2, l2), {.mode = mode, .link = 1, .conical_height = height});
+                revchain::tune(plummets(w1, l1, w2, l2), {.mode = mode, .link = 0, .conical_height = height});
             CAPTURE(l1, l2, w1, w2, goal, mode, height);
             REQUIRE(tuned.status == TuneStatus::found);
             const __float128 share = (__float128(height) - l1) * (__float128(height) - l2) / l1 / l2;
@@ -50,7 +50,7 @@ TEST_CASE("two plummets: the weight, the thread for a height, against §2 (5)", 
             // the same thread
             const auto thread = revchain::tune(
                 plummets(goal, random.between(0.2, 4), w2, l2),
-                {.mode = mode, .link = 1, .datum = Datum::length_in_proportion, .conical_height = height});
+                {.mode = mode, .link = 0, .datum = Datum::length_in_proportion, .conical_height = height});
             REQUIRE(thread.status == TuneStatus::found);
             CHECK(thread.complete);
             CHECK(thread.values.size() == 1);
@@ -113,7 +113,7 @@ TEST_CASE("what was changed is found again, for every datum and mode", "[linear]
             it = revchain::detail::with_datum(it, datum, other);
             const double height = revchain::modes(Chain<double>(links), {.first = mode, .count = 1}).conical_height[0];
             const auto tuned = revchain::tune(chain, {.mode = mode,
-                                                      .link = link,
+                                                      .link = link - 1,
                                                       .datum = datum,
                                                       .conical_height = height,
                                                       .low = present / 4,
@@ -140,18 +140,18 @@ TEST_CASE("what was changed is found again, for every datum and mode", "[linear]
 
 TEST_CASE("a speed, and a range in which none does", "[linear]") {
     const auto chain = plummets(1, 1, 3, 1);  // 1.5, 0.5
-    const auto tuned = revchain::tune(chain, {.mode = 2, .link = 1, .angular_speed = 4.0, .gravity = 9.81});
+    const auto tuned = revchain::tune(chain, {.mode = 2, .link = 0, .angular_speed = 4.0, .gravity = 9.81});
     REQUIRE(tuned.status == TuneStatus::found);
     const double height = 9.81 / 16;
     CHECK(std::abs(tuned.value / (3 * (height - 1) * (height - 1) / (1 - (height - 1) * (height - 1))) - 1) < 1e-14);
     // no weights below give the slower mode a height beyond both threads
-    const auto none = revchain::tune(chain, {.mode = 1, .link = 1, .conical_height = 2.5});
+    const auto none = revchain::tune(chain, {.mode = 1, .link = 0, .conical_height = 2.5});
     CHECK(none.status == TuneStatus::no_value);
     CHECK(none.highest_height < 2);
     CHECK(none.highest_height > 1.99);
     CHECK(none.lowest_height < 1.02);
     const auto narrow =
-        revchain::tune(chain, {.mode = 2, .link = 1, .angular_speed = 4.0, .gravity = 9.81, .low = 0.9, .high = 1.1});
+        revchain::tune(chain, {.mode = 2, .link = 0, .angular_speed = 4.0, .gravity = 9.81, .low = 0.9, .high = 1.1});
     CHECK(narrow.status == TuneStatus::no_value);
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("a weight that does nothing of the kind is shown not to, up to the end
         const Index mode = 1 + round % n, link = 1 + (round / 6) % n;
         const double wanted =
             revchain::modes(chain, {.first = mode, .count = 1}).conical_height[0] * random.log_between(0.6, 1.6);
-        const auto tuned = revchain::tune(chain, {.mode = mode, .link = link, .conical_height = wanted});
+        const auto tuned = revchain::tune(chain, {.mode = mode, .link = link - 1, .conical_height = wanted});
         CAPTURE(round, n, mode, link, tuned.lowest_height / wanted, tuned.highest_height / wanted);
         CHECK(tuned.status != TuneStatus::undecided);
         if (tuned.status == TuneStatus::found) {
@@ -191,7 +191,7 @@ TEST_CASE("a long chain, and a bell above its pin", "[linear]") {
     const double wanted = revchain::modes(rods, {.first = 3, .count = 1}).conical_height[0] * 1.001;
     for (const Datum datum : {Datum::weight, Datum::length_in_proportion}) {
         CAPTURE(datum == Datum::weight);
-        const auto tuned = revchain::tune(rods, {.mode = 3, .link = 1500, .datum = datum, .conical_height = wanted});
+        const auto tuned = revchain::tune(rods, {.mode = 3, .link = 1499, .datum = datum, .conical_height = wanted});
         require_height(tuned, 3, wanted);
     }
     const Chain<double> bell({revchain::compound_pendulum<double>(
@@ -199,8 +199,8 @@ TEST_CASE("a long chain, and a bell above its pin", "[linear]") {
                               revchain::compound_pendulum<double>(
                                   {.weight = 20, .length = 0.15, .centroid = -0.05, .radius_of_gyration = 0.36})});
     const double now = revchain::modes(bell, {.count = revchain::all_modes}).conical_height[0];
-    require_height(revchain::tune(bell, {.mode = 1, .link = 2, .conical_height = now * 1.5}), 1, now * 1.5);
-    require_height(revchain::tune(bell, {.mode = 1, .link = 2, .datum = Datum::centroid, .conical_height = now / 1.5}),
+    require_height(revchain::tune(bell, {.mode = 1, .link = 1, .conical_height = now * 1.5}), 1, now * 1.5);
+    require_height(revchain::tune(bell, {.mode = 1, .link = 1, .datum = Datum::centroid, .conical_height = now / 1.5}),
                    1, now / 1.5);
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("questions that are none are refused", "[linear]") {
     CHECK_THROWS_AS(revchain::tune(chain, {}), InvalidArgument);
     CHECK_THROWS_AS(revchain::tune(chain, {.conical_height = 1.0, .angular_speed = 1.0}), InvalidArgument);
     CHECK_THROWS_AS(revchain::tune(chain, {.mode = 3, .conical_height = 1.0}), InvalidArgument);
-    CHECK_THROWS_AS(revchain::tune(chain, {.link = 0, .conical_height = 1.0}), InvalidArgument);
+    CHECK_THROWS_AS(revchain::tune(chain, {.link = -1, .conical_height = 1.0}), InvalidArgument);
     CHECK_THROWS_AS(revchain::tune(chain, {.conical_height = -1.0}), InvalidArgument);
     CHECK_THROWS_AS(revchain::tune(chain, {.conical_height = 1.0, .low = 2, .high = 1}), InvalidArgument);
     CHECK_THROWS_AS(revchain::tune(chain, {.conical_height = 1.0, .low = 0}), InvalidArgument);

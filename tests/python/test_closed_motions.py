@@ -53,7 +53,7 @@ class Carriages:
         self.phases, self.blows = [], []
         start, state, contact = mp.mpf(0), (mp.mpf(0), mp.mpf(0), v, v), True
         while True:
-            motion = self.touching(*state) if contact else self.free(*state)
+            motion = self.motion(self.b if contact else mp.mpf(0), *state)
             self.phases.append((start, contact, motion))
             lasts = self.first_zero(motion, state, contact)
             if lasts is None:
@@ -64,49 +64,31 @@ class Carriages:
                 self.blows.append((start, start + lasts, gained))
             start, state, contact = start + lasts, (mp.mpf(0), y, u, w), not contact
 
-    def touching(self, x, y, u, w):
-        m, n, b, c = self.m, self.n, self.b, self.c
-        # frequencies and shapes (1, r) of m x'' = -b x + c (y - x), n y'' = c (x - y)
+    def motion(self, b, x, y, u, w):
+        """Both modes, shapes (1, r), of m x'' = -b x + c (y - x), n y'' = c (x - y); without the buffer one is a drift."""
+        m, n, c = self.m, self.n, self.c
         p, q = (b + c) / m, c / n
-        root = mp.sqrt((p - q) ** 2 / 4 + c**2 / (m * n))
-        squares = [(p + q) / 2 + root, (b * c) / (m * n) / ((p + q) / 2 + root)]
+        fast = (p + q) / 2 + mp.sqrt((p - q) ** 2 / 4 + c**2 / (m * n))
         modes = []
-        for square in squares:
+        for square in (fast, b * c / (m * n) / fast):
             r = (b + c - m * square) / c
             norm = m + n * r**2
-            frequency = mp.sqrt(square)
-            modes.append((r, frequency, (m * x + n * r * y) / norm, (m * u + n * r * w) / norm / frequency))
+            modes.append((r, mp.sqrt(square), (m * x + n * r * y) / norm, (m * u + n * r * w) / norm))
 
         def motion(t, f=mp):
             out = [0, 0, 0, 0]
             for r, k, a, d in modes:
                 if f is np:
                     r, k, a, d = map(float, (r, k, a, d))
-                at, rate = a * f.cos(k * t) + d * f.sin(k * t), k * (d * f.cos(k * t) - a * f.sin(k * t))
+                cosine, sine = f.cos(k * t), f.sin(k * t)
+                at, rate = a * cosine + d * (sine / k if k else t), d * cosine - a * k * sine
                 out = [out[0] + at, out[1] + r * at, out[2] + rate, out[3] + r * rate]
             return out
 
-        motion.fastest = mp.sqrt(squares[0])
-        motion.horizon = 2 * mp.pi / mp.sqrt(squares[1])
-        return motion
-
-    def free(self, x, y, u, w):
-        m, n, c = self.m, self.n, self.c
-        k = mp.sqrt(c * (1 / m + 1 / n))
-        place, speed = (m * x + n * y) / (m + n), (m * u + n * w) / (m + n)
-        apart, parting = y - x, (w - u) / k
-
-        def motion(t, f=mp):
-            numbers = (k, place, speed, apart, parting, m, n)
-            K, P, V, A, D, M, N = map(float, numbers) if f is np else numbers
-            far, rate = A * f.cos(K * t) + D * f.sin(K * t), K * (D * f.cos(K * t) - A * f.sin(K * t))
-            middle = P + V * t
-            back, fore = N / (M + N), M / (M + N)
-            return [middle - back * far, middle + fore * far, V - back * rate, V + fore * rate]
-
-        motion.fastest = k
-        swing = n / (m + n) * mp.hypot(apart, parting)
-        motion.horizon = max((swing + abs(place)) / abs(speed), 2 * mp.pi / k) + 1 / k
+        (_, motion.fastest, here, rate), (_, slow, place, speed) = modes
+        swing = mp.hypot(here, rate / motion.fastest)
+        drift = max((swing + abs(place)) / abs(speed), 2 * mp.pi / motion.fastest) + 1 / motion.fastest
+        motion.horizon = 2 * mp.pi / slow if b else drift
         return motion
 
     def first_zero(self, motion, state, contact):
@@ -158,7 +140,7 @@ def test_all_blows(numbers):
 def times_of(blows):
     inside = [blow.start + share * (blow.end - blow.start) for blow in blows for share in (0.1, 0.5, 0.9)]
     between = [(one.end + other.start) / 2 for one, other in itertools.pairwise(blows)]
-    return [0.0, *inside, *between, blows[-1].end * 1.1, blows[-1].end * 3]
+    return [0.0, *inside, *between, *(blows[-1].end * np.array([1.1, 3, 1e3, 1e6]))]
 
 
 def fastest(numbers):
@@ -179,16 +161,6 @@ def test_places_and_speeds_of_the_carriages(numbers):
         assert all(abs(f - e) <= within for f, e in zip(state[2:4], truth[2:4], strict=True))
         assert abs(state[4] - truth[4]) <= 1e-13 * numbers["buffer_stiffness"] * v * time + 1e-300
         assert state[4] >= 0
-
-
-@pytest.mark.parametrize("time", [1e3, 1e6])
-def test_carriages_long_after_the_last_blow(time):
-    exact, impact = Carriages(**IMPACTS[0]), rc.BufferImpact(**IMPACTS[0])
-    truth, found = exact(time), impact.state(time)
-    assert all(abs(f - e) <= 1e-13 * time for f, e in zip(found[:2], truth[:2], strict=True))
-    within = 1e-13 * (1 + fastest(IMPACTS[0]) * time)
-    assert all(abs(f - e) <= within for f, e in zip(found[2:4], truth[2:4], strict=True))
-    assert found.buffer_force == 0
 
 
 @many
@@ -216,12 +188,9 @@ def test_the_motion_of_the_carriages_is_in_proportion_to_the_speed():
     for one, other in zip(plain.blows, fast.blows, strict=True):
         assert one[:2] == other[:2] and one.impulse * 2.0**40 == other.impulse
     assert np.array_equal(np.array(plain.state(1.3)) * 2.0**40, np.array(fast.state(1.3)))
-
-
-@pytest.mark.parametrize("speed", [1e-200, 1e-100, 1e100, 1e200])
-def test_carriages_at_any_speed(speed):
-    blows = rc.BufferImpact(**{**IMPACTS[0], "speed": speed}).blows
-    assert [blow[:2] for blow in blows] == [near(blow[:2], rel=1e-13) for blow in rc.BufferImpact(**IMPACTS[0]).blows]
+    for speed in (1e-200, 1e-100, 1e100, 1e200):
+        blows = rc.BufferImpact(**{**IMPACTS[1], "speed": speed}).blows
+        assert [blow[:2] for blow in blows] == [near(blow[:2], rel=1e-13) for blow in plain.blows]
 
 
 def test_a_stiff_coupling_makes_one_carriage():
@@ -426,14 +395,6 @@ def test_next_to_a_separatrix(name, beside, side):
     assert motion.period > 2
 
 
-def test_the_sides_of_a_separatrix_differ_and_periods_grow():
-    periods = [
-        rc.GovernorMotion(angular_speed=2.0, pendulum_length=1.0, angle=0.0, angle_rate=rate).period
-        for rate in 2 * math.sqrt(9.80665) * (1 - np.array([1e-2, 1e-4, 1e-8, 1e-12, 1e-15]))
-    ]
-    assert (np.diff(periods) > 0).all()
-
-
 @pytest.mark.parametrize("amplitude", [1e-100, 1e-9, 1e-3, 1.0, 3.0, math.pi - 1e-7])
 @pytest.mark.parametrize("length", [1e-6, 1.0, 1e6])
 def test_the_plain_pendulum(amplitude, length):
@@ -455,7 +416,7 @@ def test_small_motions_aside_take_the_time_of_the_paper():
 def test_a_motion_starts_where_it_is_told_to(name):
     swing, motion = SWINGS[name], rc.GovernorMotion(**SWINGS[name])
     size = math.pi if motion.regime == "revolutions" else max(abs(motion.least_angle), abs(motion.greatest_angle))
-    assert abs(motion.angle(0.0) - swing["angle"]) <= 4 * ULP * size
+    assert abs(motion.state(0.0).angle - swing["angle"]) <= 4 * ULP * size
 
 
 @pytest.mark.parametrize("angle", [1e-1, 1e-3, 1e-6, 1e-8])
@@ -463,7 +424,7 @@ def test_a_motion_starts_where_it_is_told_to(name):
 def test_a_motion_starts_where_it_is_told_to_next_to_where_the_vertical_gives_way(angle, longer):
     """The length next to the conical height of the speed."""
     motion = rc.GovernorMotion(angular_speed=5.0, pendulum_length=9.80665 / 25 * (1 + longer), angle=angle)
-    assert motion.angle(0.0) == near(angle, rel=1e-13)
+    assert motion.state(0.0).angle == near(angle, rel=1e-13)
 
 
 @pytest.mark.parametrize("numbers", [dict(angular_speed=5.0), dict(angular_speed=1.0), dict(angular_speed=0.0)])
@@ -476,11 +437,11 @@ def test_a_link_at_rest_stays(numbers):
 
 def test_angles_count_whole_turns():
     motion = rc.GovernorMotion(**SWINGS["revolutions"])
-    turns = motion.angle(motion.period * np.arange(5)) - 0.3
+    turns = motion.state(motion.period * np.arange(5)).angle - 0.3
     np.testing.assert_allclose(turns, 2 * math.pi * np.arange(5), atol=1e-12)
     one, other = (rc.GovernorMotion(**{**SWINGS["aside"], "angle": a}) for a in (1.5, 1.5 + 8 * math.pi))
     times = np.linspace(0, 5, 11)
-    np.testing.assert_allclose(other.angle(times) - one.angle(times), 8 * math.pi, rtol=1e-12)
+    np.testing.assert_allclose(other.state(times).angle - one.state(times).angle, 8 * math.pi, rtol=1e-12)
     assert other.least_angle - one.least_angle == near(8 * math.pi, rel=1e-13)
 
 
@@ -500,14 +461,15 @@ def test_inertia_about_its_own_line_slows_the_axis():
     for axial, speed in ((0.75, 2.0), (1.0, 0.0)):
         one = rc.GovernorMotion(angular_speed=4.0, pendulum_length=1.0, angle=1.0, axial_inertia=axial)
         other = rc.GovernorMotion(angular_speed=speed, pendulum_length=1.0, angle=1.0)
-        np.testing.assert_allclose(one.angle([0.1, 2.0]), other.angle([0.1, 2.0]), rtol=1e-13)
+        np.testing.assert_allclose(one.state([0.1, 2.0]).angle, other.state([0.1, 2.0]).angle, rtol=1e-13)
 
 
 def test_motions_with_lengths_and_times_scale_exactly():
     one = rc.GovernorMotion(**SWINGS["aside, moving"])
     other = rc.GovernorMotion(angular_speed=10.0, pendulum_length=4.0, angle=-1.0, angle_rate=1.4, gravity=9.80665 * 16)
     assert other.period * 2 == one.period
-    assert other.angle(0.35) == one.angle(0.7) and other.angle_rate(0.35) == 2 * one.angle_rate(0.7)
+    here, there = one.state(0.7), other.state(0.35)
+    assert there.angle == here.angle and there.angle_rate == 2 * here.angle_rate
 
 
 # The skipping rope ---------------------------------------------------------------------------------------------------
@@ -695,10 +657,6 @@ def test_tensions_of_the_rope():
     assert rope.tension_in_the_middle * rope.conical_height == near(rope.height_times_tension, rel=1e-14)
     assert rope.tension_at_ends == near(rope.tension_in_the_middle * rope.tension_ratio_at_ends, rel=1e-14)
     assert rope.tension_ratio_at_ends == near(math.hypot(1, rope.slope_at_ends), rel=1e-13)
-
-
-def test_the_tension_at_places_is_that_of_the_rope():
-    rope = rc.SkippingRope(span=2.0, length=3.0, angular_speed=12.0)
     found = rope.at([0.0, 1.0]).tension_ratio * rope.tension_in_the_middle
     np.testing.assert_allclose(found, [rope.tension_at_ends, rope.tension_in_the_middle], rtol=1e-13)
 
@@ -941,7 +899,7 @@ MADE = {
 }
 METHODS = {
     "BufferImpact": ["state"],
-    "GovernorMotion": ["state", "angle", "angle_rate"],
+    "GovernorMotion": ["state"],
     "SkippingRope": ["at", "at_arc"],
     "TortuousRope": ["at"],
 }
@@ -959,7 +917,7 @@ def test_refusals_name_the_place_and_the_parameter_and_the_value(kind, name):
         with pytest.raises(ValueError) as refusal:
             getattr(rc, kind)(**{**MADE[kind], name: value})
         text = str(refusal.value)
-        shown = f"{value:g}" if isinstance(value, float) else "" if isinstance(value, list) else repr(value)
+        shown = f"{value:g}" if isinstance(value, float) else "" if isinstance(value, list) else str(value)
         if kind not in text or name.replace("_", " ") not in text.replace("_", " ") or shown not in text:
             unclear.append(text)
     assert not unclear
@@ -1029,15 +987,9 @@ def test_extreme_motions_have_numbers_or_are_refused(a, b, c, d, e, t):
 @pytest.mark.parametrize("time", [1e15, 1e18, 1e100, 1e300])
 def test_a_motion_stays_between_its_turning_angles_at_any_time(time):
     swing = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5)
-    assert swing.least_angle - 1e-12 <= swing.angle(time) <= swing.greatest_angle + 1e-12
+    assert swing.least_angle - 1e-12 <= swing.state(time).angle <= swing.greatest_angle + 1e-12
     far = rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1e160)
     assert np.isfinite(far.state(1.0)).all()
-
-
-def test_carriages_that_swing_for_ever_between_two_blows_are_refused():
-    """A light front carriage on a stiff coupling: 1e100 swings before the buffer is left."""
-    with pytest.raises(ValueError, match=r"BufferImpact: (masses|speed)"):
-        rc.BufferImpact(front_mass=5e-212, rear_mass=6e18, buffer_stiffness=1.0, coupling_stiffness=1.0, speed=1.0)
 
 
 @pytest.mark.parametrize("ratio", [1e-19, 1e-21, 1e-50, 1e-100, 1e-101, 1e-200])
@@ -1052,11 +1004,6 @@ def test_a_tortuous_rope_of_any_ratio_of_radii(ratio):
     there = plane.at(np.array([0.1, 0.5]) * rope.half_wave)
     np.testing.assert_allclose(point.angle[1:3], there.angle, rtol=1e-13)
     np.testing.assert_allclose(point.radius_slope[1:3], there.radius_slope, rtol=1e-12, atol=1e-12)
-
-
-@pytest.mark.parametrize("kind", MADE)
-def test_a_motion_prints_as_itself(kind):
-    assert repr(getattr(rc, kind)(**MADE[kind])).startswith(kind)
 
 
 @pytest.mark.parametrize("speed", [1e-300, 1e300])

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finite amplitude as the docstrings promise it, against mechanics written out here and nothing of the library's."""
 
-import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import mpmath as mp
 import numpy as np
 import pytest
 import revchain as rc
-from mechanics import KINDS, inertia, parts, plummets, random_chain, rods, scan, turned
-
-tl = rc.two_links
+from mechanics import KINDS, inertia, parts, plummets, random_chain, scan, turned
 
 
 # ---------------------------------------------------------------- independent mechanics
@@ -61,8 +59,8 @@ def linearised(shape, chain, frame):
     k = np.block([[plane, zero], [zero, across]])
     big = np.block([[np.zeros((2 * n, 2 * n)), np.eye(2 * n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, g)]])
     turn = 2 * c * (b @ s)
-    second = np.concatenate([np.linalg.eigvalsh(plane + np.outer(turn, turn) / (s @ b @ s)), np.linalg.eigvalsh(across)])
-    return np.linalg.eigvals(big), second
+    inside = np.linalg.eigvalsh(plane + np.outer(turn, turn) / (s @ b @ s))
+    return np.linalg.eigvals(big), np.concatenate([inside, np.linalg.eigvalsh(across)])
 
 
 CHAINS = [(kind, count, seed) for kind in KINDS for count in (1, 2, 3, 4) for seed in (1, 2)]
@@ -94,16 +92,6 @@ def test_list_is_complete_exact_and_in_order(kind, count, seed, hanging):
             signs = np.sign(shape.offset[:-1])
             signs = signs[signs != 0]
             assert shape.half_waves == 1 + np.count_nonzero(np.diff(signs))
-
-
-def test_compound_links_with_several_roots_are_all_listed():
-    chain = rc.Chain(weight=[1.0, 1.0], length=[1.0, 0.2], centroid=[0.5, 0.5], radius_of_gyration=[0.3, 0.9])
-    for only in (True, False):
-        shapes = rc.steady_shapes(chain, conical_height=0.02, hanging_only=only)
-        assert shapes.complete
-        found = scan(chain, 0.02, only, 6000)
-        listed = np.array([s.inclination for s in shapes])
-        assert all(min(turned(listed, f).min(), turned(listed, -f).min()) < 1e-4 for f in found)
 
 
 @pytest.mark.parametrize("less", [1e-3, 1e-9, 1e-12, 1e-15])
@@ -165,25 +153,29 @@ def test_extreme_weights(weight):
 BAD = [0, -1, float("nan"), float("inf"), "x", [0.1], True, 1j]
 
 
+def questions(chain):
+    """All that is asked at a speed."""
+    return (lambda **k: rc.steady_shapes(chain, **k), lambda **k: rc.steady_shape(chain, **k),
+            lambda **k: rc.branch(chain, 1, **{{"conical_height": "min_conical_height", "angular_speed":
+                                                "max_angular_speed"}.get(name, name): k[name] for name in k}))
+
+
 @pytest.mark.parametrize("value", BAD)
 @pytest.mark.parametrize("name", ["conical_height", "angular_speed"])
 def test_bad_speeds(name, value):
-    for call in (lambda **k: rc.steady_shapes(plummets(2), **k), lambda **k: rc.steady_shape(plummets(2), **k),
-                 lambda **k: rc.branch(plummets(2), 1, **k)):
+    for call in questions(plummets(2)):
         with pytest.raises(ValueError, match=r"revchain.*" + name + r".*got"):
             call(**{name: value})
 
 
 def test_both_or_no_speed():
     chain = plummets(2)
-    for call in (lambda **k: rc.steady_shapes(chain, **k), lambda **k: rc.steady_shape(chain, **k),
-                 lambda **k: rc.branch(chain, 1, **k), lambda **k: rc.branch(chain, 1, conical_height=0.1).at(**k)):
-        for given, got in (({}, "none"), ({"conical_height": 0.1, "angular_speed": 1.0}, "conical_height and angular_speed")):
-            with pytest.raises(ValueError, match=rf"exactly one of conical_height.* and \w+, got {got}$"):
+    for call in (*questions(chain), rc.branch(chain, 1, min_conical_height=0.1).at, lambda **k: rc.branches(
+            chain, **{f"{'min' if 'height' in name else 'max'}_{name}": k[name] for name in k})):
+        both = "(min_)?conical_height and (max_)?angular_speed"
+        for given, got in (({}, "none"), ({"conical_height": 0.1, "angular_speed": 1.0}, both)):
+            with pytest.raises(ValueError, match=rf"exactly one of \w*conical_height.* and \w+, got {got}$"):
                 call(**given)
-    for given, got in (({}, "none"), ({"conical_height": 0.1, "up_to": 1.0}, "conical_height and up_to")):
-        with pytest.raises(ValueError, match=rf"exactly one of conical_height and up_to, got {got}$"):
-            rc.branches(chain, **given)
 
 
 @pytest.mark.parametrize("mode", [0, -1, 4, 1.0, 1.5, "x", None, True, 10**30])
@@ -191,78 +183,64 @@ def test_bad_modes(mode):
     with pytest.raises(ValueError, match="mode"):
         rc.steady_shape(plummets(3), mode=mode, conical_height=0.1)
     with pytest.raises(ValueError, match="mode"):
-        rc.branch(plummets(3), mode, conical_height=0.1)
+        rc.branch(plummets(3), mode, min_conical_height=0.1)
 
 
-@pytest.mark.parametrize("budget", [1.5, "x", None, True])
-def test_bad_budget(budget):
-    with pytest.raises(ValueError, match="budget"):
-        rc.steady_shapes(plummets(2), conical_height=0.1, budget=budget)
-    with pytest.raises(ValueError, match="budget"):
-        rc.branches(plummets(2), conical_height=0.1, budget=budget)
-
-
-@pytest.mark.parametrize("budget", [10**30, 2**63, np.uint64(2**64 - 1)])
-def test_a_budget_beyond_all_bounds(budget):
-    assert rc.steady_shapes(plummets(2), conical_height=0.1, budget=budget).complete
-    assert rc.branches(plummets(2), conical_height=0.1, budget=budget).consistent
+@pytest.mark.parametrize("budget", [1.5, "x", None, True, 10**30, 2**63, np.uint64(2**64 - 1)])
+def test_budgets_that_are_none_or_beyond_all_bounds(budget):
+    calls = [lambda: rc.steady_shapes(plummets(2), conical_height=0.1, budget=budget).complete,
+             lambda: rc.branches(plummets(2), min_conical_height=0.1, budget=budget).consistent]
+    for call in calls:
+        if type(budget) in (int, np.uint64):
+            assert call()
+        else:
+            with pytest.raises(ValueError, match="budget"):
+                call()
 
 
 @pytest.mark.parametrize("chain", [None, "x", 3])
 def test_no_chain(chain):
-    for call in (lambda: rc.steady_shapes(chain, conical_height=0.1), lambda: rc.steady_shape(chain, conical_height=0.1),
-                 lambda: rc.branch(chain, 1, conical_height=0.1), lambda: rc.branches(chain, conical_height=0.1)):
-        with pytest.raises(TypeError, match=f"chain must be a revchain.Chain, got {chain!r}"):
-            call()
+    for call in (*questions(chain), lambda **k: rc.branches(chain, min_conical_height=0.1)):
+        with pytest.raises(TypeError, match=rf"system must be a revchain.Chain.*, got {chain!r}"):
+            call(conical_height=0.1)
 
 
 def test_hopelessly_slow_speed_is_no_nan():
-    found = rc.steady_shapes(plummets(2), angular_speed=1e-300)
+    shapes, *others = questions(plummets(2))
+    found = shapes(angular_speed=1e-300)
     assert len(found) == 0 and found.complete and "0 shapes" in repr(found)
-    for call in (lambda **k: rc.steady_shape(plummets(2), **k), lambda **k: rc.branch(plummets(2), 1, **k)):
+    for call in others:
         with pytest.raises(ValueError, match=r"must be positive and finite, got inf"):
             call(angular_speed=1e-300)
 
 
-# ---------------------------------------------------------------- crashes and hangs, each in a process of its own
-@pytest.mark.parametrize("height", ["5e-324", "1e-308", "1e-300", "1e-100", "1e-20"])
-def test_absurd_speed_ends(python, height):
-    run = python("-c", f"import revchain as rc\nprint(rc.steady_shapes(rc.Chain.uniform_plummets(3, length=3.0), conical_height={height}))", timeout=6)
+# ---------------------------------------------------------------- crashes and hangs
+def test_absurd_speeds_end(python):
+    run = python("-c", "import revchain as rc\nfor height in (5e-324, 1e-308, 1e-300, 1e-100, 1e-20):\n"
+                 "    print(rc.steady_shapes(rc.Chain.uniform_plummets(3, 3.0), conical_height=height))", timeout=10)
     assert run.returncode == 0, run.stderr
 
 
+@pytest.mark.parametrize("less", [1e-3, 1e-6, 1e-9, 1e-10, 1e-13, 1e-14, 1e-15])
 @pytest.mark.parametrize("count", [1, 2, 3])
-@pytest.mark.parametrize("less", ["1e-10", "1e-13", "1e-14", "1e-15"])
-def test_branches_just_below_critical_does_not_crash(python, count, less):
-    run = python("-c", f"import revchain as rc\nc = rc.Chain.uniform_plummets({count}, length={count}.0)\n"
-                 f"print(len(rc.branches(c, conical_height=rc.modes(c).conical_height[0] * (1 - {less}))))", timeout=6)
-    assert run.returncode == 0, f"status {run.returncode} {run.stderr[-300:]}"
-    assert run.stdout == "1\n"
+def test_diagrams_just_below_critical(count, less):
+    chain = plummets(count)
+    diagram = rc.branches(chain, min_conical_height=rc.modes(chain).conical_height[0] * (1 - less))
+    assert len(diagram) == 1
+    assert diagram.consistent or less < 1e-9
 
 
 # ---------------------------------------------------------------- steady_shape and branch
-@pytest.mark.parametrize("make", [plummets, rods])
-@pytest.mark.parametrize("mode", [1, 2, 3])
-def test_inverse_problems(make, mode):
-    chain = make(3)
-    height = rc.modes(chain).conical_height[mode - 1] * 0.6
-    shape = rc.steady_shape(chain, mode=mode, conical_height=height)
-    assert shape.conical_height == pytest.approx(height, rel=1e-15)
-    assert shape.half_waves == mode
-    for given in ({"tip_inclination": abs(shape.inclination[0])}, {"tip_radius": abs(shape.offset[0])},
-                  {"top_tension": shape.tension[-1]}):
-        again = rc.steady_shape(chain, mode=mode, all=True, **given)
-        assert isinstance(again, tuple)
-        assert min(abs(a.conical_height / height - 1) for a in again) < 1e-11
-
-
 @pytest.mark.parametrize("given", [{"tip_inclination": 1.57}, {"tip_radius": 2.9999999}, {"top_tension": 3.00001},
-                                   {"top_tension": 3e3}])
-def test_large_amplitudes_are_met(given):
+                                   {"top_tension": 3e3},
+                                   *({f"tip_{name}": x} for name in ("inclination", "radius")
+                                     for x in (1e-6, 1e-8, 1e-12))])
+def test_large_and_small_amplitudes_are_met(given):
     shape = rc.steady_shape(rc.Chain(weight=1.0, length=[1.0, 1.0, 1.0]), **given)
     name, value = next(iter(given.items()))
-    got = {"tip_inclination": shape.inclination[0], "tip_radius": shape.offset[0], "top_tension": shape.tension[-1]}[name]
-    assert got == pytest.approx(value, rel=1e-12)
+    tip = {"tip_inclination": shape.inclination[0], "tip_radius": shape.offset[0]}
+    got = {**tip, "top_tension": shape.tension[-1]}[name]
+    assert got == pytest.approx(value, rel=1e-12 if value > 1e-3 else 1e-15)
 
 
 @pytest.mark.parametrize("given", [{"top_tension": 3.0}, {"top_tension": 2.0}, {"tip_radius": 3.0}, {"tip_radius": 4.0},
@@ -279,7 +257,7 @@ def test_every_mode_has_its_shape(count, mode, part):
     chain = plummets(count)
     height = rc.modes(chain, 1, first=mode).conical_height[0] * part
     if count < 300:
-        assert rc.branch(chain, mode, conical_height=height).end == "height"
+        assert rc.branch(chain, mode, min_conical_height=height).end == "height"
     if (count, part) == (300, 0.5) and mode == 300:  # its free end would be 1e-370 from the axis
         with pytest.raises(ValueError, match="mode 300"):
             rc.steady_shape(chain, mode=mode, conical_height=height)
@@ -297,35 +275,9 @@ def test_many_links():
     assert np.abs(shapes[0].inclination - rc.steady_shape(chain, conical_height=height).inclination).max() < 1e-13
 
 
-@pytest.mark.parametrize("make", [plummets, rods])
-@pytest.mark.parametrize("mode", [1, 2, 3])
-@pytest.mark.parametrize("less", [1e-2, 1e-4, 1e-8, 1e-10, 1e-12])
-def test_branch_at_near_its_beginning(make, mode, less):
-    chain = make(3)
-    critical = rc.modes(chain).conical_height[mode - 1]
-    height = critical * (1 - less)
-    shapes = rc.branch(chain, mode, conical_height=0.5 * critical).at(conical_height=height)
-    assert len(shapes) == 1
-    want = rc.steady_shape(chain, mode=mode, conical_height=height).inclination
-    assert np.abs(np.abs(shapes[0].inclination) - np.abs(want)).max() < 1e-6 * np.abs(want).max()
-    assert shapes[0].half_waves == mode
-
-
-def test_branch_at_its_very_beginning_has_no_straight_shape():
-    chain = plummets(3)
-    critical = rc.modes(chain).conical_height[1]
-    assert rc.branch(chain, 2, conical_height=0.5 * critical).at(conical_height=critical) == ()
-
-
 @pytest.mark.parametrize("points", [1, 2, 7])
 def test_max_points(points):
-    assert len(rc.branch(plummets(3), 1, conical_height=0.1, max_points=points)) <= points
-
-
-@pytest.mark.parametrize("less", [1e-3, 1e-6, 1e-9])
-def test_diagram_just_below_critical_is_consistent(less):
-    chain = plummets(3)
-    assert rc.branches(chain, conical_height=rc.modes(chain).conical_height[0] * (1 - less)).consistent
+    assert len(rc.branch(plummets(3), 1, min_conical_height=0.1, max_points=points)) <= points
 
 
 # ---------------------------------------------------------------- stability
@@ -364,79 +316,11 @@ def test_a_massless_joint_does_not_change_stability(frame):
         assert a.verdict == b.verdict
 
 
-# ---------------------------------------------------------------- diagrams
-def test_funicular_overflow_is_not_silent():
-    assert rc.funicular_polygon([1.0], [-1e290, 0.0, 1e290], 1.0).height.tolist() == [0.0, -0.5e290, 0.0]
-
-
-# ---------------------------------------------------------------- two links
-def test_jointed_links_and_all_their_shapes():
-    rng = np.random.default_rng(8)
-    tried = 0
-    while tried < 150:
-        a = np.exp(rng.normal(0, 0.7))
-        pair = dict(lower_weight=np.exp(rng.normal(0, 1.5)), lower_centroid=np.exp(rng.normal(0, 0.7)),
-                    lower_radius_of_gyration=np.exp(rng.normal(0, 0.7)), upper_weight=np.exp(rng.normal(0, 1.5)),
-                    upper_length=a, upper_centroid=a * rng.uniform(-0.3, 2), upper_radius_of_gyration=a * rng.uniform(0, 2))
-        try:
-            heights = tl.jointed_links(**pair)
-        except ValueError:
-            continue
-        tried += 1
-        chain = rc.Chain(weight=[pair["lower_weight"], pair["upper_weight"]], length=[1.0, a],
-                         centroid=[pair["lower_centroid"], pair["upper_centroid"]],
-                         radius_of_gyration=[pair["lower_radius_of_gyration"], pair["upper_radius_of_gyration"]])
-        assert np.allclose(heights, rc.modes(chain).conical_height, rtol=2e-15)
-        height = heights[0] * np.exp(-rng.uniform(0, 4))
-        mine = tl.jointed_links_shapes(**pair, height=height)
-        listed = rc.steady_shapes(chain, conical_height=height)
-        assert len(mine) == len(listed) <= 4
-        both = np.array([s.inclination for s in listed])
-        for s in mine:
-            assert min(np.abs(both - s.inclination).max(1).min(), np.abs(both + s.inclination).max(1).min()) < 1e-10
-
-
-@pytest.mark.parametrize("value", [1e-300, 1e300])
-def test_links_of_absurd_proportions_are_refused(value):
-    pair = dict(lower_weight=1.0, lower_centroid=value, lower_radius_of_gyration=0.4, upper_weight=1.0,
-                upper_length=0.25, upper_centroid=0.125, upper_radius_of_gyration=0.45)
-    with pytest.raises(ValueError, match="must not be more than 1e77 apart"):
-        tl.jointed_links(**pair)
-
-
-# ---------------------------------------------------------------- Python manners
-def drawable():
-    shapes = rc.steady_shapes(plummets(3), conical_height=0.05)
-    line = rc.funicular_polygon([1.0, 2.0], [0.0, 1.0, 2.0, 3.0], 1.0)
-    branch = rc.branch(plummets(3), 2, conical_height=0.05)
-    return [shapes, shapes[0], shapes[0].force_diagram(), branch, line, rc.branches(plummets(2), conical_height=0.1)]
-
-
 def test_threads():
-    base = np.array([s.inclination for s in rc.steady_shapes(plummets(8), conical_height=1 / 35.4025)])
-    seen = []
-
-    def work():
+    def asked(_):
         shapes = rc.steady_shapes(plummets(8), conical_height=1 / 35.4025)
         shapes[3].stability()
-        seen.append(np.array_equal(base, np.array([s.inclination for s in shapes])))
+        return np.array([s.inclination for s in shapes])
 
-    threads = [threading.Thread(target=work) for _ in range(6)]
-    for t in threads:
-        t.start()
-    for t in threads:
-        t.join()
-    assert seen == [True] * 6
-
-
-def test_plots():
-    agg = pytest.importorskip("matplotlib.backends.backend_agg")
-    for thing in drawable():
-        axes = thing.plot()
-        agg.FigureCanvasAgg((axes[0] if isinstance(axes, tuple) else axes).figure).draw()
-    for quantity in ("tip_inclination", "tip_radius", "top_tension", "moment_of_inertia", "effective_energy"):
-        rc.branches(plummets(3), conical_height=0.04).plot(quantity=quantity)
-    with pytest.raises(ValueError, match="quantity"):
-        rc.branch(plummets(2), 1, conical_height=0.1).plot(quantity="x")
-
-
+    with ThreadPoolExecutor(6) as pool:
+        assert all(np.array_equal(asked(0), found) for found in pool.map(asked, range(6)))

@@ -9,17 +9,19 @@ import time
 import psutil
 
 CALLS = {
-    "held_cord_shapes": "rc.held_cord_shapes(0.678, top_tension=0.861, angular_speed=0.693, most_half_waves=1000)",
-    "held_shapes": "rc.held_shapes(rods, span=2.0, conical_height=0.1, most_half_waves=1000)",
-    "taut_modes": "rc.taut_modes(rods, tension=1e3, count=2000)",
+    "shapes of a held cord": "rc.steady_shapes(rope, angular_speed=0.693, max_half_waves=1000)",
+    "shapes of a held chain": "rc.steady_shapes(rc.Held(rods, span=2.0), conical_height=0.1, max_half_waves=1000)",
+    "taut modes": "rc.modes(rc.Held(rods, tension=1e3), 1999)",
     "BufferImpact.state": "impact.state(many)",
     "steady_shapes": "rc.steady_shapes(rc.Chain.uniform_plummets(12), conical_height=1e-3, hanging_only=False)",
     "stability": "shape.stability()",
     "stability of a held shape": "held.stability()",
     "stability_windows": "branch.stability_windows()",
-    "branch": "rc.branch(rods, 1, conical_height=1e-9, max_step=1e-3, max_points=1_000_000)",
-    "branches": "rc.branches(rc.Chain.uniform_plummets(8), conical_height=0.01)",
-    "continuous_shapes": "rc.continuous_shapes(1.0, conical_height=1e-6)",
+    "branch": "rc.branch(rods, 1, min_conical_height=1e-9, max_step=1e-3, max_points=1_000_000)",
+    "branches": "rc.branches(rc.Chain.uniform_plummets(8), min_conical_height=0.01)",
+    "shapes of a cord": "rc.steady_shapes(rc.Cord(1.0), conical_height=1e-6)",
+    "modes of a cord": "rc.modes(rc.Cord(1.0, density=lambda s: 1 + s), 100_000)",
+    "shapes of modes of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 1000).offset(many / 50)",
     "dense": "rc.modes(large, method='dense')",
     "recurrence": "rc.modes(rc.Chain.uniform_rods(60_000), 29_999)",
     "conical_heights": "rc.conical_heights(weight=np.ones((400_000, 60)), length=1.0)",
@@ -27,10 +29,10 @@ CALLS = {
     "response": "rc.response(rods, conical_height=np.linspace(0.01, 1, 1_000_000), pins=[0])",
     "shape": "rc.modes(large, 'all').shape",
     "sensitivity": "rc.modes(large, 'all').sensitivity",
-    "tune": "rc.tune(rc.Chain.uniform_rods(2_000_000), mode=1, link=1_999_999, quantity='weight', conical_height=0.2)",
+    "tune": "rc.tune(rc.Chain.uniform_rods(2_000_000), vary='links[1999998].weight', conical_height=0.2)",
     "Chain": "rc.Chain(weight=1.0, length=np.ones(30_000_000), centroid=0.5, radius_of_gyration=0.3)",
     "tapered": "rc.Chain.tapered(5_000_000, length=1.0, exponent=1.5)",
-    "GovernorMotion": "rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).angle(many)",
+    "GovernorMotion": "rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).state(many)",
     "elliptic.jacobi": "rc.elliptic.jacobi(many, modulus=0.5)",
     "elliptic.incomplete_pi": "rc.elliptic.incomplete_pi(0.3, many, modulus=0.5)",
     "heavy_chain.shape": "rc.heavy_chain.shape(many / many[-1], 30)",
@@ -45,9 +47,10 @@ import revchain as rc
 rods, large, many = rc.Chain.uniform_rods(2000, length=3.0), rc.Chain.uniform_rods(3000), np.linspace(0.01, 50, 20_000_000)
 loop = rc.Chain.uniform_rods(300, length=1.0)
 shape = rc.steady_shapes(loop, conical_height=0.5)[0]
-held = rc.held_shapes(loop, span=0.5, conical_height=0.1, prove=False)[0]
+held = rc.steady_shapes(rc.Held(loop, span=0.5), conical_height=0.1, prove=False)[0]
+rope = rc.Held(rc.Cord(0.678, weight=1.0), tension=0.861)
 impact = rc.BufferImpact(front_mass=1, rear_mass=50, buffer_stiffness=1, coupling_stiffness=2, speed=1)
-branch = rc.branch(rc.Chain.uniform_rods(60, length=1.0), 1, conical_height=0.2)
+branch = rc.branch(rc.Chain.uniform_rods(60, length=1.0), 1, min_conical_height=0.2)
 for call in {calls!r}:
     print("call", flush=True)
     try:

@@ -244,11 +244,11 @@ BAD = {
     "huge count": ({"count": 10**30}, "count"),
     "rtol nan": ({"rtol": NAN}, "(rtol|tolerance).*nan"),
     "rtol negative": ({"rtol": -1e-3}, "(rtol|tolerance).*-0.001"),
-    "rtol text": ({"rtol": "tight"}, "rtol must be a real number"),
+    "rtol text": ({"rtol": "tight"}, "rtol must be a"),
     "rtol array": ({"rtol": [1e-3]}, "rtol must be a single number"),
-    "method unknown": ({"method": "qr"}, "of bisection, condensed, aberth, interpolated, dense, recurrence, got 'qr'"),
-    "method auto": ({"method": "auto"}, "of bisection, condensed, aberth, interpolated, dense, recurrence, got 'auto'"),
-    "method no text": ({"method": 3}, "of bisection, condensed, aberth, interpolated, dense, recurrence, got 3"),
+    "method unknown": ({"method": "qr"}, "of bisection, condensed, aberth, interpolated, dense, recurrence, .*, got 'qr'"),
+    "method auto": ({"method": "auto"}, "of bisection, condensed, aberth, interpolated, dense, recurrence, .*, got 'auto'"),
+    "method no text": ({"method": 3}, "of bisection, condensed, aberth, interpolated, dense, recurrence, .*, got 3"),
 }
 
 
@@ -316,7 +316,7 @@ def test_to_dict_is_ready_for_json():
     result = rc.modes(rc.Chain.uniform_rods(6, length=2.0, weight=3.0), count=2, gravity=1.62)
     data = result.to_dict()
     assert json.loads(json.dumps(data, allow_nan=False)) == data
-    assert list(data) == ["gravity", "method", "status", "precision", "chain", "modes"]
+    assert list(data) == ["gravity", "method", "status", "precision", "system", "modes"]
     assert data["gravity"] == 1.62
     second = data["modes"][1]
     numbers = ["angular_speed", "frequency", "rpm", "period", "speed_error_bound", "conical_height", "error_bound", "residual"]
@@ -325,7 +325,7 @@ def test_to_dict_is_ready_for_json():
     assert {name: second[name] for name in numbers} == {name: getattr(result, name)[1] for name in numbers}
     assert second["nodes"] == result.nodes[1].tolist() and len(second["nodes"]) == 1
     assert second["shape"] == result.shape[1].tolist()
-    assert data["chain"] == {"size": 6, "length": pytest.approx(2.0), "weight": pytest.approx(3.0)}
+    assert data["system"] == result.system.describe()
 
 
 def test_dataframe():

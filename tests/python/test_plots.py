@@ -8,6 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import revchain as rc
+from revchain.plots.modes import SPACING
 
 RODS = rc.modes(rc.Chain.uniform_rods(120, length=0.36), count=8)
 
@@ -47,9 +48,9 @@ def test_modes(modes, gravity):
     axes = result.plot(modes=modes)
     assert isinstance(axes, Axes)
     chosen = list(range(1, 7)) if modes is None else list(modes)
-    assert [text.splitlines()[0] for text in texts(axes)] == [f"mode {mode}" for mode in chosen]
+    assert [text.splitlines()[0] for text in texts(axes)] == ["at rest", *(f"mode {mode}" for mode in chosen)]
     speeds = result.angular_speed
-    assert all(f"{speeds[mode - 1]:#.4g} rad/s" in text for mode, text in zip(chosen, texts(axes), strict=True))
+    assert all(f"{speeds[mode - 1]:#.4g} rad/s" in text for mode, text in zip(chosen, texts(axes)[1:], strict=True))
     assert axes.get_ylabel() == "depth below the support (m)"
     assert axes.yaxis_inverted() or axes.get_ylim()[0] > axes.get_ylim()[1]
     assert clipped(axes) == []
@@ -59,7 +60,7 @@ def test_modes(modes, gravity):
 def test_curves_and_nodes_are_where_they_belong():
     axes = RODS.plot(modes=[3])
     curve = next(line for line in axes.lines if line.get_label() == "mode 3")
-    np.testing.assert_allclose(curve.get_xdata(), RODS.shape[2])
+    np.testing.assert_allclose(curve.get_xdata() - SPACING, RODS.shape[2], atol=1e-15)
     np.testing.assert_allclose(curve.get_ydata(), np.linspace(0.36, 0.0, 121), atol=1e-15)
     rings = next(line for line in axes.lines if len(line.get_xdata()) == 2 and line.get_marker() == "o")
     np.testing.assert_allclose(rings.get_ydata(), 0.36 - RODS.nodes[2])
@@ -71,8 +72,9 @@ def test_a_long_chain_is_thinned_and_keeps_its_extremes():
         axes = result.plot(modes=[mode])
         curve = next(line for line in axes.lines if line.get_label() == f"mode {mode}").get_xdata()
         assert len(curve) <= 2100
-        assert curve.max() == result.shape[mode - 1].max() and curve.min() == result.shape[mode - 1].min()
-        signs = np.sign(curve[:-1])
+        offset = SPACING + result.shape[mode - 1]
+        assert curve.max() == offset.max() and curve.min() == offset.min()
+        signs = np.sign(curve[:-1] - SPACING)
         assert (signs[1:] != signs[:-1]).sum() == mode - 1
 
 
@@ -100,12 +102,12 @@ def test_the_axes_given_are_used():
     ],
 )
 def test_chain(chain):
-    axes = chain.plot(length_unit="ft", weight_unit="lbf")
-    assert axes.get_ylabel() == "depth below the support (ft)"
-    assert "(lbf)" in axes.get_xlabel()
+    axes = chain.plot()
+    assert axes.get_ylabel() == "depth below the support (m)"
     assert clipped(axes) == []
-    low, high = axes.get_xlim()
-    assert low <= chain.weight.max() <= high
+    low, high = sorted(axes.get_ylim())
+    middle = np.cumsum(chain.length[::-1])[::-1] - chain.length + chain.centroid
+    assert low <= middle.min() and middle.max() <= high and low <= 0 and chain.total_length <= high
 
 
 @pytest.mark.parametrize("modes", [[0], [9], [1, -1], [1.5], ["1"], []])

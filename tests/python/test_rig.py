@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`revchain.Rig`: what it keeps, what it refuses."""
+"""`revchain.Rig` and what goes into it: what they keep, what they refuse."""
 
 from __future__ import annotations
 
@@ -13,110 +13,133 @@ import revchain as rc
 CHAIN = rc.Chain(weight=[1.0, 3.0], length=0.5)
 
 
-def test_a_rig_keeps_what_it_is_given():
-    rig = rc.Rig(
-        CHAIN,
-        stiffness=20.0,
-        carriage_weight=2.0,
-        support_radius=0.1,
-        standing=[True, False],
-        momentum=[0.5, 0.0],
-        axial_moment=0.25,
-        displaced_weight=[0.1, 0.2],
-        displaced_centroid=0.3,
-        displaced_radius_of_gyration=0.05,
-        added_weight=0.125,
-        fluid="still",
+def full(**other):
+    given = dict(
+        support=rc.Support(stiffness=20.0, weight=2.0, radius=0.1),
+        flywheels=rc.Flywheel(momentum=[0.5, 0.0], axial_moment=0.25),
+        displaced=rc.Displaced(weight=[0.1, 0.2], centroid=0.3, radius_of_gyration=0.05, added_weight=0.125),
+        inverted=[True, False],
     )
-    assert (rig.stiffness, rig.carriage_weight, rig.support_radius, rig.fluid) == (20.0, 2.0, 0.1, "still")
-    assert rig.standing.tolist() == [True, False]
-    assert rig.momentum.tolist() == [0.5, 0.0]
-    assert rig.axial_moment.tolist() == [0.25, 0.25]
-    assert rig.displaced_weight.tolist() == [0.1, 0.2]
-    assert rig.displaced_centroid.tolist() == [0.3, 0.3]
-    assert rig.displaced_radius_of_gyration.tolist() == [0.05, 0.05]
-    assert rig.added_weight.tolist() == [0.125, 0.125]
-    assert rig.chain is CHAIN
-    assert rig.size == len(rig) == 2
+    return rc.Rig(CHAIN, **{**given, **other})
+
+
+def test_a_rig_keeps_what_it_is_given():
+    rig = full()
+    assert (rig.support.stiffness, rig.support.carriage, rig.support.radius, rig.fluid) == (20.0, 2.0, 0.1, "still")
+    assert rig.support.weight == 2.0 and rig.support.mass is None
+    assert rig.inverted.tolist() == [True, False] and rig.has_momentum
+    assert rig.flywheels.momentum.tolist() == [0.5, 0.0] and rig.flywheels.axial_moment == 0.25
+    assert rig.displaced.weight.tolist() == [0.1, 0.2]
+    assert (rig.displaced.centroid, rig.displaced.radius_of_gyration, rig.displaced.added_weight) == (0.3, 0.05, 0.125)
+    assert rig.chain is CHAIN and rig.size == len(rig) == 2
     assert repr(rig) == (
         "Rig of a chain of 2 links: support of stiffness 20, carriage of weight 2, carried round at radius 0.1, "
-        "1 link standing, 1 link with momentum, 2 links in still fluid"
+        "1 link inverted, 1 link with momentum, 2 links in still fluid"
     )
 
 
 def test_what_is_left_out_is_the_chains_own_or_nothing():
     rig = rc.Rig(rc.Chain.uniform_rods(3, length=3.0))
-    assert rig.stiffness == np.inf
-    assert not rig.standing.any()
-    assert rig.displaced_centroid.tolist() == rig.chain.centroid.tolist()
-    assert rig.displaced_radius_of_gyration.tolist() == rig.chain.radius_of_gyration.tolist()
+    assert rig.support == rc.Support() and rig.support.stiffness == np.inf
+    assert not rig.inverted.any() and not rig.has_momentum
     assert repr(rig) == "Rig of a chain of 3 links: nothing added"
-    assert rig == rc.Rig(rig.chain, momentum=[0, 0, 0], standing=np.zeros(3, bool))
+    assert rig == rc.Rig(rig.chain, inverted=np.zeros(3, bool))
+    own = rc.Displaced(weight=0.25, centroid=rig.chain.centroid, radius_of_gyration=rig.chain.radius_of_gyration)
+    heights = [rc.modes(rc.Rig(rig.chain, displaced=each)).conical_height for each in (rc.Displaced(weight=0.25), own)]
+    assert np.array_equal(*heights)
 
 
-@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda rig: pickle.loads(pickle.dumps(rig))])
+@pytest.mark.parametrize(
+    "copied", [copy.copy, copy.deepcopy, lambda r: pickle.loads(pickle.dumps(r)), lambda r: r.from_dict(r.to_dict())]
+)
 def test_rigs_are_values(copied):
-    rig = rc.Rig(CHAIN, momentum=[0.5, -1.0], displaced_weight=0.25, standing=[False, True], fluid="turning")
+    rig = full()
     other = copied(rig)
     assert other == rig and hash(other) == hash(rig)
-    assert rig != rc.Rig(CHAIN, momentum=[0.5, -1.0], displaced_weight=0.25, standing=[False, True])
-    assert rig != CHAIN
-    with pytest.raises(AttributeError, match="cannot be changed"):
-        rig.momentum = 0.0
-    with pytest.raises(ValueError):
-        rig.momentum[0] = 1.0
-    with pytest.raises(ValueError):
-        rig.standing[0] = True
+    parts = {"support": None, "flywheels": None, "displaced": rc.Displaced(weight=0.1), "inverted": True}
+    assert all(rig != full(**{name: value}) for name, value in parts.items())
+    assert full(displaced=None) != full(displaced=None, fluid="turning") and rig != CHAIN
+    for thing, name in ((rig, "support"), (rig.support, "stiffness"), (rig.flywheels, "momentum")):
+        with pytest.raises(AttributeError, match="cannot be changed"):
+            setattr(thing, name, 0.0)
+    for array in (rig.flywheels.momentum, rig.displaced.weight, rig.inverted):
+        with pytest.raises(ValueError):
+            array[0] = 1
+
+
+def test_rigs_of_equal_numbers_are_equal():
+    assert rc.Rig(CHAIN) == rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=[0.0, 0.0]), inverted=np.zeros(2, bool))
+    assert full() == full(flywheels=rc.Flywheel(momentum=[0.5, 0.0], axial_moment=[0.25, 0.25]))
+
+
+def test_what_is_equal_has_equal_hashes():
+    one, other = rc.Flywheel(momentum=0.0), rc.Flywheel(momentum=-0.0)
+    assert one != other or hash(one) == hash(other)
+
+
+@pytest.mark.parametrize(
+    ("make", "name", "values"),
+    [
+        (rc.Support, "stiffness", (0.0, -3.5, np.nan, -np.inf)),
+        (rc.Support, "weight", (-1.25, np.inf, np.nan)),
+        (rc.Support, "radius", (-0.5, np.inf, np.nan)),
+        (rc.Flywheel, "momentum", ([0.0, np.inf], np.nan)),
+        (rc.Flywheel, "axial_moment", ([-2.5, 0.0], np.inf)),
+        (rc.Displaced, "weight", ([0.0, -7.5], np.nan)),
+        (rc.Displaced, "centroid", (np.nan,)),
+        (rc.Displaced, "radius_of_gyration", (-0.25,)),
+        (rc.Displaced, "added_weight", (-0.75,)),
+    ],
+)
+def test_wrong_parts_are_refused(make, name, values):
+    says = "be positive" if name == "stiffness" else "(be finite|be finite and not negative|not be negative)"
+    more = {"weight": 0.0} if make is rc.Displaced else {}
+    for value in values:
+        wrong = min(np.ravel(value), key=lambda x: (bool(np.isfinite(x)), x))
+        with pytest.raises(ValueError, match=rf"revchain\.{make.__name__}: {name} must {says}, got {wrong:g}$"):
+            make(**{**more, name: value})
+    with pytest.raises(ValueError, match=rf"revchain\.{make.__name__}: {name} must be a number.*, got .fast"):
+        make(**{**more, name: "fast"})
 
 
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        ({"stiffness": 0.0}, r"stiffness of the support must be positive, got 0$"),
-        ({"stiffness": np.nan}, r"stiffness of the support must be positive, got nan"),
-        ({"carriage_weight": -1.0}, r"carriage weight must be finite and not negative, got -1"),
-        ({"support_radius": np.inf}, r"radius of the support must be finite and not negative, got inf"),
-        ({"momentum": [0.0, np.inf]}, r"link 2: momentum must be finite, got inf"),
-        ({"momentum": [1.0, 2.0, 3.0]}, r"revchain\.Rig: momentum .* each of the 2 links, got shape \(3,\)"),
-        ({"momentum": [[1.0, 2.0]]}, r"momentum .* got shape \(1, 2\)"),
-        ({"momentum": "fast"}, r"momentum must be a real number"),
-        ({"axial_moment": [-1.0, 0.0]}, r"link 1: axial moment must be finite and not negative, got -1"),
-        ({"displaced_weight": -0.5}, r"link 1: weight displaced must be finite and not negative, got -0.5"),
-        ({"displaced_weight": 1.0, "displaced_centroid": np.nan}, r"centre of buoyancy must be finite"),
-        (
-            {"displaced_weight": 1.0, "displaced_radius_of_gyration": -1.0},
-            r"link 1: radius of gyration must be finite and not negative, got -1",
-        ),
-        ({"added_weight": -1.0}, r"added weight must be finite and not negative, got -1"),
-        ({"standing": [1, 0]}, r"standing must be True, False or an array of them"),
-        ({"standing": [True]}, r"one for each of the 2 links, got \[True\]"),
+        ({"flywheels": rc.Flywheel(momentum=[1.0, 2.0, 3.0])}, r"momentum .* each of the 2 links, got shape \(3,\)"),
+        ({"flywheels": rc.Flywheel(momentum=[[1.0, 2.0]])}, r"momentum .* got shape \(1, 2\)"),
+        ({"displaced": rc.Displaced(weight=[1.0] * 4)}, r"displaced weight .* got shape \(4,\)"),
+        ({"displaced": rc.Displaced(weight=1.0, added_weight=0.5), "fluid": "turning"}, "no added mass, got 0.5"),
+        ({"displaced": rc.Displaced(mass=1.0)}, "displaced"),
+        ({"support": rc.Support(mass=1.0)}, "support"),
+        ({"inverted": [1, 0]}, r"inverted must be True, False or an array of them"),
+        ({"inverted": [True]}, r"one for each of the 2 links, got \[True\]"),
         ({"fluid": "air"}, r"fluid must be one of still, turning, got 'air'"),
     ],
 )
 def test_wrong_rigs_are_refused(given, says):
-    with pytest.raises(ValueError, match=says):
+    with pytest.raises(ValueError, match=r"revchain\.Rig: .*" + says):
         rc.Rig(CHAIN, **given)
 
 
 def test_a_rig_is_of_a_chain():
     with pytest.raises(TypeError, match=r"revchain\.Rig: chain must be a revchain\.Chain, got 'chain'"):
         rc.Rig("chain")
+    with pytest.raises(TypeError, match=r"support must be a revchain\.Support, got 3"):
+        rc.Rig(CHAIN, support=3.0)
 
 
 def test_flywheels():
-    free = rc.free_flywheel(weight=[9.80665, 0.0], radius_of_gyration=0.3, spin=100.0)
-    assert free["momentum"] == pytest.approx([9.0, 0.0], rel=1e-15)
-    assert set(free) == {"momentum"}
-    driven = rc.driven_flywheel(weight=2.0, radius_of_gyration=[0.5, 1.0], spin=-3.0, gravity=1.0)
-    assert driven["momentum"].tolist() == [-1.5, -6.0]
-    assert driven["axial_moment"].tolist() == [0.5, 2.0]
-    assert rc.Rig(CHAIN, **driven).axial_moment.tolist() == [0.5, 2.0]
-    for name, value in {"weight": -1.0, "radius_of_gyration": np.nan, "spin": np.inf, "gravity": 0.0}.items():
-        wheel = {"weight": 1.0, "radius_of_gyration": 1.0, "spin": 1.0, name: value}
-        for make in (rc.free_flywheel, rc.driven_flywheel):
-            with pytest.raises(ValueError, match=name):
-                make(**wheel)
-    for make in (rc.free_flywheel, rc.driven_flywheel):
-        for huge in ({"weight": 1e200, "radius_of_gyration": 1e100, "spin": 0.0}, {"spin": 1e300, "weight": 1e20}):
-            with pytest.raises(ValueError, match="must be finite, give a smaller radius_of_gyration, got"):
-                make(**{"radius_of_gyration": 1.0, **huge})
+    free = rc.Rig(CHAIN, flywheels=rc.Flywheel(weight=[9.80665, 0.0], radius_of_gyration=0.3, spin=100.0))
+    assert free._momentum(9.80665) == pytest.approx([9.0, 0.0], rel=1e-15)
+    driven = rc.Flywheel(weight=2.0, radius_of_gyration=[0.5, 1.0], spin=-3.0, driven=True)
+    same = rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=[-1.5, -6.0], axial_moment=[0.5, 2.0]))
+    assert rc.Rig(CHAIN, flywheels=driven)._momentum(1.0).tolist() == [-1.5, -6.0]
+    speeds = [rc.modes(rig, gravity=1.0).angular_speed for rig in (rc.Rig(CHAIN, flywheels=driven), same)]
+    assert np.array_equal(*speeds)
+    wheel = {"weight": 1.0, "radius_of_gyration": 1.0, "spin": 1.0}
+    for name, value in {"weight": -1.0, "radius_of_gyration": np.nan, "spin": np.inf}.items():
+        with pytest.raises(ValueError, match=name):
+            rc.Flywheel(**{**wheel, name: value})
+    for huge in ({"weight": 1e200, "radius_of_gyration": 1e100, "spin": 0.0}, {"spin": 1e300, "weight": 1e20}):
+        with pytest.raises(ValueError, match="too large a momentum with radius_of_gyration, got"):
+            rc.Rig(CHAIN, flywheels=rc.Flywheel(**{**wheel, **huge}))

@@ -2,15 +2,18 @@
 """Which modes: numbers and windows; certificates; precisions. Checked against all modes and against mpmath."""
 
 import copy
+import itertools
 import json
 import math
 import pickle
 import timeit
+from decimal import Decimal
 
 import mpmath as mp
 import numpy as np
 import pytest
 from exact import stored_links
+from hanging_links import Body, Hanging
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -133,21 +136,19 @@ def test_an_empty_window(tmp_path, read, certify):
 SELECTORS = {"count": 3, "first": 2, "conical_height": (0.1, 1.0), "angular_speed": (1.0, 2.0)}
 
 
-@pytest.mark.parametrize("one", SELECTORS)
-@pytest.mark.parametrize("other", SELECTORS)
+@pytest.mark.parametrize(("one", "other"), list(itertools.combinations(SELECTORS, 2)))
 def test_one_selector_alone(one, other):
-    if {one, other} <= {"count", "first"} or one == other:
-        rc.modes(RODS, **{one: SELECTORS[one], other: SELECTORS[other]})
+    rc.modes(RODS, **{one: SELECTORS[one]})
+    asked = {name: SELECTORS[name] for name in (one, other)}
+    if (one, other) == ("count", "first"):
+        for whole in (int, np.int32, np.uint8, np.array):
+            given = {name: whole(number) for name, number in asked.items()}
+            assert rc.modes(RODS, **given).number.tolist() == [2, 3, 4]
         return
     message = r"revchain\.modes: give one window, or count and first, not both, got "
     with pytest.raises(ValueError, match=message) as caught:
-        rc.modes(RODS, **{one: SELECTORS[one], other: SELECTORS[other]})
+        rc.modes(RODS, **asked)
     assert set(str(caught.value).partition("got ")[2].split(" and ")) == {one, other}
-
-
-@pytest.mark.parametrize("whole", [int, np.int32, np.uint8, np.array])
-def test_ways_to_say_numbers(whole):
-    assert rc.modes(RODS, whole(3), first=whole(3)).number.tolist() == [3, 4, 5]
 
 
 @pytest.mark.parametrize(
@@ -163,9 +164,7 @@ def test_ways_to_say_numbers(whole):
         ({"first": "all"}, "first must be a whole number, got 'all'"),
         ({"first": None}, "first must be a whole number, got None"),
         ({"first": 1.0}, "first must be a whole number, got 1.0"),
-        ({"count": [1, 2]}, "count must be a whole number"),
         ({"count": 1, "first": 10**30}, "first is too large"),
-        ({"count": 10**30}, "count is too large"),
         ({"conical_height": (1.0, 2.0), "angular_speed": (1.0, 2.0), "count": 3, "first": 2}, "not both, got .*first"),
         ({"conical_height": (2.0, 1.0)}, "exceed its low end 2, got 1"),
         ({"conical_height": (1.0, 1.0)}, "exceed its low end 1, got 1"),
@@ -177,7 +176,7 @@ def test_ways_to_say_numbers(whole):
         ({"conical_height": (1.0,)}, "pair"),
         ({"conical_height": (1.0, 2.0, 3.0)}, "pair"),
         ({"conical_height": "12"}, "pair"),
-        ({"conical_height": ("1", "2")}, "real number"),
+        ({"conical_height": ("1", "b")}, r"\(each end\) must be a number"),
         ({"angular_speed": (2.0, 1.0)}, "angular speed"),
         ({"angular_speed": (1.0, 2.0), "gravity": 0.0}, "gravity"),
         ({"angular_speed": (1.0, 2.0), "gravity": [1.0, 2.0]}, "gravity must be a single number"),
@@ -191,42 +190,19 @@ def test_refused(arguments, message):
         rc.modes(RODS, **arguments)
 
 
-@pytest.mark.parametrize("weight", [[1e-60, 1.0, 1.0], [1.0, 1.0, 1e-60], [1e60, 1.0, 1.0], 1e-60])
-def test_weights_beyond_the_range_of_a_precision_are_refused(weight):
-    chain = rc.Chain(weight=weight, length=1.0) if np.ndim(weight) else rc.Chain(weight=[weight] * 3, length=1.0)
+@pytest.mark.parametrize("weight", [[1e-60, 1.0, 1.0], [1.0, 1.0, 1e-60], [1e60, 1.0, 1.0], [1e-60] * 3])
+def test_what_single_precision_refuses(weight):
+    chain = rc.Chain(weight=weight, length=1.0)
     assert rc.modes(chain).conical_height.size == chain.mode_count == 3
-    with pytest.raises(ValueError, match=r"link \d: weight must lie in the range of the precision; use a wider one"):
+    message = r"links\[[02]\]: weight must lie in the range of the precision; use a wider one"
+    with pytest.raises(ValueError, match=message):
         rc.modes(chain, precision="single")
+    with pytest.raises(ValueError, match="length"):
+        rc.modes(rc.Chain(weight=1.0, length=1e-300), precision="single")
+    with pytest.raises(ValueError, match="window"):
+        rc.modes(RODS, conical_height=(0.1, 0.1 + 1e-12), precision="single")
     zeros = rc.Chain(weight=[1.0, 0.0, 1.0], length=1.0)
     assert rc.modes(zeros, precision="single").conical_height.size == zeros.mode_count == 2
-
-
-def tridiagonal(links):
-    """K and M of the assembled pencil, in the digits of mpmath."""
-    n = len(links)
-    k, kb, m, mb = ([mp.mpf(0)] * (n + 1) for _ in range(4))
-    below = mp.mpf(0)
-    for i, (w, a, h, rho2) in enumerate(links):
-        stiffness, p, q = (w * h + a * below) / a**2, h / a, (h**2 + rho2) / a**2
-        k[i] += stiffness
-        k[i + 1] += stiffness
-        kb[i] = -stiffness
-        m[i] += w * q
-        m[i + 1] += w * (1 - 2 * p + q)
-        mb[i] = w * (p - q)
-        below += w
-    return k[:n], kb, m[:n], mb
-
-
-def count_above(pencil, height):
-    """How many conical heights exceed `height`: negative pivots, 60 digits."""
-    k, kb, m, mb = pencil
-    pivot, count = mp.mpf(0), 0
-    for i in range(len(k)):
-        off = height * kb[i - 1] - mb[i - 1] if i else mp.mpf(0)
-        pivot = height * k[i] - m[i] - (off * off / pivot if i else 0)
-        count += pivot < 0
-    return count
 
 
 @given(chains(6), st.sampled_from([None, 1e-12, 1e-3, 0.7]))
@@ -234,9 +210,9 @@ def test_certificates_hold_in_sixty_digits(exact_heights, chain, rtol):
     result = rc.modes(chain, rtol=rtol, certify=True)
     proof = result.certificate
     with mp.workdps(60):
-        pencil = tridiagonal(stored_links(chain))
+        pencil = Hanging([Body(*(Decimal(mp.nstr(x, 60)) for x in link)) for link in stored_links(chain)])
         for end, counts in ((proof.lower, proof.above_lower), (proof.upper, proof.above_upper)):
-            assert [count_above(pencil, mp.mpf(x)) for x in end.tolist()] == counts.tolist()
+            assert [pencil.above(x) for x in end.tolist()] == counts.tolist()
         for lower, height, upper in zip(proof.lower.tolist(), exact_heights(chain), proof.upper.tolist(), strict=True):
             assert lower < height <= upper
     assert (proof.above_lower >= result.number).all() and (proof.above_upper < result.number).all()
@@ -246,10 +222,9 @@ def test_certificates_hold_in_sixty_digits(exact_heights, chain, rtol):
     assert (proof.upper - proof.lower <= said + ULP * proof.upper).all()  # the ends are rounded
 
 
-def test_no_certificate_unless_asked():
+def test_certificates_are_values():
     assert rc.modes(RODS, count=2).certificate is None
     proof = rc.modes(RODS, count=2, certify=True).certificate
-    assert isinstance(proof, rc.Certificate)
     for array in (proof.lower, proof.upper, proof.above_lower, proof.above_upper):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
@@ -287,10 +262,16 @@ def test_precisions(tmp_path, precision):
     np.testing.assert_allclose(result.angular_speed, rc.modes(RODS, count=6, first=3).angular_speed, rtol=2e-7)
     assert json.loads(json.dumps(result.to_dict(), allow_nan=False))["precision"] == precision
     assert "modes 3 to 8 of 40" in repr(result)
-    for twin in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
-        assert twin == result
-    result.save(tmp_path / "result.npz")
-    assert rc.load(tmp_path / "result.npz") == result
+    assert result == pickle.loads(pickle.dumps(result)) == copy.deepcopy(result)
+    for read, ending in itertools.product((False, True), (".npz", ".nc")):
+        fresh = rc.modes(RODS, count=11, first=20, certify=True, precision=precision)
+        if read:
+            fresh.shape  # noqa: B018
+        fresh.save(tmp_path / f"result{ending}")
+        loaded = rc.load(tmp_path / f"result{ending}")
+        assert loaded == fresh and loaded.certificate == fresh.certificate
+        assert np.array_equal(loaded.shape, fresh.shape) and loaded.shape.dtype == fresh.shape.dtype == kind
+        assert loaded.number.tolist() == list(range(20, 31)) and loaded.conical_height.dtype == kind
     data = result.to_xarray()
     assert data.mode.values.tolist() == [3, 4, 5, 6, 7, 8] and data.conical_height.dtype == kind
     assert data.attrs["precision"] == precision
@@ -333,13 +314,6 @@ def test_single_precision_is_that_of_the_rounded_numbers(exact_heights, chain):
         assert bound <= 2.001 * 2.0**-23
 
 
-def test_single_precision_refuses_what_does_not_fit():
-    with pytest.raises(ValueError, match="length"):
-        rc.modes(rc.Chain(weight=1.0, length=1e-300), precision="single")
-    with pytest.raises(ValueError, match="window"):
-        rc.modes(RODS, conical_height=(0.1, 0.1 + 1e-12), precision="single")
-
-
 def test_plots_and_tables_say_the_numbers():
     result = rc.modes(rc.Chain.uniform_plummets(300), count=30, first=100)
     lines = repr(result).splitlines()
@@ -348,28 +322,15 @@ def test_plots_and_tables_say_the_numbers():
     assert "<td>119</td>" in result._repr_html_()
     axes = result.plot()
     labels = [label.get_text().splitlines()[0] for label in axes.get_xticklabels()]
-    assert labels == [f"mode {k}" for k in range(100, 106)]
+    assert labels == ["at rest", *(f"mode {k}" for k in range(100, 106))]
     curve = next(line for line in result.plot(modes=[129]).lines if line.get_label() == "mode 129")
-    np.testing.assert_array_equal(curve.get_xdata(), result.shape[29])
+    across = curve.get_xdata()  # each mode hangs from its own axis
+    np.testing.assert_allclose(across - across[-1], result.shape[29], rtol=0, atol=1e-15)
     for wrong in (99, 130, 1):
         with pytest.raises(ValueError, match=f"from 100 to 129, got {wrong}"):
             result.plot(modes=[wrong])
     assert [mode["mode"] for mode in result.to_dict()["modes"]] == list(range(100, 130))
     assert float(result.to_xarray().conical_height.sel(mode=129)) == result.conical_height[-1]
-
-
-@pytest.mark.parametrize("ending", [".npz", ".nc"])
-@pytest.mark.parametrize("read", [True, False])
-@pytest.mark.parametrize("precision", _core.PRECISIONS)
-def test_files_keep_numbers_and_certificates(tmp_path, ending, read, precision):
-    result = rc.modes(RODS, count=11, first=20, certify=True, precision=precision)
-    if read:
-        result.shape  # noqa: B018
-    result.save(tmp_path / f"result{ending}")
-    loaded = rc.load(tmp_path / f"result{ending}")
-    assert loaded == result and np.array_equal(loaded.shape, result.shape) and loaded.shape.dtype == result.shape.dtype
-    assert loaded.number.tolist() == list(range(20, 31)) and loaded.certificate == result.certificate
-    assert loaded.conical_height.dtype == result.conical_height.dtype
 
 
 def test_python_adds_little():

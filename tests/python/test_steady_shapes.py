@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steady shapes, their lists and their stability from Python: figures known from elsewhere, what is refused, pictures."""
+"""Steady shapes, their lists and their stability: figures known from elsewhere, what is refused, pictures."""
 
 import numpy as np
 import pytest
@@ -29,7 +29,8 @@ def moments(chain: Chain, shape: rc.SteadyShape) -> float:
 
 @pytest.mark.parametrize(
     ("count", "ratio", "shapes"),
-    [(1, 2.0, 1), (2, 166.0, 2), (3, 166.0, 5), (4, 166.0, 10), (6, 187.5, 56), (8, 16.0, 19), (8, 35.4025, 84), (10, 50.0, 412)],
+    [(1, 2.0, 1), (2, 166.0, 2), (3, 166.0, 5), (4, 166.0, 10), (6, 187.5, 56), (8, 16.0, 19), (8, 35.4025, 84),
+     (10, 50.0, 412)],
 )
 def test_counts_known_from_elsewhere(count: int, ratio: float, shapes: int) -> None:
     found = rc.steady_shapes(plummets(count), conical_height=1 / ratio)
@@ -69,14 +70,17 @@ def test_three_rods_hanging_and_standing(ratio: float, hanging: int, every: int)
         assert shape.error_bound < 4.5e-16
 
 
-@pytest.mark.parametrize("height", [0.02, 0.1, 0.5, 1.5])
-def test_links_with_three_inclinations_under_one_load(height: float) -> None:
-    chain = Chain(  # a plummet, a link with l = 4 a, a rod
-        weight=[0.5, 1.0, 1.5],
-        length=[0.8, 1.0, 1.2],
-        centroid=[0.8, 0.6, 0.6],
-        pendulum_length=[0.8, 4.0, 0.8],
-    )
+THREE = Chain(  # a plummet, a link with l = 4 a, a rod
+    weight=[0.5, 1.0, 1.5],
+    length=[0.8, 1.0, 1.2],
+    centroid=[0.8, 0.6, 0.6],
+    pendulum_length=[0.8, 4.0, 0.8],
+)
+PAIR = Chain(weight=[1.0, 1.0], length=[1.0, 0.2], centroid=[0.5, 0.5], radius_of_gyration=[0.3, 0.9])
+
+
+@pytest.mark.parametrize(("chain", "height"), [(PAIR, 0.02), (THREE, 0.02), (THREE, 0.1), (THREE, 0.5), (THREE, 1.5)])
+def test_links_with_three_inclinations_under_one_load(chain: Chain, height: float) -> None:
     for only in (False, True):
         found = rc.steady_shapes(chain, conical_height=height, hanging_only=only)
         assert found.complete
@@ -191,11 +195,12 @@ def test_wrong_calls_are_refused() -> None:
 def test_plots() -> None:
     pytest.importorskip("matplotlib")
     found = rc.steady_shapes(Chain.uniform_rods(3, length=3.0), conical_height=0.0625, hanging_only=False)
-    axes = found.plot(length_unit="ft")
+    axes = found.plot()
     assert axes.get_title() == "14 shapes, proved complete"
-    assert axes.get_xlabel() == "from the axis (ft)"
+    assert axes.get_xlabel() == "distance from the axis (m)"
     drawn = [line.get_xydata() for line in axes.lines]
     for shape in found:
         points = np.column_stack([shape.offset, shape.height])
         assert any(np.array_equal(points, line) for line in drawn if line.shape == points.shape)
     assert found[0].plot(axes) is axes
+    axes.figure.canvas.draw()

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Chains cut from a cord of power-law density: their links against mpmath, and what they remember."""
+"""Chains cut from a cord of power-law density: what they remember, their cheap model, scenes and studies."""
 
 import copy
 import math
 import pickle
 
-import mpmath as mp
 import numpy as np
 import pytest
 
@@ -13,37 +12,7 @@ import revchain as rc
 from revchain.cli import app as _cli
 from revchain.scenes.scene import SceneError
 
-EXPONENTS = (-0.9, -0.5, 0.5, 1.0, 3.7, 40.0)
 ULP = 2.0**-52
-
-
-def cut(count, exponent):
-    """Weight, centroid and radius of gyration of each link, by the moments of the density; of length `count`, weight 1."""
-    with mp.workdps(60):
-        q = mp.mpf(exponent) + 1
-        links = []
-        for m in range(count):
-            a, b = mp.mpf(m), mp.mpf(m + 1)
-            moment = [(b ** (q + i) - (a ** (q + i) if m else 0)) / (q + i) for i in range(3)]
-            mean = moment[1] / moment[0]
-            weight = moment[0] * q / mp.mpf(count) ** q
-            links.append((weight, b - mean, mp.sqrt(moment[2] / moment[0] - mean**2)))
-        return [list(column) for column in zip(*links, strict=True)]
-
-
-def worst(found, exact):
-    return max(float(abs(mp.mpf(float(x)) / y - 1)) for x, y in zip(found, exact, strict=True)) / ULP
-
-
-@pytest.mark.parametrize("exponent", EXPONENTS)
-@pytest.mark.parametrize("count", [1, 2, 7, 120])
-def test_links_are_pieces_of_the_cord(exponent, count):
-    chain = rc.Chain.tapered(count, float(count), exponent=exponent)
-    weight, centroid, radius = cut(count, exponent)
-    assert worst(chain.weight, weight) <= 0.51
-    assert worst(chain.centroid, centroid) <= 0.51
-    assert worst(chain.radius_of_gyration, radius) <= 1.01
-    assert np.all(chain.length == 1.0) and chain.taper == exponent
 
 
 def test_no_taper_is_rods():
@@ -59,7 +28,7 @@ def test_the_exponent_is_remembered_and_forgotten(tmp_path):
     for name in ("found.npz", "found.nc"):
         rc.modes(chain, 2).save(tmp_path / name)
         assert rc.load(tmp_path / name).system.taper == 1.5
-    for other in (chain.with_weight(1.0), chain.with_thread(1.0, pin=40), chain.clamped(3)):
+    for other in (chain.with_body(weight=1.0), chain.with_thread(1.0, pin=40), chain.clamped(3)):
         assert other.taper is None
     told = rc.Chain(
         weight=chain.weight, length=chain.length, centroid=chain.centroid, radius_of_gyration=chain.radius_of_gyration
@@ -68,7 +37,7 @@ def test_the_exponent_is_remembered_and_forgotten(tmp_path):
     state = chain._compiled.__getstate__()
     assert len(state) == 8 and len(told._compiled.__getstate__()) == 7
     with pytest.raises(ValueError, match="its exponent must be above -1"):
-        rc.Chain._from_state((*state[:7], -1.0))
+        rc.Chain._from_state(((*state[:7], -1.0), False, None))
 
 
 @pytest.mark.parametrize("exponent", [-0.95, -0.3, 0.5, 1.0, 6.0, 30.0])
@@ -76,7 +45,7 @@ def test_heights_from_bessel_zeros(exponent):
     for count in (4, 25, 300):
         chain = rc.Chain.tapered(count, 3.0, exponent=exponent)
         exact = rc.modes(chain, count // 2).conical_height
-        found = rc.solve(chain, count // 2, rtol=1.0, model="tapered chain")
+        found = rc.modes(chain, count // 2, rtol=1.0, method="tapered chain")
         assert found.status == "success" or found.error_bound.max() > 1
         assert np.all(np.abs(found.conical_height / exact - 1) <= found.error_bound + ULP / 2)
         cord = rc.tapered_chain.conical_heights(count // 2, exponent=exponent, length=3.0)
@@ -87,8 +56,8 @@ def test_heights_from_bessel_zeros(exponent):
 
 def test_chosen_where_it_is_cheapest():
     chain = rc.Chain.tapered(20_000, exponent=1.0)
-    found = rc.solve(chain, 3, rtol=1e-12)
-    assert found.model == "tapered chain" and found.status == "success"
+    found = rc.modes(chain, 3, rtol=1e-12)
+    assert found.method == "tapered chain" and found.status == "success"
     exact = rc.modes(chain, 3).conical_height
     assert np.all(np.abs(found.conical_height / exact - 1) <= 4 * ULP)
     reasons = {
@@ -105,11 +74,11 @@ def test_chosen_where_it_is_cheapest():
 def test_scene():
     table = {"count": 50, "exponent": 0.5, "length": "2 m", "mass": 3.0}
     scene = rc.Scene.from_dict({"tapered_chain": table})
-    chain = scene.chain()
-    assert chain == rc.Chain.tapered(50, 2.0, 3.0 * 9.80665, exponent=0.5) and chain.taper == 0.5
-    assert rc.solve(scene, 2, rtol=1e-3).model == "tapered chain"
-    tipped = rc.Scene.from_dict({"tapered_chain": {**table, "tip_mass": 1.0}}).chain()
-    assert tipped == chain.with_weight(9.80665)
+    chain = scene.system()
+    assert chain == rc.Chain.tapered(50, 2.0, mass=3.0, exponent=0.5) and chain.taper == 0.5
+    assert scene.modes(count=2, rtol="0.1 %").method == "tapered chain"
+    tipped = rc.Scene.from_dict({"tapered_chain": {**table, "tip_mass": 1.0}}).system()
+    assert tipped == chain.with_body(mass=1.0)
     assert rc.Scene.from_dict(scene.to_dict()) == scene
     for wrong, words in (
         ({**table, "exponent": -1.0}, "tapered_chain.exponent"),
@@ -118,26 +87,26 @@ def test_scene():
         ({**table, "count": 0}, "tapered_chain.count"),
         ({**table, "kind": "rods"}, "kind"),
         ({key: value for key, value in table.items() if key != "exponent"}, "exponent"),
-        ({**table, "weight": 1.0}, "tapered_chain: give either weight or mass"),
+        ({**table, "weight": 1.0}, "tapered_chain.weight: is given beside mass"),
     ):
         with pytest.raises(SceneError, match=words):
             rc.Scene.from_dict({"tapered_chain": wrong})
-    with pytest.raises(SceneError, match="give either"):
+    with pytest.raises(SceneError, match="give one of"):
         rc.Scene.from_dict({"tapered_chain": table, "links": [{"mass": 1, "length": 1}]})
 
 
 def test_study():
-    scene = {"tapered_chain": {"count": 12, "exponent": 1.0, "length": 1.0, "mass": 1.0}, "ask": {"modes": 2}}
+    scene = {"tapered_chain": {"count": 12, "exponent": 1.0, "length": 1.0, "mass": 1.0}, "ask": {"modes": {"count": 2}}}
     found = rc.sweep({"scene": scene, "vary": {"tapered_chain.exponent": {"values": [-0.5, 0.0, 2.0]}}})
     for row, exponent in zip(found["conical_height"], (-0.5, 0.0, 2.0), strict=True):
-        assert np.array_equal(row, rc.modes(rc.Chain.tapered(12, 1.0, 9.80665, exponent=exponent), 2).conical_height)
+        assert np.array_equal(row, rc.modes(rc.Chain.tapered(12, 1.0, mass=1.0, exponent=exponent), 2).conical_height)
     found = rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.0, 2.0]}}})
-    assert found["conical_height"].shape == (2, 2)
+    assert len(found["conical_height"]) == 2
 
 
 def test_the_command(capsys, tmp_path):
     path = tmp_path / "whip.toml"
-    path.write_text("[tapered_chain]\ncount = 4000\nexponent = 2.0\nlength = 3.0\nmass = 0.4\n[ask]\nmodes = 3\n")
+    path.write_text("[tapered_chain]\ncount = 4000\nexponent = 2.0\nlength = 3.0\nmass = 0.4\n[ask.modes]\ncount = 3\n")
     assert _cli.run(["explain", str(path), "--rtol", "1e-6"]) == 0
     assert "-> tapered chain" in capsys.readouterr().out
 
@@ -155,5 +124,5 @@ def test_wrong_numbers():
         rc.Chain.tapered(3, -1.0, exponent=1.0)
     with pytest.raises(ValueError, match="too little weight"):
         rc.Chain.tapered(1_000_000, exponent=100.0)
-    with pytest.raises(ValueError, match="exponent must be a real number"):
+    with pytest.raises(ValueError, match="exponent must be a number"):
         rc.Chain.tapered(3, exponent="steep")

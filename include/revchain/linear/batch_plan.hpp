@@ -37,7 +37,7 @@ template <Real T>
 Link<T> link_of(const ChainBatch<T>& batch, Index c, Index m) {
     Link<T> link = plummet(batch.weight(c, m), batch.length(c, m));
     if (!batch.centroid) return link;
-    const std::string place = "Chain: link " + std::to_string(m + 1);
+    const std::string place = "Chain: links[" + std::to_string(m) + "]";
     link.centroid = (*batch.centroid)(c, m);
     link.gyration_ratio =
         batch.pendulum_length

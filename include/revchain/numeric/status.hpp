@@ -10,7 +10,7 @@
 
 namespace revchain {
 
-/// A wrong call. The message has function, rule and value: "revchain::Chain: link 3: length must be positive, got
+/// A wrong call. The message has function, rule and value: "revchain::Chain: links[2]: length must be positive, got
 /// -0.5". The arguments are left unchanged. (In Python: ValueError.)
 class InvalidArgument : public std::invalid_argument {
    public:

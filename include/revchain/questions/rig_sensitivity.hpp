@@ -130,47 +130,91 @@ REVCHAIN_INLINE RigSensitivity sensitivity(const Rig& rig, double angular_speed,
     return result;
 }
 
+namespace detail {
+
+/// The links of a rig at one speed as springs at their pins.
+class LinksAtSpeed {
+   public:
+    using S = Wide<double>;
+
+    LinksAtSpeed(std::string_view place, const Rig& rig, double angular_speed, double gravity)
+        : rig_(rig), links_(rig_links(rig)), speed_(angular_speed) {
+        if (!std::isfinite(angular_speed) || angular_speed == 0)
+            throw_invalid(place, "angular speed must be finite and not 0", angular_speed);
+        require_positive(place, "gravity", gravity);
+        turning_ = ldexp(speed_ * speed_ / S(gravity), rig.chain().units().length_exponent);
+    }
+
+    const RigLink& link(std::size_t m) const { return links_[m]; }
+    std::size_t size() const { return links_.size(); }
+    S turning() const { return turning_; }
+    S stiffness(std::size_t m) const {
+        const S k = (links_[m].tension + speed_ * links_[m].spin) / links_[m].length;
+        return rig_.stands(static_cast<Index>(m)) ? -k : k;
+    }
+    /// What holds one pin of a link by the stiffness `at`, seen from its other pin.
+    S across(std::size_t m, const S& at, const S& near, const S& far) const {
+        const S k = stiffness(m), coupling = k + turning_ * links_[m].cross;
+        return (k - turning_ * far) - coupling * coupling / (at + k - turning_ * near);
+    }
+    /// The links below index `end`, seen from their uppermost pin.
+    S below(std::size_t end) const {
+        S found(0.0);
+        for (std::size_t m = 0; m < end; ++m) found = across(m, found, links_[m].lower, links_[m].upper);
+        return found;
+    }
+    /// What moves with a support that yields, as a spring.
+    S carriage() const {
+        return -turning_ * S(std::ldexp(rig_.support().carriage_weight, -rig_.chain().units().weight_exponent));
+    }
+
+   private:
+    const Rig& rig_;
+    std::vector<RigLink> links_;
+    S speed_, turning_{};
+};
+
+}  // namespace detail
+
 REVCHAIN_INLINE double momentum_for_speed(const Rig& rig, Index link, double angular_speed, double gravity) {
     using S = Wide<double>;
     constexpr std::string_view place = "momentum_for_speed";
-    if (!std::isfinite(angular_speed) || angular_speed == 0)
-        detail::throw_invalid(place, "angular speed must be finite and not 0", angular_speed);
-    detail::require_positive(place, "gravity", gravity);
-    if (link < 1 || link > rig.size())
-        detail::throw_invalid(place, "link must be from 1, the lowest, to " + std::to_string(rig.size()), link);
-    const auto links = rig_links(rig);
+    const detail::LinksAtSpeed links(place, rig, angular_speed, gravity);
+    if (link < 0 || link >= rig.size())
+        detail::throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(rig.size() - 1), link);
+    const auto number = static_cast<std::size_t>(link);
     const ChainUnits units = rig.chain().units();
-    const S n(angular_speed), turning = ldexp(n * n / S(gravity), units.length_exponent);
-    const auto stiffness = [&](std::size_t m) {
-        const S k = (links[m].tension + n * links[m].spin) / links[m].length;
-        return rig.stands(static_cast<Index>(m)) ? -k : k;
-    };
-    // what holds one pin of a link, seen from its other pin
-    const auto across = [&](std::size_t m, const S& at, const S& near, const S& far) {
-        const S k = stiffness(m), coupling = k + turning * links[m].cross;
-        return (k - turning * far) - coupling * coupling / (at + k - turning * near);
-    };
-    const std::size_t number = static_cast<std::size_t>(link) - 1;
-    S below(0.0), above(0.0);
-    for (std::size_t m = 0; m < number; ++m) below = across(m, below, links[m].lower, links[m].upper);
-    const Support& support = rig.support();
-    bool held = support.is_firm();
+    S above(0.0);
+    bool held = rig.support().is_firm();
     if (!held)
-        above = S(std::ldexp(support.stiffness, units.length_exponent - units.weight_exponent)) -
-                turning * S(std::ldexp(support.carriage_weight, -units.weight_exponent));
+        above =
+            S(std::ldexp(rig.support().stiffness, units.length_exponent - units.weight_exponent)) + links.carriage();
+    const S turning = links.turning();
     for (std::size_t m = links.size(); m-- > number + 1; held = false)
-        above = held ? stiffness(m) - turning * links[m].lower : across(m, above, links[m].upper, links[m].lower);
-    const RigLink& it = links[number];
-    const S p = below - turning * it.lower, q = above - turning * it.upper, x = turning * it.cross;
+        above = held ? links.stiffness(m) - turning * links.link(m).lower
+                     : links.across(m, above, links.link(m).upper, links.link(m).lower);
+    const RigLink& it = links.link(number);
+    const S p = links.below(number) - turning * it.lower, q = above - turning * it.upper, x = turning * it.cross;
     const S k = held ? -p : (x * x - p * q) / (p + q - x - x);
-    const S tension = (rig.stands(link - 1) ? -k : k) * it.length;
-    const double needed = std::ldexp(static_cast<double>((tension - it.tension) * it.length / n),
+    const S tension = (rig.stands(link) ? -k : k) * it.length;
+    const double needed = std::ldexp(static_cast<double>((tension - it.tension) * it.length / S(angular_speed)),
                                      units.weight_exponent + units.length_exponent);
     if (!std::isfinite(needed))
         detail::throw_invalid(place,
-                              "no finite momentum of link " + std::to_string(link) +
-                                  " makes this a whirl speed; choose "
-                                  "another link or angular speed",
+                              "no finite momentum of links[" + std::to_string(link) +
+                                  "] makes this a whirl speed; choose another link or angular speed",
+                              angular_speed);
+    return needed;
+}
+
+REVCHAIN_INLINE double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity) {
+    constexpr std::string_view place = "stiffness_for_speed";
+    const detail::LinksAtSpeed links(place, rig, angular_speed, gravity);
+    const ChainUnits units = rig.chain().units();
+    const double needed = std::ldexp(static_cast<double>(-(links.below(links.size()) + links.carriage())),
+                                     units.weight_exponent - units.length_exponent);
+    if (!(needed > 0) || !std::isfinite(needed))
+        detail::throw_invalid(place, "no positive stiffness of the support makes this a whirl speed; choose another",
                               angular_speed);
     return needed;
 }

@@ -25,7 +25,7 @@ class Tuning {
 
     Chain<double> with(double x) const {
         std::vector<Link<double>> links = links_;
-        Link<double>& link = links[static_cast<std::size_t>(options_.link) - 1];
+        Link<double>& link = links[static_cast<std::size_t>(options_.link)];
         link = with_datum(link, options_.datum, x);
         return Chain<double>(links);
     }
@@ -52,7 +52,7 @@ class Tuning {
         Modes<double> one;
         one.first = options_.mode;
         one.conical_height = Vector<double>::Constant(1, at);
-        return sensitivity(chain, one).of(options_.datum).value(0, options_.link - 1) * (x / at);
+        return sensitivity(chain, one).of(options_.datum).value(0, options_.link) * (x / at);
     }
     double wanted() const { return static_cast<double>(wanted_); }
     const Wide<double>& wanted_in_full() const { return wanted_; }
@@ -169,8 +169,8 @@ REVCHAIN_INLINE Tuned tune(const Chain<double>& chain, const TuneOptions& option
     detail::require_one_speed(place, options);
     if (options.mode < 1 || options.mode > chain.size())
         detail::throw_invalid(place, "mode must be from 1 to " + std::to_string(chain.size()), options.mode);
-    if (options.link < 1 || options.link > chain.size())
-        detail::throw_invalid(place, "link must be from 1, the lowest, to " + std::to_string(chain.size()),
+    if (options.link < 0 || options.link >= chain.size())
+        detail::throw_invalid(place, "link must be from 0, the lowest, to " + std::to_string(chain.size() - 1),
                               options.link);
     if (!chain.has_one_weight_unit())
         detail::throw_invalid(place, "weights must not be more than 1e123 apart", chain.total_weight());

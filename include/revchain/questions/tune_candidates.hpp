@@ -56,8 +56,8 @@ inline Link<double> with_datum(Link<double> link, Datum datum, double x) {
     return link;
 }
 
-/// Bound of |d ln(height)/d ln(weight)| of link number `link`, while its weight W is between `low` and `high` and the
-/// height at least `least`: the larger of the shares that the weight can have in y^T M y and in y^T K y (their sum
+/// Bound of |d ln(height)/d ln(weight)| of the link at index `link`, while its weight W is between `low` and `high` and
+/// the height at least `least`: the larger of the shares that the weight can have in y^T M y and in y^T K y (their sum
 /// where its centroid is above the pin). With w^2 <= sum of a^2/kappa and s^2 <= 1/kappa times y^T K y, kappa = W_r h_r
 /// + a_r S_r, W included, and W/kappa monotone in W, both follow from the ends. Never more than 1 where all centroids
 /// are at or below their pins, since W dM <= M and W dK <= K. Cost O(N).
@@ -66,12 +66,12 @@ inline double weight_influence(const Chain<double>& chain, Index link, double lo
     bool all_hang = true;
     for (Index m = 0; m < chain.size(); ++m) {
         const Link<double> it = chain.link(m);
-        const double w_low = m + 1 == link ? low : it.weight, w_high = m + 1 == link ? high : it.weight;
-        if (m + 1 >= link) {
+        const double w_low = m == link ? low : it.weight, w_high = m == link ? high : it.weight;
+        if (m >= link) {
             const double h = it.centroid / it.length;
             const double share =
                 std::max(low / (w_low * h + below_low), high / (w_high * h + below_high));  // a W/kappa
-            if (m + 1 == link)
+            if (m == link)
                 own = share / it.length;
             else
                 flexibility += it.length * share, bears = std::max(bears, share);
@@ -79,7 +79,7 @@ inline double weight_influence(const Chain<double>& chain, Index link, double lo
         }
         below_low += w_low, below_high += w_high;
     }
-    const Link<double> it = chain.link(link - 1);
+    const Link<double> it = chain.link(link);
     const double h = std::abs(it.centroid), rho = radius_of_gyration(it);
     const double centre = std::sqrt(flexibility) + h * std::sqrt(own);
     const double moves = (centre * centre + rho * rho * own) / least;
@@ -94,8 +94,8 @@ struct TuneRange {
 /// The range that a datum may have so that the link still hangs, within what is asked.
 inline TuneRange tune_range(std::string_view place, const Chain<double>& chain, Index number, Datum datum,
                             const std::optional<double>& low, const std::optional<double>& high) {
-    const Link<double> link = chain.link(number - 1);
-    const double below = static_cast<double>(chain.weight_below(number - 1));
+    const Link<double> link = chain.link(number);
+    const double below = static_cast<double>(chain.weight_below(number));
     const double present = datum_of(link, datum);
     TuneRange range{present, present, present / 1000, present * 1000};
     if (datum == Datum::weight && !(present > 0))
@@ -135,7 +135,7 @@ inline std::vector<double> tune_candidates(const Chain<double>& chain, Index num
     const Pencils<double> pencils(chain);
     const auto& elements = pencils.wide().elements;
     const S lambda = pencils.scaled(height);
-    const std::size_t at = static_cast<std::size_t>(number) - 1, n = elements.size();
+    const std::size_t at = static_cast<std::size_t>(number), n = elements.size();
     S D(0.0), E(0.0);
     for (std::size_t m = 0; m < at; ++m) {
         const auto& e = elements[m];

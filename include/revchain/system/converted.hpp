@@ -32,7 +32,7 @@ Column<To> converted(std::string_view name, const Column<From>& column) {
         values.push_back(from_words<To>(x));
         if ((values.back() == To(0)) != (x == From(0)) || !isfinite(values.back()))
             throw_invalid("Chain",
-                          "link " + std::to_string(m + 1) + ": " + std::string(name) +
+                          "links[" + std::to_string(m) + "]: " + std::string(name) +
                               " must lie in the range of the precision; use a wider one, or another unit",
                           static_cast<double>(x));
     }

@@ -85,16 +85,17 @@ Chain<T> with_thread(const Chain<T>& chain, const T& length, Index pin) {
     return Chain<T>(links);
 }
 
-/// The chain with links number `link` and `link` + 1, from 1 for the lowest, locked in line: one rigid link in place of
-/// two. Its conical heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
-/// Throws InvalidArgument for numbers outside 1 ... N - 1.
+/// The chain with the links at index `link` and `link` + 1 locked in line: one rigid link in place of two. Its conical
+/// heights lie between the chain's: lambda(k + 1) <= clamped lambda(k) <= lambda(k).
+/// Throws InvalidArgument for an index outside 0 ... N - 2.
 template <Real T>
 Chain<T> clamped(const Chain<T>& chain, Index link) {
-    if (link < 1 || link >= chain.size())
+    if (link < 0 || link + 1 >= chain.size())
         detail::throw_invalid(
-            "clamped", "link must be from 1 to " + std::to_string(chain.size() - 1) + ", the next to highest", link);
+            "clamped", "link must be from 0 to " + std::to_string(chain.size() - 2) + ", the next to highest", link);
     auto links = detail::links_of(chain);
-    const Link<T> lower = links[static_cast<std::size_t>(link) - 1], upper = links[static_cast<std::size_t>(link)];
+    const auto at = static_cast<std::size_t>(link);
+    const Link<T> lower = links[at], upper = links[at + 1];
     using S = Wide<T>;
     const T length = lower.length + upper.length;
     const S ratio = detail::in_lengths<T>(lower.length, length);
@@ -103,8 +104,8 @@ Chain<T> clamped(const Chain<T>& chain, Index link) {
                                 upper.gyration_ratio * (upper_ratio * upper_ratio)};
     const detail::Body<T> below{lower.weight, upper_ratio + detail::in_lengths<T>(lower.centroid, length),
                                 lower.gyration_ratio * (ratio * ratio)};
-    links[static_cast<std::size_t>(link)] = detail::joined<T>(length, above, below);
-    links.erase(links.begin() + link - 1);
+    links[at + 1] = detail::joined<T>(length, above, below);
+    links.erase(links.begin() + link);
     return Chain<T>(links);
 }
 

@@ -25,24 +25,33 @@ class LineDensity {
     static constexpr int least_halvings = 2, max_halvings = 46, max_at_tip = 40;
     static constexpr std::size_t max_pieces = 20'000;
 
+    /// The density between two places, as a polynomial or, at the free end, as a power of s.
+    struct Piece {
+        double middle, half;
+        Coefficients factor;  ///< of powers of (s - middle)/half
+        double power = 0;     ///< not 0: this much of a power law, factor[0] its value at the right end
+        double below = 0;     ///< weight of the chain below the piece
+    };
+
     /// Throws InvalidArgument where the function is not positive and finite, for a length that is not, and for a
     /// function that is rough at too many places.
     LineDensity(const std::function<double(double)>& weight_per_length, double length) : length_(length) {
         detail::require_positive("LineDensity", "length", length);
         divide(weight_per_length, 0, length, 0);
         std::sort(pieces_.begin(), pieces_.end(), [](const Piece& x, const Piece& y) { return x.middle < y.middle; });
-        if (pieces_.front().power == 0) at_tip_ = about(0);
-        for (std::size_t k = 0; k <= degree; ++k) at_tip_[k] /= static_cast<double>(k + 1);
-        for (Piece& piece : pieces_) {
-            piece.below = total_;
-            total_ += piece.power == 0 ? weight_within(piece, 1) : piece.factor[0] * 2 * piece.half / (piece.power + 1);
-        }
+        sum_up();
+    }
+    /// From the pieces of another one, as a file keeps them: contiguous from 0 to `length`. `below` is found again.
+    LineDensity(double length, std::vector<Piece> pieces) : length_(length), pieces_(std::move(pieces)) {
+        detail::require_positive("LineDensity", "length", length);
+        if (pieces_.empty()) detail::throw_invalid("LineDensity", "there must be at least one piece");
+        sum_up();
     }
 
     double length() const { return length_; }
     double total() const { return total_; }
     double mean() const { return total_ / length_; }
-    std::size_t pieces() const { return pieces_.size(); }
+    const std::vector<Piece>& pieces() const { return pieces_; }
 
     /// The end of the piece that holds s; infinity beyond the chain.
     double end_of_piece(double s) const {
@@ -81,12 +90,14 @@ class LineDensity {
     }
 
    private:
-    struct Piece {
-        double middle, half;
-        Coefficients factor;  // of powers of (s - middle)/half
-        double power = 0;     // not 0: this much of a power law, factor[0] its value at the right end
-        double below = 0;     // weight of the chain below the piece
-    };
+    void sum_up() {
+        if (pieces_.front().power == 0) at_tip_ = about(0);
+        for (std::size_t k = 0; k <= degree; ++k) at_tip_[k] /= static_cast<double>(k + 1);
+        for (Piece& piece : pieces_) {
+            piece.below = total_;
+            total_ += piece.power == 0 ? weight_within(piece, 1) : piece.factor[0] * 2 * piece.half / (piece.power + 1);
+        }
+    }
 
     static double end(const Piece& piece) { return piece.middle + piece.half; }
     /// A place that is the end of a piece to rounding belongs to the next piece, so that paths continue.

@@ -1,53 +1,133 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A solved scene as a table for the terminal, as JSON and as CSV."""
+"""An answer as a table for the terminal, as text, as JSON and as CSV."""
 
 from __future__ import annotations
 
+import io
 import json
-import math
-from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
 from textwrap import fill
 from typing import Any
 
+import numpy as np
 from rich import box
-from rich.console import Group
+from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from ..results.explanation import Explanation
+from ..results.modes import Modes
 from ..results.motions import Response
-from ..results.sheet import MOST_ROWS, Sheet, as_csv, as_dict, cells, digits, finite, plain
+from ..results.sheet import Column, Sheet, as_csv, as_dict, cells, finite, plain
+from ..scenes.scene import Scene
+from .exit_codes import ExitCode
+from .frame import Stop
 
 NARROWEST = 80  # columns of a terminal; numbers are never cut to fit into fewer
 HEADING = 10  # columns of a line of a heading
 
 
-def empty_grid(headings: Iterable[str]) -> Table:
-    """A table without rows yet; none of its columns is ever cut."""
-    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for heading in headings:
-        grid.add_column(heading, justify="right", no_wrap=True)
-    return grid
+@dataclass(frozen=True)
+class Report:
+    """What a question found in a scene, in every form in which it can be asked for."""
+
+    scene: Scene
+    stem: str
+    question: str
+    found: Any
+    units: str
+
+    @property
+    def title(self) -> str:
+        return self.scene.title or self.stem
+
+    @cached_property
+    def system(self) -> str:
+        """What hangs, in words."""
+        return self.scene.system().describe()
+
+    def check(self, path: Path) -> None:
+        """Stop with exit code 1 unless everything was found and proved."""
+        missing = getattr(self.found, "missing", ())
+        if self._sheet(brief=True).good and not missing:
+            return
+        what = "not proved to be all there is"
+        if isinstance(self.found, Explanation):
+            best = self.found.chosen
+            what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else "no method applies"
+        if missing:
+            what = f"no shape was found with {', '.join(map(str, missing))} half waves"
+        if isinstance(self.found, Modes):
+            what = "the tolerance is not met"
+            if self.found.rtol:
+                what += f": asked {self.found.rtol:g}, reached {self.found.error_bound.max():.1e}"
+        raise Stop(f"{path}: {what}", ExitCode.TOLERANCE_NOT_MET)
+
+    def text(self, kind: str) -> str:
+        """The whole report as ``.txt``, or all numbers as ``.json`` or ``.csv``."""
+        if kind == ".txt":
+            file = io.StringIO()
+            self.print(Console(file=file, width=NARROWEST))
+            return "\n".join(line.rstrip() for line in file.getvalue().splitlines()) + "\n"
+        sheet = self._sheet()
+        columns = [column for column in sheet.columns if (column.name, *column.axes) != ("shape", "pin")]
+        sheet = replace(sheet, columns=columns)
+        if kind == ".csv":
+            return as_csv(sheet)
+        return json_of({"title": self.title, "system": self.system, **as_dict(sheet)})
+
+    def print(self, console: Console, heading: bool = True) -> None:
+        """The system in words, the table with its heading, and the tables that belong to it."""
+        sheet = self._sheet(brief=True)
+        more = [getattr(self.found, name, None) for name in ("certificate", "other")]
+        others = [each._sheet() for each in more if each is not None and (each is more[0] or len(each))]
+        if isinstance(self.found, Response) and self.found.angular_speed.size == 1:
+            others.append(_pins(self.found))
+        grids = {id(each): _grid(self._in_units(each)) for each in (sheet, *others) if len(each)}
+        needed = [Console(width=1000).measure(grid).maximum for grid in grids.values()]
+        console.width = max(console.width, NARROWEST, *needed, 0)
+        if heading:
+            console.print(Text(self.title, style="bold"), Text(self.system), sep="\n")
+        for each in (sheet, *others):
+            if each.heading:
+                console.print(Text(each.heading, style="" if each.good else "bold yellow"))
+            if id(each) in grids:
+                console.print(grids[id(each)])
+        for note in sheet.notes:
+            console.print(Text(note, style="dim"))
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        sheet: Sheet = self.found._sheet(brief)
+        return sheet
+
+    def _in_units(self, sheet: Sheet) -> Sheet:
+        """With angles in the unit asked for."""
+        if self.units == "deg":
+            return sheet
+        def in_rad(column: Column) -> Column:
+            return replace(column, heading=column.heading.replace("(°)", "(rad)"), shown=None)
+
+        return replace(sheet, columns=[in_rad(each) if "(°)" in each.heading else each for each in sheet.columns])
 
 
-def table(sheet: Sheet, title: str, *more: Sheet, carried: Response | None = None) -> Group:
-    """The table of a result with its heading, then `more` of them."""
-    heading = Text(sheet.heading, style="" if sheet.good else "bold yellow")
-    parts: list[Text | Table] = [Text(title, style="bold"), heading]
-    if len(sheet):
-        parts.append(_grid(sheet))
-    for one in more:
-        parts += [Text(one.heading), _grid(one)]
-    if carried is not None:
-        parts += _carried(carried)
-    return Group(*parts, *(Text(note, style="dim") for note in sheet.notes))
+def _pins(found: Response) -> Sheet:
+    """Where every pin is at one speed."""
+    offset = np.atleast_1d(found.offset.reshape(-1))
+    pins = Column("pin", np.atleast_1d(found.pins), "pin (0: free end)")
+    columns = [pins, Column("offset", offset, "from the axis (m)", 10)]
+    return Sheet("pin", "a resonance: it goes out without bound" if found.resonant else "", columns)
 
 
 def _grid(sheet: Sheet) -> Table:
     headings, rows, notes = cells(sheet)
     hidden = len(sheet) - len(rows)
-    lines = [heading.replace(" (", "\n(").split("\n") for heading in headings]
-    grid = empty_grid("\n".join(fill(line, HEADING, break_long_words=False) for line in each) for each in lines)
+    grid = Table(box=box.SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for heading, column in zip(headings, (each for each in sheet.columns if each.heading), strict=True):
+        lines = heading.replace(" (", "\n(").split("\n")
+        heading = "\n".join(fill(line, HEADING, break_long_words=False) for line in lines)
+        grid.add_column(heading, justify="left" if column.left else "right", no_wrap=True)  # none is ever cut
     for row in rows:
         grid.add_row(*row)
     if hidden > 0:
@@ -56,42 +136,6 @@ def _grid(sheet: Sheet) -> Table:
     return grid
 
 
-def _carried(found: Response) -> list[Text | Table]:
-    """Where the pins are while the support goes round."""
-    speed = float(found.angular_speed)
-    turns = f"{digits(speed, 6)} rad/s, {digits(speed * 30 / math.pi, 6)} rev/min"
-    if found.resonant:
-        return [Text(f"carried round at {turns}: a resonance, it goes out without bound")]
-    grid = empty_grid(["pin\n0: free end", "from the axis\nm"])
-    shown = list(zip(found.pins, found.offset, strict=True))
-    for pin, offset in shown if len(shown) <= MOST_ROWS else [*shown[: MOST_ROWS - 1], shown[-1]]:
-        grid.add_row(f"{pin}", digits(offset, 10))
-    heading = Text(f"carried round at {turns}; error bound {float(found.error_bound):.1e}")
-    hidden = len(shown) - MOST_ROWS
-    more = [Text(f"and {hidden:,} more; --json writes all of them", style="dim")] if hidden > 0 else []
-    return [heading, grid, *more]
-
-
-def json_text(sheet: Sheet, title: str, carried: Response | None = None) -> str:
-    """Everything but the shapes of modes; numbers with all their digits."""
-    data = as_dict(without_shapes(sheet))
-    if carried is not None:
-        numbers = {name: float(getattr(carried, name)) for name in ("angular_speed", "support_radius", "error_bound")}
-        offset = None if carried.resonant else carried.offset
-        data["carried"] = {**numbers, "resonant": bool(carried.resonant), "offset": offset}
-    return json_of({"title": title, **data})
-
-
-def without_shapes(sheet: Sheet) -> Sheet:
-    """The sheet without the shapes of modes, which are long."""
-    return replace(sheet, columns=[column for column in sheet.columns if (column.name, *column.axes) != ("shape", "pin")])
-
-
 def json_of(data: dict[str, Any]) -> str:
     """As JSON, which has no infinity and no NaN: null in their place."""
     return json.dumps(finite(plain(data)), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-
-
-def csv_text(sheet: Sheet) -> str:
-    """One line for each row; numbers of an array separated by blanks."""
-    return as_csv(without_shapes(sheet))

@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import ExitStack
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.console import Console
@@ -17,7 +16,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from ..plots.sweep import why_not_drawn
 from ..results.files import written_aside
-from ..studies.output import first_refused, writer_of
+from ..studies.result import SweepResult
+from ..studies.store import checked_ending
 from ..studies.study import Study, load_study
 from ..studies.sweep import dask_client
 from ..studies.sweep import sweep as compute
@@ -26,6 +26,7 @@ from .frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
 from .progress import PATIENCE
 
 SENTENCES = 5  # shown of points that are refused
+MAX_SHOWN = 10**7  # numbers of which a summary is made
 
 
 @app.command(epilog=EXIT_CODES)
@@ -81,11 +82,11 @@ def sweep(
         except ValueError as error:
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
         if picture is not None:
-            _draw(found, picture, given.title or study.stem)
-    if found.damage:
-        print(f"revchain: warning: {found.damage}", file=sys.stderr)
+            save_picture(found.plot(), given.title or study.stem, picture)
     if not quiet:
         there = f", {found.resumed:,} of them from before" if found.resumed else ""
+        if len(found) * len(found.found) <= MAX_SHOWN:
+            print(found)
         print(f"wrote {out}: {len(found):,} points in {time.perf_counter() - began:.3g} s{there}")
         if plot is not None:
             print(f"wrote {plot}")
@@ -152,7 +153,7 @@ def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], Non
 def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:
     """Where the picture is drawn; that its place can be written is found out before anything is computed."""
     try:
-        writer_of(out)
+        checked_ending(out)
     except ValueError as error:
         raise Stop(str(error), ExitCode.WRONG_USAGE) from None
     out.parent.mkdir(parents=True, exist_ok=True)  # the picture may go there, too
@@ -160,18 +161,10 @@ def _picture(plot: Path, out: Path, stack: ExitStack) -> Path:
     return aside
 
 
-def _draw(found: Any, plot: Path, title: str) -> None:
-    try:
-        axes = found.plot()
-    except ValueError as error:
-        raise Stop(f"--plot: {error}", ExitCode.WRONG_USAGE) from None
-    save_picture(axes, title, plot)
-
-
-def _complain(found: Any) -> None:
+def _complain(found: SweepResult) -> None:
     """Say which points have no numbers, or no proof."""
     refused, unmet = found.count("refused"), found.count("tolerance_not_met")
-    lines = first_refused(found, SENTENCES)
+    lines = [f"point {point:,}: {reason}" for point, reason in sorted(found.refused.items())[:SENTENCES]]
     parts = [f"{refused:,} points are refused"] if refused else []
     parts += [f"at {unmet:,} points something is not proved"] if unmet else []
     raise Stop("; ".join(parts) + "".join(f"\n  {line}" for line in lines), ExitCode.TOLERANCE_NOT_MET)

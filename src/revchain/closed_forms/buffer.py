@@ -5,24 +5,19 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import floats, numbers, real
+from ..results.sheet import Column, Sheet
+from ..systems.numbers import floats, numbers, reals
+from .solved import Solved
 
 __all__ = ["Blow", "BufferImpact", "CarriageState"]
 
 
 class Blow(NamedTuple):
-    """One contact with the buffer.
-
-    Attributes
-    ----------
-    start : float
-    end : float
-    impulse : float
-        What the buffer takes from the momentum.
-    """
+    """One contact with the buffer: its start and end, and the momentum that the buffer takes up."""
 
     start: float
     end: float
@@ -30,17 +25,7 @@ class Blow(NamedTuple):
 
 
 class CarriageState(NamedTuple):
-    """Where the carriages are, towards the buffer from where they were at time 0, and how fast.
-
-    Attributes
-    ----------
-    front : float or ndarray
-    rear : float or ndarray
-    front_speed : float or ndarray
-    rear_speed : float or ndarray
-    buffer_force : float or ndarray
-        0 where the buffer is left.
-    """
+    """Positions of the carriages, towards the buffer from those at time 0, speeds, force of the buffer (0 if apart)."""
 
     front: Any
     rear: Any
@@ -49,10 +34,11 @@ class CarriageState(NamedTuple):
     buffer_force: Any
 
 
-class BufferImpact:
+class BufferImpact(Solved):
     """The motion of two carriages that run against a buffer stop.
 
-    In contact they swing as two plummets do; the buffer pushes and never pulls.
+    In contact they swing as a double pendulum of two point masses does; the buffer pushes and never pulls. In any
+    consistent units.
 
     Parameters
     ----------
@@ -70,21 +56,23 @@ class BufferImpact:
 
     Notes
     -----
-    Accuracy, measured against integration: places to 1e-13 of speed times time, speeds to 1e-13 of
-    the speed and of acceleration times time, times to 1e-13 of the last, where no blow only grazes.
-    Cost: 2 microseconds a blow, 0.1 for a state. Carriages of about one mass deal one to three blows, a
-    heavy one behind a light one hundreds. Greenhill (1908) section 2, text after (7).
+    Accuracy, measured against integration, where no blow only grazes: positions to 1e-13 of speed times time, speeds to
+    1e-13 of the speed and of acceleration times time, times to 1e-13 of the last. Cost: 2 microseconds a blow, 0.1 for
+    a state. Carriages of about equal mass deal one to three blows, a heavy one behind a light one hundreds. Greenhill
+    (1908) section 2, text after (7).
 
     Examples
     --------
     >>> import revchain as rc
-    >>> impact = rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=4, coupling_stiffness=0.5, speed=1)
-    >>> len(impact.blows)
-    2
+    >>> rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=4, coupling_stiffness=0.5, speed=1)
+    BufferImpact: 2 blows
+    blow    start      end  impulse
+       0  0.00000  1.69374  2.13365
+       1  3.23975  4.85806  1.83769
     """
 
-    __slots__ = ("_compiled",)
-    _compiled: _core.BufferImpact
+    __slots__ = ()
+    _solver = _core.BufferImpact
 
     def __init__(
         self,
@@ -95,37 +83,27 @@ class BufferImpact:
         coupling_stiffness: float,
         speed: float,
     ) -> None:
-        place = "revchain.BufferImpact"
-        self._compiled = _core.BufferImpact(
-            real(place, "front_mass", front_mass),
-            real(place, "rear_mass", rear_mass),
-            real(place, "buffer_stiffness", buffer_stiffness),
-            real(place, "coupling_stiffness", coupling_stiffness),
-            real(place, "speed", speed),
-        )
+        masses = {"front_mass": front_mass, "rear_mass": rear_mass}
+        springs = {"buffer_stiffness": buffer_stiffness, "coupling_stiffness": coupling_stiffness}
+        self._solve(reals("revchain.BufferImpact", **masses, **springs, speed=speed))
 
     @property
     def blows(self) -> list[Blow]:
         """Start, end and impulse of each contact with the buffer."""
-        return [Blow(*row) for row in self._compiled.blows.tolist()]
+        return [Blow(*row) for row in self._found().blows.tolist()]
 
     def state(self, time: ArrayLike) -> CarriageState:
-        """Return where the carriages are, how fast they run, and the force of the buffer.
+        """Return the positions and speeds of the carriages, and the force of the buffer.
 
         Parameters
         ----------
         time : array_like
-            Not negative, any shape.
+            Finite and not negative, any shape.
 
         Returns
         -------
         CarriageState
             Each of the shape of `time`.
-
-        Raises
-        ------
-        ValueError
-            If a time is negative or not finite.
 
         Examples
         --------
@@ -134,9 +112,11 @@ class BufferImpact:
         >>> round(float(impact.state(1.0).buffer_force), 6)
         1.87221
         """
-        values = self._compiled.state(floats("revchain.BufferImpact.state", "time", time))
-        return CarriageState(*numbers(values))
+        return CarriageState(*numbers(self._found().state(floats("revchain.BufferImpact.state", "time", time))))
 
-    def __repr__(self) -> str:
-        blows = self.blows
-        return f"BufferImpact: {len(blows)} blow{'s' * (len(blows) != 1)}, the last ends at {blows[-1].end:g}"
+    def _sheet(self, brief: bool = False) -> Sheet:
+        blows = self._found().blows
+        columns = [Column("blow", np.arange(len(blows)), "blow")]
+        columns += [Column(name, blows[:, k], name) for k, name in enumerate(Blow._fields)]
+        heading = f"BufferImpact: {len(blows)} blow{'s' * (len(blows) != 1)}"
+        return Sheet("blow", heading, columns, self._facts())

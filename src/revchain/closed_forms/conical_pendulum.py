@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The conical pendulum: height, speed, period and gravity, each from the others.
 
-Every height here is ``gravity / angular_speed**2``, the vertical distance of the circling weight
-below the point of support, whatever the length of the thread. Source: Greenhill (1908), section 1.
-All functions broadcast; numbers in give a number out.
+The conical height is ``gravity / angular_speed**2``: how far the circling weight hangs below its support, whatever the
+length of the thread. All functions broadcast; single numbers give a single number; cost O(1) a number. A number that is
+not positive and finite raises a ValueError. `gravity` is in the unit of length of the heights per s^2, and the standard
+gravity in m/s^2 if left out. Source: Greenhill (1908), section 1; its equations in brackets.
 """
 
 from __future__ import annotations
@@ -13,44 +14,26 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import STANDARD_GRAVITY, positive, positives
+from ..systems.numbers import STANDARD_GRAVITY, positives
 
 __all__ = [
-    "angular_speed",
-    "gravity",
-    "gravity_from_seconds_pendulum",
-    "height",
-    "height_from_period",
-    "height_from_revolutions_per_second",
-    "height_from_seconds_pendulum",
-    "period",
-    "revolutions_per_second",
+    "angular_speed", "gravity", "height", "height_from_period", "height_from_revolutions_per_second",
+    "height_from_seconds_pendulum", "period", "revolutions_per_second",
 ]
 
 
 def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
-    """Return the speed that goes with a height, ``sqrt(gravity / height)``.
+    """Return the speed at a conical height, ``sqrt(gravity / height)`` (1).
 
     Parameters
     ----------
-    height : array_like
-        Conical height, positive.
-    gravity : array_like, optional
-        In the same unit of length per s^2, positive; standard gravity in m/s^2 if left out.
+    height, gravity : array_like
+        Positive.
 
     Returns
     -------
     float or ndarray
-        In rad/s, broadcast shape, within 2.1 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (1).
+        In rad/s, broadcast shape, within 2.1 ulp.
 
     Examples
     --------
@@ -63,28 +46,17 @@ def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
 
 
 def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
-    """Return the time of one turn, ``2 pi sqrt(height / gravity)``.
+    """Return the time of one turn at a conical height, ``2 pi sqrt(height / gravity)`` (2).
 
     Parameters
     ----------
-    height : array_like
-        Conical height, positive.
-    gravity : array_like, optional
-        In the same unit of length per s^2, positive; standard gravity in m/s^2 if left out.
+    height, gravity : array_like
+        Positive.
 
     Returns
     -------
     float or ndarray
-        In seconds, broadcast shape, within 2.1 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (2).
+        In seconds, broadcast shape, within 2.1 ulp.
 
     Examples
     --------
@@ -94,33 +66,21 @@ def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
     >>> round(float(rc.conical_pendulum.period(39.1396, gravity=386.29237)), 6)
     2.0
     """
-    place = "revchain.conical_pendulum.period"
-    return _core.conical_pendulum_period(*positives(place, height=height, gravity=gravity))
+    return _core.conical_pendulum_period(*positives("revchain.conical_pendulum.period", height=height, gravity=gravity))
 
 
 def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
-    """Return the turns in a second, ``sqrt(gravity / height) / (2 pi)``.
+    """Return the turns per second at a conical height, ``sqrt(gravity / height) / (2 pi)`` (2).
 
     Parameters
     ----------
-    height : array_like
-        Conical height, positive.
-    gravity : array_like, optional
-        In the same unit of length per s^2, positive; standard gravity in m/s^2 if left out.
+    height, gravity : array_like
+        Positive.
 
     Returns
     -------
     float or ndarray
-        In 1/s, broadcast shape, within 2.1 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (2).
+        In 1/s, broadcast shape, within 2.1 ulp.
 
     Examples
     --------
@@ -133,28 +93,17 @@ def revolutions_per_second(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAV
 
 
 def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
-    """Return the height that goes with a speed, ``gravity / angular_speed**2``.
+    """Return the conical height of a speed, ``gravity / angular_speed**2`` (1).
 
     Parameters
     ----------
-    angular_speed : array_like
-        In rad/s, positive.
-    gravity : array_like, optional
-        Positive; standard gravity in m/s^2 if left out.
+    angular_speed, gravity : array_like
+        Positive; the speed in rad/s.
 
     Returns
     -------
     float or ndarray
-        In the unit of length of `gravity`, broadcast shape, within 2.1 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (1).
+        In the unit of length of `gravity`, broadcast shape, within 2.1 ulp.
 
     Examples
     --------
@@ -167,28 +116,17 @@ def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
 
 
 def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
-    """Return the height that goes with a period, ``gravity * period**2 / (4 pi**2)``.
+    """Return the conical height of a period, ``gravity * period**2 / (4 pi**2)`` (1), (7).
 
     Parameters
     ----------
-    period : array_like
-        Time of one turn in seconds, positive.
-    gravity : array_like, optional
-        Positive; standard gravity in m/s^2 if left out.
+    period, gravity : array_like
+        Positive; the time of one turn in seconds.
 
     Returns
     -------
     float or ndarray
-        In the unit of length of `gravity`, broadcast shape, within 2.1 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (1), (7).
+        In the unit of length of `gravity`, broadcast shape, within 2.1 ulp.
 
     Examples
     --------
@@ -201,28 +139,17 @@ def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY)
 
 
 def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike) -> Any:
-    """Return the height that goes with a period, in seconds pendulums: the form that needs no gravity.
+    """Return the conical height of a period without gravity, ``seconds_pendulum * period**2 / 4`` (7).
 
     Parameters
     ----------
-    seconds_pendulum : array_like
-        Length of the simple pendulum that beats seconds at the place, positive.
-    period : array_like
-        Time of one turn in seconds, positive.
+    seconds_pendulum, period : array_like
+        Length of the simple pendulum that beats seconds at the place; time of one turn in seconds; positive.
 
     Returns
     -------
     float or ndarray
-        ``seconds_pendulum * period**2 / 4``, broadcast shape, within 2.1 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (7).
+        In the unit of `seconds_pendulum`, broadcast shape, within 2.1 ulp.
 
     Examples
     --------
@@ -231,36 +158,24 @@ def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike)
     39.1396
     """
     place = "revchain.conical_pendulum.height_from_seconds_pendulum"
-    return _core.conical_pendulum_height_from_seconds_pendulum(
-        *positives(place, seconds_pendulum=seconds_pendulum, period=period)
-    )
+    given = positives(place, seconds_pendulum=seconds_pendulum, period=period)
+    return _core.conical_pendulum_height_from_seconds_pendulum(*given)
 
 
 def height_from_revolutions_per_second(
     revolutions_per_second: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY
 ) -> Any:
-    """Return the height that goes with so many turns in a second.
+    """Return the conical height of so many turns per second, ``gravity / (2 pi revolutions_per_second)**2`` (1).
 
     Parameters
     ----------
-    revolutions_per_second : array_like
-        In 1/s, positive.
-    gravity : array_like, optional
-        In the same unit of length per s^2 as the height, positive; standard gravity in m/s^2 if left out.
+    revolutions_per_second, gravity : array_like
+        Positive; the turns in 1/s.
 
     Returns
     -------
     float or ndarray
-        ``gravity / (2 pi revolutions_per_second)**2``, broadcast shape, within 3 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (1).
+        In the unit of length of `gravity`, broadcast shape, within 3 ulp.
 
     Examples
     --------
@@ -269,71 +184,28 @@ def height_from_revolutions_per_second(
     0.248405
     """
     place = "revchain.conical_pendulum.height_from_revolutions_per_second"
-    return _core.conical_pendulum_height_from_revolutions_per_second(
-        *positives(place, revolutions_per_second=revolutions_per_second, gravity=gravity)
-    )
+    given = positives(place, revolutions_per_second=revolutions_per_second, gravity=gravity)
+    return _core.conical_pendulum_height_from_revolutions_per_second(*given)
 
 
-def gravity(length: ArrayLike, period: ArrayLike) -> Any:
-    """Return the gravity under which a pendulum has a period, ``4 pi**2 length / period**2``.
+def gravity(length: ArrayLike, period: ArrayLike = 2.0) -> Any:
+    """Return the gravity under which a simple pendulum has a period, ``4 pi**2 length / period**2`` (4)-(6).
 
     Parameters
     ----------
-    length : array_like
-        Length of the simple pendulum, positive.
-    period : array_like
-        Time of a small double swing in seconds, positive.
+    length, period : array_like
+        Its length, and the time of a small swing there and back in seconds, positive; 2 s if left out: the pendulum
+        that beats seconds, which the paper finds 39.1396 inches long at London.
 
     Returns
     -------
     float or ndarray
-        In the unit of `length` per s^2, broadcast shape, within 2.1 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (4).
+        In the unit of `length` per s^2, broadcast shape, within 2.1 ulp.
 
     Examples
     --------
     >>> import revchain as rc
-    >>> round(rc.conical_pendulum.gravity(0.99396, period=2.0), 4)
-    9.81
+    >>> rc.conical_pendulum.gravity([0.99396, 39.1396]).round(4)
+    array([  9.81  , 386.2924])
     """
     return _core.conical_pendulum_gravity(*positives("revchain.conical_pendulum.gravity", length=length, period=period))
-
-
-def gravity_from_seconds_pendulum(length: ArrayLike) -> Any:
-    """Return the gravity under which a pendulum of this length beats seconds, ``pi**2 * length``.
-
-    Parameters
-    ----------
-    length : array_like
-        Length of the simple pendulum whose half period is one second, positive.
-
-    Returns
-    -------
-    float or ndarray
-        In the unit of `length` per s^2, within 2.1 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (5), (6): 39.1396 inches at London.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> round(float(rc.conical_pendulum.gravity_from_seconds_pendulum(39.1396)), 4)
-    386.2924
-    """
-    place = "revchain.conical_pendulum.gravity_from_seconds_pendulum"
-    return _core.conical_pendulum_gravity_from_seconds_pendulum(positive(place, "length", length))

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Elliptic integrals and functions that take the modulus or its complement, whichever is known.
 
-Next to ``modulus = 1`` everything depends on ``complementary_modulus = sqrt(1 - modulus**2)``, which
-cannot be had from the modulus. The argument here is the modulus, not the parameter ``m = modulus**2``
-of scipy. All functions broadcast, `jacobi` over ``u`` for one modulus; numbers in give numbers out.
+Next to ``modulus = 1`` everything depends on ``complementary_modulus = sqrt(1 - modulus**2)``, which cannot be computed
+from the modulus. Every function takes exactly one of the two, from 0 to 1: the modulus, not the parameter
+``m = modulus**2`` of scipy. Below, ``Delta = sqrt(1 - modulus**2 sin**2)``. All functions broadcast, `jacobi` over
+``u`` for one modulus; single numbers give single numbers. A number out of its range raises a ValueError.
 """
 
 from __future__ import annotations
@@ -15,33 +16,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import Floats, floats, numbers, real, refuse_where, together
+from ..systems.numbers import Floats, beside, floats, numbers, real, refuse_where
 
-__all__ = [
-    "Complete",
-    "Incomplete",
-    "Jacobi",
-    "complete",
-    "complete_pi",
-    "incomplete",
-    "incomplete_pi",
-    "jacobi",
-]
+__all__ = ["Complete", "Incomplete", "Jacobi", "complete", "complete_pi", "incomplete", "incomplete_pi", "jacobi"]
+
+MODULI = ("modulus", "complementary_modulus")
 
 
 class Jacobi(NamedTuple):
-    """Jacobi's functions of one argument ``u``.
-
-    Attributes
-    ----------
-    amplitude : float or ndarray
-        am u.
-    sn : float or ndarray
-    cn : float or ndarray
-    dn : float or ndarray
-    epsilon : float or ndarray
-        The integral of dn**2 from 0 to u, E(am u).
-    """
+    """Jacobi's functions of ``u``: am u, sn, cn, dn, and `epsilon`, the integral of dn**2 from 0 to u, E(am u)."""
 
     amplitude: Any
     sn: Any
@@ -51,19 +34,7 @@ class Jacobi(NamedTuple):
 
 
 class Complete(NamedTuple):
-    """The complete integrals, over a quarter turn, ``Delta = sqrt(1 - modulus**2 sin**2)``.
-
-    Attributes
-    ----------
-    K : float or ndarray
-        Of 1 / Delta.
-    E : float or ndarray
-        Of Delta.
-    D : float or ndarray
-        Of sin**2 / Delta.
-    B : float or ndarray
-        Of cos**2 / Delta.
-    """
+    """The integrals over a quarter turn of 1 / Delta (K), Delta (E), sin**2 / Delta (D) and cos**2 / Delta (B)."""
 
     K: Any
     E: Any
@@ -72,47 +43,29 @@ class Complete(NamedTuple):
 
 
 class Incomplete(NamedTuple):
-    """Legendre's integrals up to an amplitude.
-
-    Attributes
-    ----------
-    F : float or ndarray
-        Of 1 / Delta.
-    E : float or ndarray
-        Of Delta.
-    D : float or ndarray
-        Of sin**2 / Delta.
-    """
+    """Legendre's integrals up to an amplitude of 1 / Delta (F), Delta (E) and sin**2 / Delta (D)."""
 
     F: Any
     E: Any
     D: Any
 
 
-def _modulus(place: str, modulus: Any, complementary_modulus: Any) -> dict[str, Floats]:
-    """Both as arrays, nan for the one not given."""
-    if (modulus is None) == (complementary_modulus is None):
+def _arrays(place: str, modulus: Any, complementary_modulus: Any, **others: ArrayLike) -> list[Floats]:
+    """The others, then both moduli, nan for the one not given, broadcast to one shape."""
+    moduli = dict(zip(MODULI, (modulus, complementary_modulus), strict=True))
+    if sum(value is None for value in moduli.values()) != 1:
         raise ValueError(f"{place}: give exactly one of modulus and complementary_modulus")
-    result = {}
-    for name, value in (("modulus", modulus), ("complementary_modulus", complementary_modulus)):
-        array = np.asarray(nan)
-        if value is not None:
-            array = floats(place, name, value)
-            refuse_where(~((array >= 0) & (array <= 1)), array, f"{place}: {name} must lie between 0 and 1")
-        result[name] = array
-    return result
-
-
-def _finite(place: str, name: str, value: ArrayLike) -> Floats:
-    array = floats(place, name, value)
-    refuse_where(~np.isfinite(array), array, f"{place}: {name} must be finite")
-    return array
-
-
-def _characteristic(place: str, value: ArrayLike) -> Floats:
-    array = floats(place, "characteristic", value)
-    refuse_where(~(array < 1), array, f"{place}: characteristic must be less than 1")
-    return array
+    result = {name: floats(place, name, value) for name, value in others.items()}
+    for name, array in result.items():
+        if name == "characteristic":
+            refuse_where(~(array < 1), array, f"{place}: characteristic must be less than 1")
+        else:
+            refuse_where(~np.isfinite(array), array, f"{place}: {name} must be finite")
+    for name, value in moduli.items():
+        array = result[name] = floats(place, name, nan if value is None else value)
+        wrong = ~((array >= 0) & (array <= 1)) & (value is not None)
+        refuse_where(wrong, array, f"{place}: {name} must lie between 0 and 1")
+    return beside(place, **result)
 
 
 def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus: float | None = None) -> Jacobi:
@@ -121,25 +74,16 @@ def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus:
     Parameters
     ----------
     u : array_like
-        Argument, any shape.
+        Argument, finite, any shape.
     modulus, complementary_modulus : float
-        One of them, 0 to 1.
+        One of them.
 
     Returns
     -------
     Jacobi
-        Each of the shape of `u`, with an error of at most ``1e-15 * (|f| + |u df/du|)``, for
-        complementary moduli from 1e-150 to 1. Where ``abs(u)`` exceeds 1e15 this leaves no digit of sn, cn and dn:
-        they are those of some argument. Cost 0.1 microseconds a number.
-
-    Raises
-    ------
-    ValueError
-        If `u` is not finite, or not exactly one modulus is given, from 0 to 1.
-
-    Notes
-    -----
-    Theta series of the smaller nome; DLMF 20.2, 22.2.
+        Each of the shape of `u`, with an error of at most ``1e-15 * (|f| + |u df/du|)`` for complementary moduli from
+        1e-150 to 1. Where ``abs(u)`` exceeds 1e15, no digit of sn, cn and dn is left: they belong to some argument.
+        Theta series of the smaller nome, DLMF 20.2, 22.2. Cost 0.1 microseconds a number.
 
     Examples
     --------
@@ -149,9 +93,10 @@ def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus:
     (0.81409141238, 1.0)
     """
     place = "revchain.elliptic.jacobi"
-    given = _modulus(place, modulus, complementary_modulus)
-    moduli = [real(place, name, value) for name, value in given.items()]
-    return Jacobi(*numbers(_core.elliptic_jacobi(_finite(place, "u", u), *moduli)))
+    moduli = zip(MODULI, (modulus, complementary_modulus), strict=True)
+    single = [None if value is None else real(place, name, value) for name, value in moduli]
+    argument, *both = _arrays(place, *single, u=u)
+    return Jacobi(*numbers(_core.elliptic_jacobi(argument, *map(float, both))))
 
 
 def complete(*, modulus: ArrayLike | None = None, complementary_modulus: ArrayLike | None = None) -> Complete:
@@ -160,23 +105,14 @@ def complete(*, modulus: ArrayLike | None = None, complementary_modulus: ArrayLi
     Parameters
     ----------
     modulus, complementary_modulus : array_like
-        One of them, 0 to 1.
+        One of them.
 
     Returns
     -------
     Complete
-        Each of the shape given, within 1.5e-15 relative; `K` and `D` infinite for modulus 1. Cost 0.2
-        microseconds a number.
-
-    Raises
-    ------
-    ValueError
-        If not exactly one is given, from 0 to 1.
-
-    Notes
-    -----
-    Bulirsch's cel, doi:10.1007/BF02165405. ``D = (K - E) / modulus**2`` and ``B = K - D`` without the
-    difference.
+        Each of the shape given, within 1.5e-15 relative; `K` and `D` infinite for modulus 1.
+        ``D = (K - E) / modulus**2`` and ``B = K - D`` are found without the difference. Bulirsch's cel,
+        doi:10.1007/BF02165405. Cost 0.2 microseconds a number.
 
     Examples
     --------
@@ -185,8 +121,7 @@ def complete(*, modulus: ArrayLike | None = None, complementary_modulus: ArrayLi
     231.6448036605
     """
     place = "revchain.elliptic.complete"
-    arrays = together(place, **_modulus(place, modulus, complementary_modulus))
-    return Complete(*numbers(_core.elliptic_complete(*arrays)))
+    return Complete(*numbers(_core.elliptic_complete(*_arrays(place, modulus, complementary_modulus))))
 
 
 def incomplete(
@@ -197,23 +132,15 @@ def incomplete(
     Parameters
     ----------
     amplitude : array_like
-        In rad.
+        In rad, finite.
     modulus, complementary_modulus : array_like
-        One of them, 0 to 1.
+        One of them.
 
     Returns
     -------
     Incomplete
-        Each of the broadcast shape, within 2e-15 relative. Cost 0.5 microseconds a number.
-
-    Raises
-    ------
-    ValueError
-        If `amplitude` is not finite, or not exactly one modulus is given, from 0 to 1.
-
-    Notes
-    -----
-    Carlson's forms, doi:10.1007/BF02198293; DLMF 19.25.
+        Each of the broadcast shape, within 2e-15 relative. Carlson's forms, doi:10.1007/BF02198293; DLMF 19.25. Cost
+        0.5 microseconds a number.
 
     Examples
     --------
@@ -222,9 +149,8 @@ def incomplete(
     1.056273109822
     """
     place = "revchain.elliptic.incomplete"
-    given = _modulus(place, modulus, complementary_modulus)
-    arrays = together(place, amplitude=_finite(place, "amplitude", amplitude), **given)
-    return Incomplete(*numbers(_core.elliptic_incomplete(*arrays)))
+    given = _arrays(place, modulus, complementary_modulus, amplitude=amplitude)
+    return Incomplete(*numbers(_core.elliptic_incomplete(*given)))
 
 
 def complete_pi(
@@ -237,17 +163,12 @@ def complete_pi(
     characteristic : array_like
         Less than 1, of either sign; its sign as in DLMF 19.2.7.
     modulus, complementary_modulus : array_like
-        One of them, 0 to 1.
+        One of them.
 
     Returns
     -------
     float or ndarray
         Broadcast shape, within 1.5e-15 relative; infinite for modulus 1. Cost 0.1 microseconds a number.
-
-    Raises
-    ------
-    ValueError
-        If `characteristic` is not less than 1, or not exactly one modulus is given, from 0 to 1.
 
     Examples
     --------
@@ -256,9 +177,8 @@ def complete_pi(
     0.906899682117
     """
     place = "revchain.elliptic.complete_pi"
-    given = _modulus(place, modulus, complementary_modulus)
-    arrays = together(place, characteristic=_characteristic(place, characteristic), **given)
-    return _core.elliptic_complete_pi(*arrays)
+    given = _arrays(place, modulus, complementary_modulus, characteristic=characteristic)
+    return _core.elliptic_complete_pi(*given)
 
 
 def incomplete_pi(
@@ -272,23 +192,15 @@ def incomplete_pi(
 
     Parameters
     ----------
-    characteristic : array_like
-        As in `complete_pi`.
-    amplitude : array_like
-        In rad.
+    characteristic, amplitude : array_like
+        As in `complete_pi`, and in rad, finite.
     modulus, complementary_modulus : array_like
-        One of them, 0 to 1.
+        One of them.
 
     Returns
     -------
     float or ndarray
         Broadcast shape, within 3e-15 relative. Cost 0.7 microseconds a number.
-
-    Raises
-    ------
-    ValueError
-        If `characteristic` is not less than 1, `amplitude` not finite, or not exactly one modulus is
-        given, from 0 to 1.
 
     Examples
     --------
@@ -297,11 +209,5 @@ def incomplete_pi(
     1.253085614008
     """
     place = "revchain.elliptic.incomplete_pi"
-    given = _modulus(place, modulus, complementary_modulus)
-    arrays = together(
-        place,
-        characteristic=_characteristic(place, characteristic),
-        amplitude=_finite(place, "amplitude", amplitude),
-        **given,
-    )
-    return _core.elliptic_incomplete_pi(*arrays)
+    given = _arrays(place, modulus, complementary_modulus, characteristic=characteristic, amplitude=amplitude)
+    return _core.elliptic_incomplete_pi(*given)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One plummet: swinging round at any inclination, held by a second thread, carried round by its support.
+"""One point mass (the paper's plummet) on threads: circling at any inclination, held by a second thread, carried round.
 
-Heights are conical heights ``gravity / angular_speed**2`` and, like all lengths, in one unit of the
-user's; tensions are over the plummet's weight. Source: Greenhill (1908), section 1. All functions
-broadcast; numbers in give numbers out.
+`height` is the conical height ``gravity / angular_speed**2`` of the motion. All lengths are in one unit; tensions are
+divided by the weight; angles are in radians. All functions broadcast; single numbers give single numbers; cost O(1) a
+number. A number that is not positive and finite raises a ValueError. Source: Greenhill (1908), section 1; its equations
+in brackets.
 """
 
 from __future__ import annotations
@@ -17,31 +18,13 @@ from .. import _core
 from ..systems.numbers import Floats, numbers, positives
 
 __all__ = [
-    "HeldPlummet",
-    "InclinedPendulum",
-    "air_resistance",
-    "carried_inclinations",
-    "carried_response",
-    "held_plummet",
-    "inclined_pendulum",
-    "whirling_thread",
+    "HeldPlummet", "InclinedPendulum", "air_resistance", "carried_inclinations", "carried_response", "held_plummet",
+    "inclined_pendulum", "whirling_thread",
 ]
 
 
 class InclinedPendulum(NamedTuple):
-    """Where a plummet swings round, and how its thread pulls.
-
-    Attributes
-    ----------
-    inclination : float or ndarray
-        To the vertical, rad, 0 to pi/2.
-    radius : float or ndarray
-        Of the circle.
-    depth : float or ndarray
-        Below the point of support.
-    tension : float or ndarray
-        Over the weight.
-    """
+    """A circling point mass: inclination to the vertical (0 to pi/2), radius, depth below the support, tension."""
 
     inclination: Any
     radius: Any
@@ -50,22 +33,9 @@ class InclinedPendulum(NamedTuple):
 
 
 class HeldPlummet(NamedTuple):
-    """A plummet on two threads tied to the axis.
+    """A point mass on two threads tied to the axis: distance from it, depth below the upper point, tensions.
 
-    Attributes
-    ----------
-    radius : float or ndarray
-        Distance from the axis.
-    depth : float or ndarray
-        Below the upper point.
-    upper_tension : float or ndarray
-        Over the weight.
-    lower_tension : float or ndarray
-        Over the weight.
-    upper_taut : float or ndarray
-        Whether the tension is not negative: else that thread is slack, and the plummet swings on the other.
-    lower_taut : float or ndarray
-        Likewise.
+    A thread is taut where its tension is not negative; otherwise it is slack and the mass circles on the other one.
     """
 
     radius: Any
@@ -77,30 +47,18 @@ class HeldPlummet(NamedTuple):
 
 
 def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
-    """Return how a plummet on a thread swings round at a given speed.
-
-    It leaves the vertical where `height` is less than `length`; it then hangs at that depth.
+    """Return how a point mass on a thread circles at a given speed (1).
 
     Parameters
     ----------
-    length : array_like
-        Of the thread, positive.
-    height : array_like
-        Conical height of the speed, positive.
+    length, height : array_like
+        Length of the thread and conical height, positive.
 
     Returns
     -------
     InclinedPendulum
-        Of the broadcast shape, within 3 ulp. Cost O(1) a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (1), section 6 (1).
+        Broadcast shape, within 3 ulp. The thread is inclined where `height` is less than `length`, and `height` is then
+        the depth; elsewhere it hangs vertically.
 
     Examples
     --------
@@ -116,32 +74,27 @@ def inclined_pendulum(length: ArrayLike, height: ArrayLike) -> InclinedPendulum:
 def held_plummet(
     upper_thread: ArrayLike, lower_thread: ArrayLike, distance: ArrayLike, height: ArrayLike
 ) -> HeldPlummet:
-    """Return how a plummet hangs that a second thread holds from flying out.
+    """Return how a point mass circles that a second thread keeps from flying out farther (the polygon of forces).
 
     Parameters
     ----------
     upper_thread, lower_thread : array_like
         Their lengths, positive.
     distance : array_like
-        By how much the point of the axis that the lower one is tied to lies below the other, positive.
+        How far the lower thread is tied to the axis below the upper one, positive.
     height : array_like
-        Conical height of the speed, positive.
+        Conical height, positive.
 
     Returns
     -------
     HeldPlummet
-        Of the broadcast shape, within 3 ulp; where a depth or a tension nearly vanishes, within 1e-29 of
-        the larger of the two terms whose difference it is. Cost O(1) a number.
+        Broadcast shape, within 3 ulp; where a depth or a tension nearly vanishes, within 1e-29 of the larger of the two
+        terms whose difference it is. The lower thread is taut where ``depth >= height``.
 
     Raises
     ------
     ValueError
-        If a number is not positive and finite, or the three lengths make no triangle.
-
-    Notes
-    -----
-    Greenhill (1908) section 1, the polygon of forces. The lower thread is taut where the plummet,
-    free of it, would fly out farther: ``depth >= height``.
+        Also if the three lengths make no triangle.
 
     Examples
     --------
@@ -151,37 +104,23 @@ def held_plummet(
     (0.8, True)
     """
     place = "revchain.plummet.held_plummet"
-    given = positives(
-        place, upper_thread=upper_thread, lower_thread=lower_thread, distance=distance, height=height
-    )
+    given = positives(place, upper_thread=upper_thread, lower_thread=lower_thread, distance=distance, height=height)
     radius, depth, upper, lower = numbers(_core.held_plummet(*given))
     return HeldPlummet(radius, depth, upper, lower, np.greater_equal(upper, 0), np.greater_equal(lower, 0))
 
 
 def air_resistance(arm: ArrayLike, height: ArrayLike) -> Any:
-    """Return the air's resistance to a plummet of the whirling machine over its weight.
+    """Return the air resistance of the point mass of a whirling machine over its weight, ``arm / height`` (8).
 
     Parameters
     ----------
-    arm : array_like
-        Length of the arm from which the thread hangs, at right angles to the plane through axis and
-        plummet; positive.
-    height : array_like
-        Conical height of the speed, positive.
+    arm, height : array_like
+        Positive: the arm that carries the thread, perpendicular to the plane of axis and mass, and the conical height.
 
     Returns
     -------
     float or ndarray
-        ``arm / height``, broadcast shape, within 0.5 ulp.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (8).
+        Broadcast shape, within 0.5 ulp.
 
     Examples
     --------
@@ -193,28 +132,17 @@ def air_resistance(arm: ArrayLike, height: ArrayLike) -> Any:
 
 
 def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Any:
-    """Return the thread for which the arm of a whirling machine stands square to the plummet's plane.
+    """Return the thread for which the arm of a whirling machine is perpendicular to the plane of the mass, after (8).
 
     Parameters
     ----------
-    arm, height : array_like
-        As in `air_resistance`.
-    radius : array_like
-        Of the plummet's circle, positive.
+    arm, height, radius : array_like
+        Positive: as in `air_resistance`, and the radius of the circle of the mass.
 
     Returns
     -------
     float or ndarray
         ``sqrt(arm**2 + height**2 + radius**2)``, broadcast shape, within 2 ulp.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1, text after (8).
 
     Examples
     --------
@@ -227,29 +155,18 @@ def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Any
 
 
 def carried_response(length: ArrayLike, height: ArrayLike) -> Any:
-    """Return the plummet's offset over that of a support carried round or to and fro, nearly vertical.
+    """Return the offset of the mass over that of its support, carried round or to and fro (base excitation) (9).
 
     Parameters
     ----------
-    length : array_like
-        Of the thread, positive.
-    height : array_like
-        Conical height of the motion of the support, positive.
+    length, height : array_like
+        Length of the thread and conical height of the motion of the support, positive.
 
     Returns
     -------
     float or ndarray
-        ``height / (height - length)``, broadcast shape, within 1.1 ulp: with the support above the
-        resonance ``height = length``, where it is infinite, against it below.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    Greenhill (1908) section 1 (9).
+        ``height / (height - length)`` for small inclinations, broadcast shape, within 1.1 ulp: infinite at resonance,
+        negative (in antiphase) above the resonant speed.
 
     Examples
     --------
@@ -261,34 +178,20 @@ def carried_response(length: ArrayLike, height: ArrayLike) -> Any:
 
 
 def carried_inclinations(length: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Floats | list[Floats]:
-    """Return all steady inclinations of a plummet whose support is carried round a circle.
+    """Return all steady inclinations of a point mass whose support is carried round a circle.
 
     Parameters
     ----------
-    length : array_like
-        Of the thread, positive.
-    height : array_like
-        Conical height of the speed, positive.
-    radius : array_like
-        Of the support's circle, positive.
+    length, height, radius : array_like
+        Length of the thread, conical height, radius of the circle of the support; positive.
 
     Returns
     -------
     ndarray, or list of ndarray
-        Of numbers an array of the inclinations, of arrays a list with one for each element of the broadcast shape, in
-        C order. Inclinations lie between -pi/2 and pi/2 rad, outwards positive, and ascend: one, or three where
-        ``radius**(2/3) <= length**(2/3) - height**(2/3)``. Within 4 ulp, times
+        For numbers an array; for arrays a list with one array for each element of the broadcast shape, in C order. The
+        roots of ``height tan d = radius + length sin d``, rad, ascending from -pi/2 to pi/2, outwards positive: one, or
+        three where ``radius**(2/3) <= length**(2/3) - height**(2/3)``. Within 4 ulp, times
         ``1 / (1 - (cos at which two meet / cos of the root)**3)`` next to where two meet. Cost 1 microsecond a number.
-
-    Raises
-    ------
-    ValueError
-        If a number is not positive and finite.
-
-    Notes
-    -----
-    The roots of ``height tan d = radius + length sin d``; Greenhill (1908) section 1 (9) is their
-    limit near the vertical.
 
     Examples
     --------

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rope that whirls round an axis, gravity left out: plane, or winding round it."""
+"""The rope that whirls round an axis, gravity left out: in a plane, or winding round the axis.
+
+Tensions are given as the length of rope that weighs as much; all lengths are in one unit, angles in radians. Source:
+Greenhill (1908), section 5.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import STANDARD_GRAVITY, count, floats, numbers, one_positive, real
+from ..results.base import Field
+from ..systems.numbers import STANDARD_GRAVITY, as_length, count, floats, numbers, one_positive, real, reals
+from .solved import Solved
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,20 +23,10 @@ __all__ = ["RopePoints", "SkippingRope", "TortuousPoints", "TortuousRope"]
 
 
 class RopePoints(NamedTuple):
-    """What there is at places of a skipping rope.
+    """Points of a skipping rope.
 
-    Attributes
-    ----------
-    x : float or ndarray
-        Distance from an end along the axis.
-    arc : float or ndarray
-        Distance from that end along the rope.
-    offset : float or ndarray
-        From the axis, of either sign.
-    slope : float or ndarray
-        ``d offset / dx``.
-    tension_ratio : float or ndarray
-        Of the tension to that in the middle of a half wave.
+    Distances from an end along the axis and along the rope, offset from the axis (of either sign), ``d offset / dx``,
+    tension over that in the middle of a half wave.
     """
 
     x: Any
@@ -41,24 +37,11 @@ class RopePoints(NamedTuple):
 
 
 class TortuousPoints(NamedTuple):
-    """What there is at places of a tortuous rope.
+    """Points of a tortuous rope.
 
-    Attributes
-    ----------
-    x : float or ndarray
-        Along the axis, from where the rope is nearest to it.
-    arc : float or ndarray
-        Along the rope.
-    radius : float or ndarray
-        Distance from the axis.
-    angle : float or ndarray
-        Round the axis, rad; of the plane rope -pi/2 and pi/2 on either side of ``x = 0``.
-    radius_slope : float or ndarray
-        ``d radius / dx``.
-    angle_slope : float or ndarray
-        ``d angle / dx``.
-    tension_ratio : float or ndarray
-        Of the tension to its part along the axis.
+    Distances along the axis and along the rope from where it is nearest to the axis, distance from the axis, angle
+    round it (of the plane rope -pi/2 and pi/2 on either side of ``x = 0``), ``d radius / dx``, ``d angle / dx``,
+    tension over its part along the axis.
     """
 
     x: Any
@@ -70,13 +53,16 @@ class TortuousPoints(NamedTuple):
     tension_ratio: Any
 
 
-class SkippingRope:
+class SkippingRope(Solved):
     """A rope that whirls between two points of its axis, gravity left out: ``offset = sag sn(K x/a)``.
+
+    Give two of `span`, `length`, `slack`, `sag`, and `tension` together with `angular_speed`; one of these last two may
+    be added to two of the others.
 
     Parameters
     ----------
     span, length : float, optional
-        Of the whole rope, positive.
+        Distance of the ends, and length of the whole rope, positive.
     slack : float, optional
         ``length - span``, positive, where the two nearly agree.
     sag : float, optional
@@ -84,26 +70,22 @@ class SkippingRope:
     angular_speed : float, optional
         In rad/s, positive.
     tension : float, optional
-        In the middle of a half wave, as a length of rope that weighs as much; positive.
+        In the middle of a half wave, positive.
     half_waves : int, optional
         How many times the rope leaves the axis.
     gravity : float, optional
         Relates weight to mass, nothing else; standard gravity in m/s^2 if left out.
 
-    Give two of `span`, `length`, `slack`, `sag`, and `tension` together with `angular_speed`; one of these
-    last two may be added to two of the others.
-
     Raises
     ------
     ValueError
-        If a number is not positive and finite, too few or too many are given, or no rope does what
-        they say: a length not above the span, a sag not below half the length, a rope too slow
-        or too tight to bend.
+        If a number is not positive and finite, too few or too many are given, or no rope has them: a length not above
+        the span, a sag not below half the length, a rope too slow or too tight to bend.
 
     Notes
     -----
-    Accuracy: 1e-14 relative in what the two given determine well. Cost: 20 microseconds; a place 0.2,
-    by its arc 10. Greenhill (1908) section 5 (1), (2).
+    Accuracy: 1e-14 relative in what the two given determine well. Cost: 20 microseconds; a place 0.2, by its arc 10.
+    Greenhill (1908) section 5 (1), (2).
 
     Examples
     --------
@@ -115,8 +97,25 @@ class SkippingRope:
     True
     """
 
-    __slots__ = ("_compiled",)
-    _compiled: _core.SkippingRope
+    __slots__ = ()
+    has_speed: Field[bool] = Field("Whether angular speed or tension was given, so that both are known.")
+    angular_speed: Field[float] = Field("Turning speed, rad/s; a ValueError if neither speed nor tension was given.")
+    conical_height: Field[float] = Field("Conical height of the speed; a ValueError as for the speed.")
+    tension_in_the_middle: Field[float] = Field("Tension in the middle of a half wave; a ValueError as for the speed.")
+    tension_at_ends: Field[float] = Field("Tension at every node; a ValueError as for the speed.")
+    half_waves: Field[int] = Field("How many times the rope leaves the axis.")
+    span: Field[float] = Field("Distance of the ends.")
+    length: Field[float] = Field("Length of the rope.")
+    slack: Field[float] = Field("``length - span``, computed without the difference.")
+    sag: Field[float] = Field("The largest offset.")
+    slope_at_ends: Field[float] = Field("Tangent of the angle with the axis, at every node.")
+    tension_ratio_at_ends: Field[float] = Field("Tension at a node over that in the middle of a half wave.")
+    height_times_tension: Field[float] = Field("Conical height times tension in the middle; it decides the shape.")
+    moment_of_inertia: Field[float] = Field("About the axis, over the mass per length.")
+    modulus: Field[float] = Field("``sag / sqrt(4 height_times_tension + sag**2)``.")
+    complementary_modulus: Field[float] = Field("Its complement, more exact for a rope that is mostly radial.")
+    _solver = _core.SkippingRope
+    _row = "rope"
 
     def __init__(
         self,
@@ -131,103 +130,14 @@ class SkippingRope:
         gravity: float = STANDARD_GRAVITY,
     ) -> None:
         place = "revchain.SkippingRope"
-
-        def known(name: str, value: float | None) -> float | None:
-            return None if value is None else real(place, name, value)
-
-        self._compiled = _core.SkippingRope(
-            known("span", span),
-            known("length", length),
-            known("slack", slack),
-            known("sag", sag),
-            known("angular_speed", angular_speed),
-            known("tension", tension),
-            count(place, "half_waves", half_waves),
-            real(place, "gravity", gravity),
-        )
-
-    @property
-    def half_waves(self) -> int:
-        """How many times the rope leaves the axis."""
-        return self._compiled.half_waves
-
-    @property
-    def modulus(self) -> float:
-        """``sag / sqrt(4 height_times_tension + sag**2)``."""
-        return self._compiled.modulus
-
-    @property
-    def complementary_modulus(self) -> float:
-        """Its complement, which says more of a rope that is mostly radial."""
-        return self._compiled.complementary_modulus
-
-    @property
-    def span(self) -> float:
-        """Distance of the ends."""
-        return self._compiled.span
-
-    @property
-    def length(self) -> float:
-        """Of the rope."""
-        return self._compiled.length
-
-    @property
-    def slack(self) -> float:
-        """``length - span``, to its own last digits."""
-        return self._compiled.slack
-
-    @property
-    def sag(self) -> float:
-        """The largest offset."""
-        return self._compiled.sag
-
-    @property
-    def slope_at_ends(self) -> float:
-        """Tangent of the angle with the axis, at every node."""
-        return self._compiled.slope_at_ends
-
-    @property
-    def tension_ratio_at_ends(self) -> float:
-        """Tension at a node over that in the middle of a half wave."""
-        return self._compiled.tension_ratio_at_ends
-
-    @property
-    def height_times_tension(self) -> float:
-        """Conical height times tension in the middle, on which the form depends alone."""
-        return self._compiled.height_times_tension
-
-    @property
-    def moment_of_inertia(self) -> float:
-        """About the axis, over the mass per length."""
-        return self._compiled.moment_of_inertia
-
-    @property
-    def has_speed(self) -> bool:
-        """Whether angular speed or tension was given, so that both are known."""
-        return self._compiled.has_speed
-
-    @property
-    def conical_height(self) -> float:
-        """Of the speed; a ValueError if neither speed nor tension was given."""
-        return self._compiled.conical_height
-
-    @property
-    def angular_speed(self) -> float:
-        """In rad/s; a ValueError if neither speed nor tension was given."""
-        return self._compiled.angular_speed
-
-    @property
-    def tension_in_the_middle(self) -> float:
-        """Of a half wave, as a length; a ValueError if neither speed nor tension was given."""
-        return self._compiled.tension_in_the_middle
-
-    @property
-    def tension_at_ends(self) -> float:
-        """At every node, as a length; a ValueError if neither speed nor tension was given."""
-        return self._compiled.tension_at_ends
+        lengths = {"span": span, "length": length, "slack": slack, "sag": sag}
+        given = lengths | {"angular_speed": angular_speed, "tension": as_length(place, "tension", tension)}
+        checked = {name: None if value is None else real(place, name, value) for name, value in given.items()}
+        waves = count(place, "half_waves", half_waves)
+        self._solve({**checked, "half_waves": waves, "gravity": real(place, "gravity", gravity)})
 
     def at(self, x: ArrayLike) -> RopePoints:
-        """Return what there is at distances along the axis.
+        """Return points of the rope by their distance along the axis.
 
         Parameters
         ----------
@@ -237,12 +147,7 @@ class SkippingRope:
         Returns
         -------
         RopePoints
-            Each of the shape of `x`. Cost 0.2 microseconds a number.
-
-        Raises
-        ------
-        ValueError
-            If a number is out of its range.
+            Each of the shape of `x`.
 
         Examples
         --------
@@ -251,10 +156,10 @@ class SkippingRope:
         >>> rope.at([0.0, 0.5, 1.0]).offset.round(6)
         array([0.      , 0.359451, 0.5     ])
         """
-        return RopePoints(*numbers(self._compiled.at(floats("revchain.SkippingRope.at", "x", x))))
+        return RopePoints(*numbers(self._found().at(floats("revchain.SkippingRope.at", "x", x))))
 
     def at_arc(self, arc: ArrayLike) -> RopePoints:
-        """Return what there is at distances along the rope.
+        """Return points of the rope by their distance along it.
 
         Parameters
         ----------
@@ -264,21 +169,16 @@ class SkippingRope:
         Returns
         -------
         RopePoints
-            Each of the shape of `arc`. Cost 10 microseconds a number.
-
-        Raises
-        ------
-        ValueError
-            If a number is out of its range.
+            Each of the shape of `arc`.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> rope = rc.SkippingRope(span=2.0, length=3.0)
-        >>> round(float(rope.at_arc(1.5).offset - rope.sag), 12)
-        0.0
+        >>> rope = rc.SkippingRope(span=2.0, sag=0.5)
+        >>> round(float(rope.at_arc(rope.length / 2).offset), 12)
+        0.5
         """
-        return RopePoints(*numbers(self._compiled.at_arc(floats("revchain.SkippingRope.at_arc", "arc", arc))))
+        return RopePoints(*numbers(self._found().at_arc(floats("revchain.SkippingRope.at_arc", "arc", arc))))
 
     def drawn_to(self, span: float) -> SkippingRope:
         """Return the rope with its ends at another distance, its length and angular momentum kept.
@@ -286,17 +186,12 @@ class SkippingRope:
         Parameters
         ----------
         span : float
-            The new distance, positive, less than the length.
+            The new distance, positive, less than the length; the rope must have a speed.
 
         Returns
         -------
         SkippingRope
             Work done on it is the gain in ``moment_of_inertia * angular_speed**2 / 2``.
-
-        Raises
-        ------
-        ValueError
-            If `span` is out of its range, or the rope has no speed.
 
         Examples
         --------
@@ -305,28 +200,22 @@ class SkippingRope:
         >>> round(rope.drawn_to(2.5).angular_speed, 4)
         20.9459
         """
-        drawn = object.__new__(SkippingRope)
-        drawn._compiled = self._compiled.drawn_to(real("revchain.SkippingRope.drawn_to", "span", span))
-        return drawn
+        momentum = self.moment_of_inertia * self.angular_speed
+        kept: Any = {"length": self.length, "half_waves": self.half_waves, "gravity": self._given["gravity"]}
+        kept["span"] = real("revchain.SkippingRope.drawn_to", "span", span)
+        return SkippingRope(**kept, angular_speed=momentum / SkippingRope(**kept).moment_of_inertia)
 
-    def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
-        """Draw the rope seen from the side.
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the rope seen from the side; needs matplotlib.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
-        length_unit : str
-            What to write on the axes.
 
         Returns
         -------
         matplotlib.axes.Axes
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
 
         Examples
         --------
@@ -335,27 +224,33 @@ class SkippingRope:
         >>> ax.get_xlabel()
         'along the axis (m)'
         """
-        from ..plots.style import plot_skipping_rope
+        from ..plots.closed_forms import plot_skipping_rope
 
-        return plot_skipping_rope(self, ax, length_unit=length_unit)
+        return plot_skipping_rope(self, ax)
 
-    def __repr__(self) -> str:
-        speed = f", angular speed {self.angular_speed:g}" if self.has_speed else ""
-        return f"SkippingRope: span {self.span:g}, length {self.length:g}, sag {self.sag:g}{speed}"
+    def _table(self) -> dict[str, str]:
+        pulls = {"tension_in_the_middle": "tension: middle", "tension_at_ends": "at ends"}
+        known = {"angular_speed": "speed (rad/s)", **pulls, "conical_height": ""} if self.has_speed else {}
+        ends = ("slack", "slope_at_ends", "tension_ratio_at_ends")
+        whole = ("height_times_tension", "moment_of_inertia", "modulus", "complementary_modulus")
+        return {**known, "span": "span", "length": "length", "sag": "sag", **dict.fromkeys(ends + whole, "")}
+
+    def _heading(self) -> str:
+        return f"{self.half_waves} half wave{'s' * (self.half_waves != 1)}"
 
 
-class TortuousRope:
+class TortuousRope(Solved):
     """A rope that whirls and winds round its axis, its ends off the axis, gravity left out.
 
     Parameters
     ----------
     least_radius, greatest_radius : float
-        Between which its distance from the axis varies, the greater positive. A least radius of 0 is
-        the plane rope, two equal ones a helix.
+        Between which its distance from the axis varies, the greater positive. A least radius of 0 is the plane rope,
+        two equal ones a helix.
     angular_speed : float
         In rad/s, positive.
     tension : float
-        What pulls along the axis, as a length of rope that weighs as much; positive.
+        Its part along the axis, positive.
     gravity : float, optional
         Relates weight to mass, nothing else; standard gravity in m/s^2 if left out.
 
@@ -366,8 +261,8 @@ class TortuousRope:
 
     Notes
     -----
-    Accuracy: 1e-14 relative, of the angle 1e-14 of it and 1. Cost: 2 microseconds, a place 1. The angle is an
-    elliptic integral of the third kind. Greenhill (1908) section 5, text after (6).
+    Accuracy: 1e-14 relative, of the angle 1e-14 of it and 1. Cost: 2 microseconds, a place 1. The angle is an elliptic
+    integral of the third kind. Greenhill (1908) section 5, text after (6).
 
     Examples
     --------
@@ -377,8 +272,19 @@ class TortuousRope:
     (2.494443, 3.335154)
     """
 
-    __slots__ = ("_compiled",)
-    _compiled: _core.TortuousRope
+    __slots__ = ()
+    least_radius: Field[float] = Field("Least distance from the axis.")
+    greatest_radius: Field[float] = Field("Greatest distance from the axis.")
+    half_wave: Field[float] = Field("Distance along the axis from one point nearest to it to the next.")
+    half_wave_length: Field[float] = Field("That distance along the rope.")
+    half_wave_slack: Field[float] = Field("``half_wave_length - half_wave``, computed without the difference.")
+    half_wave_angle: Field[float] = Field("Angle round the axis in a half wave, rad; pi for the plane rope.")
+    conical_height: Field[float] = Field("Conical height of the speed.")
+    height_times_tension: Field[float] = Field("Conical height times tension; it decides the shape.")
+    modulus: Field[float] = Field("Modulus of the elliptic functions.")
+    complementary_modulus: Field[float] = Field("Its complement.")
+    _solver = _core.TortuousRope
+    _row = "rope"
 
     def __init__(
         self,
@@ -389,82 +295,23 @@ class TortuousRope:
         tension: float,
         gravity: float = STANDARD_GRAVITY,
     ) -> None:
+        radii = {"least_radius": least_radius, "greatest_radius": greatest_radius}
         place = "revchain.TortuousRope"
-        self._compiled = _core.TortuousRope(
-            real(place, "least_radius", least_radius),
-            real(place, "greatest_radius", greatest_radius),
-            real(place, "angular_speed", angular_speed),
-            real(place, "tension", tension),
-            real(place, "gravity", gravity),
-        )
-
-    @property
-    def least_radius(self) -> float:
-        """Where it is nearest to the axis."""
-        return self._compiled.least_radius
-
-    @property
-    def greatest_radius(self) -> float:
-        """Where it is farthest from the axis."""
-        return self._compiled.greatest_radius
-
-    @property
-    def conical_height(self) -> float:
-        """Of the speed."""
-        return self._compiled.conical_height
-
-    @property
-    def height_times_tension(self) -> float:
-        """Conical height times tension, on which the form depends alone."""
-        return self._compiled.height_times_tension
-
-    @property
-    def modulus(self) -> float:
-        """Of the elliptic functions."""
-        return self._compiled.modulus
-
-    @property
-    def complementary_modulus(self) -> float:
-        """Its complement."""
-        return self._compiled.complementary_modulus
-
-    @property
-    def half_wave(self) -> float:
-        """Distance along the axis from one place nearest to it to the next."""
-        return self._compiled.half_wave
-
-    @property
-    def half_wave_length(self) -> float:
-        """The same along the rope."""
-        return self._compiled.half_wave_length
-
-    @property
-    def half_wave_slack(self) -> float:
-        """``half_wave_length - half_wave``, to its own last digits."""
-        return self._compiled.half_wave_slack
-
-    @property
-    def half_wave_angle(self) -> float:
-        """The angle round the axis meanwhile, pi for the plane rope."""
-        return self._compiled.half_wave_angle
+        pull = as_length(place, "tension", tension)
+        self._solve(reals(place, **radii, angular_speed=angular_speed, tension=pull, gravity=gravity))
 
     def at(self, x: ArrayLike) -> TortuousPoints:
-        """Return what there is at distances along the axis.
+        """Return points of the rope by their distance along the axis.
 
         Parameters
         ----------
         x : array_like
-            From where the rope is nearest to the axis, of either sign, any shape.
+            From where the rope is nearest to the axis, of either sign, finite, any shape.
 
         Returns
         -------
         TortuousPoints
-            Each of the shape of `x`. Cost 1 microsecond a number.
-
-        Raises
-        ------
-        ValueError
-            If a number is not finite.
+            Each of the shape of `x`.
 
         Examples
         --------
@@ -473,30 +320,22 @@ class TortuousRope:
         >>> rope.at([0.0, rope.half_wave / 2]).radius.round(12)
         array([0.5, 1. ])
         """
-        return TortuousPoints(*numbers(self._compiled.at(floats("revchain.TortuousRope.at", "x", x))))
+        return TortuousPoints(*numbers(self._found().at(floats("revchain.TortuousRope.at", "x", x))))
 
-    def plot(self, ax: Axes | None = None, *, half_waves: float = 4.0, length_unit: str = "m") -> Axes:
-        """Draw the rope seen along its axis, and the two circles between which it stays.
+    def plot(self, ax: Axes | None = None, *, half_waves: float = 4.0) -> Axes:
+        """Draw the rope seen along its axis, and the two circles between which it stays; needs matplotlib.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
         half_waves : float
-            How much of it, from a place nearest to the axis on.
-        length_unit : str
-            What to write on the axes.
+            How much of it, from a point nearest to the axis on; positive and finite.
 
         Returns
         -------
         matplotlib.axes.Axes
 
-        Raises
-        ------
-        ValueError
-            If `half_waves` is not positive and finite.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
 
         Examples
         --------
@@ -506,13 +345,16 @@ class TortuousRope:
         >>> ax.get_xlabel()
         'across (m)'
         """
-        from ..plots.style import plot_tortuous_rope
+        from ..plots.closed_forms import plot_tortuous_rope
 
         long = one_positive("revchain.TortuousRope.plot", "half_waves", half_waves)
-        return plot_tortuous_rope(self, ax, long, length_unit=length_unit)
+        return plot_tortuous_rope(self, ax, long)
 
-    def __repr__(self) -> str:
-        return (
-            f"TortuousRope: radius {self.least_radius:g} to {self.greatest_radius:g}, "
-            f"{self.half_wave_angle:g} rad in {self.half_wave:g}"
-        )
+    def _heading(self) -> str:
+        return f"{self._given['angular_speed']:g} rad/s, tension {self._given['tension']:g}"
+
+    def _table(self) -> dict[str, str]:
+        radii = {"least_radius": "least radius", "greatest_radius": "greatest radius"}
+        wave = {"half_wave": "half wave", "half_wave_length": "its length", "half_wave_angle": "its angle (°)"}
+        unshown = ("half_wave_slack", "conical_height", "height_times_tension", "modulus", "complementary_modulus")
+        return {**radii, **wave, **dict.fromkeys(unshown, "")}

@@ -1,109 +1,105 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Force diagrams and funicular polygons, as data and as pictures."""
+"""Funicular polygons: weights on a thread at rest between two supports, and their small oscillations across it."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.base import Wrapped
-from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, one_positive, positive, read_only, real
+from ..results.base import Field, Result
+from ..results.sheet import Column, Sheet, speed_columns
+from ..systems.numbers import STANDARD_GRAVITY, Floats, floats, one_positive, positive, real, reals
 from . import conical_pendulum
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class TransverseModes(NamedTuple):
-    """Small transverse oscillations, slowest first.
+class TransverseModes(Result):
+    """Small transverse oscillations of a string of n weights, slowest first; returned by `transverse_modes`.
 
-    Attributes
-    ----------
-    conical_height : ndarray, shape (n,)
-        Of the pendulum that keeps time with it.
-    error_bound : ndarray, shape (n,)
-        Relative.
-    shape : ndarray, shape (n, n + 2)
-        Of both supports and the weights; the largest is 1, the first weight to the positive side.
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rc.transverse_modes([2.0], [0.0, 1.0, 2.0], tension=8.0)
+    TransverseModes: 1 mode
+    mode  speed (rad/s)  speed (rpm)  height (m)  error bound
+       1        8.85738      84.5818    0.125000      1.1e-15
     """
 
-    conical_height: Floats
-    error_bound: Floats
-    shape: Floats
+    __slots__ = ()
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    angular_speed: Field[Floats] = Field(
+        "Natural angular frequency, rad/s, shape (n,).",
+        lambda m: conical_pendulum.angular_speed(m.conical_height, m.gravity),
+    )
+    frequency: Field[Floats] = Field(
+        "Natural frequency, Hz, shape (n,).",
+        lambda m: conical_pendulum.revolutions_per_second(m.conical_height, m.gravity),
+    )
+    period: Field[Floats] = Field(
+        "Time of one oscillation there and back, s, shape (n,).",
+        lambda m: conical_pendulum.period(m.conical_height, m.gravity),
+    )
+    conical_height: Field[Floats] = Field("Conical height of a pendulum of that period, m, shape (n,).", part=True)
+    error_bound: Field[Floats] = Field("Bound of the relative error of each conical height, shape (n,).", part=True)
+    shape: Field[Floats] = Field(
+        "Offsets of the first support, the weights and the last support, shape (n, n + 2); the largest is 1, the first "
+        "weight on the positive side.",
+        part=True,
+    )
 
-    def period(self, gravity: float = STANDARD_GRAVITY) -> Floats:
-        """Return the seconds of one oscillation to and fro.
+    def _sheet(self, brief: bool = False) -> Sheet:
+        size = len(self.conical_height)
+        columns = [
+            Column("mode", np.arange(1, size + 1), "mode"),
+            *speed_columns(self.angular_speed),
+            Column("conical_height", self.conical_height, "height (m)"),
+            Column("error_bound", self.error_bound, "error bound"),
+            Column("shape", self.shape, axes=("point",)),
+        ]
+        return Sheet("mode", f"TransverseModes: {size} mode{'s' * (size != 1)}", columns, {"gravity": self.gravity})
+
+
+class FunicularPolygon(Result):
+    """Weights on a thread between two supports, at rest in a vertical plane; returned by `funicular_polygon`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rc.funicular_polygon([1.0, 1.0], [0.0, 1.0, 2.0, 3.0], horizontal_tension=0.5)
+    FunicularPolygon: 2 weights, horizontal tension 0.5
+    point    place    height   weight  tension of the next side
+        0  0.00000   0.00000      nan                   1.11803
+        1  1.00000  -2.00000  1.00000                  0.500000
+        2  2.00000  -2.00000  1.00000                   1.11803
+        3  3.00000   0.00000      nan                       nan
+    """
+
+    __slots__ = ()
+    weight: Field[Floats] = Field("The weights from the first support to the last, shape (n,).", part=True)
+    place: Field[Floats] = Field("Places of supports and weights along the horizontal, shape (n + 2,).", part=True)
+    height: Field[Floats] = Field("Heights of supports and weights, shape (n + 2,).", part=True)
+    rise: Field[Floats] = Field(
+        "Vertical component of the tension of each side, shape (n + 1,). The ray from the pole to the line of load "
+        "ends at ``(horizontal_tension, rise)``.",
+        part=True,
+    )
+    tension: Field[Floats] = Field("Tension of each side, shape (n + 1,).", part=True)
+    horizontal_tension: Field[float] = Field(
+        "Horizontal component, equal in all sides: the distance of the pole from the line of load.", part=True
+    )
+
+    def transverse_modes(self, *, gravity: float = STANDARD_GRAVITY) -> TransverseModes:
+        """Return the small oscillations of the weights perpendicular to the plane of the polygon.
 
         Parameters
         ----------
         gravity : float, optional
-            In the unit of length per s^2, positive; standard gravity in m/s^2 if left out.
-
-        Returns
-        -------
-        ndarray, shape (n,)
-
-        Raises
-        ------
-        ValueError
-            If `gravity` is not positive and finite.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rc.transverse_modes([2.0], [0.0, 1.0, 2.0], tension=8.0).period().round(4)
-        array([0.7094])
-        """
-        g = one_positive("revchain.TransverseModes.period", "gravity", gravity)
-        seconds: Floats = conical_pendulum.period(self.conical_height, g)
-        return seconds
-
-
-class FunicularPolygon(Wrapped[_core.FunicularPolygon, Floats]):
-    """Weights on a thread between two supports, at rest in a vertical plane.
-
-    Returned by `funicular_polygon`; from the first support to the last.
-    """
-
-    __slots__ = ()
-
-    @property
-    def weight(self) -> Floats:
-        """The weights, shape (n,)."""
-        return self._given
-
-    @property
-    def place(self) -> Floats:
-        """Of supports and weights along the horizontal, shape (n + 2,)."""
-        return self._compiled.place
-
-    @property
-    def height(self) -> Floats:
-        """Of supports and weights, shape (n + 2,)."""
-        return self._compiled.height
-
-    @property
-    def rise(self) -> Floats:
-        """Vertical component of each side's tension, shape (n + 1,).
-
-        The ray from the pole to the line of load ends at ``(horizontal_tension, rise)``.
-        """
-        return self._compiled.rise
-
-    @property
-    def tension(self) -> Floats:
-        """Of each side, shape (n + 1,)."""
-        return self._compiled.tension
-
-    @property
-    def horizontal_tension(self) -> float:
-        """Horizontal component, the same in all sides: the pole's distance from the line of load."""
-        return self._compiled.horizontal_tension
-
-    def transverse_modes(self) -> TransverseModes:
-        """Return the small oscillations of the weights perpendicular to the polygon's plane.
+            As in `transverse_modes`.
 
         Returns
         -------
@@ -112,9 +108,9 @@ class FunicularPolygon(Wrapped[_core.FunicularPolygon, Floats]):
 
         Notes
         -----
-        Greenhill (1908) section 3: the weights are transferred vertically to one horizontal line and held
-        there on a thread of uniform tension. Exact for small oscillations: a side of length a and tension T
-        resists with T/a, which is the horizontal tension over the horizontal length.
+        Greenhill (1908) section 3: the weights are transferred vertically to one horizontal line and held there on a
+        thread of uniform tension. Exact for small oscillations: a side of length a and tension T resists with T/a,
+        which is the horizontal tension over the horizontal length.
 
         Examples
         --------
@@ -123,29 +119,20 @@ class FunicularPolygon(Wrapped[_core.FunicularPolygon, Floats]):
         >>> line.transverse_modes().conical_height.round(6)
         array([2.      , 0.666667])
         """
-        return transverse_modes(self.weight, self.place, self.horizontal_tension)
+        return transverse_modes(self.weight, self.place, self.horizontal_tension, gravity=gravity)
 
-    def plot(
-        self, axes: tuple[Axes, Axes] | None = None, *, length_unit: str = "m", weight_unit: str = "N"
-    ) -> tuple[Axes, Axes]:
-        """Draw the polygon and its diagram of force side by side, sides and rays in the same colours.
+    def plot(self, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
+        """Draw the polygon and its force diagram side by side, sides and rays in the same colours; needs matplotlib.
 
         Parameters
         ----------
         axes : pair of matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
-        length_unit, weight_unit : str
-            What to write on the axes.
 
         Returns
         -------
         pair of matplotlib.axes.Axes
             Of the polygon, with its weights transferred to a horizontal line, and of the forces.
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
 
         Examples
         --------
@@ -155,12 +142,23 @@ class FunicularPolygon(Wrapped[_core.FunicularPolygon, Floats]):
         >>> polygon.get_title()
         'funicular polygon'
         """
-        from ..plots.statics import plot_funicular_polygon
+        from ..plots.closed_forms import plot_funicular_polygon
 
-        return plot_funicular_polygon(self, axes, length_unit=length_unit, weight_unit=weight_unit)
+        return plot_funicular_polygon(self, axes)
 
-    def __repr__(self) -> str:
-        return f"FunicularPolygon: {len(self.weight)} weights, horizontal tension {self.horizontal_tension:.6g}"
+    def _sheet(self, brief: bool = False) -> Sheet:
+        gap = [np.nan]
+        columns = [
+            Column("point", np.arange(len(self.place)), "point"),
+            Column("place", self.place, "place"),
+            Column("height", self.height, "height"),
+            Column("weight", np.concatenate([gap, self.weight, gap]), "weight"),
+            Column("tension", np.concatenate([self.tension, gap]), "tension of the next side"),
+            Column("rise", np.concatenate([self.rise, gap])),
+        ]
+        size, pull = len(self.weight), self.horizontal_tension
+        heading = f"FunicularPolygon: {size} weight{'s' * (size != 1)}, horizontal tension {pull:.6g}"
+        return Sheet("point", heading, columns, {"horizontal_tension": pull})
 
 
 def funicular_polygon(
@@ -202,18 +200,14 @@ def funicular_polygon(
     """
     name = "revchain.funicular_polygon"
     weights, at = _string(name, weight, place)
-    compiled = _core.funicular_polygon(
-        weights,
-        at,
-        real(name, "horizontal_tension", horizontal_tension),
-        real(name, "first_height", first_height),
-        real(name, "last_height", last_height),
-    )
-    return FunicularPolygon._wrap(compiled, read_only(weights.copy()))
+    given = reals(name, horizontal_tension=horizontal_tension, first_height=first_height, last_height=last_height)
+    return FunicularPolygon._made(_core.funicular_polygon(weights, at, **given), weight=weights.copy())
 
 
-def transverse_modes(weight: ArrayLike, place: ArrayLike, tension: float) -> TransverseModes:
-    """Return the small oscillations of a string of weights, held at both ends, across itself.
+def transverse_modes(
+    weight: ArrayLike, place: ArrayLike, tension: float, *, gravity: float = STANDARD_GRAVITY
+) -> TransverseModes:
+    """Return the small transverse oscillations of a string of weights held at both ends.
 
     Parameters
     ----------
@@ -223,21 +217,19 @@ def transverse_modes(weight: ArrayLike, place: ArrayLike, tension: float) -> Tra
         Of the first support, the weights and the last support along the string, increasing.
     tension : float
         Uniform, in the unit of the weights, positive.
+    gravity : float, optional
+        Relates weights to masses, positive; standard gravity in m/s^2 if left out.
 
     Returns
     -------
     TransverseModes
-        All n; heights to 2 ulp.
+        All n; heights to 2 ulp. Computed as the modes of a chain with these weights and spacings, hung up and stretched
+        by a weight so great that it does not move.
 
     Raises
     ------
     ValueError
         If a number is out of its range, or there are not two more places than weights.
-
-    Notes
-    -----
-    By `modes` of a chain with the same weights and spacings, hung up and stretched by a weight so great
-    that it does not move.
 
     Examples
     --------
@@ -248,7 +240,9 @@ def transverse_modes(weight: ArrayLike, place: ArrayLike, tension: float) -> Tra
     """
     name = "revchain.transverse_modes"
     weights, at = _string(name, weight, place)
-    return TransverseModes(*_core.transverse_modes(weights, at, real(name, "tension", tension)))
+    height, bound, shape = _core.transverse_modes(weights, at, real(name, "tension", tension))
+    g = one_positive(name, "gravity", gravity)
+    return TransverseModes._made(None, gravity=g, conical_height=height, error_bound=bound, shape=shape)
 
 
 def _string(name: str, weight: ArrayLike, place: ArrayLike) -> tuple[Floats, Floats]:

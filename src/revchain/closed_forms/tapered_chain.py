@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The chain whose line density is a power of the distance from its free end, at small amplitude.
 
-`exponent` is that power, above -1: 0 leaves the chain of `revchain.heavy_chain`, greater numbers thicken it upwards,
-lesser ones gather its mass at the free end. `x` is measured from the free end, modes are counted from 1.
+`exponent`, `p` for short, is that power, above -1 and at most 1e4: 0 is the uniform chain of `revchain.heavy_chain`,
+greater numbers thicken it upwards, smaller ones gather its mass at the free end. The chain of Greenhill (1908) section
+4 with another density: offset ``gamma(p + 1) (z/2)**-p Jp(z)``, ``z = 2 sqrt((p + 1) x / height)``, `x` from 0 at the
+free end to `length`; modes are counted from 1. Array arguments broadcast; numbers out of their range raise a
+ValueError.
 """
 
 from __future__ import annotations
@@ -25,33 +28,22 @@ def _chain(place: str, exponent: ArrayLike, length: ArrayLike) -> dict[str, Floa
 
 
 def conical_heights(count: int, *, exponent: ArrayLike, length: ArrayLike = 1.0) -> Floats:
-    """Return the conical heights of the slowest modes.
+    """Return the conical heights of the slowest modes, ``4 (p + 1) length / z**2``, `z` the zeros of Jp.
 
     Parameters
     ----------
     count : int
         How many, at least 1.
     exponent : array_like
-        Power of the density, above -1 and at most 1e4.
+        Power of the density.
     length : array_like, optional
-        Length of the chain, positive; the two broadcast.
+        Positive.
 
     Returns
     -------
     ndarray, shape (..., count)
-        Descending, in the unit of `length`, within 3 ulp for exponents from -0.99 to 100: ``4 (exponent + 1)
-        length / z**2``, `z` the zeros of the Bessel function of that order. Cost O(count), 0.02 to 10 microseconds
-        each.
-
-    Raises
-    ------
-    ValueError
-        If `count` is below 1 or another number out of its range.
-
-    Notes
-    -----
-    The chain of Greenhill (1908) section 4 with another density: offset ``gamma(p + 1) (z/2)**-p Jp(z)``,
-    ``z = 2 sqrt((p + 1) x / height)``, `p` the exponent.
+        Descending, in the unit of `length`, within 3 ulp for exponents from -0.99 to 100. Cost O(count), 0.02 to 10
+        microseconds each.
 
     Examples
     --------
@@ -62,8 +54,7 @@ def conical_heights(count: int, *, exponent: ArrayLike, length: ArrayLike = 1.0)
     """
     place = "revchain.tapered_chain.conical_heights"
     number = checked_count(place, "count", count, each=8)
-    long, other = together(place, **_chain(place, exponent, length))
-    return _core.tapered_chain_conical_heights(number, long, other)
+    return _core.tapered_chain_conical_heights(number, *together(place, **_chain(place, exponent, length)))
 
 
 def shape(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLike = 1.0) -> Any:
@@ -72,29 +63,17 @@ def shape(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLi
     Parameters
     ----------
     x : array_like
-        Distance from the free end, from 0 to `length`.
+        Distance from the free end, 0 to `length`.
     mode : array_like of int
-        Mode, counted from 1.
-    exponent : array_like
-        Power of the density, above -1 and at most 1e4.
-    length : array_like, optional
-        Length of the chain, positive.
+        From 1.
+    exponent, length : array_like
+        As in `conical_heights`.
 
     Returns
     -------
     float or ndarray
         Broadcast shape; absolute error below 1e-15 times 1 + z, of the largest offset, which exceeds 1 for
-        exponents below -1/2. Cost O(1) a number, and the height's where the chain or mode changes.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range or `mode` not whole.
-
-    Notes
-    -----
-    The chain of Greenhill (1908) section 4 with another density: offset ``gamma(p + 1) (z/2)**-p Jp(z)``,
-    ``z = 2 sqrt((p + 1) x / height)``, `p` the exponent.
+        exponents below -1/2. Cost O(1) a number, and that of the height where the chain or mode changes.
 
     Examples
     --------
@@ -107,33 +86,17 @@ def shape(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLi
 
 
 def slope(x: ArrayLike, mode: ArrayLike, *, exponent: ArrayLike, length: ArrayLike = 1.0) -> Any:
-    """Return ``d offset / dx`` of the chain whose offset is 1 at the free end.
+    """Return ``d offset / dx`` of `shape`, ``-1 / height`` at the free end.
 
     Parameters
     ----------
-    x : array_like
-        Distance from the free end, from 0 to `length`.
-    mode : array_like of int
-        Mode, counted from 1.
-    exponent : array_like
-        Power of the density, above -1 and at most 1e4.
-    length : array_like, optional
-        Length of the chain, positive.
+    x, mode, exponent, length : array_like
+        As in `shape`.
 
     Returns
     -------
     float or ndarray
-        Broadcast shape, ``-1 / height`` at the free end. Accuracy that of `shape`, of the largest slope.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range or `mode` not whole.
-
-    Notes
-    -----
-    The chain of Greenhill (1908) section 4 with another density: offset ``gamma(p + 1) (z/2)**-p Jp(z)``,
-    ``z = 2 sqrt((p + 1) x / height)``, `p` the exponent.
+        Broadcast shape. Accuracy and cost are those of `shape`, of the largest slope.
 
     Examples
     --------
@@ -151,26 +114,14 @@ def nodes(mode: int, *, exponent: float, length: float = 1.0) -> Floats:
     Parameters
     ----------
     mode : int
-        Mode, counted from 1.
-    exponent : float
-        Power of the density, above -1 and at most 1e4.
-    length : float, optional
-        Length of the chain, positive.
+        From 1.
+    exponent, length : float
+        As in `conical_heights`.
 
     Returns
     -------
     ndarray, shape (mode - 1,)
-        Distances from the free end, ascending, the support left out, within 3 ulp. Cost O(mode).
-
-    Raises
-    ------
-    ValueError
-        If `mode` is below 1 or another number out of its range.
-
-    Notes
-    -----
-    The chain of Greenhill (1908) section 4 with another density: offset ``gamma(p + 1) (z/2)**-p Jp(z)``,
-    ``z = 2 sqrt((p + 1) x / height)``, `p` the exponent.
+        Distances from the free end, ascending, without the support, within 3 ulp. Cost O(mode).
 
     Examples
     --------
@@ -180,5 +131,4 @@ def nodes(mode: int, *, exponent: float, length: float = 1.0) -> Floats:
     """
     place = "revchain.tapered_chain.nodes"
     chain = _chain(place, real(place, "exponent", exponent), real(place, "length", length))
-    number = checked_count(place, "mode", mode, each=8)
-    return _core.tapered_chain_nodes(number, float(chain["length"]), float(chain["exponent"]))
+    return _core.tapered_chain_nodes(checked_count(place, "mode", mode, each=8), *map(float, chain.values()))

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The uniform chain with a particle at its free end, at small amplitude.
+"""The uniform chain with a point mass at its free end, at small amplitude.
 
-`tip` is the length of chain that weighs as much as the particle; 0 leaves the chain of
-`revchain.heavy_chain`. `x` is measured from the free end, modes are counted from 1. A heavy tip leaves nearly
-a plummet, whose conical height is the length, and a string that vibrates between two fixed ends.
+`tip` is the length of chain that weighs as much as the mass, from 0 (the chain of `revchain.heavy_chain`) to 1e250
+lengths: a heavy tip leaves nearly a pendulum, whose conical height is the length, and a string that vibrates between
+two fixed ends. The chain of Greenhill (1908) section 4: heights are the zeros of ``Y2(a) J0(b) - J2(a) Y0(b)``,
+``a = 2 sqrt(tip / height)``, ``b = 2 sqrt((tip + length) / height)``. `x` is measured from the free end, modes are
+counted from 1. Array arguments broadcast; numbers out of their range raise a ValueError.
 """
 
 from __future__ import annotations
@@ -35,24 +37,14 @@ def conical_heights(count: int, *, tip: ArrayLike, length: ArrayLike = 1.0) -> F
     count : int
         How many, at least 1.
     tip : array_like
-        Length of chain that weighs as much as the particle, from 0 to 1e250 lengths.
+        Length of chain that weighs as much as the mass, not negative.
     length : array_like, optional
-        Length of the chain, positive; the two broadcast.
+        Positive.
 
     Returns
     -------
     ndarray, shape (..., count)
         Descending, in the unit of `length`, within 2 ulp. Cost O(count), 0.2 to 15 microseconds each.
-
-    Raises
-    ------
-    ValueError
-        If `count` is below 1 or another number out of its range.
-
-    Notes
-    -----
-    The chain of Greenhill (1908) section 4: heights are the zeros of ``Y2(a) J0(b) - J2(a) Y0(b)``,
-    ``a = 2 sqrt(tip / height)``, ``b = 2 sqrt((tip + length) / height)``.
 
     Examples
     --------
@@ -63,9 +55,9 @@ def conical_heights(count: int, *, tip: ArrayLike, length: ArrayLike = 1.0) -> F
            [9.99833e-01, 1.01000e-04, 2.50000e-05]])
     """
     place = "revchain.tip_mass.conical_heights"
-    number = checked_count(place, "count", count, each=8)
-    long, other = together(place, **_chain(place, tip, length))
-    return _core.tip_mass_conical_heights(number, long, other)
+    return _core.tip_mass_conical_heights(
+        checked_count(place, "count", count, each=8), **_chain(place, tip, length)
+    )
 
 
 def shape(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 1.0) -> Any:
@@ -74,30 +66,17 @@ def shape(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 
     Parameters
     ----------
     x : array_like
-        Distance from the free end, from 0 to `length`.
+        Distance from the free end, 0 to `length`.
     mode : array_like of int
-        Mode, counted from 1.
-    tip : array_like
-        Length of chain that weighs as much as the particle, from 0 to 1e250 lengths.
-    length : array_like, optional
-        Length of the chain, positive.
+        From 1.
+    tip, length : array_like
+        As in `conical_heights`.
 
     Returns
     -------
     float or ndarray
         Broadcast shape; absolute error below 2e-15 times the mode, of the largest offset, which for modes above 1 can
-        reach ``sqrt(1 + tip / height)``. Cost O(1) a number, and the height's where
-        the chain or mode changes.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range or `mode` not whole.
-
-    Notes
-    -----
-    The chain of Greenhill (1908) section 4: heights are the zeros of ``Y2(a) J0(b) - J2(a) Y0(b)``,
-    ``a = 2 sqrt(tip / height)``, ``b = 2 sqrt((tip + length) / height)``.
+        reach ``sqrt(1 + tip / height)``. Cost O(1) a number, and that of the height where the chain or mode changes.
 
     Examples
     --------
@@ -110,33 +89,17 @@ def shape(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 
 
 
 def slope(x: ArrayLike, mode: ArrayLike, *, tip: ArrayLike, length: ArrayLike = 1.0) -> Any:
-    """Return ``d offset / dx`` of the chain whose offset is 1 at the free end.
+    """Return ``d offset / dx`` of `shape`, ``-1 / height`` at the free end.
 
     Parameters
     ----------
-    x : array_like
-        Distance from the free end, from 0 to `length`.
-    mode : array_like of int
-        Mode, counted from 1.
-    tip : array_like
-        Length of chain that weighs as much as the particle, from 0 to 1e250 lengths.
-    length : array_like, optional
-        Length of the chain, positive.
+    x, mode, tip, length : array_like
+        As in `shape`.
 
     Returns
     -------
     float or ndarray
-        Broadcast shape, ``-1 / height`` at the free end. Accuracy that of `shape`, of the largest slope.
-
-    Raises
-    ------
-    ValueError
-        If a number is out of its range or `mode` not whole.
-
-    Notes
-    -----
-    The chain of Greenhill (1908) section 4: heights are the zeros of ``Y2(a) J0(b) - J2(a) Y0(b)``,
-    ``a = 2 sqrt(tip / height)``, ``b = 2 sqrt((tip + length) / height)``.
+        Broadcast shape. Accuracy and cost are those of `shape`, of the largest slope.
 
     Examples
     --------
@@ -154,26 +117,14 @@ def nodes(mode: int, *, tip: float, length: float = 1.0) -> Floats:
     Parameters
     ----------
     mode : int
-        Mode, counted from 1.
-    tip : float
-        Length of chain that weighs as much as the particle, from 0 to 1e250 lengths.
-    length : float, optional
-        Length of the chain, positive.
+        From 1.
+    tip, length : float
+        As in `conical_heights`.
 
     Returns
     -------
     ndarray, shape (mode - 1,)
-        Distances from the free end, ascending, the support left out, within 1e-15 of `length`. Cost O(mode).
-
-    Raises
-    ------
-    ValueError
-        If `mode` is below 1 or another number out of its range.
-
-    Notes
-    -----
-    The chain of Greenhill (1908) section 4: heights are the zeros of ``Y2(a) J0(b) - J2(a) Y0(b)``,
-    ``a = 2 sqrt(tip / height)``, ``b = 2 sqrt((tip + length) / height)``.
+        Distances from the free end, ascending, without the support, within 1e-15 of `length`. Cost O(mode).
 
     Examples
     --------
@@ -183,4 +134,4 @@ def nodes(mode: int, *, tip: float, length: float = 1.0) -> Floats:
     """
     place = "revchain.tip_mass.nodes"
     chain = _chain(place, real(place, "tip", tip), real(place, "length", length))
-    return _core.tip_mass_nodes(checked_count(place, "mode", mode, each=8), float(chain["length"]), float(chain["tip"]))
+    return _core.tip_mass_nodes(checked_count(place, "mode", mode, each=8), *map(float, chain.values()))

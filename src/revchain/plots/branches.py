@@ -19,7 +19,12 @@ if TYPE_CHECKING:
 
 QUANTITIES = {
     "tip_inclination": "tip inclination (degrees)",
-    "tip_radius": "tip radius (unit of the lengths)",
+    "tip_radius": "tip radius (m)",
+    "top_tension": "tension at the support (N)",
+    "moment_of_inertia": "moment of inertia (kg m^2)",
+    "effective_energy": "effective energy (J)",
+}
+BY_WEIGHT = {
     "top_tension": "tension at the support (unit of the weights)",
     "moment_of_inertia": "moment of inertia (weight x length^2)",
     "effective_energy": "effective energy (weight x length)",
@@ -67,7 +72,9 @@ def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, 
             color=colour,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
         )
-    ax.set(xlabel="speed over the first critical speed", ylabel=QUANTITIES[quantity])
+    by_mass = all(branch.system.by_mass for branch in branches)
+    label = QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
+    ax.set(xlabel="speed over the first critical speed", ylabel=label)
     ax.grid(color="0.9", linewidth=0.6)
     ax.set_axisbelow(True)
     if named:

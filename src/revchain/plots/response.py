@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import integer, listed, word
-from .rigs import plot_carried
+from .modes import plot_carried
 from .style import MOST_PINS_AS_DOTS, axes_or_new, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..results.motions import Response, SmallOscillation
+    from ..results.motions import Response, Swing
 
 MOST_CURVES = 4  # of pins, unless asked
 
@@ -82,11 +82,11 @@ def _known(pins: Iterable[int], available: list[int]) -> list[int]:
     return numbers
 
 
-def plot_small_oscillation(
-    found: SmallOscillation, ax: Axes | None, kind: str, pins: Iterable[int], *, length_unit: str
+def plot_swing(
+    found: Swing, ax: Axes | None, kind: str, pins: Iterable[int]
 ) -> Axes:
-    """See `SmallOscillation.plot`."""
-    place = "SmallOscillation.plot"
+    """See `Swing.plot`."""
+    place = "Swing.plot"
     word(place, "kind", kind, ("shapes", "time"))
     size = found.system.size
     chosen = [integer(place, "pins", pin) for pin in listed(place, "pins", pins)]
@@ -102,7 +102,7 @@ def plot_small_oscillation(
             name = "free end" if pin == 0 else f"pin {pin}"
             ax.plot(found.time[order][kept], y[kept], color=f"C{number % 10}", linewidth=1.2, label=name)
         ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
-        ax.set(xlabel="time (s)", ylabel=f"from the axis ({length_unit})")
+        ax.set(xlabel="time (s)", ylabel="distance from the axis (m)")
         if chosen:
             ax.legend()
         return ax
@@ -126,7 +126,7 @@ def plot_small_oscillation(
         )
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
     ax.set_ylim(1.03 * depth[0], -0.03 * depth[0])
-    ax.set(xlabel=f"from the axis ({length_unit}), own scale", ylabel=f"depth below the support ({length_unit})")
+    ax.set(xlabel="distance from the axis (m), own scale", ylabel="depth below the support (m)")
     if order.size <= 12:
         ax.legend(fontsize="small")
     return ax

@@ -8,88 +8,123 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..systems.numbers import word
+from ..systems.units import SI
 from .style import axes_or_new, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from ..studies.find import Block
+    from ..studies.axes import Axis
     from ..studies.plan import Plan
+    from ..studies.points import Block
     from ..studies.result import SweepResult
 
-MOST_CURVES = 10
+MAX_CURVES = 10
+UNITS = {"speed": "rad/s", "height": "m", "inclination": "rad", "offset": "m", "tension": "N", "force": "N"}
+BANDS = ((5, 95, 0.15), (25, 75, 0.3))  # percentiles, and how dark
 
 
 def why_not_drawn(plan: Plan) -> str:
     """A sentence where a study has no picture; known before anything is computed."""
-    names = [axis.name for axis in plan.axes]
-    if len(names) > 2 and plan.shape != (plan.samples,):
-        return f"draws one or two numbers, or random ones only, and {len(names)} vary: {', '.join(names)}"
-    words = [axis.name for axis in plan.axes if axis.values is not None and axis.values.dtype.kind not in "fi"]
+    grids = [axis for axis in plan.axes if axis.values is not None]
+    if len(grids) > 2:
+        return f"draws at most two grids, and there are {len(grids)}: {', '.join(axis.name for axis in grids)}"
+    words = [axis.name for axis in grids if axis.values is not None and axis.values.dtype.kind not in "fi"]
     return f"draws numbers, not words, and {words[0]} is one" if words else ""
 
 
 def plot_sweep(result: SweepResult, name: str | None, ax: Axes | None) -> Axes:
-    """Curves over one number, dots over a random one, a map over two grids, a histogram of more random ones."""
-    place = "revchain.SweepResult.plot"
-    blocks = {block.name: block for block in result._plan.blocks}
+    """Curves over one grid, a map over two, with bands or medians of random numbers; histograms of these alone."""
+    place, plan = "revchain.SweepResult.plot", result._plan
+    blocks = {block.name: block for block in plan.blocks}
     name = next(iter(blocks)) if name is None else name
     word(place, "name", name, blocks)
-    axes = result._plan.axes
-    if reason := why_not_drawn(result._plan):
+    if reason := why_not_drawn(plan):
         raise ValueError(f"{place}: {reason}")
-    values = result[name].reshape(len(result), -1).astype(float)
+    block = blocks[name]
+    grids = [axis for axis in plan.axes if axis.values is not None]
+    random = len(grids) < len(plan.axes)
+    values = result[name].astype(float).reshape(*plan.shape, -1)[..., :MAX_CURVES]
     ax = axes_or_new(ax, 6.4, 4.8)
-    if len(axes) > 2:
-        return _histogram(values, _labels(blocks[name]), name, ax)
-    one = axes[0]
-    ax.set_xlabel(plain(one.name))
-    if _log(one.values):
+    if not grids:
+        return _histograms(values, block, ax)
+    ax.set_xlabel(_label_of_axis(grids[0]))
+    if _is_log(grids[0]):
         ax.set_xscale("log")
-    if len(axes) == 1:
-        mark = "." if one.values is None else "-"
-        for k, label in enumerate(_labels(blocks[name])):
-            ax.plot(result[one.name], values[:, k], mark, label=label)
-        ax.set_ylabel(name.replace("_", " "))
-        if values.shape[1] > 1:
-            ax.legend()
-        return ax
-    two = axes[1]
-    ax.set_ylabel(plain(two.name))
-    if _log(two.values):
+    if len(grids) == 1:
+        return _curves(grids[0], values, block, random, ax)
+    ax.set_ylabel(_label_of_axis(grids[1]))
+    if _is_log(grids[1]):
         ax.set_yscale("log")
-    drawn: Any
-    if one.values is not None and two.values is not None:
-        drawn = ax.pcolormesh(one.values, two.values, values[:, 0].reshape(result.shape).T, shading="nearest")
-    else:
-        drawn = ax.scatter(result[one.name], result[two.name], c=values[:, 0], s=6)
-    first = f"{name.replace('_', ' ')}, {_labels(blocks[name])[0]}" if blocks[name].along else name
-    ax.figure.colorbar(drawn, ax=ax, label=first)
+    shown = np.median(values[..., 0], axis=-1) if random else values[..., 0]
+    drawn = ax.pcolormesh(_numbers(grids[0]), _numbers(grids[1]), shown.T, shading="nearest")
+    first = f", {block.along} {block.labels[0]}" if block.along else ""
+    ax.figure.colorbar(drawn, ax=ax, label=f"{'median of ' if random else ''}{_label(block)}{first}")
+    return ax
+
+
+def _curves(axis: Axis, values: np.ndarray[Any, Any], block: Block, random: bool, ax: Axes) -> Axes:
+    """A curve for each mode, or the median of random numbers with bands of percentiles."""
+    at = _numbers(axis)
+    for k, label in enumerate(_labels(block)):
+        colour = f"C{k}"
+        if random:
+            for low, high, alpha in BANDS:
+                ends = np.nanpercentile(values[..., k], [low, high], axis=1)
+                ax.fill_between(at, *ends, color=colour, alpha=alpha, linewidth=0)
+            ax.plot(at, np.nanmedian(values[..., k], axis=1), color=colour, label=label)
+        else:
+            ax.plot(at, values[:, k], color=colour, label=label)
+    ax.set_ylabel(_label(block))
+    if random:
+        ax.legend(title="median; 25 to 75 % and\n5 to 95 % of the points", fontsize="small", title_fontsize="small")
+    elif values.shape[-1] > 1:
+        ax.legend()
+    return ax
+
+
+def _histograms(values: np.ndarray[Any, Any], block: Block, ax: Axes) -> Axes:
+    """How each column scatters about its median."""
+    for k, label in enumerate(_labels(block)):
+        found = values[:, k][np.isfinite(values[:, k])]
+        if found.size and (median := np.median(found)):
+            low, high = np.percentile(found, [5, 95])
+            text = f"{label}: median {median:.4g}\n5 to 95 %: {low:.4g} to {high:.4g}"
+            bins = min(max(found.size // 100, 10), 50)
+            ax.hist(100 * (found / median - 1), bins, density=True, histtype="step", color=f"C{k}", label=text)
+    ax.set(xlabel=f"{_label(block)}, % from its median", ylabel="share of the points per %")
+    if ax.has_data():
+        ax.legend(fontsize="small")
     return ax
 
 
 def _labels(block: Block) -> list[str]:
     """Of the curves that are drawn of it."""
-    return [f"{block.along} {label}" for label in block.labels[:MOST_CURVES]] if block.along else [block.name]
+    return [f"{block.along} {label}" for label in block.labels[:MAX_CURVES]] if block.along else [block.name]
 
 
-def _histogram(values: np.ndarray, labels: list[str], name: str, ax: Axes) -> Axes:
-    """How each column scatters about its mean."""
-    for column, label in zip(values.T, labels, strict=False):
-        found = column[np.isfinite(column)]
-        if found.size and (mean := found.mean()):
-            deviation = 100 * (found / mean - 1)
-            bins = min(max(found.size // 100, 10), 120)
-            ax.hist(deviation, bins, density=True, histtype="step", label=f"{label}, mean {mean:.4g}")
-    ax.set(xlabel=f"{name.replace('_', ' ')}, % from its mean", ylabel="share of the points, 1/%")
-    if ax.has_data():
-        ax.legend()
-    return ax
+def _label(block: Block) -> str:
+    """Name and unit."""
+    unit = UNITS.get(block.name.rpartition("_")[2], "")
+    return block.name.replace("_", " ") + (f" ({unit})" if unit else "")
 
 
-def _log(values: np.ndarray | None) -> bool:
+def _label_of_axis(axis: Axis) -> str:
+    """Name and unit of what varied."""
+    unit = SI[axis.quantity][0] if axis.is_number and axis.path[-1] != "exponent" else ""
+    return plain(axis.name) + (f" ({unit})" if unit else "")
+
+
+def _numbers(axis: Axis) -> np.ndarray[Any, Any]:
+    """Values of a grid."""
+    assert axis.values is not None
+    return axis.values
+
+
+def _is_log(axis: Axis) -> bool:
     """Whether a grid goes in equal ratios."""
-    if values is None or values.size < 3 or not (values > 0).all():
+    values = _numbers(axis)
+    if values.size < 3 or not (values > 0).all():
         return False
     ratios = values[1:] / values[:-1]
     return bool(ratios[0] != 1 and np.allclose(ratios, ratios[0], rtol=1e-6))

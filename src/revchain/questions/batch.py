@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import Floats, link_arrays
+from ..systems.numbers import Floats, link_arrays, mass_or_weight
 from ..systems.numbers import count as checked_count
 
 _PLACE = "revchain.conical_heights"
@@ -17,7 +17,8 @@ _PLACE = "revchain.conical_heights"
 
 def conical_heights(
     *,
-    weight: ArrayLike,
+    mass: ArrayLike | None = None,
+    weight: ArrayLike | None = None,
     length: ArrayLike,
     centroid: ArrayLike | None = None,
     pendulum_length: ArrayLike | None = None,
@@ -32,13 +33,13 @@ def conical_heights(
 
     Parameters
     ----------
-    weight : array_like, shape (..., N)
-        Weight of each link, not negative; the lowest must be positive, 0 is a massless thread.
+    mass, weight : array_like, shape (..., N)
+        Mass of each link, kg, or its weight, not negative; the lowest must be positive, 0 is a massless thread.
     length : array_like, shape (..., N)
-        Distance between the pins of each link, positive.
+        Distance between the pins of each link, m, positive.
     centroid : array_like, shape (..., N), optional
         Distance of the centre of gravity from the *upper* pin, positive downwards, of any sign.
-        Left out: plummets, with all the weight at the lower pin.
+        Left out: point masses, with all the weight at the lower pin.
     pendulum_length : array_like, shape (..., N), optional
         Length of the equivalent simple pendulum about the upper pin.
     radius_of_gyration : array_like, shape (..., N), optional
@@ -78,17 +79,18 @@ def conical_heights(
 
     Examples
     --------
-    Two plummets on a thread, the lower one heavier and heavier:
+    Two point masses on a thread, the lower one heavier and heavier:
 
     >>> import revchain as rc
-    >>> rc.conical_heights(weight=[[1.0, 3.0], [2.0, 2.0], [3.0, 1.0]], length=1.0).round(3)
+    >>> rc.conical_heights(mass=[[1.0, 3.0], [2.0, 2.0], [3.0, 1.0]], length=1.0).round(3)
     array([[1.5  , 0.5  ],
            [1.707, 0.293],
            [1.866, 0.134]])
     """
+    _, heavy = mass_or_weight(_PLACE, mass, weight)
     arrays = link_arrays(
         _PLACE,
-        weight=weight,
+        weight=heavy,
         length=length,
         centroid=centroid,
         pendulum_length=pendulum_length,

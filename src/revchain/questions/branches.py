@@ -9,6 +9,8 @@ from .. import _core
 from ..results.branches import Branch, Branches, branches_made
 from ..results.shapes import SteadyShape
 from ..systems.chain import Chain, compiled
+from ..systems.cord import Cord
+from ..systems.held import Held
 from ..systems.numbers import (
     STANDARD_GRAVITY,
     boolean,
@@ -18,14 +20,22 @@ from ..systems.numbers import (
     limit,
     one_positive,
 )
+from ..systems.rig import Rig
+from .refuse import refuse_other
+
+_OTHERS = {
+    Rig: "ask steady_shapes at the speeds wanted",
+    Cord: "ask the branches of its chain: cord.chain(10)",
+    Held: "ask steady_shapes at the speeds wanted",
+}
 
 
 def branch(
-    chain: Chain,
+    system: Chain,
     mode: int,
     *,
-    conical_height: float | None = None,
-    angular_speed: float | None = None,
+    max_angular_speed: float | None = None,
+    min_conical_height: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     max_points: int = 10_000,
     max_step: float = 0.1,
@@ -34,16 +44,16 @@ def branch(
 
     Parameters
     ----------
-    chain : Chain
+    system : Chain
         The chain of N links.
     mode : int
         Number of the mode, from 1, the slowest.
-    conical_height : float
-        Where to stop: at the first point of this conical height, less than that of the mode.
-    angular_speed : float
-        Instead of `conical_height`: the speed in rad/s at which to stop.
+    max_angular_speed : float
+        Where to stop: at the first point of this speed, rad/s, above that of the mode.
+    min_conical_height : float
+        Instead of `max_angular_speed`: the conical height at which to stop, m.
     gravity : float, optional
-        For `angular_speed`; standard gravity, in metres, if left out.
+        In m/s^2; standard gravity if left out.
     max_points : int, optional
         After which to stop in any case.
     max_step : float, optional
@@ -58,7 +68,7 @@ def branch(
     Raises
     ------
     ValueError
-        If there is no such mode, if not exactly one of `conical_height` and `angular_speed` is given, or if
+        If there is no such mode, if not exactly one of `max_angular_speed` and `min_conical_height` is given, or if
         the speed is not above that of the mode.
 
     Notes
@@ -71,25 +81,26 @@ def branch(
     Examples
     --------
     >>> import revchain as rc
-    >>> branch = rc.branch(rc.Chain.uniform_plummets(3, length=3.0), 3, conical_height=0.04)
+    >>> branch = rc.branch(rc.Chain.uniform_plummets(3, length=3.0), 3, min_conical_height=0.04)
     >>> branch.conical_height[[0, -1]].round(6), set(branch.half_waves.tolist())
     (array([0.158984, 0.04    ]), {3})
     """
     place = "revchain.branch"
+    refuse_other(place, system, (Chain,), _OTHERS)
     number = count(place, "mode", mode)
-    height = height_of(place, conical_height, angular_speed, gravity)
+    height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     points = count(place, "max_points", max_points)
     step = one_positive(place, "max_step", max_step)
     asked = (number, height, points, step)
-    found = _core.branch(compiled(place, chain), *asked)
-    return Branch._made(found, system=chain, gravity=one_positive(place, "gravity", gravity), asked=asked)
+    found = _core.branch(compiled(place, system), *asked)
+    return Branch._made(found, system=system, gravity=one_positive(place, "gravity", gravity), asked=asked)
 
 
 def branches(
-    chain: Chain,
+    system: Chain,
     *,
-    up_to: float | None = None,
-    conical_height: float | None = None,
+    max_angular_speed: float | None = None,
+    min_conical_height: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     lists: int = 16,
     budget: int = 2_000_000,
@@ -99,14 +110,14 @@ def branches(
 
     Parameters
     ----------
-    chain : Chain
+    system : Chain
         The chain of N links; few, as all shapes are listed (`steady_shapes`).
-    up_to : float
-        The speed, rad/s.
-    conical_height : float
-        Instead of `up_to`: the conical height down to which to go.
+    max_angular_speed : float
+        The speed up to which to go, rad/s.
+    min_conical_height : float
+        Instead of `max_angular_speed`: the conical height down to which to go, m.
     gravity : float, optional
-        For `up_to`; standard gravity, in metres, if left out.
+        In m/s^2; standard gravity if left out.
     lists : int, optional
         At how many speeds to list all shapes and bring them together with the branches.
     budget : int, optional
@@ -123,7 +134,7 @@ def branches(
     Raises
     ------
     ValueError
-        If not exactly one of `up_to` and `conical_height` is given, or a number is out of its range.
+        If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range.
 
     Notes
     -----
@@ -140,7 +151,7 @@ def branches(
     Examples
     --------
     >>> import revchain as rc
-    >>> diagram = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), up_to=5.0, gravity=1.0)
+    >>> diagram = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), max_angular_speed=5.0, gravity=1.0)
     >>> len(diagram), diagram.consistent, diagram.complete
     (4, True, True)
     >>> born = diagram[3]
@@ -148,17 +159,18 @@ def branches(
     np.float64(3.9037621569)
     """
     place = "revchain.branches"
-    height = height_of(place, conical_height, up_to, gravity, speed_name="up_to")
+    refuse_other(place, system, (Chain,), _OTHERS)
+    height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     at = min(count(place, "lists", lists), 10**6)
     most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
     asked = (height, at, most, most_of_proof)
-    found = _core.branches(compiled(place, chain), *asked)
-    return branches_made(found, chain, one_positive(place, "gravity", gravity), asked)
+    found = _core.branches(compiled(place, system), *asked)
+    return branches_made(found, system, one_positive(place, "gravity", gravity), asked)
 
 
 @overload
 def steady_shape(
-    chain: Chain,
+    system: Chain,
     *,
     mode: int = ...,
     conical_height: float | None = ...,
@@ -172,7 +184,7 @@ def steady_shape(
 ) -> SteadyShape: ...
 @overload
 def steady_shape(
-    chain: Chain,
+    system: Chain,
     *,
     mode: int = ...,
     conical_height: float | None = ...,
@@ -185,7 +197,7 @@ def steady_shape(
     min_conical_height: float | None = ...,
 ) -> tuple[SteadyShape, ...]: ...
 def steady_shape(
-    chain: Chain,
+    system: Chain,
     *,
     mode: int = 1,
     conical_height: float | None = None,
@@ -194,14 +206,14 @@ def steady_shape(
     tip_radius: float | None = None,
     top_tension: float | None = None,
     gravity: float = STANDARD_GRAVITY,
-    all: bool = False,  # noqa: A002: the word the question is asked in
+    all: bool = False,
     min_conical_height: float | None = None,
 ) -> SteadyShape | tuple[SteadyShape, ...]:
     """Find the shape on the branch of one mode at a speed, or the speed at which the shape is as wanted.
 
     Parameters
     ----------
-    chain : Chain
+    system : Chain
         The chain of N links, up to 100,000 and more.
     mode : int, optional
         At which the branch leaves the vertical, from 1, the slowest.
@@ -216,7 +228,7 @@ def steady_shape(
     top_tension : float
         Instead: the size of the reaction at the support, more than the weight of the chain.
     gravity : float, optional
-        For `angular_speed`; standard gravity, in metres, if left out.
+        In m/s^2; standard gravity if left out.
     all : bool, optional
         All states met along the branch, in a tuple, not the first from the vertical alone; the tuple
         is empty where none is met.
@@ -255,6 +267,7 @@ def steady_shape(
     20.0
     """
     place = "revchain.steady_shape"
+    refuse_other(place, system, (Chain,), _OTHERS)
     number = count(place, "mode", mode)
     name, value = exactly_one(
         place,
@@ -265,14 +278,19 @@ def steady_shape(
         top_tension=top_tension,
     )
     g = one_positive(place, "gravity", gravity)
+    if name == "top_tension":
+        least = system._force(g) * system._compiled.total_weight
+        if not value > least:
+            raise ValueError(f"{place}: top_tension must be more than the weight {least:.6g} of the chain, got {value:g}")
+        value /= system._force(g)
     every = boolean(place, "all", all)
     lowest = None if min_conical_height is None else one_positive(place, "min_conical_height", min_conical_height)
-    core = compiled(place, chain)
+    core = compiled(place, system)
     if not every:
-        return _shape(_core.steady_shape(core, number, name, value, g, lowest), chain, g)
+        return _shape(_core.steady_shape(core, number, name, value, g, lowest), system, g)
     found = _core.shapes_on_branch(core, number, name, value, g, lowest)
-    return tuple(_shape(shape, chain, g) for shape in found)
+    return tuple(_shape(shape, system, g) for shape in found)
 
 
-def _shape(found: _core.SteadyShape, chain: Chain, gravity: float) -> SteadyShape:
-    return SteadyShape._made(found, system=chain, gravity=gravity, direction=1)
+def _shape(found: _core.SteadyShape, system: Chain, gravity: float) -> SteadyShape:
+    return SteadyShape._made(found, system=system, gravity=gravity, direction=1)

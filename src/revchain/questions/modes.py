@@ -6,11 +6,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, Literal, overload
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.modes import Modes, RigModes
+from ..results.modes import CordModes, Modes, RigModes
 from ..systems.chain import Chain, compiled
+from ..systems.cord import Cord
+from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, one_positive, positive, real, shown, together
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import word as checked_word
@@ -37,8 +40,30 @@ def modes(
 def modes(
     system: Rig, count: int | Literal["all"] | None = ..., *, first: int = ..., gravity: float = ...
 ) -> RigModes: ...
+@overload
 def modes(
-    system: Chain | Rig,
+    system: Cord,
+    count: int | None = ...,
+    *,
+    first: int = ...,
+    conical_height: Pair | None = ...,
+    angular_speed: Pair | None = ...,
+    rtol: float | None = ...,
+    gravity: float = ...,
+) -> CordModes: ...
+@overload
+def modes(
+    system: Held,
+    count: int | Literal["all"] | None = ...,
+    *,
+    first: int = ...,
+    conical_height: Pair | None = ...,
+    angular_speed: Pair | None = ...,
+    rtol: float | None = ...,
+    gravity: float = ...,
+) -> Modes: ...
+def modes(
+    system: Chain | Rig | Cord | Held,
     count: int | Literal["all"] | None = None,
     *,
     first: int = 1,
@@ -50,15 +75,18 @@ def modes(
     precision: str = "double",
     certify: bool = False,
 ) -> Modes | RigModes:
-    """Find the modes of a system: its whirl speeds, with shapes, nodes and error bounds.
+    """Find the modes of a system: whirl speeds (critical speeds), with shapes, nodes and error bounds.
+
+    The whirl speed of small amplitude of a chain hung from a fixed point is the natural angular frequency of its swing
+    in a plane.
 
     Parameters
     ----------
-    system : Chain or Rig
-        N links, by themselves or rigged with supports, flywheels, standing links, a fluid.
+    system : Chain, Rig, Cord or Held
+        A chain of N links, by itself or rigged; a flexible cord; a chain held straight by a tension at both ends.
     count : int or "all", optional
         How many modes, slowest first: 10 if left out, or fewer where there are fewer. For a rig with flywheels, so many
-        in each direction of rotation.
+        in each direction of rotation. A cord has infinitely many.
     first : int, optional
         Number of the first mode wanted; the slowest is 1. Slower ones are not computed.
     conical_height : (low, high), optional
@@ -67,15 +95,17 @@ def modes(
         All modes with ``low <= whirl speed < high`` instead, rad/s. `low` may be 0, `high` infinite.
     rtol : float, optional
         Relative tolerance of the conical heights. The cheapest method whose bound keeps it is taken: closed form,
-        Bessel zero, coarser chain, ... (`explain` says which and why). Full accuracy, 2 ulp, if left out.
+        Bessel zero, coarser chain, ... (`explain` says which and why); below 2 ulp it is double-double, whose heights
+        are ``conical_height + conical_height_low``. Full accuracy in double, 2 ulp, if left out.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
-    method : {"bisection", "condensed", "aberth", "interpolated", "dense", "recurrence"}, optional
+    method : str, optional
         ``"bisection"`` counts the modes above a height and halves intervals: any modes of any chain, to 2 ulp.
         ``"condensed"`` condenses a long chain first: some of its slowest modes, to 2 ulp. ``"aberth"`` finds all modes
         of a small chain at once. ``"interpolated"`` interpolates the characteristic polynomial: many modes. Where they
         cannot, bisection is used; ``method`` of the result says so. ``"dense"`` solves the assembled pencil and
-        ``"recurrence"`` relation (21) as printed: references for small chains. The cheapest if left out.
+        ``"recurrence"`` relation (21) as printed: references for small chains. Any other name that `explain` lists is
+        that method, whatever it costs. The cheapest if left out.
     precision : {"double", "single", "extended", "double-double"}
         The arithmetic of the result. ``"single"``: the chain's numbers and the window are ROUNDED to float32 first, and
         results are float32. ``"extended"``: results are of numpy's longdouble, which has 64 bits on x86-64 and on some
@@ -87,7 +117,7 @@ def modes(
 
     Returns
     -------
-    Modes or RigModes
+    Modes, RigModes or CordModes
         ``status`` is ``"tolerance_not_met"`` where `rtol` is smaller than what was reached; ``error_bound`` says what
         was. An empty window gives no modes.
 
@@ -96,8 +126,10 @@ def modes(
     ValueError
         If the modes asked for are not there or are given twice, a window is none, `rtol` is NaN or negative, or
         `method` or `precision` unknown. For a rig if anything but `count`, `first` and `gravity` is given; for a rig of
-        more than 200 links whose speeds may be complex (links that stand or driven wheels together with momentum,
-        floats in fluid that turns).
+        more than 200 links whose speeds may be complex (inverted links or driven wheels together with momentum,
+        floats in fluid that turns). For a held system unless it is a chain under a tension that exceeds its weight.
+    TypeError
+        If `system` is none of these.
 
     Notes
     -----
@@ -127,8 +159,11 @@ def modes(
     array([22.583, 30.772, 38.964])
     >>> rc.modes(rods, 3, rtol=0.01).method
     'continuous chain'
-    >>> rc.modes(rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)).angular_speed.round(3)
+    >>> top = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.5))
+    >>> rc.modes(top).angular_speed.round(3)
     array([-2.47,  3.97])
+    >>> rc.modes(rc.Held(rc.Chain.uniform_rods(50, length=1.0), tension=11.0), 2).angular_speed.round(2)
+    array([31.87, 63.78])
     """
     return find_modes(
         system,
@@ -144,12 +179,15 @@ def modes(
     )
 
 
+_DOUBLE = "double"
+FULL = 4.4432e-16  # 2 ulp: what full accuracy in double is sure to keep
+METHODS = tuple(name for name in dict.fromkeys((*_core.METHODS[1:], *_core.MODELS)) if name != "finite amplitude")
 _DEFAULTS: dict[str, Any] = {"conical_height": None, "angular_speed": None, "rtol": None, "method": None}
 _DEFAULTS |= {"precision": "double", "certify": False}
 
 
 def find_modes(
-    system: Chain | Rig,
+    system: Chain | Rig | Cord | Held,
     count: int | Literal["all"] | None = None,
     *,
     first: int = 1,
@@ -161,44 +199,120 @@ def find_modes(
     precision: str = "double",
     certify: bool = False,
     progress: _core.Progress | None = None,
-) -> Modes | RigModes:
+) -> Modes | RigModes | CordModes:
     """`modes`, watched: `progress` tells how far it is and can cancel it from another thread."""
     place = "revchain.modes"
     g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(place, "gravity", gravity)
-    start = checked_count(place, "first", first)
-    windows = {"conical_height": conical_height, "angular_speed": angular_speed}
-    named = [name for name, window in windows.items() if window is not None]
-    if len(named) > 1 or (named and (count is not None or start != 1)):
-        others = [name for name, there in (("count", count is not None), ("first", start != 1)) if there]
-        both = " and ".join([*named, *others])
-        raise ValueError(f"{place}: give one window, or count and first, not both, got {both}")
+    start = first if type(first) is int and first == 1 else checked_count(place, "first", first)
+    if conical_height is not None or angular_speed is not None:
+        _refuse_two_choices(place, conical_height, angular_speed, count, start)
     if isinstance(system, Rig):
-        asked = {**windows, "rtol": rtol, "method": method, "precision": precision, "certify": certify}
-        _refuse_for_rigs(place, asked)
-        of_rig = _core.rig_modes(system._compiled, start, _count(place, count, 10), g, progress)
+        asked = {"conical_height": conical_height, "angular_speed": angular_speed, "rtol": rtol, "method": method, "precision": precision, "certify": certify}
+        _refuse(place, asked, "is for a Chain; the modes of a Rig are chosen by count and first")
+        of_rig = _core.rig_modes(system._under(g), start, _count(place, count, 10), g, progress)
         found = RigModes._made(of_rig, system=system, gravity=g)
         if start > max(1, *found.available):
             raise ValueError(f"{place}: there are {max(found.available)} modes in a direction, got first = {start}")
         return found
-    if not isinstance(system, Chain):
-        raise TypeError(f"{place}: system must be a revchain.Chain or Rig, got {shown(system)}")
-    core = compiled(place, system)
-    wanted: int | None = None
     heights = speeds = None
     if conical_height is not None:
         heights = _window(place, "conical_height", conical_height)
     elif angular_speed is not None:
         speeds = (*_window(place, "angular_speed", angular_speed), g)
-    else:
-        wanted = _count(place, count, max(min(10, core.mode_count - start + 1), 1))
     if rtol is not None:
         rtol = real(place, "rtol", rtol)
-    if method is not None:
-        checked_word(place, "method", method, _core.METHODS[1:])
-    checked_word(place, "precision", precision, _core.PRECISIONS)
-    certify = boolean(place, "certify", certify)
+    if not isinstance(system, Chain):
+        asked = {"method": method, "precision": precision, "certify": certify}
+        return _of_cord_or_held(place, system, count, start, heights, speeds, rtol, g, asked, progress)
+    core = compiled(place, system)
+    wanted: int | None = None
+    if heights is None and speeds is None:
+        wanted = _count(place, count, max(min(10, core.mode_count - start + 1), 1)) or max(core.mode_count - start + 1, 1)
+    if precision is not _DOUBLE:
+        checked_word(place, "precision", precision, _core.PRECISIONS)
+    if certify is not False:
+        certify = boolean(place, "certify", certify)
+    if rtol is not None and 0 < rtol <= FULL and method is None and wanted and precision == "double" and not certify:
+        method = "double-double"  # no method in double keeps it
+    if method is not None and not (isinstance(method, str) and method in _core.METHODS[1:]):
+        checked_word(place, "method", method, METHODS)
+        if wanted is None or precision != "double" or certify:
+            raise ValueError(f"{place}: method {method!r} goes with count, first and rtol alone")
+        tolerance = FULL / 2 if method == "double-double" and rtol is None else rtol or 0.0
+        of_model = _core.solve_by(core, start, wanted, tolerance, 0.0, method)
+        return _by_model(of_model, system, g, rtol, start)
     of_chain = _core.modes(core, start, wanted, heights, speeds, rtol, certify, precision, method or "auto", progress)
     return Modes._made(of_chain, system=system, gravity=g, precision=precision, rtol=rtol)
+
+
+def _refuse_two_choices(place: str, height: Any, speed: Any, count: Any, first: int) -> None:
+    given = {"conical_height": height is not None, "angular_speed": speed is not None}
+    named = [name for name, there in {**given, "count": count is not None, "first": first != 1}.items() if there]
+    if len(named) > 1:
+        raise ValueError(f"{place}: give one window, or count and first, not both, got {' and '.join(named)}")
+
+
+def _by_model(found: tuple[Any, ...], chain: Chain, gravity: float, rtol: float | None, first: int) -> Modes:
+    height, bound, low, method, status = found
+    if not len(height):
+        raise ValueError(f"revchain.modes: method {method!r} does not apply to this chain; explain says why")
+    given: dict[str, Any] = {"conical_height": height, "error_bound": bound, "conical_height_low": low}
+    given |= {"number": np.arange(first, first + len(height)), "certificate": None, "method": method}
+    given |= {"status": "success" if rtol is None else status, "precision": "double" if low is None else "double-double"}
+    return Modes._made(None, system=chain, gravity=gravity, rtol=rtol, **given)
+
+
+def _of_cord_or_held(
+    place: str,
+    system: Cord | Held,
+    count: int | str | None,
+    first: int,
+    heights: Pair | None,
+    speeds: tuple[float, float, float] | None,
+    rtol: float | None,
+    gravity: float,
+    asked: dict[str, Any],
+    progress: _core.Progress | None,
+) -> Modes:
+    if isinstance(system, Cord):
+        _refuse(place, asked, "is for a Chain; the heights of a Cord have closed forms or power series")
+        if count == "all":
+            raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
+        wanted = None if heights or speeds else _count(place, count, 10)
+        of_cord = _core.cord_modes(system._under(gravity), first, wanted, heights, speeds, rtol, progress)
+        return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
+    if not isinstance(system, Held):
+        raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+    _refuse(place, asked, "is for a Chain that hangs")
+    core = straight(place, system, gravity)
+    wanted = None if heights or speeds else _count(place, count, max(min(10, system.mode_count - first + 1), 1))
+    of_held = _core.held_modes(core, first, wanted, heights, speeds, rtol, progress)
+    return Modes._made(of_held, system=system, gravity=gravity, precision="double", rtol=rtol)
+
+
+def straight(place: str, held: Held, gravity: float) -> _core.Held:
+    """A chain that a tension holds straight."""
+    if isinstance(held.system, Cord):
+        raise ValueError(
+            f"{place}: modes of a cord under tension are not available; cut it into links: "
+            "Held(cord.chain(1000), tension=...)"
+        )
+    if held.span is not None:
+        raise ValueError(
+            f"{place}: a chain whose ends are a span apart is bent, and has no modes of the straight chain; ask "
+            f"steady_shapes, and stability of a shape, got span {held.span:g}"
+        )
+    if held.weightless:
+        raise ValueError(
+            f"{place}: modes are given as conical heights, of which there are none without gravity; leave out weightless"
+        )
+    least = held._force(gravity) * held.system._compiled.total_weight
+    if held.tension is not None and not held.tension > least:
+        raise ValueError(
+            f"{place}: tension at the upper end must exceed the weight {least:.6g} of the chain, or its lower part is "
+            f"slack, got {held.tension:g}"
+        )
+    return held._under(gravity)
 
 
 def _count(place: str, count: int | str | None, default: int) -> int | None:
@@ -212,18 +326,16 @@ def _count(place: str, count: int | str | None, default: int) -> int | None:
     return checked_count(place, "count", count)
 
 
-def _refuse_for_rigs(place: str, given: dict[str, Any]) -> None:
+def _refuse(place: str, given: dict[str, Any], reason: str) -> None:
     """Raise a ValueError for options that are for chains only."""
     for name, value in given.items():
         if value is not _DEFAULTS[name] and not (isinstance(value, str) and value == _DEFAULTS[name]):
-            raise ValueError(
-                f"{place}: {name} is for a Chain; the modes of a Rig are chosen by count and first, got {shown(value)}"
-            )
+            raise ValueError(f"{place}: {name} {reason}, got {shown(value)}")
 
 
 def _window(place: str, name: str, window: object) -> Pair:
     """The two ends of a window; whether they make one is checked where it is used."""
-    if isinstance(window, str) or not isinstance(window, Iterable):
+    if isinstance(window, str | set | dict) or not isinstance(window, Iterable) or getattr(window, "ndim", 1) == 0:
         raise ValueError(f"{place}: {name} must be a pair (low, high), got {shown(window)}")
     ends = [real(place, f"{name} (each end)", end) for end in window]
     if len(ends) != 2:
@@ -232,29 +344,31 @@ def _window(place: str, name: str, window: object) -> Pair:
 
 
 def count_modes(
-    chain: Chain,
+    system: Chain | Rig | Cord | Held,
     *,
     conical_height: ArrayLike | None = None,
     angular_speed: ArrayLike | None = None,
     gravity: ArrayLike = STANDARD_GRAVITY,
 ) -> Any:
-    """Count the conical heights above a height, which is the whirl speeds below a speed.
+    """Count the whirl speeds below a speed, which are the conical heights above a height.
 
     Parameters
     ----------
-    chain : Chain
-        The chain of N links.
+    system : Chain, Rig, Cord or Held
+        A chain of N links, a cord, or a chain held straight by a tension. The modes of a rig are all found and counted.
     conical_height : array_like, optional
-        Heights in the unit of the chain's lengths, positive, any shape.
+        Heights, m, positive, any shape.
     angular_speed : array_like, optional
         Speeds in rad/s, positive, any shape. Give either this or `conical_height`.
     gravity : array_like, optional
-        Acceleration of gravity, broadcast against `angular_speed`; standard gravity if left out.
+        Acceleration of gravity, broadcast against `angular_speed`; standard gravity if left out. One number for a rig
+        and for what is held.
 
     Returns
     -------
     numpy.int64 or ndarray of int64
-        How many modes are slower than each speed given; shape of the argument.
+        How many modes are slower than each speed given; shape of the argument. Of a rig with flywheels, those of both
+        directions.
 
     Raises
     ------
@@ -263,8 +377,9 @@ def count_modes(
 
     Notes
     -----
-    Sylvester's law of inertia, in rounded arithmetic with a proof, and in twice the digits where
-    the proof fails: the count is that of the numbers stored. Cost O(N) for each number.
+    Chains: Sylvester's law of inertia, in rounded arithmetic with a proof, and in twice the digits where
+    the proof fails: the count is that of the numbers stored. Cost O(N) for each number. Cords: heights within the error
+    bound of `modes` of the one given may be counted on either side.
 
     Examples
     --------
@@ -278,13 +393,29 @@ def count_modes(
     place = "revchain.count_modes"
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give either conical_height or angular_speed")
-    core = compiled(place, chain)
+    if isinstance(system, Chain):
+        core = compiled(place, system)
+        if conical_height is not None:
+            positive(place, "gravity", gravity)
+            return _core.count_modes(core, floats(place, "conical_height", conical_height))[()]
+        assert angular_speed is not None
+        speed = floats(place, "angular_speed", angular_speed)
+        speed, each = together(place, angular_speed=speed, gravity=positive(place, "gravity", gravity))
+        return _core.count_modes_at_speed(core, speed, each)[()]
+    g = one_positive(place, "gravity", gravity)
     if conical_height is not None:
-        return _core.count_modes(core, floats(place, "conical_height", conical_height))[()]
-    assert angular_speed is not None
-    speed = floats(place, "angular_speed", angular_speed)
-    speed, g = together(place, angular_speed=speed, gravity=positive(place, "gravity", gravity))
-    return _core.count_modes_at_speed(core, speed, g)[()]
+        height = positive(place, "conical_height", conical_height)
+    else:
+        assert angular_speed is not None
+        height = g / positive(place, "angular_speed", angular_speed) ** 2
+    if isinstance(system, Cord):
+        return _core.count_cord_modes(system._under(g), height)[()]
+    if isinstance(system, Held):
+        return _core.count_held_modes(straight(place, system, g), height)[()]
+    if isinstance(system, Rig):
+        every = np.sort(modes(system, "all", gravity=g).conical_height)
+        return (every.size - np.searchsorted(every, height, side="right"))[()]
+    raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
 
 
 def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:

@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..results.motions import SWING, Response, SmallOscillation
+from ..results.motions import SWING, Response, Swing
 from ..systems.chain import Chain, compiled
+from ..systems.cord import Cord
+from ..systems.held import Held
 from ..systems.numbers import (
     STANDARD_GRAVITY,
     Floats,
@@ -23,10 +27,11 @@ from ..systems.numbers import (
     shown,
 )
 from ..systems.rig import Rig
+from .refuse import refuse_other
 
 
 def response(
-    chain: Chain | Rig,
+    system: Chain | Rig,
     *,
     conical_height: ArrayLike | None = None,
     angular_speed: ArrayLike | None = None,
@@ -34,17 +39,17 @@ def response(
     support_radius: float | None = None,
     pins: ArrayLike | None = None,
 ) -> Response:
-    """Find the steady motion of a chain whose support is carried round a small circle, or to and fro.
+    """Find the forced motion (base excitation) of a chain whose support is carried round a small circle, or to and fro.
 
     Parameters
     ----------
-    chain : Chain or Rig
+    system : Chain or Rig
         The chain of N links, or one rigged with a spring at its support (the spring's place of rest is then
-        carried round), flywheels, standing links, a fluid.
+        carried round), flywheels, inverted links, a fluid.
     conical_height : array_like, optional
-        Heights ``gravity / angular_speed**2``, in the unit of the chain's lengths, of any shape.
+        Heights ``gravity / angular_speed**2``, m, of any shape.
     angular_speed : array_like, optional
-        Instead: speeds in rad/s, positive; negative, too, of a rig whose flywheels tell one sense
+        Instead: speeds in rad/s, positive; negative, too, of a rig whose flywheels tell one direction
         from the other.
     gravity : float, optional
         For `angular_speed`, and for flywheels; standard gravity, in metres, if left out.
@@ -64,9 +69,9 @@ def response(
     Raises
     ------
     TypeError
-        If `chain` is neither a Chain nor a Rig.
+        If `system` is none of the four systems.
     ValueError
-        If not exactly one of `conical_height` and `angular_speed` is given, for numbers that are not positive
+        For a cord and for what is held at both ends. If not exactly one of `conical_height` and `angular_speed` is given, for numbers that are not positive
         and finite or out of all proportion to the chain (1e75), and for pins there are not.
 
     Notes
@@ -96,10 +101,9 @@ def response(
     """
     place = "revchain.response"
     either_sense, own = False, 1.0
-    if isinstance(chain, Rig):
-        either_sense, own = bool(np.any(chain.momentum)), chain.support_radius or 1.0
-    elif not isinstance(chain, Chain):
-        raise TypeError(f"{place}: chain must be a revchain.Chain or a revchain.Rig, got {shown(chain)}")
+    refuse_other(place, system, (Chain, Rig), {Cord: "ask its chain: cord.chain(100)", Held: "ask steady_shapes"})
+    if isinstance(system, Rig):
+        either_sense, own = system.has_momentum, system.support.radius or 1.0
     if (conical_height is None) == (angular_speed is None):
         raise ValueError(f"{place}: give either conical_height or angular_speed")
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
@@ -118,17 +122,17 @@ def response(
         else:
             positive(place, "angular_speed", given)
         height, speed = np.asarray(_core.conical_pendulum_height(np.abs(given), np.full(given.shape, g))), given
-    which, axis = _pins(place, pins, chain.size)
+    which, axis = _pins(place, pins, system.size)
     asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g)
-    if isinstance(chain, Rig):
-        found = _core.rig_response(chain._compiled, *asked)
+    if isinstance(system, Rig):
+        found = _core.rig_response(system._under(g), *asked)
     else:
-        found = _core.response(compiled(place, chain), *asked)
+        found = _core.response(compiled(place, system), *asked)
     offset, bound, below, against, resonant, force, force_error = found
     shape = given.shape
     return Response._made(
         None,
-        system=chain,
+        system=system,
         gravity=g,
         conical_height=np.array(height),
         angular_speed=np.array(speed),
@@ -139,8 +143,8 @@ def response(
         modes_below=below.reshape(shape),
         reversed=against.reshape(shape),
         resonant=resonant.reshape(shape),
-        support_force=force.reshape(shape),
-        support_force_error=force_error.reshape(shape),
+        support_force=np.asarray(system._force(g) * force.reshape(shape)),
+        support_force_error=np.asarray(system._force(g) * force_error.reshape(shape)),
     )
 
 
@@ -160,53 +164,53 @@ def _pins(place: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[i
     return np.where(asked < 0, asked + size + 1, asked), asked.shape
 
 
-def small_oscillation(
-    chain: Chain,
-    offsets: ArrayLike,
-    velocities: ArrayLike | None,
-    t: ArrayLike,
+def swing(
+    system: Chain,
+    offset: ArrayLike,
+    velocity: ArrayLike | None,
+    time: ArrayLike,
     *,
-    modes: int | None = None,
+    count: int | None = None,
     gravity: float = STANDARD_GRAVITY,
-) -> SmallOscillation:
+) -> Swing:
     """Start a hanging chain anywhere and see it swing, by superposing its modes.
 
-    Small oscillations in one plane. For motions in both directions call it for each: they do not know
-    of each other.
+    Small oscillations in one plane, of natural angular frequencies that are the whirl speeds of `modes`. For motions in
+    both directions ask for each: they are independent.
 
     Parameters
     ----------
-    chain : Chain
+    system : Chain
         The chain of N links.
-    offsets : array_like, shape (N + 1,) or (N,)
-        Of the pins at time 0, free end first; that of the support, 0, last or left out.
-    velocities : array_like, shape (N + 1,) or (N,), or None
-        Likewise; None: at rest.
-    t : array_like
+    offset : array_like, shape (N + 1,) or (N,)
+        Offsets of the pins at time 0, m, free end first; that of the support, 0, last or left out.
+    velocity : array_like, shape (N + 1,) or (N,), or None
+        Likewise, m/s; None: at rest.
+    time : array_like
         Times in s, of either sign, a number or one axis.
-    modes : int, optional
-        Only so many of the slowest; all if left out.
+    count : int, optional
+        Only so many of the slowest modes; all if left out.
     gravity : float, optional
-        Standard gravity, in metres, if left out.
+        In m/s^2; standard gravity if left out.
 
     Returns
     -------
-    SmallOscillation
+    Swing
         The offset of pin m at time i is within ``error_bound[i] + truncation_error[m]`` of the exact one.
 
     Raises
     ------
     TypeError
-        If `chain` is not a Chain.
+        If `system` is none of the four systems.
     ValueError
-        For numbers that are not finite, starts of another length, a support that would move, more modes than there
-        are, and weights more than 1e123 apart.
+        For a rig, a cord and what is held at both ends; for numbers that are not finite, starts of another length, a
+        support that would move, more modes than there are, and weights more than 1e123 apart.
 
     Notes
     -----
     Pins that have no inertia, between massless threads, cannot be anywhere: offsets given for them are
     replaced by those to which their neighbours pull them, and velocities likewise, as a light thread snaps
-    straight. `SmallOscillation.projected` says that it was done.
+    straight. `Swing.projected` says that it was done.
 
     Method: heights and shapes as of `modes`, once more in words of two doubles, with angles in two words: beats of
     many years keep their phase. Accuracy: 1e-15 of the amplitudes. Cost: 2 microseconds for each link
@@ -218,28 +222,32 @@ def small_oscillation(
 
     Examples
     --------
-    A light plummet below a heavy one: they take turns.
+    A light point mass below a heavy one: they take turns.
 
     >>> import numpy as np
     >>> import revchain as rc
     >>> chain = rc.Chain(weight=[0.01, 1.0], length=1.0)
-    >>> beat = rc.small_oscillation(chain, [0.01, 0.01, 0.0], None, np.linspace(0.0, 20.0, 2001))
+    >>> beat = rc.swing(chain, [0.01, 0.01, 0.0], None, np.linspace(0.0, 20.0, 2001))
     >>> round(float(abs(beat.offset[:, 0]).max()), 4), round(float(abs(beat.offset[:, 1]).max()), 4)
     (0.1002, 0.01)
     """
-    place = "revchain.small_oscillation"
-    core = compiled(place, chain)
-    start = _start(place, "offsets", offsets, chain.size)
-    speed = _start(place, "velocities", np.zeros(chain.size) if velocities is None else velocities, chain.size)
-    time = floats(place, "t", t)
-    if time.ndim > 1:
-        raise ValueError(f"{place}: t must be a number or have one axis, got an array of shape {time.shape}")
-    refuse_where(~np.isfinite(time), time, f"{place}: t must be finite")
-    count = None if modes is None else limit(place, "modes", integer(place, "modes", modes))
+    place = "revchain.swing"
+    others = {Rig: "ask its modes, or swing of its chain", Cord: "ask its chain: cord.chain(100)"}
+    refuse_other(place, system, (Chain,), {**others, Held: "ask its modes"})
+    core = compiled(place, system)
+    start = _start(place, "offset", offset, system.size)
+    speed = _start(place, "velocity", np.zeros(system.size) if velocity is None else velocity, system.size)
+    times = floats(place, "time", time)
+    if times.ndim > 1:
+        raise ValueError(f"{place}: time must be a number or have one axis, got an array of shape {times.shape}")
+    refuse_where(~np.isfinite(times), times, f"{place}: time must be finite")
+    number = None if count is None else limit(place, "count", integer(place, "count", count))
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
-    time = np.atleast_1d(time)
-    found = _core.small_oscillation(core, start, speed, time, count, g)
-    return SmallOscillation._made(None, system=chain, gravity=g, time=np.array(time), **dict(zip(SWING, found, strict=True)))
+    times = np.atleast_1d(times)
+    found: dict[str, Any] = dict(zip(SWING, _core.swing(core, start, speed, times, number, g), strict=True))
+    if system.by_mass:
+        found |= {name: g * found[name] for name in ("energy", "energy_left_out")}
+    return Swing._made(None, system=system, gravity=g, time=np.array(times), **found)
 
 
 def _start(place: str, name: str, value: ArrayLike, size: int) -> Floats:

@@ -1,53 +1,72 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steady shapes of a whirling chain at any inclination: all of them, proved complete."""
+"""Steady shapes (relative equilibria) at any inclination."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 
 from .. import _core
+from ..results.bent import cord_shapes_made, held_shapes_made
 from ..results.shapes import SteadyShapes, shapes_made
 from ..systems.chain import Chain, compiled
+from ..systems.cord import Cord
+from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, boolean, exactly_one, integer, limit, one_positive, shown
+from ..systems.numbers import count as counted
 from ..systems.rig import Rig
+
+LEAST, MOST = 1e-150, 1e150
+"""Conical heights, and squared speeds without gravity, whose products with tensions stay in the range of doubles."""
+MOST_HALF_WAVES = 1000
 
 
 def steady_shapes(
-    chain: Chain | Rig,
+    system: Chain | Rig | Cord | Held,
     *,
     conical_height: float | None = None,
     angular_speed: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     budget: int = 3_000_000,
     hanging_only: bool = True,
-    sense: int = 1,
+    direction: int = 1,
+    max_half_waves: int = 1,
+    prove: bool = True,
+    scanned: int = 200,
 ) -> SteadyShapes:
-    """Find all shapes in which a chain, or a rig, whirls steadily at a given speed, at any inclination.
+    """Find all steady shapes (relative equilibria) of a system at a given speed, at any inclination.
 
     Parameters
     ----------
-    chain : Chain or Rig
-        The chain of N links, or what it is rigged with: a support on a spring or carried round, flywheels, a fluid.
-    conical_height : float
-        Conical height of the speed, in the unit of the chain's lengths, positive.
+    system : Chain, Rig, Cord or Held
+        A chain of N links, what it is rigged with, a flexible cord, or a chain or cord held at both ends.
     angular_speed : float
-        Instead of `conical_height`: the speed in rad/s, positive.
+        The speed, rad/s, positive.
+    conical_height : float
+        Instead of `angular_speed`: the conical height of the speed, m, positive. There is none without gravity.
     gravity : float, optional
-        For `angular_speed`, and for a rig's flywheels; standard gravity, in metres, if left out.
+        In m/s^2; standard gravity if left out. A held system that is weightless has none.
     budget : int, optional
-        How many links to look at, at the most, while parts of the range of the lowest link's inclination are
+        Chains and rigs: how many links to look at, at the most, while parts of the range of the lowest link's inclination are
         split: half a microsecond each, or two where ``l < a``; the default takes some 2 to 10 seconds. With 0
         and less nothing is looked at, and the list is empty and not complete.
     hanging_only : bool, optional
-        Whether to leave out shapes with links that stand: more than a right angle from the downward
+        Chains and rigs: whether to leave out shapes with links that stand: more than a right angle from the downward
         vertical. Of a rig: shapes with links that do not stand or hang as the rig has them.
-    sense : {1, -1}, optional
-        Direction of rotation; it matters to a rig with flywheels.
+    direction : {1, -1}, optional
+        Of rotation; it matters to a rig with flywheels.
+    max_half_waves : int, optional
+        Held systems: shapes of 1 to so many half waves are looked for.
+    prove : bool, optional
+        Held chains: whether error bounds are proved; else they are estimates.
+    scanned : int, optional
+        Cords with a tip or a density other than uniform: how many offsets of the free end to look at for shapes.
 
     Returns
     -------
     SteadyShapes
-        A sequence of `SteadyShape`: every hanging shape (all links within a right angle of the
+        A sequence of shapes. Chains and rigs: every hanging shape (all links within a right angle of the
         downward vertical) or, if `hanging_only` is false, every shape; straight ones left out, of two
         mirror images that with the free end at a positive offset (if it is on the axis, the lowest
         inclined link); by half waves, then inclination of the lowest link. ``complete`` is true where it
@@ -55,14 +74,23 @@ def steady_shapes(
         Empty and complete where the height is greater than the first of `modes`, in any posture.
         If the support is carried round: every shape, outwards positive, those inwards too.
 
+        Cords: by half waves. ``complete`` where a theorem counts them: for a uniform cord without a tip (Kolodner,
+        1955: one shape for every critical height above the height given), and where no more than one critical height
+        is above it. Elsewhere a shape that comes and goes between two scanned offsets is missed.
+
+        Held systems: for each number of half waves the shape that is reached from the nearly straight chain without
+        gravity, by drawing its ends together and then letting gravity grow; for a tension every one on that branch.
+        All links are in tension, as threads must be; of two mirror images the one whose lowest free pin is at a
+        positive offset. ``missing`` lists the half waves for which none was found. Never proved complete.
+
     Raises
     ------
     ValueError
-        If not exactly one of `conical_height` and `angular_speed` is given, a number is not positive
-        and finite, `sense` is neither 1 nor -1, or a link of a rig has no effective tension (tension and
+        If not exactly one of `angular_speed` and `conical_height` is given, a number is not positive
+        and finite, `direction` is neither 1 nor -1, or a link of a rig has no effective tension (tension and
         speed times momentum over length) at the speed.
     TypeError
-        If `chain` is neither a `Chain` nor a `Rig`, or `hanging_only` is not a bool.
+        If `system` is none of these, or `hanging_only` or `prove` is not a bool.
 
     Notes
     -----
@@ -71,7 +99,10 @@ def steady_shapes(
     pins (``pendulum_length > length``) that it hangs at three inclinations under one load, is followed
     along every one of them. Not complete: at exactly a critical speed or where two shapes are born, and
     where the budget ends. At heights below some 2e-15 of the longest link the list is empty and not
-    complete: two words of double precision no longer hold the offsets that give the tensions. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for
+    complete: two words of double precision no longer hold the offsets that give the tensions. Cords: power series along
+    the cord, Newton's method on the place where it crosses the axis; inclinations, and offsets over the length, within
+    ``error_estimate``. Held chains: inclinations correctly rounded but for 1e-20, the bound mostly proved; held cords:
+    places within 1e-13 of the length. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for
     all 64 shapes of four; shapes, and time, about double with each link, and grow fourfold if links may
     stand.
 
@@ -89,32 +120,83 @@ def steady_shapes(
     A chair on a chain of 4 m, on an arm of 1 m, at twelve turns a minute; and at 3 rad/s, where it could also
     hang inwards in two ways:
 
-    >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support_radius=1.0)
+    >>> carousel = rc.Rig(rc.Chain(weight=800.0, length=4.0), support=rc.Support(radius=1.0))
     >>> rc.steady_shapes(carousel, angular_speed=1.2566)
     1 shape at 1.25660 rad/s, proved complete
-    shape  half waves  lowest link (°)  top link (°)  free end: off axis (m)  height (m)  top tension  error (rad)
-        1           1           21.824        21.824                  2.4870     -3.7133       861.76      2.2e-16
+    shape  half waves  lowest link (°)  top link (°)  free end: from axis (m)  above support (m)  top tension  error (rad)
+        1           1           21.824        21.824                   2.4870            -3.7133       861.76      2.2e-16
     inclinations: to the downward vertical; error: proved bound of every inclination
     >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
     [77.5, -68.1, -20.7]
+
+    A cord, and a skipping rope of one half wave or two:
+
+    >>> cord = rc.Cord(500.0)
+    >>> found = rc.steady_shapes(cord, conical_height=1.0)
+    >>> len(found), found.complete, round(float(found[13].offset[0]), 9)
+    (14, True, 2.705556715)
+    >>> rope = rc.Held(rc.Cord(1.0), span=0.5)
+    >>> [round(float(shape.offset.max()), 4) for shape in rc.steady_shapes(rope, conical_height=0.05, max_half_waves=2)]
+    [0.402, 0.2013]
     """
     place = "revchain.steady_shapes"
-    name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
     most = limit(place, "budget", budget)
     hanging = boolean(place, "hanging_only", hanging_only)
-    if integer(place, "sense", sense) not in (1, -1):
-        raise ValueError(f"{place}: sense must be 1 or -1, got {shown(sense)}")
-    g, turns = one_positive(place, "gravity", gravity), int(sense)
+    if integer(place, "direction", direction) not in (1, -1):
+        raise ValueError(f"{place}: direction must be 1 or -1, got {shown(direction)}")
+    waves = counted(place, "max_half_waves", max_half_waves)
+    if waves > MOST_HALF_WAVES:
+        raise ValueError(f"{place}: max_half_waves must be at most {MOST_HALF_WAVES}, got {waves}")
+    looks = integer(place, "scanned", scanned)
+    if not 1 <= looks <= 10**6:
+        raise ValueError(f"{place}: scanned must be from 1 to 1000000, got {looks}")
+    proved = boolean(place, "prove", prove)
+    if isinstance(system, Held) and system.weightless:
+        return _weightless(place, system, conical_height, angular_speed, waves, proved)
+    name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
+    g = one_positive(place, "gravity", gravity)
     if name == "angular_speed":
         height, speed = float(_core.conical_pendulum_height(np.asarray(value), np.asarray(g))), value
     else:
         height, speed = value, float(_core.conical_pendulum_angular_speed(np.asarray(value), np.asarray(g)))
-    if isinstance(chain, Rig):
-        rig = chain._compiled
+    if isinstance(system, Cord):
+        one_positive(place, f"the conical height of {name}", height)
+        return cord_shapes_made(_core.cord_shapes(system._under(g), height, looks), system, height, speed, g, looks)
+    if isinstance(system, Held):
+        if not LEAST <= height <= MOST:
+            raise ValueError(f"{place}: {name} must give a conical height from {LEAST:g} to {MOST:g}, got {value:g}")
+        given = (value, None) if name == "conical_height" else (None, value)
+        return _held(system, height, speed, g, (*given, g, waves, proved))
+    if isinstance(system, Rig):
+        core = system._under(g)
         if name == "conical_height":
-            return shapes_made(_core.steady_shapes_of_rig(rig, value, most, hanging, turns, g), chain, height, speed, g, turns)
-        return shapes_made(_core.steady_shapes_of_rig_at_speed(rig, turns * value, most, hanging, g), chain, height, speed, g, turns)
-    core = compiled(place, chain)
-    if name == "conical_height":
-        return shapes_made(_core.steady_shapes(core, value, most, hanging), chain, height, speed, g, turns)
-    return shapes_made(_core.steady_shapes_at_speed(core, value, g, most, hanging), chain, height, speed, g, turns)
+            found = _core.steady_shapes_of_rig(core, value, most, hanging, int(direction), g)
+        else:
+            found = _core.steady_shapes_of_rig_at_speed(core, int(direction) * value, most, hanging, g)
+    elif not isinstance(system, Chain):
+        raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+    elif name == "conical_height":
+        found = _core.steady_shapes(compiled(place, system), value, most, hanging)
+    else:
+        found = _core.steady_shapes_at_speed(compiled(place, system), value, g, most, hanging)
+    return shapes_made(found, system, height, speed, g, int(direction))
+
+
+def _weightless(
+    place: str, held: Held, conical_height: Any, angular_speed: Any, waves: int, proved: bool
+) -> SteadyShapes:
+    if conical_height is not None:
+        raise ValueError(
+            f"{place}: without gravity there is no conical height; give angular_speed, got {shown(conical_height)}"
+        )
+    speed = one_positive(place, "angular_speed", angular_speed) if angular_speed is not None else None
+    if speed is None:
+        raise ValueError(f"{place}: give angular_speed: without gravity tensions are as its square")
+    if not LEAST <= speed * speed <= MOST:
+        raise ValueError(f"{place}: angular_speed must have a square from {LEAST:g} to {MOST:g}, got {speed:g}")
+    return _held(held, 0.0, speed, 0.0, (None, speed, 0.0, waves, proved))
+
+
+def _held(held: Held, height: float, speed: float, gravity: float, asked: tuple[Any, ...]) -> SteadyShapes:
+    by = (held.span, held._pull(gravity), held.weightless)
+    return held_shapes_made(_core.held_shapes(held.system._compiled, *by, *asked), held, height, speed, gravity, asked)

@@ -16,8 +16,6 @@ from .sheet import Sheet, as_dataframe, as_dataset, as_dict, as_html, as_text
 if TYPE_CHECKING:
     from xarray import Dataset
 
-Compiled = TypeVar("Compiled")
-Given = TypeVar("Given")
 Item = TypeVar("Item")
 Value = TypeVar("Value")
 
@@ -79,7 +77,10 @@ class Result(Unchangeable):
         """A result around a compiled one, and the parts that this does not hold."""
         result = object.__new__(cls)
         _set(result, "_core", core)
-        _set(result, "_kept", {name: frozen(value) for name, value in parts.items()})
+        for name, value in parts.items():
+            if type(value) in _HOLD:
+                parts[name] = frozen(value)
+        _set(result, "_kept", parts)
         return result
 
     def _found(self) -> Any:
@@ -235,6 +236,9 @@ class Results(Result, Listed[Item]):
 _set = object.__setattr__
 
 
+_HOLD = (np.ndarray, list, tuple)  # what may hold arrays that can be written to
+
+
 def restored(kind: type[Result], state: dict[str, Any]) -> Result:
     """A result from its state."""
     return kind._made(None, **state)
@@ -246,7 +250,7 @@ def frozen(value: Any) -> Any:
         return read_only(value) if value.flags.writeable else value
     if type(value) in (list, tuple):
         return tuple(map(frozen, value))
-    return value
+    return {name: frozen(item) for name, item in value.items()} if type(value) is dict else value
 
 
 def same(one: Any, other: Any) -> bool:
@@ -256,24 +260,6 @@ def same(one: Any, other: Any) -> bool:
         return kinds is not None and np.array_equal(one, other, equal_nan=kinds[0].kind in "fc")
     if isinstance(one, tuple) and isinstance(other, tuple):
         return len(one) == len(other) and all(map(same, one, other))
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(same(item, other[name]) for name, item in one.items())
     return bool(one == other or (one != one and other != other))
-
-
-class Wrapped(Generic[Compiled, Given]):
-    """A compiled result and what was given for it that it does not hold itself; functions of this package make it."""
-
-    __slots__ = ("_compiled", "_given")
-    _compiled: Compiled
-    _given: Given
-
-    @classmethod
-    def _wrap(cls, compiled: Compiled, given: Given) -> Self:
-        result = object.__new__(cls)
-        result._compiled, result._given = compiled, given
-        return result
-
-
-class WrappedList(Listed[Item]):
-    """A list of wrapped results that cannot be changed."""
-
-    __slots__ = ("_items",)

@@ -11,7 +11,7 @@ from .. import _core
 from ..systems.chain import Chain
 from ..systems.numbers import Floats, Whole, count, height_of, integer, one_positive
 from .base import Field, Result, Results
-from .shapes import SteadyShape, is_driven
+from .shapes import SteadyShape, forced, is_driven
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class Branch(Result):
     Examples
     --------
     >>> import revchain as rc
-    >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
+    >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1)
     >>> branch.angular_speed[[0, -1]].round(4)
     array([2.3968, 9.9029])
     >>> branch.end, branch.folds.size
@@ -74,10 +74,14 @@ class Branch(Result):
         part=True,
     )
     tip_radius: Field[Floats] = Field("Distance of the free end from the axis, m.", part=True)
-    top_tension: Field[Floats] = Field("Size of the reaction at the support, in the unit of the weights.", part=True)
-    moment_of_inertia: Field[Floats] = Field("About the axis, weight times length squared; over gravity: mass.", part=True)
+    top_tension: Field[Floats] = Field(
+        "Size of the reaction at the support, N or in the unit of the weights.", forced("top_tension"), part=True
+    )
+    moment_of_inertia: Field[Floats] = Field(
+        "About the axis, kg m^2; of a chain given by weight, weight times length squared.", part=True
+    )
     effective_energy: Field[Floats] = Field(
-        "Potential energy less half of ``moment_of_inertia / conical_height``.", part=True
+        "Potential energy less half of moment of inertia times speed squared, J.", forced("effective_energy"), part=True
     )
     half_waves: Field[Whole] = Field("Sign changes of the offsets, plus one.", part=True)
     folds: Field[Whole] = Field(
@@ -112,7 +116,7 @@ class Branch(Result):
         Examples
         --------
         >>> import revchain as rc
-        >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
+        >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1)
         >>> branch.shape(-1).inclination.round(4)
         array([1.5208, 1.5041])
         """
@@ -154,7 +158,7 @@ class Branch(Result):
         Examples
         --------
         >>> import revchain as rc
-        >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1)
+        >>> branch = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1)
         >>> [shape.half_waves for shape in branch.at(conical_height=0.2)]
         [1]
         """
@@ -192,7 +196,7 @@ class Branch(Result):
         >>> import revchain as rc
         >>> chain = rc.Chain.uniform_plummets(2, length=2.0)
         >>> second = rc.modes(chain).conical_height[1]
-        >>> for window in rc.branch(chain, 2, conical_height=0.1 * second).stability_windows():
+        >>> for window in rc.branch(chain, 2, min_conical_height=0.1 * second).stability_windows():
         ...     print(window.verdict, round(window.conical_height[1] / second, 5))
         spectrally stable 0.46332
         unstable 0.1
@@ -228,13 +232,17 @@ class Branch(Result):
         Examples
         --------
         >>> import revchain as rc
-        >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, conical_height=0.1).plot()
+        >>> ax = rc.branch(rc.Chain.uniform_plummets(2, length=2.0), 1, min_conical_height=0.1).plot()
         >>> ax.get_ylabel()
         'tip inclination (degrees)'
         """
         from ..plots.branches import plot_branches
 
         return plot_branches([self], _first_height(self.system), ax, quantity=quantity, place="revchain.Branch.plot")
+
+    @property
+    def _per(self) -> float:
+        return self.system._force(self.gravity)
 
     def __len__(self) -> int:
         return int(self.arc.size)
@@ -314,7 +322,7 @@ class Branches(Results[Branch]):
         Examples
         --------
         >>> import revchain as rc
-        >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), conical_height=0.04).plot()
+        >>> ax = rc.branches(rc.Chain.uniform_plummets(3, length=3.0), min_conical_height=0.04).plot()
         >>> ax.get_xlabel()
         'speed over the first critical speed'
         """

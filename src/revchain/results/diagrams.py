@@ -49,17 +49,13 @@ class ForceDiagram(Result):
     )
     conical_height: Field[float] = Field("Conical height of the speed: ON, HK.", part=True)
 
-    def plot(
-        self, axes: tuple[Axes, Axes] | None = None, *, length_unit: str = "m", weight_unit: str = "N"
-    ) -> tuple[Axes, Axes]:
+    def plot(self, axes: tuple[Axes, Axes] | None = None) -> tuple[Axes, Axes]:
         """Draw the figure and its diagram of force side by side, lettered as in Fig. 3 of the paper.
 
         Parameters
         ----------
         axes : pair of matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
-        length_unit, weight_unit : str
-            What to write on the axes.
 
         Returns
         -------
@@ -80,9 +76,9 @@ class ForceDiagram(Result):
         >>> forces.get_title()
         'diagram of force'
         """
-        from ..plots.statics import plot_force_diagram
+        from ..plots.closed_forms import plot_force_diagram
 
-        return plot_force_diagram(self, axes, length_unit=length_unit, weight_unit=weight_unit)
+        return plot_force_diagram(self, axes)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [Column("link", np.arange(len(self.ray)), "link")]

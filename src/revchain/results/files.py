@@ -11,18 +11,9 @@ from io import FileIO
 from pathlib import Path
 from typing import Any
 
-from numpy.typing import NDArray
-
 
 class OutputError(OSError, ValueError):
     """An output that cannot be written: an OSError by nature, and wrong input like any other."""
-
-
-def write_fully(file: FileIO, data: bytes | NDArray[Any]) -> None:
-    """Write all bytes, however many a call takes."""
-    left = memoryview(data if isinstance(data, bytes) else data.data).cast("B")
-    while left:
-        left = left[file.write(left) or 0 :]
 
 
 @contextmanager

@@ -12,7 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
 from ..systems.chain import Chain
-from ..systems.numbers import Floats, Numbers, Whole, one_positive
+from ..systems.cord import Cord
+from ..systems.held import Held
+from ..systems.numbers import Floats, Numbers, Whole, floats, one_positive
 from ..systems.rig import Rig
 from .base import Field, Result
 from .sheet import Column, Sheet
@@ -142,7 +144,8 @@ class Modes(Result):
         part=True,
     )
     error_bound: Field[Numbers] = Field(
-        "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored; proved.",
+        "Bound of the relative error of each conical height, shape (k,), for the data exactly as stored; proved, of cords "
+        "measured to hold.",
         part=True,
     )
     conical_height_low: Field[Floats | None] = Field(
@@ -189,12 +192,13 @@ class Modes(Result):
         Returns
         -------
         Modes
-            Conical heights, shapes and nodes do not depend on gravity; speeds do.
+            Conical heights, shapes and nodes of chains and cords do not depend on gravity; speeds do.
 
         Raises
         ------
         ValueError
-            If gravity is not positive and finite; for a rig, whose springs and flywheels do not scale with gravity.
+            If gravity is not positive and finite; for a rig, and for a chain by mass under a tension: springs, flywheels and
+            tensions in newtons do not scale with gravity.
 
         Examples
         --------
@@ -203,8 +207,12 @@ class Modes(Result):
         >>> m.at(gravity=9.81).angular_speed
         array([2.])
         """
-        if isinstance(self.system, Rig):
-            raise ValueError("revchain.RigModes.at: a rig has other modes under another gravity; ask revchain.modes again")
+        held = isinstance(self.system, Held) and self.system.by_mass
+        if isinstance(self.system, Rig) or held:
+            what = "what a tension in newtons holds" if held else "a rig"
+            raise ValueError(
+                f"revchain.{type(self).__name__}.at: {what} has other modes under another gravity; ask revchain.modes again"
+            )
         speeds = ("angular_speed", "frequency", "rpm", "period")
         kept = {name: value for name, value in dict(self._kept).items() if name not in speeds}
         kept["gravity"] = one_positive("revchain.Modes.at", "gravity", gravity)
@@ -213,6 +221,7 @@ class Modes(Result):
     def uncertainty(
         self,
         *,
+        mass: ArrayLike | None = None,
         weight: ArrayLike | None = None,
         length: ArrayLike | None = None,
         centroid: ArrayLike | None = None,
@@ -223,11 +232,12 @@ class Modes(Result):
 
         Parameters
         ----------
-        weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
+        mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
             Standard deviation of each: one number for all links, shape (N,) one for each, or shape (N, N) the
             covariance of the links (its diagonal variances, not deviations). Left out: exactly known. `Sensitivity`
             says what is held while one changes. Deviations of different links are independent unless a covariance says
-            otherwise, those of different quantities always.
+            otherwise, those of different quantities always. Text such as ``"5 %"``: that part of each link's datum,
+            ``["5 %", 0]`` of the lowest link's alone.
 
         Returns
         -------
@@ -248,14 +258,18 @@ class Modes(Result):
         A thread known to 1 per cent gives the speed to half a per cent:
 
         >>> import revchain as rc
-        >>> rc.modes(rc.Chain(weight=1.0, length=2.0)).uncertainty(length_in_proportion=0.02).relative
+        >>> rc.modes(rc.Chain(mass=1.0, length=2.0)).uncertainty(length_in_proportion="1 %").relative
         array([0.01])
         """
         from .sensitivity import uncertainty
 
-        if isinstance(self.system, Rig):
-            raise ValueError("revchain.RigModes.uncertainty: is for chains; of a rig take sensitivity")
+        if not isinstance(self.system, Chain):
+            raise ValueError(
+                f"revchain.Modes.uncertainty: is for a Chain, got a {type(self.system).__name__}; of a Rig take "
+                "sensitivity, of others change the datum and ask again"
+            )
         given = {
+            "mass": mass,
             "weight": weight,
             "length": length,
             "centroid": centroid,
@@ -264,17 +278,21 @@ class Modes(Result):
         }
         return uncertainty(self, given)
 
-    def plot(self, ax: Axes | None = None, modes: Iterable[int] | None = None, *, length_unit: str = "m") -> Axes:
-        """Draw the shapes side by side, each hanging from its own axis.
+    def plot(
+        self, ax: Axes | None = None, modes: Iterable[int] | None = None, *, carried: Response | None = None
+    ) -> Axes:
+        """Draw the system at rest, and beside it the shapes, each along its own axis; rings mark the nodes.
+
+        Forward modes of a rig with flywheels are blue, backward ones red; inverted links are stout.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
         modes : iterable of int, optional
-            Which modes, by their numbers; the six slowest of this result if left out.
-        length_unit : str
-            What to write on the axis of depth.
+            Which modes, by their numbers (of a rig of both directions); the six slowest of this result if left out.
+        carried : Response, optional
+            Of the same system at one speed, every pin: drawn first, its support on its circle.
 
         Returns
         -------
@@ -283,7 +301,7 @@ class Modes(Result):
         Raises
         ------
         ValueError
-            If `modes` names one that is not there, or there are none.
+            If `modes` names one that is not there, there are none, or `carried` is no such response.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -294,14 +312,17 @@ class Modes(Result):
         >>> ax.get_ylabel()
         'depth below the support (m)'
         """
-        from ..plots.style import plot_modes
+        from ..plots.modes import plot_modes
 
-        return plot_modes(self, ax, modes, length_unit=length_unit)
+        return plot_modes(self, ax, modes, carried)
 
     def _again(self) -> Any:
         if not len(self):
             none = np.empty((0, self.system.size + 1), self.conical_height.dtype)
             return SimpleNamespace(shape=none, residual=none[:, 0], nodes=())
+        if isinstance(self.system, Held):
+            held = self.system._under(self.gravity)
+            return _core.held_modes(held, int(self.number[0]), len(self), None, None, self.rtol)
         method = self.method if self.method in _core.METHODS else "auto"
         first, certified = int(self.number[0]), self.certificate is not None
         return _core.modes(
@@ -310,9 +331,10 @@ class Modes(Result):
 
     def _which(self) -> str:
         """How many modes of how many, or which where they are not the slowest."""
-        total = f"{self.system.mode_count:,}"
+        count = None if isinstance(self.system, Cord) else self.system.mode_count
+        total = "infinitely many" if count is None else f"{count:,}"
         if len(self) == 0 or self.number[0] == 1:
-            return f"{len(self):,} of {total} mode{'s' * (self.system.mode_count != 1)}"
+            return f"{len(self):,} of {total} mode{'s' * (count != 1)}"
         if len(self) == 1:
             return f"mode {self.number[0]:,} of {total}"
         return f"modes {self.number[0]:,} to {self.number[-1]:,} of {total}"
@@ -387,7 +409,7 @@ class OtherModes(Result):
             Column("growth_rate", self.growth_rate, "growth rate (1/s)"),
             Column("error_bound", self.error_bound, "error bound"),
         ]
-        return Sheet("number", f"{len(self)} solutions that are not steady motions", columns)
+        return Sheet("number", f"{len(self)} solution{'s' * (len(self) != 1)} that are not steady motions", columns)
 
 
 class RigModes(Modes):
@@ -398,7 +420,7 @@ class RigModes(Modes):
     A gyrostat on a link, ``A n^2 - H n - W h = 0``:
 
     >>> import revchain as rc
-    >>> top = rc.Rig(rc.Chain(weight=9.80665, length=1.0), momentum=1.5)
+    >>> top = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.5))
     >>> rc.modes(top).angular_speed.round(4)
     array([-2.4701,  3.9701])
     """
@@ -443,51 +465,11 @@ class RigModes(Modes):
         "Whether the numbers of modes and the list of others are proved to be all there is.", part=True
     )
 
-    def plot(  # type: ignore[override]
-        self, ax: Axes | None = None, *, most: int = 6, length_unit: str = "m", carried: Response | None = None
-    ) -> Axes:
-        """Draw the rig at rest, and beside it its shapes along the straight chain, standing links upwards and stout.
-
-        Forward modes are blue, backward ones red, as are the wheels, seen edge-on; bodies that float are hollow.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
-        most : int
-            How many modes, slowest first.
-        length_unit : str
-            What to write on the axis of depth.
-        carried : Response, optional
-            Of the same rig at one speed, every pin: drawn first, its support on its circle.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-
-        Raises
-        ------
-        ValueError
-            If there are no modes, or `carried` is no such response.
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> rig = rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), momentum=0.3)
-        >>> rc.modes(rig).plot().get_ylabel()
-        'depth below the support (m)'
-        """
-        from ..plots.rigs import plot_rig_modes
-
-        return plot_rig_modes(self, ax, most, length_unit, carried)
-
     def _again(self) -> Any:
         if not len(self):
             return super()._again()
         counts = [int((self.direction == way).sum()) for way in (1, -1)]
-        return _core.rig_modes(self.system._compiled, int(self.number.min()), max(counts), self.gravity)
+        return _core.rig_modes(self.system._under(self.gravity), int(self.number.min()), max(counts), self.gravity)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
@@ -502,7 +484,8 @@ class RigModes(Modes):
         slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(self.slack_link, self.slack_speed, strict=True)]
         notes += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
         if len(self.other):
-            notes.append(f"{len(self.other)} solutions are not steady motions: other")
+            one = len(self.other) == 1
+            notes.append(f"{len(self.other)} solution{' is not a steady motion' if one else 's are not steady motions'}: other")
         total = sum(self.available)
         return Sheet(
             "mode",
@@ -515,12 +498,89 @@ class RigModes(Modes):
                     {"link": int(link), "angular_speed": float(at)}
                     for link, at in zip(self.slack_link, self.slack_speed, strict=True)
                 ],
-                **_facts(self.system.chain),
-                "rig": repr(self.system),
+                **_facts(self.system),
             },
             notes,
             self.status == "success",
         )
+
+
+class CordModes(Modes):
+    """The modes of a cord, slowest first; `k` modes. Shapes are known at every place.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> m = rc.modes(rc.Cord(0.36), 3)
+    >>> m.angular_speed.round(4)
+    array([ 6.2757, 14.4054, 22.583 ])
+    >>> m.offset([0.0, 0.18])[1].round(4)
+    array([ 1.    , -0.4017])
+    """
+
+    __slots__ = ()
+    number: Field[Whole] = Field(
+        "Mode numbers, shape (k,): the slowest of all modes has number 1.",
+        lambda m: np.arange(m._found().first, m._found().first + len(m._found().conical_height)),
+        part=True,
+    )
+    arc_length: Field[Floats] = Field(
+        "Distances from the free end at which `shape` has offsets, m, shape (201,), equally far apart.",
+        lambda m: np.linspace(0.0, m.system.length, 201),
+    )
+    shape: Field[Numbers] = Field(
+        "Offsets at these places from the axis, shape (k, 201); that of the free end is 1.",
+        lambda m: m.offset(m.arc_length),
+    )
+    residual: Field[Any] = Field("Always None: shapes are closed forms or power series.", lambda m: None)
+    conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
+    certificate: Field[Certificate | None] = Field("Always None: `revchain.modes` certifies chains only.", lambda m: None)
+    precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
+    sensitivity: Field[Any] = Field("Not available: a ValueError.", lambda m: _sensitivity(m))
+
+    def offset(self, arc_length: ArrayLike) -> Floats:
+        """Return the offsets of all modes at places of the cord.
+
+        Parameters
+        ----------
+        arc_length : array_like
+            Distances from the free end, m, 0 to the length, one number or one axis.
+
+        Returns
+        -------
+        ndarray, shape (k,) or (k, places)
+            Over that of the free end; within 1e-15 times the mode number, with power series within 1e-14, of the
+            largest. Cost: 1 to 15 microseconds for each mode and place, 100 for a density function.
+
+        Raises
+        ------
+        ValueError
+            If a number lies outside the cord.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.modes(rc.Cord(1.0), 2).offset(0.5).round(6)
+        array([ 0.397714, -0.401734])
+        """
+        place = "revchain.CordModes.offset"
+        arc = floats(place, "arc_length", arc_length)
+        if arc.ndim > 1:
+            raise ValueError(f"{place}: arc_length must be a number or have one axis, got shape {arc.shape}")
+        wrong = ~((arc >= 0) & (arc <= self.system.length))
+        if wrong.any():
+            raise ValueError(f"{place}: arc_length must lie between 0 and the length, got {arc[wrong].flat[0]:g}")
+        found: Floats = self._found().offset(np.atleast_1d(arc))
+        return found.reshape((len(self), *arc.shape))
+
+    def _again(self) -> Any:
+        if not len(self):
+            return SimpleNamespace(offset=lambda arc: np.empty((0, len(arc))), nodes=())
+        return _core.cord_modes(self.system._compiled, int(self.number[0]), len(self), None, None, self.rtol)
+
+    def _shape_columns(self, brief: bool) -> list[Column]:
+        nodes = Column("nodes", self.nodes, "nodes (m from the free end)", axes=("node",), shown=_texts(self.nodes))
+        return [nodes] if brief else [nodes, Column("shape", self.shape, axes=("place",))]
 
 
 def _texts(nodes: Iterable[Numbers]) -> list[str]:
@@ -560,9 +620,12 @@ def _sensitivity(modes: Modes) -> Any:
 
     if isinstance(modes, RigModes):
         return sensitivity.of_rig(modes)
+    if not isinstance(modes.system, Chain):
+        name = type(modes.system).__name__
+        raise ValueError(f"revchain.Modes.sensitivity: is for a Chain or a Rig, got a {name}; cut a cord: cord.chain(100)")
     return sensitivity.of_modes(modes)
 
 
-def _facts(chain: Chain) -> dict[str, Any]:
-    """What every dictionary and file says of the chain."""
-    return {"chain": {"size": chain.size, "length": chain.total_length, "weight": chain.total_weight}}
+def _facts(system: Any) -> dict[str, Any]:
+    """What every dictionary and file says of the system."""
+    return {"system": system.describe()}

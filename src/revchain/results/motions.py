@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Flags = NDArray[np.bool_]
+TURN = 2 * np.pi
 MOST_RESONANCES = 60  # marked in a plot: more would blacken it
 
 
@@ -44,6 +45,9 @@ class Response(Result):
     system: Field[Any] = Field("The chain or rig.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     angular_speed: Field[Floats] = Field("Speeds of the support, rad/s, shape (...).", part=True)
+    frequency: Field[Floats] = Field("Revolutions in a second, Hz, shape (...).", lambda r: r.angular_speed / TURN)
+    rpm: Field[Floats] = Field("Revolutions in a minute, shape (...).", lambda r: r.angular_speed * (60 / TURN))
+    period: Field[Floats] = Field("Time of one revolution, s, shape (...).", lambda r: TURN / np.abs(r.angular_speed))
     conical_height: Field[Floats] = Field("Their conical heights, ``gravity / angular_speed**2``, m.", part=True)
     support_radius: Field[float] = Field("Radius of the circle, m.", part=True)
     pins: Field[Whole] = Field(
@@ -72,7 +76,7 @@ class Response(Result):
     reversed: Field[Flags] = Field("Whether the free end is on the side opposite to the support, shape (...).", part=True)
     resonant: Field[Flags] = Field("Whether the speed cannot be told from a resonance, shape (...).", part=True)
     support_force: Field[Floats] = Field(
-        "Horizontal pull of the chain on what carries its support, outwards, in the unit of the weights, shape (...).",
+        "Horizontal pull of the chain on what carries its support, outwards, N or in the unit of the weights, shape (...).",
         part=True,
     )
     support_force_error: Field[Floats] = Field("Proved bound of its error, in the same unit.", part=True)
@@ -143,7 +147,7 @@ class Response(Result):
             Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5),
             Column("first_pin_amplification", offset[:, 0] / self.support_radius, "over support", 4),
             Column("largest_offset", np.abs(offset).max(axis=1, initial=0.0), "farthest pin (m)", 5),
-            Column("support_force", self.support_force.reshape(-1), "pull on support (N)", 5),
+            Column("support_force", self.support_force.reshape(-1), f"pull on support{' (N)' if self.system.by_mass else ''}", 5),
             Column("error_bound", self.error_bound.reshape(-1), "error bound"),
             Column("conical_height", self.conical_height.reshape(-1)),
             Column("resonant", self.resonant.reshape(-1)),
@@ -176,14 +180,14 @@ SWING = (
 )
 
 
-class SmallOscillation(Result):
-    """A hanging chain swinging in a plane after release, as the sum of its modes; returned by `small_oscillation`.
+class Swing(Result):
+    """A hanging chain swinging in a plane after release, as the sum of its modes; returned by `swing`.
 
     Examples
     --------
     >>> import revchain as rc
-    >>> swing = rc.small_oscillation(rc.Chain(weight=1.0, length=9.80665), [0.1, 0.0], None, [0.0, 3.0])
-    >>> swing.offset.round(4)
+    >>> pendulum = rc.swing(rc.Chain(mass=1.0, length=9.80665), [0.1, 0.0], None, [0.0, 3.0])
+    >>> pendulum.offset.round(4)
     array([[ 0.1  ,  0.   ],
            [-0.099,  0.   ]])
     """
@@ -201,7 +205,7 @@ class SmallOscillation(Result):
         "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`.", part=True
     )
     energy: Field[Floats] = Field(
-        "Energy of each mode, weight times length, shape (k,); no mode gives any to another.", part=True
+        "Energy of each mode, J (weight times length), shape (k,); no mode gives any to another.", part=True
     )
     shape: Field[Floats] = Field("Shape of each mode, shape (k, N + 1), the largest offset 1.", part=True)
     cosine: Field[Floats] = Field(
@@ -227,7 +231,7 @@ class SmallOscillation(Result):
     )
 
     def plot(
-        self, ax: Axes | None = None, *, kind: str = "shapes", pins: Iterable[int] = (0,), length_unit: str = "m"
+        self, ax: Axes | None = None, *, kind: str = "shapes", pins: Iterable[int] = (0,)
     ) -> Axes:
         """Draw the chain at the times asked, or offsets of pins against time.
 
@@ -239,8 +243,6 @@ class SmallOscillation(Result):
             Shapes from dark (early) to light, offsets stretched; or offsets against time.
         pins : iterable of int
             For ``"time"``: which pins, 0 the free end.
-        length_unit : str
-            What to write on the axes.
 
         Returns
         -------
@@ -259,13 +261,13 @@ class SmallOscillation(Result):
         >>> import revchain as rc
         >>> chain = rc.Chain.uniform_plummets(10, length=1.0)
         >>> plucked = np.interp(np.arange(11), [0, 5, 10], [0.0, 0.05, 0.0])
-        >>> ax = rc.small_oscillation(chain, plucked, None, np.linspace(0, 4, 300)).plot(kind="time", pins=[0, 5])
+        >>> ax = rc.swing(chain, plucked, None, np.linspace(0, 4, 300)).plot(kind="time", pins=[0, 5])
         >>> ax.get_xlabel()
         'time (s)'
         """
-        from ..plots.response import plot_small_oscillation
+        from ..plots.response import plot_swing
 
-        return plot_small_oscillation(self, ax, kind, pins, length_unit=length_unit)
+        return plot_swing(self, ax, kind, pins)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
@@ -280,11 +282,12 @@ class SmallOscillation(Result):
         share = self.energy / self.energy.sum() if self.energy.sum() > 0 else self.energy
         most = np.argsort(share)[::-1][:3]
         words = ", ".join(f"{100 * share[k]:.3g} % in mode {k + 1}" for k in most if share[k] > 0)
+        many = f"{self.energy.size} mode{'s' * (self.energy.size != 1)}"
         names: tuple[str, ...] = ("gravity", "angular_frequency", "energy", "cosine", "sine", "start", "projected", "energy_left_out")
         names += ("truncation_error",)
         return Sheet(
             "time",
-            f"{self.energy.size} modes; of the energy {words}" if words else f"{self.energy.size} modes, at rest",
+            f"{many}; of the energy {words}" if words else f"{many}, at rest",
             columns,
             {name: getattr(self, name) for name in names},
             ["error bound: of every offset as a sum of modes, rounding"],

@@ -3,18 +3,23 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
+from ..systems.chain import like
 from ..systems.numbers import Floats, Whole, floats, shown
 from .base import Field, Result
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
     from .modes import Modes, RigModes
+
+
+DATA = ("mass", *_core.DATA[1:])
 
 
 class _ByDatum(Result):
@@ -25,13 +30,13 @@ class _ByDatum(Result):
 
     def __getitem__(self, quantity: str) -> Floats:
         """The array of a quantity by its name."""
-        if quantity not in _core.DATA:
-            raise KeyError(f"quantity must be one of {', '.join(_core.DATA)}, got {shown(quantity)}")
+        if quantity not in DATA:
+            raise KeyError(f"quantity must be one of {', '.join(DATA)}, got {shown(quantity)}")
         return getattr(self, quantity)  # type: ignore[no-any-return]
 
     def _columns(self) -> list[Column]:
         columns = [Column("mode", self.number, "mode")]
-        for name in _core.DATA:
+        for name in DATA:
             values = self[name]
             columns.append(Column(name, values, f"{name} of links[0]", axes=("link",), shown=values[:, 0]))
         return columns
@@ -49,7 +54,7 @@ class Derivatives(_ByDatum):
     """
 
     __slots__ = ()
-    weight: Field[Floats] = Field("Shape (k, N), links lowest first; see `Sensitivity.weight`.", part=True)
+    mass: Field[Floats] = Field("Shape (k, N), links lowest first; see `Sensitivity.mass`.", part=True)
     length: Field[Floats] = Field("Shape (k, N); see `Sensitivity.length`.", part=True)
     centroid: Field[Floats] = Field("Shape (k, N); see `Sensitivity.centroid`.", part=True)
     radius_of_gyration: Field[Floats] = Field("Shape (k, N); see `Sensitivity.radius_of_gyration`.", part=True)
@@ -66,15 +71,15 @@ class Sensitivity(_ByDatum):
 
     Notes
     -----
-    From the shape alone, in double-double: ``(y' dM y - height y' dK y) / (y' K y)``, O(N) a mode. Weights act by their
-    ratios: relative weights of a mode add up to 0. Relative lengths, centroids and radii of gyration add up to 1, and so
+    From the shape alone, in double-double: ``(y' dM y - height y' dK y) / (y' K y)``, O(N) a mode. Masses act by their
+    ratios: relative masses of a mode add up to 0. Relative lengths, centroids and radii of gyration add up to 1, and so
     do relative lengths in proportion, each a link's share of the potential energy.
 
     Examples
     --------
     >>> import revchain as rc
-    >>> s = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).sensitivity
-    >>> s.weight
+    >>> s = rc.modes(rc.Chain(mass=[1.0, 3.0], length=1.0)).sensitivity
+    >>> s.mass
     array([[ 0.1875, -0.0625],
            [-0.1875,  0.0625]])
     >>> s.length_in_proportion
@@ -83,8 +88,9 @@ class Sensitivity(_ByDatum):
     """
 
     __slots__ = ()
-    weight: Field[Floats] = Field(
-        "d(conical height)/d(weight), shape (k, N), links lowest first, unit of length over unit of weight.", part=True
+    mass: Field[Floats] = Field(
+        "d(conical height)/d(mass), m/kg, shape (k, N), links lowest first; of a chain given by weight, by its weights.",
+        part=True,
     )
     length: Field[Floats] = Field(
         "With respect to the distance between the pins: the lower pin moves, centre of gravity and radius of gyration "
@@ -117,9 +123,9 @@ class Uncertainty(Result):
     Examples
     --------
     >>> import revchain as rc
-    >>> u = rc.modes(rc.Chain(weight=[1.0, 3.0], length=1.0)).uncertainty(weight=0.1, length_in_proportion=0.002)
+    >>> u = rc.modes(rc.Chain(mass=[1.0, 3.0], length=1.0)).uncertainty(mass=0.1, length_in_proportion=0.002)
     >>> u.largest
-    (('weight', 0), ('weight', 0))
+    (('mass', 0), ('mass', 0))
     >>> m = rc.modes(rc.Chain(weight=1.0, length=2.4525), gravity=9.81)
     >>> m.uncertainty(length_in_proportion=0.024525).angular_speed.round(12)
     array([0.01])
@@ -132,6 +138,8 @@ class Uncertainty(Result):
         "The same over the heights, shape (k,). For speeds, periods and frequencies half as much.", part=True
     )
     angular_speed: Field[Floats] = Field("Of each whirl speed, rad/s, shape (k,); gravity is taken as exact.", part=True)
+    frequency: Field[Floats] = Field("Of each frequency, Hz, shape (k,).", lambda u: u.angular_speed / (2 * np.pi))
+    period: Field[Floats] = Field("Of each period, s, shape (k,).", part=True)
     share: Field[Derivatives] = Field(
         "What part of each variance comes from which datum of which link; those of a mode add up to 1. With a covariance "
         "a part may be negative.",
@@ -141,15 +149,49 @@ class Uncertainty(Result):
         "For each mode the datum that contributes most, and its link, counted from 0.", part=True
     )
 
+    names: Field[tuple[str, ...] | None] = Field("Names of the links; None where none were given.", part=True)
+
+    def _most(self, row: int) -> str:
+        datum, link = self.largest[row]
+        if not self.relative[row]:
+            return "nothing"
+        return f"{datum} of {self.names[link] if self.names else f'links[{link}]'}"
+
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
             Column("mode", self.number, "mode"),
             Column("conical_height", self.conical_height, "of the height (m)"),
-            Column("relative", self.relative, "relative"),
+            Column("relative", self.relative, "relative, of the height"),
             Column("angular_speed", self.angular_speed, "of the speed (rad/s)"),
-            Column("largest", [f"{datum} of links[{link}]" for datum, link in self.largest], "most comes from"),
+            Column("period", self.period, "of the period (s)"),
+            Column("largest", [self._most(row) for row in range(len(self.largest))], "most comes from"),
         ]
         return Sheet("mode", "Standard deviations", columns)
+
+
+def _data(chain: Any) -> dict[str, Floats]:
+    return {
+        "mass": chain.mass if chain.by_mass else chain.weight,
+        "length": chain.length,
+        "centroid": chain.centroid,
+        "radius_of_gyration": chain.radius_of_gyration,
+        "length_in_proportion": chain.length,
+    }
+
+
+def _part(place: str, text: str) -> float:
+    with suppress(ValueError):
+        return float(text.strip().removesuffix("%")) / 100
+    raise ValueError(f'{place} must be a number, or a part of it such as "5 %", got {shown(text)}')
+
+
+def _parts_of_data(place: str, value: Any, data: Floats) -> list[Any]:
+    """Deviations, those given in per cent as parts of the data."""
+    of = [data[k] if k < len(data) else 1.0 for k in range(len(value))]
+    return [
+        _part(place, one) * float(datum) if isinstance(one, str) and one.strip().endswith("%") else one
+        for one, datum in zip(value, of, strict=True)
+    ]
 
 
 def of_modes(modes: Modes) -> Sensitivity:
@@ -158,14 +200,8 @@ def of_modes(modes: Modes) -> Sensitivity:
     first = int(modes.number[0]) if len(modes) else 1
     heights = modes.conical_height.astype(np.float64)
     values, bounds = _core.sensitivity(chain._compiled, first, heights)
-    data = {
-        "weight": chain.weight,
-        "length": chain.length,
-        "centroid": chain.centroid,
-        "radius_of_gyration": chain.radius_of_gyration,
-        "length_in_proportion": chain.length,
-    }
-    named = dict(zip(_core.DATA, values, strict=True))
+    data = _data(chain)
+    named = dict(zip(DATA, values, strict=True))
     relative = {name: value * (data[name] / heights[:, None]) for name, value in named.items()}
     return Sensitivity._made(
         None,
@@ -177,16 +213,22 @@ def of_modes(modes: Modes) -> Sensitivity:
 
 
 def _derivatives(modes: Modes, values: Any) -> Derivatives:
-    return Derivatives._made(None, number=modes.number, **dict(zip(_core.DATA, values, strict=True)))
+    return Derivatives._made(None, number=modes.number, **dict(zip(DATA, values, strict=True)))
 
 
 def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty:
     """`Modes.uncertainty`."""
     place = "revchain.Modes.uncertainty"
     size = modes.system.size
+    if given["mass"] is not None or given["weight"] is not None:
+        given["mass"] = like(place, modes.system, given["mass"], given["weight"])
     deviations: list[Any] = []
-    for name in _core.DATA:
+    for name in DATA:
         value = given[name]
+        if isinstance(value, str):
+            value = [value] * size
+        if isinstance(value, list | tuple):
+            value = _parts_of_data(f"{place}: {name}", value, np.abs(_data(modes.system)[name]))
         array = None if value is None else floats(place, name, value)
         if array is not None and array.shape not in ((), (size,), (size, size)):
             raise ValueError(
@@ -197,16 +239,18 @@ def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty
     sensitivity: Any = modes.sensitivity
     heights = modes.conical_height.astype(np.float64)
     height, relative, share, datum, link = _core.uncertainty(
-        heights, [sensitivity[name] for name in _core.DATA], deviations
+        heights, [sensitivity[name] for name in DATA], deviations
     )
     return Uncertainty._made(
         None,
         number=modes.number,
+        names=modes.system.names,
         conical_height=height,
         relative=relative,
         angular_speed=0.5 * relative * np.asarray(modes.angular_speed, np.float64),
+        period=0.5 * relative * np.asarray(modes.period, np.float64),
         share=_derivatives(modes, share),
-        largest=tuple(zip(datum, link, strict=True)),
+        largest=tuple((each.replace("weight", "mass"), k) for each, k in zip(datum, link, strict=True)),
     )
 
 
@@ -221,7 +265,8 @@ class RigSensitivity(Result):
     A point mass with a flywheel, ``A n^2 - H n - W a = 0`` with ``A = W a^2 / g``:
 
     >>> import revchain as rc
-    >>> m = rc.modes(rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), momentum=[0.0, 0.5]))
+    >>> wheels = rc.Flywheel(momentum=[0.0, 0.5])
+    >>> m = rc.modes(rc.Rig(rc.Chain(weight=[1.0, 3.0], length=1.0), flywheels=wheels))
     >>> m.angular_speed.round(3)
     array([-2.315,  2.722, -3.939,  5.166])
     >>> m.sensitivity.momentum[:, 1].round(3)
@@ -231,7 +276,10 @@ class RigSensitivity(Result):
     __slots__ = ()
     number: Field[Whole] = Field("Mode numbers, shape (k,), each among those of its direction.", part=True)
     direction: Field[Whole] = Field("1 forward, -1 backward, shape (k,).", part=True)
-    weight: Field[Floats] = Field("With respect to the weight of each link, shape (k, N).", part=True)
+    mass: Field[Floats] = Field(
+        "With respect to the mass of each link, shape (k, N); of a chain given by weight, to its weights, here and below.",
+        part=True,
+    )
     length: Field[Floats] = Field(
         "With respect to the distance between its pins: the lower pin moves; flywheels keep their momentum, what is "
         "displaced its place and size.",
@@ -243,10 +291,10 @@ class RigSensitivity(Result):
         "With respect to a length that takes centroid and radius of gyration with it.", part=True
     )
     momentum: Field[Floats] = Field("With respect to the angular momentum of each link's flywheel.", part=True)
-    displaced_weight: Field[Floats] = Field("With respect to the weight of fluid that each link displaces.", part=True)
-    added_weight: Field[Floats] = Field("With respect to the fluid that has to move with each link.", part=True)
+    displaced_mass: Field[Floats] = Field("With respect to the mass of fluid that each link displaces.", part=True)
+    added_mass: Field[Floats] = Field("With respect to the fluid that has to move with each link.", part=True)
     stiffness: Field[Floats] = Field("Of the support, shape (k,); 0 where it is firm.", part=True)
-    carriage_weight: Field[Floats] = Field("Of the support, shape (k,); 0 where it is firm.", part=True)
+    support_mass: Field[Floats] = Field("Of what moves with the support, shape (k,); 0 where it is firm.", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [Column("mode", self.number, "mode"), Column("direction", self.direction, "direction")]
@@ -258,23 +306,23 @@ class RigSensitivity(Result):
 
 
 _OF_LINKS = (
-    "weight",
+    "mass",
     "length",
     "centroid",
     "radius_of_gyration",
     "length_in_proportion",
     "momentum",
-    "displaced_weight",
-    "added_weight",
+    "displaced_mass",
+    "added_mass",
 )
-_OF_SUPPORT = ("stiffness", "carriage_weight")
+_OF_SUPPORT = ("stiffness", "support_mass")
 
 
 def of_rig(modes: RigModes) -> RigSensitivity:
     """`RigModes.sensitivity`."""
     rig = modes.system
     rows = [
-        _core.rig_sensitivity(rig._compiled, float(n), y, modes.gravity)
+        _core.rig_sensitivity(rig._under(modes.gravity), float(n), y, modes.gravity)
         for n, y in zip(modes.angular_speed, modes.shape, strict=True)
     ]
     if rows:
@@ -282,4 +330,6 @@ def of_rig(modes: RigModes) -> RigSensitivity:
     else:
         columns = [np.empty((0, rig.size))] * len(_OF_LINKS) + [np.empty(0)] * len(_OF_SUPPORT)
     named = dict(zip((*_OF_LINKS, *_OF_SUPPORT), columns, strict=True))
+    per = rig._force(modes.gravity)
+    named |= {name: named[name] / per for name in ("momentum", "stiffness")}
     return RigSensitivity._made(None, number=modes.number, direction=modes.direction, **named)

@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
 from ..systems.chain import Chain
+from ..systems.held import Held
 from ..systems.numbers import Floats, shown
 from ..systems.rig import Rig
 from .base import Field, Result, Results
@@ -18,6 +21,8 @@ from .sheet import Column, Sheet, digits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+TURN = 2 * math.pi
 
 
 def is_driven(place: str, frame: str) -> bool:
@@ -65,7 +70,69 @@ class Stability(Result):
         return Sheet("exponent", heading, columns, facts | {"negative_directions": self.negative_directions})
 
 
-class SteadyShape(Result):
+def forced(name: str) -> Any:
+    """A force of the compiled shape: where masses were given, times gravity."""
+
+    def compute(shape: Any) -> Any:
+        value, per = getattr(shape._found(), name), shape._per
+        return value if per == 1.0 else per * value
+
+    return compute
+
+
+class Shape(Result):
+    """One steady shape (relative equilibrium) of a system at one speed; arrays begin at the free, or lower, end."""
+
+    __slots__ = ()
+    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", part=True)
+    angular_speed: Field[float] = Field("The turning speed, rad/s.", lambda s: _speed(s.conical_height, s.gravity))
+    frequency: Field[float] = Field("Revolutions in a second, Hz.", lambda s: s.angular_speed / TURN)
+    rpm: Field[float] = Field("Revolutions in a minute.", lambda s: s.angular_speed * (60 / TURN))
+    period: Field[float] = Field("Time of one revolution, s.", lambda s: TURN / s.angular_speed)
+    conical_height: Field[float] = Field("Height of the equivalent conical pendulum, m; 0 without gravity.", part=True)
+    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", part=True)
+
+    @property
+    def _per(self) -> float:
+        """Forces over those of the compiled shape."""
+        return self.system._force(self.gravity)  # type: ignore[no-any-return]
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the shape, true to scale.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
+        >>> ax.get_xlabel()
+        'distance from the axis (m)'
+        """
+        from ..plots.style import plot_shapes
+
+        return plot_shapes([self], ax)
+
+    @classmethod
+    def _columns(cls, shapes: Sequence[Any]) -> list[Column]:
+        """Of a list of shapes."""
+        raise NotImplementedError
+
+
+class SteadyShape(Shape):
     """One steady shape (relative equilibrium) of a chain or rig: links lowest first, pins free end first.
 
     Returned by `steady_shapes`, `steady_shape` and branches.
@@ -81,13 +148,7 @@ class SteadyShape(Result):
     """
 
     __slots__ = ()
-    system: Field[Any] = Field("The chain or rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
     direction: Field[int] = Field("1 or -1: of the rotation; it matters to flywheels.", part=True)
-    angular_speed: Field[float] = Field(
-        "The turning speed, rad/s.", lambda s: _speed(s.conical_height, s.gravity)
-    )
-    conical_height: Field[float] = Field("Height of the equivalent conical pendulum, m.", part=True)
     inclination: Field[Floats] = Field(
         "Inclination of each link to the downward vertical, rad, shape (N,), within (-pi, pi].", part=True
     )
@@ -98,12 +159,13 @@ class SteadyShape(Result):
     )
     height: Field[Floats] = Field("Height of each pin above the support, m, shape (N + 1,).", part=True)
     tension: Field[Floats] = Field(
-        "Size of the reaction at the upper pin of each link, shape (N,), in the unit of the weights.", part=True
+        "Size of the reaction at the upper pin of each link, shape (N,), N or in the unit of the weights.",
+        forced("tension"),
+        part=True,
     )
     reaction_inclination: Field[Floats] = Field(
         "Inclination of that reaction to the vertical, rad, shape (N,).", part=True
     )
-    half_waves: Field[int] = Field("Sign changes of the offsets, plus one.", part=True)
     residual: Field[float] = Field(
         "Largest moment about a pin of all that hangs there, over total weight times total length.", part=True
     )
@@ -115,13 +177,17 @@ class SteadyShape(Result):
         "and centrifugal forces, each changed by the same share of itself, whatever the signs.",
         part=True,
     )
-    moment_of_inertia: Field[float] = Field("About the axis, weight times length squared; over gravity: mass.", part=True)
+    moment_of_inertia: Field[float] = Field(
+        "About the axis, kg m^2; of a chain given by weight, weight times length squared.", part=True
+    )
     effective_energy: Field[float] = Field(
-        "Potential energy less half of ``moment_of_inertia / conical_height``: stationary at a steady shape.", part=True
+        "Potential energy less half of moment of inertia times speed squared, J: stationary at a steady shape.",
+        forced("effective_energy"),
+        part=True,
     )
     angular_momentum: Field[float] = Field(
-        "About the axis, weight times length times s; for a `Rig` with what its flywheels keep, negative where all that "
-        "turns the other way.",
+        "About the axis, kg m^2/s, or in the unit of the weights; for a `Rig` with what its flywheels keep, negative "
+        "where all that turns the other way.",
         lambda s: s._angular_momentum(),
     )
 
@@ -143,9 +209,7 @@ class SteadyShape(Result):
         Raises
         ------
         ValueError
-            If `frame` is neither.
-        TypeError
-            If the shape is that of a `Rig`.
+            If `frame` is neither, or the shape is that of a `Rig`.
 
         Examples
         --------
@@ -168,7 +232,7 @@ class SteadyShape(Result):
 
         Raises
         ------
-        TypeError
+        ValueError
             If the shape is that of a `Rig`.
 
         Notes
@@ -185,7 +249,11 @@ class SteadyShape(Result):
         >>> bool(np.allclose(side[:, 0] / side[:, 1], diagram.ray[:, 0] / diagram.ray[:, 1], rtol=1e-14))
         True
         """
-        return ForceDiagram._made(_core.force_diagram(self._chain("force_diagram"), self._found()))
+        found = _core.force_diagram(self._chain("force_diagram"), self._found())
+        if self._per == 1.0:
+            return ForceDiagram._made(found)
+        forces = {name: self._per * getattr(found, name) for name in ("load", "ray", "reaction")}
+        return ForceDiagram._made(found, **forces)
 
     def transferred_to_axis(self) -> Chain:
         """Return the straight chain whose weights hang on the axis, level with where they are in the shape.
@@ -198,7 +266,7 @@ class SteadyShape(Result):
 
         Raises
         ------
-        TypeError
+        ValueError
             If the shape is that of a `Rig`.
 
         Notes
@@ -213,52 +281,27 @@ class SteadyShape(Result):
         >>> rc.modes(shape.transferred_to_axis()).conical_height.round(12)
         array([0.5       , 0.08366581])
         """
-        return Chain._wrap(_core.transferred_to_axis(self._chain("transferred_to_axis"), self._found()))
-
-    def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
-        """Draw the shape, true to scale.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
-        length_unit : str
-            What to write on the axes.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.steady_shapes(rc.Chain.uniform_plummets(3, length=1.0), conical_height=0.05)[0].plot()
-        >>> ax.get_xlabel()
-        'from the axis (m)'
-        """
-        from ..plots.style import plot_shapes
-
-        return plot_shapes([self], ax, linked=True, length_unit=length_unit)
+        made = _core.transferred_to_axis(self._chain("transferred_to_axis"), self._found())
+        return Chain._wrap(made, self.system.by_mass, self.system.names)
 
     def _chain(self, method: str) -> _core.Chain:
         if isinstance(self.system, Rig):
-            raise TypeError(f"revchain.SteadyShape.{method}: shapes of a Chain have it, those of a Rig do not")
+            raise ValueError(
+                f"revchain.SteadyShape.{method}: is for shapes of a Chain; for a Rig ask modes, or the shape of its chain"
+            )
         core: _core.Chain = self.system._compiled
         return core
 
     def _again(self) -> Any:
-        return _core.SteadyShape(**{name: getattr(self, name) for name in _CORE})
+        per = {"tension": self._per, "effective_energy": self._per}
+        return _core.SteadyShape(**{name: getattr(self, name) / per.get(name, 1) for name in _CORE})
 
     def _angular_momentum(self) -> float:
         turning = self.moment_of_inertia / self.gravity * self.angular_speed
-        if not isinstance(self.system, Rig):
-            return turning
-        return self.direction * turning + float(np.sum(self.system.momentum * np.cos(self.inclination)))
+        if isinstance(self.system, Rig):
+            kept = float(np.sum(self.system._momentum(self.gravity) * np.cos(self.inclination)))
+            turning = self.direction * turning + kept
+        return self._per * turning
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
@@ -277,6 +320,28 @@ class SteadyShape(Result):
         return Sheet("link", heading, columns, facts, notes)
 
 
+    _note: ClassVar[str] = "inclinations: to the downward vertical; error: proved bound of every inclination"
+
+    @classmethod
+    def _columns(cls, shapes: Sequence[Any]) -> list[Column]:
+        angles = [shape.inclination for shape in shapes]
+        unit = " (N)" if shapes[0].system.by_mass else ""
+        lowest, top = [x[0] for x in angles], [x[-1] for x in angles]
+        columns = [
+            Column("lowest_inclination", lowest, "lowest link (°)", 5, shown=np.degrees(lowest)),
+            Column("top_inclination", top, "top link (°)", 5, shown=np.degrees(top)),
+            Column("free_end_offset", [x.offset[0] for x in shapes], "free end: from axis (m)", 5),
+            Column("free_end_height", [x.height[0] for x in shapes], "above support (m)", 5),
+            Column("top_tension", [x.tension[-1] for x in shapes], f"top tension{unit}", 5),
+            Column("error_bound", [x.error_bound for x in shapes], "error (rad)"),
+        ]
+        names = ("inclination", "offset", "height", "tension", "reaction_inclination")
+        axes = {"offset": "pin", "height": "pin"}
+        return columns + [
+            Column(name, table([getattr(x, name) for x in shapes]), axes=(axes.get(name, "link"),)) for name in names
+        ]
+
+
 _CORE = (
     "inclination",
     "offset",
@@ -293,29 +358,34 @@ _CORE = (
 )
 
 
-class SteadyShapes(Results[SteadyShape]):
-    """All steady shapes of a chain or rig at one speed, by half waves, then inclination of the lowest link."""
+class SteadyShapes(Results[Any]):
+    """The steady shapes of a system at one speed, by half waves, then inclination of the lowest link."""
 
     __slots__ = ()
-    system: Field[Any] = Field("The chain or rig.", part=True)
-    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
-    conical_height: Field[float] = Field("Conical height of the speed, m.", part=True)
+    system: Field[Any] = Field("The chain, rig, cord, or held chain or cord.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2; 0 without gravity.", part=True)
+    conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
     angular_speed: Field[float] = Field("The turning speed, rad/s.", part=True)
-    complete: Field[bool] = Field("Whether it is proved that none is missing.", part=True)
+    complete: Field[bool] = Field(
+        "Whether it is proved that none is missing. Always False where both ends are held: completeness has not been "
+        "proved.",
+        part=True,
+    )
     undecided: Field[Floats] = Field(
         "Ranges of the lowest link's inclination in which there may be more, rad, shape (k, 2).", part=True
     )
     cells: Field[int] = Field("How many parts of the range had to be looked at.", part=True)
+    missing: Field[tuple[int, ...]] = Field(
+        "With both ends held: half waves, of those asked for, with which nothing was found.", part=True
+    )
 
-    def plot(self, ax: Axes | None = None, *, length_unit: str = "m") -> Axes:
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Draw all shapes over one another, true to scale, coloured by half waves.
 
         Parameters
         ----------
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
-        length_unit : str
-            What to write on the axes.
 
         Returns
         -------
@@ -335,43 +405,42 @@ class SteadyShapes(Results[SteadyShape]):
         """
         from ..plots.style import plot_shapes
 
-        axes = plot_shapes(self, ax, linked=True, length_unit=length_unit)
-        count = f"{len(self)} shape{'s' * (len(self) != 1)}"
-        axes.set_title(f"{count}, proved complete" if self.complete else f"{count}; there may be more")
+        axes = plot_shapes(self, ax)
+        axes.set_title(self._how_many())
         return axes
 
+    def _how_many(self, at: str = "") -> str:
+        number = f"{len(self)} shape{'s' * (len(self) != 1)}{at}"
+        if self.missing:
+            return f"{number}; none found with {', '.join(map(str, self.missing))} half waves"
+        if isinstance(self.system, Held):
+            return number
+        return f"{number}, proved complete" if self.complete else f"{number}; there may be more"
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        def of(name: str) -> list[Any]:
-            return [getattr(shape, name) for shape in self]
-
-        angles = of("inclination")
         columns = [
             Column("shape", np.arange(1, len(self) + 1), "shape"),
-            Column("half_waves", np.array(of("half_waves"), int), "half waves"),
-            Column("lowest_inclination", [x[0] for x in angles], "lowest link (°)", 5, shown=[np.degrees(x[0]) for x in angles]),
-            Column("top_inclination", [x[-1] for x in angles], "top link (°)", 5, shown=[np.degrees(x[-1]) for x in angles]),
-            Column("free_end_offset", [x[0] for x in of("offset")], "free end: off axis (m)", 5),
-            Column("free_end_height", [x[0] for x in of("height")], "height (m)", 5),
-            Column("top_tension", [x[-1] for x in of("tension")], "top tension", 5),
-            Column("error_bound", of("error_bound"), "error (rad)"),
+            Column("half_waves", np.array([shape.half_waves for shape in self], int), "half waves"),
         ]
-        names = ("inclination", "offset", "height", "tension", "reaction_inclination")
-        axes = {"offset": "pin", "height": "pin"}
-        columns += [Column(name, _table(of(name)), axes=(axes.get(name, "link"),)) for name in names]
-        notes = ["inclinations: to the downward vertical; error: proved bound of every inclination"]
-        names = ("gravity", "angular_speed", "conical_height", "complete", "undecided")
-        heading = f"{len(self)} shape{'s' * (len(self) != 1)} at {digits(self.angular_speed, 6)} rad/s"
-        heading += ", proved complete" if self.complete else "; there may be more"
+        notes = []
+        if not len(self) and self.complete:
+            notes = ["it hangs straight: the speed is below the first critical speed"]
+        if len(self):
+            kind = type(self[0])
+            columns += kind._columns(self)
+            notes = [kind._note]
+        names = ("gravity", "angular_speed", "conical_height", "complete", "undecided", "missing")
+        heading = self._how_many(f" at {digits(self.angular_speed, 6)} rad/s")
         facts = {name: getattr(self, name) for name in names}
-        return Sheet("shape", heading, columns, facts, notes if len(self) else [], self.complete)
+        return Sheet("shape", heading, columns, facts, notes, self.complete or isinstance(self.system, Held))
 
 
 def _speed(height: float, gravity: float) -> float:
     return float(_core.conical_pendulum_angular_speed(np.asarray(height), np.asarray(gravity)))
 
 
-def _table(rows: list[Floats]) -> Floats:
+def table(rows: list[Floats]) -> Floats:
+    """Arrays of one length as rows; as they are where the lengths differ."""
     return np.array(rows) if rows else np.empty((0, 0))
 
 
@@ -381,4 +450,4 @@ def shapes_made(
     """A list around compiled shapes."""
     given: dict[str, Any] = {"system": system, "gravity": gravity}
     items = tuple(SteadyShape._made(shape, direction=direction, **given) for shape in found.shapes)
-    return SteadyShapes._made(found, _items=items, conical_height=height, angular_speed=speed, **given)
+    return SteadyShapes._made(found, _items=items, conical_height=height, angular_speed=speed, missing=(), **given)

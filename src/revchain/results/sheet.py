@@ -3,11 +3,8 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from dataclasses import dataclass, field
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -139,6 +136,8 @@ def as_text(sheet: Sheet) -> str:
 
 def as_html(sheet: Sheet) -> str:
     """The table that a notebook shows."""
+    from html import escape
+
     headings, rows, notes = cells(sheet)
     head = "".join(f"<th>{escape(heading)}</th>" for heading in headings)
     body = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
@@ -180,6 +179,9 @@ def finite(value: Any) -> Any:
 
 def as_csv(sheet: Sheet) -> str:
     """One line for each row, with all digits; arrays as numbers separated by blanks."""
+    import csv
+    import io
+
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(column.name for column in sheet.columns)

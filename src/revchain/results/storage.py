@@ -7,22 +7,22 @@ import json
 import os
 import zlib
 from collections.abc import Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
 
-from ..systems.chain import Chain
 from ..systems.extras import require
 from ..systems.numbers import file_path
-from ..systems.rig import Rig
+from ..systems.system import System
+from ..systems.system import restored as system_from
 from .base import Result, restored
 from .files import hdf5_file, naming, written_aside
 
 FORMAT = "revchain 2"
 HEADER = "revchain"  # the name under which a file says what it holds
 SEAL = b"revchain"  # then the CRC-32 of all bytes before it
-SYSTEMS: dict[str, Any] = {"Chain": Chain, "Rig": Rig}
 
 
 def save(result: Result, path: str | os.PathLike[str]) -> None:
@@ -113,13 +113,12 @@ def _packed(value: Any, name: str, arrays: dict[str, Any], made: dict[int, str])
         return {"complex": name}
     if isinstance(value, Result):
         state = {key: _packed(item, f"{name}.{key}", arrays, made) for key, item in value._state().items()}
-        return {"result": type(value).__name__, "state": state}
-    if isinstance(value, tuple(SYSTEMS.values())):
-        of_system: Any = value
+        return {"result": type(value).__name__, "module": type(value).__module__, "state": state}
+    if isinstance(value, System):
         if id(value) in made:
             return {"same": made[id(value)]}
         made[id(value)] = name
-        return {"system": type(value).__name__, "name": name, "state": _packed(of_system._state(), name, arrays, made)}
+        return {"system": type(value).__name__, "name": name, "state": _packed(value._state(), name, arrays, made)}
     if isinstance(value, dict):
         return {"dict": {key: _packed(item, f"{name}.{key}", arrays, made) for key, item in value.items()}}
     if isinstance(value, tuple) and value and all(isinstance(x, np.ndarray) and x.ndim == 1 for x in value):
@@ -142,11 +141,13 @@ def _unpacked(value: Any, arrays: Mapping[str, Any], made: dict[str, Any]) -> An
         return number
     if "result" in value:
         state = {key: _unpacked(item, arrays, made) for key, item in value["state"].items()}
+        if value["result"] not in Result._kinds and str(value.get("module")).startswith("revchain.closed_forms."):
+            import_module(value["module"])  # imported when they are first needed
         if value["result"] not in Result._kinds:
             raise ValueError(f"a file holds a {value['result']}, which this version of revchain does not know")
         return restored(Result._kinds[value["result"]], state)
     if "system" in value:
-        made[value["name"]] = SYSTEMS[value["system"]]._from_state(_unpacked(value["state"], arrays, made))
+        made[value["name"]] = system_from(value["system"], _unpacked(value["state"], arrays, made))
         return made[value["name"]]
     if "same" in value:
         return made[value["same"]]
@@ -195,5 +196,6 @@ def _netcdf(purpose: str) -> Any:
 def _ending(place: str, path: str | os.PathLike[str]) -> str:
     ending = Path(file_path(place, "path", path)).suffix.lower()
     if ending not in (".npz", ".nc"):
-        raise ValueError(f"results are kept in .npz or .nc files, got {os.fspath(path)}")
+        more = "; for a picture: result.plot().figure.savefig(...); for a scene: revchain.load_scene"
+        raise ValueError(f"results are kept in .npz or .nc files, got {os.fspath(path)}{more}")
     return ending

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from ..systems.chain import Chain
+from typing import Any
+
 from ..systems.numbers import Floats
 from .base import Field, Result
 from .sheet import Column, Sheet
@@ -18,11 +19,11 @@ class Tuned(Result):
     --------
     >>> import revchain as rc
     >>> chain = rc.Chain(weight=[1.0, 3.0], length=1.0)
-    >>> rc.tune(chain, link=1, quantity="weight", conical_height=1.7)
+    >>> rc.tune(chain, vary="links[0].weight", conical_height=1.7)
     Tuned: weight of links[0] = 2.88235
       value
     2.88235
-    >>> rc.tune(chain, link=1, quantity="weight", conical_height=2.5).status
+    >>> rc.tune(chain, vary="links[0].weight", conical_height=2.5).status
     'no_value'
     """
 
@@ -33,14 +34,16 @@ class Tuned(Result):
         part=True,
     )
     datum: Field[str] = Field("What was changed.", part=True)
-    system: Field[Chain | None] = Field("The chain with `value` in place; None where none was found.", part=True)
+    system: Field[Any] = Field("The system with `value` in place; None where none was found.", part=True)
     value: Field[float | None] = Field(
         "The one nearest to the present value (for weights, in ratio, and but for others within a few per cent of it); "
         "None where none was found.",
         part=True,
     )
     error_bound: Field[float | None] = Field(
-        "Absolute, proved: `value` is that near to one that does exactly; None where none was found.", part=True
+        "Absolute, proved: `value` is that near to one that does exactly. None where none was found, and of rigs, whose "
+        "values are formed to 1e-15: the bound of the new rig's speed is proved.",
+        part=True,
     )
     values: Field[Floats] = Field("All that were found in the range, ascending.", part=True)
     complete: Field[bool] = Field(
@@ -51,7 +54,7 @@ class Tuned(Result):
     present: Field[float] = Field("The datum as it is.", part=True)
     between: Field[Pair] = Field("The range searched.", part=True)
     reachable: Field[Pair | None] = Field(
-        "Where none was found: the least and the largest conical height seen in the range, at 33 places.", part=True
+        "Where none was found: the least and the largest conical height seen in the range, at 33 places; None of rigs.", part=True
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:

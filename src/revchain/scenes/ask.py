@@ -1,104 +1,108 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the table [ask] of a scene to the arguments of `revchain.modes`, and errors with the key."""
+"""The tables of a scene file for what is asked, one a question: their keys are the arguments of the Python function."""
 
 from __future__ import annotations
 
-import math
-from typing import Any
+from typing import Annotated, Literal
 
-from msgspec import UNSET, UnsetType, json
+from msgspec import UNSET, UnsetType
 
-from ..systems.chain import Chain
-from .ask_tables import Ask, AskShapes
-from .chain import Numbers
-from .error import SceneError
+from .tables import AnySign, Count, MaybeNotNegative, MaybePositive, NotNegative, Table, says
 
 DEFAULT_MODES = 10
 
-_OF_HANGING_CHAINS = ("conical_height", "angular_speed", "rtol", "certify", "precision", "method")
+Pair = tuple[NotNegative, NotNegative]
+Listed = list[AnySign]
+OneOrMore = float | str | Listed  # msgspec 0.22 ends the process for a text with a pattern beside a list
 
 
-def asked(ask: Ask, chain: Chain, gravity: float, source: str, rigged: bool) -> dict[str, Any]:
-    """What differs from the defaults of `revchain.modes`, checked; `source` is what errors name."""
-    if rigged:
-        return _asked_of_rig(ask, gravity, source)
-    arguments = {"gravity": gravity, **_selection(ask, chain, source)}
-    if ask.rtol is not UNSET:
-        if not math.isfinite(ask.rtol):
-            raise SceneError(source, "ask.rtol", f"must be finite, got {ask.rtol}")
-        arguments["rtol"] = ask.rtol
-    if ask.certify:
-        arguments["certify"] = True
-    for name, default in (("precision", "double"), ("method", "auto")):
-        if (word := getattr(ask, name)) != default:
-            arguments[name] = word
-    if ask.precision != "double" and ask.method not in ("auto", "bisection"):
-        raise SceneError(source, "ask.precision", f'method = "{ask.method}" goes with "double" only')
-    return arguments
+class Spread(Table, frozen=True, rename={"first": "from", "last": "to"}):
+    """Numbers from one to another, both included."""
+
+    last: Annotated[AnySign, says("The last one.")]
+    first: Annotated[AnySign, says("The first one.")] = 0.0
+    steps: Annotated[Count, says("How many.")] = 200
+    log: Annotated[bool, says("Whether in equal ratios instead of equal differences.")] = False
 
 
-def asked_of_held(ask: Ask, chain: Chain, source: str) -> int:
-    """How many modes of a chain held at both ends, slowest first; what would be passed over is refused."""
-    reason = "is for a chain that hangs"
-    _refuse_any(("first", *_OF_HANGING_CHAINS), ask, Numbers(source, "ask"), f"{reason}: held at both ends give modes")
-    if not isinstance(ask.shapes, UnsetType):
-        _refuse_any(("sense", "any_posture"), ask.shapes, Numbers(source, "ask.shapes"), reason)
-    most = max(chain.size - 1, 1)
-    return most if ask.modes == "all" else DEFAULT_MODES if isinstance(ask.modes, UnsetType) else ask.modes
+class AskModes(Table, frozen=True):
+    """The modes: whirl speeds, shapes, nodes (`revchain.modes`). Give `count` and `first`, or one window."""
+
+    count: Annotated[
+        Count | Literal["all"] | UnsetType,
+        says('How many modes, slowest first, or "all"; 10, or as many as there are, if left out.'),
+    ] = UNSET
+    first: Annotated[Count | UnsetType, says("Number of the slowest mode wanted, from 1.")] = UNSET
+    angular_speed: Annotated[Pair | UnsetType, says("[low, high]: low <= whirl speed < high (rad/s).")] = UNSET
+    conical_height: Annotated[Pair | UnsetType, says("[low, high]: low < conical height <= high (m).")] = UNSET
+    rtol: Annotated[MaybeNotNegative, says('Relative tolerance of the heights, such as "1 %".')] = UNSET
+    certify: Annotated[bool, says("Whether to prove each height with an interval and its counts.")] = False
+    precision: Annotated[Literal["single", "double", "extended", "double-double"], says("The arithmetic.")] = "double"
+    method: Annotated[str | UnsetType, says("A method that explain lists; the cheapest if left out.")] = UNSET
 
 
-def _asked_of_rig(ask: Ask, gravity: float, source: str) -> dict[str, Any]:
-    """The modes of each sense of rotation, by their numbers: how many there are is found with them."""
-    reason = "is for a chain alone: with a support, standing links, flywheels or a fluid give modes"
-    _refuse_any(_OF_HANGING_CHAINS, ask, Numbers(source, "ask"), reason)
-    first = 1 if ask.first is UNSET else ask.first
-    count = DEFAULT_MODES if ask.modes is UNSET else ask.modes
-    return {"gravity": gravity, "first": first, "count": count}
+class AskShapes(Table, frozen=True):
+    """Every steady shape (relative equilibrium) at one speed, at any inclination (`revchain.steady_shapes`)."""
+
+    angular_speed: Annotated[MaybePositive, says("The speed (rad/s); or conical_height.")] = UNSET
+    conical_height: Annotated[MaybePositive, says("g / n^2 of the speed (m); or angular_speed.")] = UNSET
+    hanging_only: Annotated[bool, says("Whether to leave out shapes in which links turn over.")] = True
+    direction: Annotated[Literal[1, -1], says("Of the rotation; it matters to flywheels.")] = 1
+    max_half_waves: Annotated[
+        Count | UnsetType, says("Between two held ends: shapes of 1 to so many half waves.")
+    ] = UNSET
 
 
-def _refuse_any(names: tuple[str, ...], table: Ask | AskShapes, numbers: Numbers, reason: str) -> None:
-    """Refuse keys of a table that are not left at their defaults."""
-    defaults = type(table)()
-    for name in names:
-        if (value := getattr(table, name)) != getattr(defaults, name):
-            raise numbers.refuse(name, f"{reason}, got {_as_written(value)}")
+class AskResponse(Table, frozen=True):
+    """Motion of small amplitude of a chain whose support is carried round, or to and fro (`revchain.response`)."""
+
+    angular_speed: Annotated[
+        OneOrMore | Spread | UnsetType,
+        says("A speed (rad/s), a list of them, or {from, to, steps, log}; negative only with flywheels."),
+    ] = UNSET
+    conical_height: Annotated[OneOrMore | Spread | UnsetType, says("Instead: g / n^2 of the speeds (m).")] = UNSET
+    support_radius: Annotated[MaybePositive, says("Of the circle (m); that of [support], or 1, if left out.")] = UNSET
 
 
-def _as_written(value: Any) -> str:
-    """As a scene file has it."""
-    return f"{value}" if isinstance(value, float) else json.encode(value).decode()  # JSON has no infinity
+class AskSwing(Table, frozen=True):
+    """Small oscillations of a hanging chain after release, in a plane (`revchain.swing`)."""
+
+    offset: Annotated[Listed, says("Of each pin at the start (m), free end first, the support left out.")]
+    velocity: Annotated[Listed | UnsetType, says("Likewise (m/s); at rest if left out.")] = UNSET
+    time: Annotated[OneOrMore | Spread, says("s: one, a list, or {from, to, steps}.")] = Spread(last=10.0, steps=201)
+    count: Annotated[Count | UnsetType, says("Only so many of the slowest modes; all if left out.")] = UNSET
 
 
-def _selection(ask: Ask, chain: Chain, source: str) -> dict[str, Any]:
-    """Which modes."""
-    windows = [name for name in ("conical_height", "angular_speed") if getattr(ask, name) is not UNSET]
-    numbers = [name for name in ("modes", "first") if getattr(ask, name) is not UNSET]
-    if len(windows) > 1 or (windows and numbers):
-        raise SceneError(source, f"ask.{windows[0]}", f"does not go with {[*numbers, *windows[1:]][0]}")
-    if windows:
-        name = windows[0]
-        given = getattr(ask, name)
-        if name == "conical_height":
-            numbers_of = Numbers(source, "ask")
-            low, high = (numbers_of.value(name, end, "length", "not negative", finite=False) for end in given)
-        else:
-            low, high = given
-        if not low < high:
-            raise SceneError(source, f"ask.{name}", f"its low end must lie below its high end, got {list(given)}")
-        return {name: (low, high)}
-    available = chain.mode_count
-    if ask.first is UNSET:
-        if ask.modes == "all":
-            return {"count": "all"}
-        if ask.modes is UNSET:
-            return {"count": min(DEFAULT_MODES, available)}
-        if ask.modes > available:
-            raise SceneError(source, "ask.modes", f"must be at most {available}, got {ask.modes}")
-        return {"count": ask.modes}
-    left = available - ask.first + 1
-    if left < 1:
-        raise SceneError(source, "ask.first", f"must be at most {available}, got {ask.first}")
-    count = left if ask.modes == "all" else min(DEFAULT_MODES, left) if ask.modes is UNSET else ask.modes
-    if count > left:
-        raise SceneError(source, "ask.modes", f"must be at most {left} from number {ask.first} on, got {count}")
-    return {"first": ask.first, "count": count}
+class AskBranches(Table, frozen=True):
+    """The bifurcation diagram: all branches of steady shapes up to a speed (`revchain.branches`)."""
+
+    max_angular_speed: Annotated[MaybePositive, says("The speed (rad/s); or min_conical_height.")] = UNSET
+    min_conical_height: Annotated[MaybePositive, says("Instead: down to this one (m).")] = UNSET
+
+
+class AskExplain(Table, frozen=True):
+    """Which method finds the modes for a tolerance, and what the others would cost (`revchain.explain`)."""
+
+    count: Annotated[Count | Literal["all"] | UnsetType, says("How many modes, slowest first.")] = UNSET
+    first: Annotated[Count | UnsetType, says("Number of the slowest mode wanted, from 1.")] = UNSET
+    rtol: Annotated[MaybeNotNegative, says('Relative tolerance of the heights, such as "1 %".')] = UNSET
+
+
+class Ask(Table, frozen=True):
+    """What is asked; the modes if nothing is."""
+
+    modes: Annotated[AskModes | UnsetType, says("Whirl speeds and mode shapes.")] = UNSET
+    shapes: Annotated[AskShapes | UnsetType, says("Steady shapes at any inclination.")] = UNSET
+    response: Annotated[AskResponse | UnsetType, says("What a support carried round does.")] = UNSET
+    swing: Annotated[AskSwing | UnsetType, says("The chain let go.")] = UNSET
+    branches: Annotated[AskBranches | UnsetType, says("All branches of steady shapes.")] = UNSET
+
+
+QUESTIONS: dict[str, type[Table]] = {
+    "modes": AskModes,
+    "shapes": AskShapes,
+    "response": AskResponse,
+    "swing": AskSwing,
+    "branches": AskBranches,
+}
+TABLES: dict[str, type[Table]] = {**QUESTIONS, "explain": AskExplain}

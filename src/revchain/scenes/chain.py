@@ -1,175 +1,208 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the tables of a scene to a chain: units, masses to weights, repeats, and errors with the key."""
+"""From the tables of a scene to a chain: units, masses to weights, repeats; every error with its key."""
 
 from __future__ import annotations
 
 import math
 import re
+from typing import Any
 
 import numpy as np
 from msgspec import UNSET
 
 from ..systems.chain import Chain
+from ..systems.cord import Cord
 from ..systems.numbers import Floats
 from ..systems.units import si_value
-from .error import SceneError
-from .tables import MOST_LINKS, Displaced, Flywheel, Link, Support, TaperedChain, UniformChain
+from .error import Problem, SceneError
+from .parse import without_consequences, written
+from .tables import MOST_LINKS, Displaced, Flywheel, Link, Support, TaperedChain, UniformChain, Whole
+from .tables import Cord as CordTable
 
-Weighed = Link | UniformChain | TaperedChain | Flywheel | Displaced | Support
+Weighed = Link | Whole | Flywheel | Displaced | Support
 
 
 class Numbers:
-    """Numbers of one table: text with units converted, ranges checked, errors with the key path."""
+    """Numbers of one table: text with units converted, ranges checked, errors noted with the key path.
 
-    def __init__(self, source: str, table: str) -> None:
+    What is wrong is NaN; `done` raises one error for everything that is. Masses stay masses where the whole scene is
+    given by mass, else they are multiplied by gravity.
+    """
+
+    def __init__(self, source: str, table: str = "", *, gravity: float = 1.0, by_mass: bool = True) -> None:
         self.source = source
         self.table = table
+        self.problems: list[Problem] = []
+        self.gravity = gravity
+        self.by_mass = by_mass
 
-    def refuse(self, key: str, reason: str) -> SceneError:
-        return SceneError(self.source, ".".join(part for part in (self.table, key) if part), reason)
+    def of(self, table: str) -> Numbers:
+        """Those of a table inside this one; errors are noted together."""
+        inside = Numbers(self.source, f"{self.table}.{table}".lstrip("."), gravity=self.gravity, by_mass=self.by_mass)
+        inside.problems = self.problems
+        return inside
 
-    def value(self, key: str, given: float | str, quantity: str, sign: str, finite: bool = True) -> float:
+    @property
+    def heavy(self) -> str:
+        """What weights are said by."""
+        return "mass" if self.by_mass else "weight"
+
+    def refuse(self, key: str, reason: str) -> None:
+        self.problems.append(Problem(0, 0, f"{self.table}.{key}".strip("."), reason))
+
+    def done(self) -> None:
+        """A SceneError if there is anything wrong."""
+        if self.problems:
+            raise SceneError(self.source, problems=without_consequences(self.problems))
+
+    def value(self, key: str, given: object, quantity: str, sign: str, finite: bool = True) -> float:
+        if given is UNSET:  # is missing or of a wrong kind, which has been said
+            return math.nan
+        assert isinstance(given, float | int | str)
         try:
             number = si_value(given, quantity) if isinstance(given, str) else float(given)
         except ValueError as error:
-            raise self.refuse(key, str(error)) from None
-        shown = f'"{given}"' if isinstance(given, str) else f"{given}"
+            self.refuse(key, str(error))
+            return math.nan
         if math.isnan(number) or (finite and math.isinf(number)):
-            raise self.refuse(key, f"must be {'finite' if finite else 'a number'}, got {shown}")
-        if sign == "positive" and not number > 0:
-            raise self.refuse(key, f"must be positive, got {shown}")
-        if sign == "not negative" and not number >= 0:
-            raise self.refuse(key, f"must not be negative, got {shown}")
-        return number
+            must = "be finite" if finite else "be a number"
+        elif sign == "positive" and not number > 0:
+            must = "be positive"
+        elif sign == "not negative" and not number >= 0:
+            must = "not be negative"
+        else:
+            return number
+        self.refuse(key, f"must {must}, got {written(given)}")
+        return math.nan
 
-    def weight(self, table: Weighed, gravity: float, sign: str, prefix: str = "") -> float:
-        """Of the keys `weight` and `mass`, or with a prefix (`added_`, `tip_`), the one that is given."""
+    def weight(self, table: Weighed, sign: str, prefix: str = "") -> float:
+        """Mass or weight, said by the keys `weight` and `mass`, or with a prefix (`added_`, `tip_`)."""
         weight, mass = (getattr(table, prefix + name) for name in ("weight", "mass"))
         if (weight is UNSET) == (mass is UNSET):
-            raise self.refuse("", f"give either {prefix}weight or {prefix}mass")
-        if weight is not UNSET:
-            return self.value(f"{prefix}weight", weight, "weight", sign)
-        found = self.value(f"{prefix}mass", mass, "mass", sign) * gravity
-        if not math.isfinite(found):
-            raise self.refuse(f"{prefix}mass", f"is too large, got {mass}")
-        return found
+            if weight is UNSET:
+                self.refuse("", f"{prefix}mass (kg) or {prefix}weight (N) is missing")
+            else:
+                self.refuse(f"{prefix}weight", f"is given beside {prefix}mass: give one of them, not both")
+            return math.nan
+        name, given, factor = ("mass", mass, 1.0 if self.by_mass else self.gravity)
+        if mass is UNSET:
+            name, given, factor = ("weight", weight, 1 / self.gravity if self.by_mass else 1.0)
+        found = self.value(prefix + name, given, name, sign)
+        if math.isfinite(found) and math.isfinite(factor) and not math.isfinite(found * factor):
+            self.refuse(prefix + name, f"is too large, got {written(given)}")
+        return found * factor
 
-    def weight_if_given(self, table: Weighed, gravity: float, prefix: str = "") -> float:
+    def weight_if_given(self, table: Weighed, prefix: str = "") -> float:
         """The same of what may be left out, 0 then."""
-        given = [name for name in ("weight", "mass") if getattr(table, prefix + name) is not UNSET]
-        return self.weight(table, gravity, "not negative", prefix) if given else 0.0
+        given = any(getattr(table, prefix + name) is not UNSET for name in ("weight", "mass"))
+        return self.weight(table, "not negative", prefix) if given else 0.0
 
 
-def uniform_chain(table: UniformChain, gravity: float, source: str) -> Chain:
-    numbers = Numbers(source, "uniform_chain")
-    make = Chain.uniform_rods if table.kind == "rods" else Chain.uniform_plummets
+def whole(table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> Chain | Cord | None:
+    """The chain or cord; None where something is missing or of a wrong kind, which has been said."""
     length = numbers.value("length", table.length, "length", "positive")
-    weight = numbers.weight(table, gravity, "positive")
-    tip = numbers.weight_if_given(table, gravity, "tip_")
+    given = {"length": length, numbers.heavy: numbers.weight(table, "positive")}
+    tip = numbers.weight_if_given(table, "tip_")
+    numbers.done()
+    if math.isnan(sum(given.values()) + tip):
+        return None
     try:
-        chain = make(table.count, length, weight)
-        return chain.with_weight(tip) if tip else chain
-    except ValueError as error:
-        raise numbers.refuse("", _without_place(str(error))) from None
-
-
-def tapered_chain(table: TaperedChain, gravity: float, source: str) -> Chain:
-    numbers = Numbers(source, "tapered_chain")
-    length = numbers.value("length", table.length, "length", "positive")
-    weight = numbers.weight(table, gravity, "positive")
-    tip = numbers.weight_if_given(table, gravity, "tip_")
-    try:
-        chain = Chain.tapered(table.count, length, weight, exponent=table.exponent)
-        return chain.with_weight(tip) if tip else chain
-    except ValueError as error:
-        raise numbers.refuse("", _without_place(str(error))) from None
-
-
-def chain_of_links(links: list[Link], gravity: float, source: str) -> Chain:
-    if sum(link.repeat for link in links) > MOST_LINKS:
-        raise SceneError(source, "links", f"must be at most {MOST_LINKS:,} together with their repeats")
-    bodies = [_body(link, gravity, Numbers(source, f"links[{index}]")) for index, link in enumerate(links)]
-    repeats = [link.repeat for link in links]
-    columns: list[Floats] = [np.repeat(np.array(column, dtype=float), repeats) for column in zip(*bodies, strict=True)]
-    weight, length, centroid, radius = columns or [np.empty(0)] * 4
-    tips = [_tip(link, gravity, Numbers(source, f"links[{index}]")) for index, link in enumerate(links)]
-    try:
-        if np.array_equal(centroid, length) and not radius.any():
-            chain = Chain(weight=weight, length=length)
+        if isinstance(table, CordTable):
+            return Cord(**given, density=table.density, **({f"tip_{numbers.heavy}": tip} if tip else {}))
+        if isinstance(table, TaperedChain):
+            chain = Chain.tapered(table.count, **given, exponent=table.exponent)
         else:
-            chain = Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
-        return _joined(chain, links, tips, source)
-    except SceneError:
-        raise
+            chain = (Chain.uniform_rods if table.kind == "rods" else Chain.uniform_plummets)(table.count, **given)
+        fixed: dict[str, Any] = {numbers.heavy: tip}
+        return chain.with_body(**fixed) if tip else chain
     except ValueError as error:
-        reason = _without_place(str(error))
-        found = re.match(r"link (\d+): ", reason)
-        if found is None:
-            raise SceneError(source, "links", reason) from None
-        index = int(np.searchsorted(np.cumsum(repeats), int(found[1])))
-        raise SceneError(source, f"links[{index}]", reason[found.end() :]) from None
+        raise SceneError(numbers.source, numbers.table, without_place(error)) from None
 
 
-def _tip(link: Link, gravity: float, numbers: Numbers) -> float:
-    """Weight fixed to the lower pin."""
-    tip = numbers.weight_if_given(link, gravity, "tip_")
+def chain_of_links(links: list[tuple[int, Link]], numbers: Numbers) -> Chain | None:
+    """The chain of the links, lowest first, each with its number in the file; None as of `whole`."""
+    if sum(link.repeat for _, link in links) > MOST_LINKS:
+        raise SceneError(numbers.source, "links", f"must be at most {MOST_LINKS:,} together with their repeats")
+    places = [numbers.of(f"links[{index}]") for index, _ in links]
+    bodies = [_body(link, place) for place, (_, link) in zip(places, links, strict=True)]
+    tips = [place.weight_if_given(link, "tip_") for place, (_, link) in zip(places, links, strict=True)]
+    for nth, (place, (_, link)) in enumerate(zip(places, links, strict=True)):
+        _check_joints(link, tips[nth], [each for _, each in links[nth + 1 : nth + 2]], place)
+    numbers.done()
+    if math.isnan(sum(map(sum, bodies)) + sum(tips)):
+        return None
+    repeats = [link.repeat for _, link in links]
+    columns: list[Floats] = [np.repeat(np.array(column, dtype=float), repeats) for column in zip(*bodies, strict=True)]
+    heavy, length, centroid, radius = columns or [np.empty(0)] * 4
+    given: dict[str, Any] = {numbers.heavy: heavy, "length": length}
+    if radius.any() or not np.array_equal(centroid, length):
+        given |= {"centroid": centroid, "radius_of_gyration": radius}
+    if any(link.name for _, link in links):
+        first = 0
+        given["names"] = []
+        for _, link in links:
+            given["names"] += [link.name or f"links[{k}]" for k in range(first, first + link.repeat)]
+            first += link.repeat
+    try:
+        chain = Chain(**given)
+        firsts = np.cumsum([0, *repeats])
+        for nth in reversed(range(len(links))):  # from the top, so that the numbers of pins hold
+            if tips[nth]:
+                chain = chain.with_body(**{numbers.heavy: tips[nth]}, pin=int(firsts[nth]))
+            if links[nth][1].clamped:
+                chain = chain.clamped(int(firsts[nth]))
+        return chain
+    except ValueError as error:
+        reason = without_place(error)
+        if (found := re.match(r"links\[(\d+)\]: ", reason)) is None:
+            raise SceneError(numbers.source, "links", reason) from None
+        nth = int(np.searchsorted(np.cumsum(repeats), int(found[1]), side="right"))
+        raise SceneError(numbers.source, f"links[{links[nth][0]}]", reason[found.end() :]) from None
+
+
+def _check_joints(link: Link, tip: float, above: list[Link], numbers: Numbers) -> None:
+    """What goes with a weight at the lower pin, and with being locked to the link above."""
     if tip and link.repeat > 1:
-        raise numbers.refuse("repeat", f"must be 1 where a weight is fixed to the lower pin, got {link.repeat}")
-    return tip
+        numbers.refuse("repeat", f"must be 1 where a weight is fixed to the lower pin, got {link.repeat}")
+    if not link.clamped:
+        return
+    if not above:
+        numbers.refuse("clamped", "there is no link above")
+    for name in ("standing", "flywheel", "displaced"):
+        if getattr(link, name) not in (False, UNSET):
+            numbers.refuse(name, "is said by the link above, with which this one is clamped")
+    if max(link.repeat, *(each.repeat for each in above), 1) > 1:
+        numbers.refuse("clamped", "needs repeat = 1, here and in the link above")
 
 
-def _joined(chain: Chain, links: list[Link], tips: list[float], source: str) -> Chain:
-    """The chain with weights fixed to pins, and links locked to those above; from the top, so that numbers hold."""
-    first = np.cumsum([0, *(link.repeat for link in links)])
-    for index in reversed(range(len(links))):
-        link = links[index]
-        if tips[index]:
-            chain = chain.with_weight(tips[index], pin=int(first[index]))
-        if not link.clamped:
-            continue
-        numbers = Numbers(source, f"links[{index}]")
-        if index + 1 == len(links):
-            raise numbers.refuse("clamped", "there is no link above")
-        for name in ("standing", "flywheel", "displaced"):
-            if getattr(link, name) not in (False, UNSET):
-                raise numbers.refuse(name, "is said by the link above, with which this one is clamped")
-        for number in (index, index + 1):
-            if links[number].repeat > 1:
-                place = Numbers(source, f"links[{number}]")
-                raise place.refuse("repeat", f"must be 1 where links are clamped, got {links[number].repeat}")
-        chain = chain.clamped(int(first[index]) + 1)
-    return chain
-
-
-def _body(link: Link, gravity: float, numbers: Numbers) -> tuple[float, float, float, float]:
+def _body(link: Link, numbers: Numbers) -> tuple[float, float, float, float]:
     """Weight, length, centroid and radius of gyration of a link."""
     length = numbers.value("length", link.length, "length", "positive")
-    weight = numbers.weight(link, gravity, "not negative")
-    others = (link.pendulum_length, link.radius_of_gyration)
+    weight = numbers.weight(link, "not negative")
     if link.kind is not UNSET or link.centroid is UNSET:
         for key in ("centroid", "pendulum_length", "radius_of_gyration"):
             if getattr(link, key) is not UNSET:
                 reason = "needs centroid beside it" if link.kind is UNSET else f'does not go with kind = "{link.kind}"'
-                raise numbers.refuse(key, reason)
-        return (
-            (weight, length, length / 2, length / math.sqrt(12)) if link.kind == "rod" else (weight, length, length, 0)
-        )
+                numbers.refuse(key, reason)
+        rod = link.kind == "rod"
+        return (weight, length, length / 2, length / math.sqrt(12)) if rod else (weight, length, length, 0)
     centroid = numbers.value("centroid", link.centroid, "length", "any")
-    if (others[0] is UNSET) == (others[1] is UNSET):
-        raise numbers.refuse("centroid", "needs either pendulum_length or radius_of_gyration beside it")
+    if (link.pendulum_length is UNSET) == (link.radius_of_gyration is UNSET):
+        numbers.refuse("centroid", "needs either pendulum_length or radius_of_gyration beside it")
+        return weight, length, centroid, math.nan
     if link.radius_of_gyration is not UNSET:
         radius = numbers.value("radius_of_gyration", link.radius_of_gyration, "length", "not negative")
         return weight, length, centroid, radius
-    assert link.pendulum_length is not UNSET
     pendulum = numbers.value("pendulum_length", link.pendulum_length, "length", "any")
     squared = centroid * (pendulum - centroid)
-    if not 0 <= squared < math.inf or centroid == 0:
-        reason = f"makes the radius of gyration imaginary: centroid (pendulum_length - centroid) is {squared:g}"
-        if centroid == 0:
-            reason = "says nothing where centroid is 0; give radius_of_gyration"
-        raise numbers.refuse("pendulum_length", reason)
-    return weight, length, centroid, math.sqrt(squared)
+    if centroid == 0:
+        numbers.refuse("pendulum_length", "says nothing where centroid is 0; give radius_of_gyration")
+    elif not math.isnan(squared) and not 0 <= squared < math.inf:
+        product = f"centroid (pendulum_length - centroid) is {squared:g}"
+        numbers.refuse("pendulum_length", f"makes the radius of gyration imaginary: {product}")
+    return weight, length, centroid, math.sqrt(squared) if 0 <= squared < math.inf else math.nan
 
 
-def _without_place(message: str) -> str:
-    return re.sub(r"^revchain(::|\.)[\w:.]+?: ", "", message)
+def without_place(error: object) -> str:
+    """The sentence of an error, without the name of a function."""
+    return re.sub(r"^revchain(::|\.)[\w:.]+?: ", "", str(error))

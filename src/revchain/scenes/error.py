@@ -3,18 +3,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+
+class Problem(NamedTuple):
+    """One error of a scene: where it is and what is wrong; line 0 where there is no file."""
+
+    line: int
+    column: int
+    key: str
+    reason: str
+
 
 class SceneError(ValueError):
-    """A scene file says something that cannot be: names the file, the key and what is wrong.
+    """A scene or study that cannot be read: every error found in it, each with its place in the file.
 
     Attributes
     ----------
     source : str
         The file, or ``"scene"`` where there is none.
-    key : str
-        Where in it, such as ``links[2].length``, tables counted from 0; empty for the whole file.
-    reason : str
-        The sentence.
+    problems : tuple of (line, column, key, reason)
+        In the order of the file. Lines and columns count from 1; both are 0 where there is no file. Keys are paths
+        such as ``links[2].length``, tables counted from 0; empty for the whole file.
+    key, reason : str
+        Of the first of them.
 
     Examples
     --------
@@ -24,11 +37,21 @@ class SceneError(ValueError):
     revchain.scenes.error.SceneError: scene: links[0].length: must be positive, got -0.5
     """
 
-    def __init__(self, source: str, key: str, reason: str) -> None:
-        super().__init__(": ".join(part for part in (source, key, reason) if part))
+    def __init__(self, source: str, key: str = "", reason: str = "", problems: Iterable[Problem] = ()) -> None:
         self.source = source
-        self.key = key
-        self.reason = reason
+        self.problems = tuple(problems) or (Problem(0, 0, key, reason),)
+        self.key, self.reason = self.problems[0][2:]
+        super().__init__("\n".join(_line(source, problem) for problem in self.problems))
 
-    def __reduce__(self) -> tuple[type[SceneError], tuple[str, str, str]]:
-        return SceneError, (self.source, self.key, self.reason)
+    def _placed(self, place: Callable[[str], tuple[int, int]]) -> SceneError:
+        """The same error with the line and column of each key, as `place` tells them."""
+        found = (each if each.line else Problem(*place(each.key), *each[2:]) for each in self.problems)
+        return SceneError(self.source, problems=sorted(found))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return SceneError, (self.source, "", "", self.problems)
+
+
+def _line(source: str, problem: Problem) -> str:
+    place = f"line {problem.line}, column {problem.column}" if problem.line else ""
+    return ": ".join(part for part in (source, place, problem.key, problem.reason) if part)

@@ -3,77 +3,79 @@
 
 from __future__ import annotations
 
+import math
 import os
-from typing import Annotated, Any, Literal
+import re
+from collections.abc import Callable
+from typing import Annotated, Any, Literal, Self
 
-from msgspec import UNSET, Meta, UnsetType, json, to_builtins
+import numpy as np
+from msgspec import UNSET, UnsetType, json, to_builtins
 
-from ..questions.held import HeldShape, HeldShapes, TautModes
-from ..questions.modes import modes
-from ..results.modes import Modes, RigModes
-from ..results.motions import Response, SmallOscillation
-from ..results.shapes import SteadyShapes
-from ..systems.chain import Chain, compiled
+from .. import _core
+from ..systems.chain import Chain
+from ..systems.cord import Cord as CordSystem
+from ..systems.held import Held as HeldSystem
 from ..systems.numbers import STANDARD_GRAVITY, text
-from ..systems.rig import Rig, base_chain
+from ..systems.rig import Rig
 from . import parse
-from .ask import asked, asked_of_held
-from .ask_tables import Ask, AskResponse, AskShapes, AskSwing, Held
-from .chain import Numbers, chain_of_links, tapered_chain, uniform_chain
-from .error import SceneError
-from .motion import ends_of, response_of, shapes_of, start_of, swing_of, taut_modes_of, the_speed, the_speeds
-from .rig import is_rigged, radius_of, rig_of
-from .tables import Displaced, Flywheel, Link, Positive, Support, Table, TaperedChain, UniformChain
+from .answer import SPEEDS, answered, arguments
+from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
+from .chain import Numbers, chain_of_links, whole, without_place
+from .error import Problem, SceneError
+from .rig import is_rigged, rig_of
+from .tables import SYSTEMS, Cord, Held, Link, Positive, Support, Table, TaperedChain, UniformChain, fields_of, says
+from .upgrade import old_keys
 
-__all__ = [
-    "Ask",
-    "AskResponse",
-    "AskShapes",
-    "AskSwing",
-    "Displaced",
-    "Flywheel",
-    "Held",
-    "Link",
-    "Scene",
-    "Support",
-    "TaperedChain",
-    "UniformChain",
-    "json_schema",
-    "load_scene",
-]
+__all__ = ["Scene", "json_schema", "load_scene"]
 
-_WEIGHT = ("weight", "mass")  # one of the two
+System = Chain | Rig | CordSystem | HeldSystem
+_EXCLUSIVE = (*SPEEDS, "count", "first")
+
+
+def _asking(question: str, what: str, result: str, example: str) -> Callable[..., Any]:
+    """The method that asks one question."""
+
+    def ask(self: Scene, **changed: Any) -> Any:
+        return self._answer(question, changed)
+
+    indented = example.replace("\n", "\n        ")
+    ask.__doc__ = f"""Find the {what} that ``[ask.{question}]`` asks for, with the gravity of the scene.
+
+        Parameters
+        ----------
+        **changed
+            Keys of that table that take the place of the scene's.
+
+        Returns
+        -------
+        {result}
+
+        Raises
+        ------
+        SceneError
+            If neither the scene nor `changed` says what the question needs.
+        ValueError
+            As the function of that name, such as for a system that has no answer.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> scene = rc.Scene.from_dict({{"links": [{{"mass": 0.1, "length": 0.5}}, {{"mass": 0.3, "length": 0.5}}]}})
+        {indented}
+        """
+    return ask
 
 
 class Scene(Table, frozen=True):
-    """What hangs, under which gravity, and what is asked.
-
-    Attributes
-    ----------
-    links : list of Link
-        The links, lowest first; or
-    uniform_chain : UniformChain
-        a chain of equal ones; or
-    tapered_chain : TaperedChain
-        one cut from a cord that tapers by a power law.
-    gravity : float or str
-        In m/s^2, or text with a unit.
-    support : Support, optional
-        What the chain hangs from, if not a firm point on the axis.
-    fluid : {"still", "turning"}
-        The fluid that links displace.
-    held : Held, optional
-        Where the lower end is held, too.
-    ask : Ask
-        What is asked.
-    title, description : str
-        For people.
-    schema_version : int
-        1.
+    """What hangs, under which gravity, and what is asked: a scene file.
 
     Notes
     -----
-    Plain numbers are SI; text such as ``"39.1396 inch"`` is converted through pint.
+    Its attributes are the tables of the file (`revchain schema` describes every key). Plain numbers are SI; text such
+    as ``"39.1396 inch"`` is converted through pint. `modes`, `steady_shapes`, `response`, `swing` and `branches` ask the
+    function of that name, with the system, the gravity and the arguments of the scene; arguments given to them take the
+    place of the scene's.
 
     Examples
     --------
@@ -82,30 +84,30 @@ class Scene(Table, frozen=True):
     ...     "title": "Two plummets",
     ...     "links": [{"mass": 0.1, "length": 0.5}, {"mass": 0.3, "length": 0.5}],
     ... })
-    >>> scene.chain()
-    Chain of 2 links, length 1, weight 3.92266
+    >>> scene.system()
+    Chain of 2 links, length 1, mass 0.4
     >>> scene.modes().conical_height.round(6)
     array([0.75, 0.25])
+    >>> shapes = scene.steady_shapes(angular_speed="60 rpm")
+    >>> len(shapes), shapes.complete
+    (2, True)
     """
 
-    schema_version: Annotated[Literal[1], Meta(description="Version of this format.")] = 1
-    title: Annotated[str, Meta(description="One line.")] = ""
-    description: Annotated[str, Meta(description="As long as you like.")] = ""
-    gravity: Annotated[Positive, Meta(description="In m/s^2.")] = STANDARD_GRAVITY
-    links: Annotated[list[Link] | UnsetType, Meta(description="The links, lowest first.")] = UNSET
-    uniform_chain: Annotated[UniformChain | UnsetType, Meta(description="Equal links, instead of links.")] = UNSET
+    schema_version: Annotated[Literal[2], says("Version of this format.")] = 2
+    title: Annotated[str, says("One line.")] = ""
+    description: Annotated[str, says("As long as you like.")] = ""
+    gravity: Annotated[Positive, says("In m/s^2.")] = STANDARD_GRAVITY
+    order: Annotated[Literal["free end first", "support first"], says("Of the links.")] = "free end first"
+    links: Annotated[list[Link] | UnsetType, says("The links, the free end first.")] = UNSET
+    uniform_chain: Annotated[UniformChain | UnsetType, says("Equal links, instead of links.")] = UNSET
     tapered_chain: Annotated[
-        TaperedChain | UnsetType, Meta(description="Links cut from a cord that tapers, instead of links.")
+        TaperedChain | UnsetType, says("Links cut from a tapering cord, instead of links.")
     ] = UNSET
-    support: Annotated[
-        Support | UnsetType, Meta(description="What the chain hangs from, if not a firm point on the axis.")
-    ] = UNSET
-    fluid: Annotated[
-        Literal["still", "turning"],
-        Meta(description="The fluid that links displace: at rest, or turning with the chain."),
-    ] = "still"
-    held: Annotated[Held | UnsetType, Meta(description="Where the lower end is held on the axis, too.")] = UNSET
-    ask: Annotated[Ask, Meta(description="What is asked.")] = Ask()
+    cord: Annotated[Cord | UnsetType, says("A flexible cord, instead of links.")] = UNSET
+    support: Annotated[Support | UnsetType, says("What the chain hangs from, if not a firm point on the axis.")] = UNSET
+    fluid: Annotated[Literal["still", "turning"], says("At rest, or turning with the chain.")] = "still"
+    held: Annotated[Held | UnsetType, says("Where the lower end is held on the axis, too.")] = UNSET
+    ask: Annotated[Ask, says("What is asked.")] = Ask()
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], source: str = "scene") -> Scene:
@@ -125,17 +127,27 @@ class Scene(Table, frozen=True):
         Raises
         ------
         SceneError
-            A ValueError that names the source, the key and what is wrong there.
+            A ValueError that names the source, and of every error the key and what is wrong there.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> rc.Scene.from_dict({"uniform_chain": {"kind": "rods", "count": 5, "length": 1, "weight": 1}}).chain()
+        >>> rc.Scene.from_dict({"uniform_chain": {"kind": "rods", "count": 5, "length": 1, "weight": 1}}).system()
         Chain of 5 links, length 1, weight 1
         """
-        source = text("revchain.Scene.from_dict", "source", source)
-        scene = parse.convert(data, cls, source)
-        scene._check(source)
+        return cls._read(data, text("revchain.Scene.from_dict", "source", source), [])
+
+    @classmethod
+    def _read(cls, data: Any, source: str, problems: list[Problem], in_doubt: bool = False) -> Self:
+        """The scene; one error for all problems, those of its syntax included."""
+        if isinstance(data, dict):
+            if "vary" in data:
+                raise SceneError(source, "vary", f"is of a study, not of a scene: revchain sweep {source}")
+            if old := old_keys(data, in_doubt):
+                raise SceneError(source, problems=[*problems, *(Problem(0, 0, *each) for each in old)])
+        scene = parse.convert(data, cls, source, problems)
+        if found := scene._problems(source, problems):
+            raise SceneError(source, problems=[_named(each, scene) for each in found])
         return scene
 
     def to_dict(self) -> dict[str, Any]:
@@ -153,7 +165,7 @@ class Scene(Table, frozen=True):
         True
         """
         data: dict[str, Any] = to_builtins(self)
-        return data
+        return {"schema_version": 2, **data} if old_keys(data) else data
 
     def gravity_value(self) -> float:
         """Return gravity in m/s^2.
@@ -173,263 +185,203 @@ class Scene(Table, frozen=True):
         >>> rc.Scene.from_dict({"gravity": "981 cm/s^2", "links": [{"mass": 1, "length": 1}]}).gravity_value()
         9.81
         """
-        return self._gravity("scene")
+        numbers = Numbers("scene")
+        gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
+        numbers.done()
+        return gravity
 
-    def chain(self) -> Chain:
-        """Build the chain, with lengths in m and weights in N.
+    def system(self) -> System:
+        """Build what hangs, in SI units: by mass, or by weight if any weight is said.
 
         Returns
         -------
-        Chain
+        Chain, Rig, Cord or Held
+            A rig where anything goes beyond a chain that hangs from a firm point on the axis.
 
         Raises
         ------
         SceneError
-            If the numbers describe no hanging chain.
+            If the numbers describe nothing that hangs.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> rc.Scene.from_dict({"links": [{"weight": 2, "length": 0.5, "repeat": 3}]}).chain()
+        >>> rc.Scene.from_dict({"links": [{"weight": 2, "length": 0.5, "repeat": 3}]}).system()
         Chain of 3 links, length 1.5, weight 6
-        """
-        return self._chain("scene")
-
-    def rig(self) -> Rig:
-        """Build the chain with what it is rigged with.
-
-        Returns
-        -------
-        Rig
-            With nothing added where the scene says nothing of the kind.
-
-        Raises
-        ------
-        SceneError
-            If the numbers describe no chain, or nothing it can be rigged with.
-
-        Examples
-        --------
-        >>> import revchain as rc
         >>> wheel = {"mass": 1.5, "radius_of_gyration": 0.29, "spin": 40.0}
-        >>> rc.Scene.from_dict({"links": [{"mass": 2.0, "length": 0.4, "flywheel": wheel}]}).rig()
+        >>> rc.Scene.from_dict({"links": [{"mass": 2.0, "length": 0.4, "flywheel": wheel}]}).system()
         Rig of a chain of 1 link: 1 link with momentum
         """
-        return self._rig("scene")
+        system = self._system("scene")
+        assert system is not None  # else it has been raised why
+        return system
+
+    @property
+    def asks(self) -> tuple[str, ...]:
+        """The questions that the scene has a table for: ``modes``, ``shapes``, ``response``, ``swing``, ``branches``."""
+        return tuple(name for name in QUESTIONS if getattr(self.ask, name) is not UNSET)
+
+    modes = _asking("modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])")
+    steady_shapes = _asking(
+        "shapes", "steady shapes", "SteadyShapes", '>>> len(scene.steady_shapes(angular_speed="60 rpm"))\n2'
+    )
+    response = _asking(
+        "response", "forced motion", "Response", ">>> scene.response(angular_speed=2.0).modes_below\narray(0)"
+    )
+    swing = _asking(
+        "swing", "swing after release", "Swing", '>>> scene.swing(offset=["5 cm", 0], time=[0, 1]).offset.shape\n(2, 3)'
+    )
+    branches = _asking("branches", "branches", "Branches", ">>> len(scene.branches(max_angular_speed=5.0))\n1")
+
+    def answers(self) -> dict[str, Any]:
+        """Answer all that the scene asks.
+
+        Returns
+        -------
+        dict
+            The result of each question of `asks`; of a scene that asks nothing, its modes.
+
+        Raises
+        ------
+        ValueError
+            As the functions.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> link = {"mass": 1, "length": 1}
+        >>> ask = {"response": {"conical_height": 4.0}, "shapes": {"angular_speed": "60 rpm"}}
+        >>> list(rc.Scene.from_dict({"links": [link], "ask": ask}).answers())
+        ['shapes', 'response']
+        """
+        return {question: self._answer(question, {}) for question in self.asks or ("modes",)}
+
+    def _answer(self, question: str, changed: dict[str, Any], progress: _core.Progress | None = None) -> Any:
+        """Answer one question; `changed` are keys of its table that take the place of the scene's."""
+        numbers = Numbers("scene")
+        table, gravity, system = self._table(question, changed), self.gravity_value(), self.system()
+        given = arguments(question, table, system, numbers.of("ask"))
+        numbers.done()
+        return answered(question, system, given, gravity, progress)
+
+    def _table(self, question: str, changed: dict[str, Any]) -> Table:
+        """What the scene says of a question, with other values in place of its own."""
+        said = getattr(self.ask, "modes" if question == "explain" else question)
+        if question == "explain" and isinstance(said, AskModes):
+            said = AskExplain(count=said.count, first=said.first, rtol=said.rtol)
+        if not changed and said is not UNSET:
+            return said  # type: ignore[no-any-return]
+        data = {} if said is UNSET else to_builtins(said)
+        if question != "swing" and any(name in changed for name in _EXCLUSIVE):  # another choice than that of the scene
+            data = {name: value for name, value in data.items() if name not in _EXCLUSIVE}
+        data |= {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in changed.items()}
+        problems: list[Problem] = []
+        table = parse.convert(data, TABLES[question], "scene", problems)
+        if problems:
+            where = f"ask.{question}."
+            raise SceneError("scene", problems=[each._replace(key=where + each.key) for each in problems])
+        return table
+
+    def _check(self, source: str) -> None:
+        """A SceneError with whatever the other methods would refuse of the scene, and the name of the file."""
+        if found := self._problems(source, []):
+            raise SceneError(source, problems=found)
+
+    def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
+        """All that is wrong with the scene, of which some is known."""
+        numbers, system = Numbers(source), None
+        given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
+        if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *_BESIDE) for problem in known):
+            try:
+                system = self._system(source)
+            except SceneError as error:
+                numbers.problems[:] = error.problems
+        for question in self.asks:
+            arguments(question, getattr(self.ask, question), system, numbers.of("ask"))
+        return parse.without_consequences([*known, *numbers.problems])
+
+    def _system(self, source: str) -> System | None:
+        """What hangs. All that is wrong with it is raised as one error; None where only what is known is wrong."""
+        numbers = Numbers(source)
+        given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
+        if len(given) != 1:
+            tables = "[[links]], [uniform_chain], [tapered_chain] or [cord]"
+            raise SceneError(source, "", f"give one of {tables}, got {' and '.join(given) or 'none of them'}")
+        numbers.gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
+        numbers.by_mass = is_by_mass(self)
+        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
+        if self.links == []:
+            raise SceneError(source, "links", "is an empty list: give at least one link")
+        if self.order == "support first":
+            links.reverse()
+        made: Chain | CordSystem | None = None
+        try:
+            made = chain_of_links(links, numbers) if links else whole(getattr(self, given[0]), numbers.of(given[0]))
+        except SceneError as error:
+            numbers.problems[:] = error.problems
+        if self.is_rigged and (self.held is not UNSET or self.cord is not UNSET):
+            name = "cord" if self.held is UNSET else "held"
+            numbers.refuse(name, "does not go with a support, standing links, flywheels or a fluid")
+        elif self.is_rigged:
+            assert not isinstance(made, CordSystem)
+            return rig_of(made, links, self.support, self.fluid, numbers)
+        held = None if isinstance(self.held, UnsetType) else _held(self.held, made, numbers.of("held"))
+        numbers.done()
+        return held or made
 
     @property
     def is_rigged(self) -> bool:
         """Whether anything in the scene goes beyond a chain that hangs from a firm point on the axis."""
-        return is_rigged(self._links(), self.support)
-
-    @property
-    def is_carried(self) -> bool:
-        """Whether the support is carried round a circle, and one speed of that is asked about."""
-        if isinstance(self.support, UnsetType) or isinstance(self.ask.response, UnsetType):
-            return False
-        return len(self.ask.response.ends) == 1 and radius_of(self.support, "scene") > 0
+        return is_rigged([] if isinstance(self.links, UnsetType) else self.links, self.support)
 
     @property
     def is_held(self) -> bool:
         """Whether the lower end is held on the axis, too."""
         return self.held is not UNSET
 
-    def asked(self, chain: Chain) -> dict[str, Any]:
-        """Return what is asked as keyword arguments of `revchain.modes`.
 
-        Parameters
-        ----------
-        chain : Chain
-            The one of this scene.
+_BESIDE = ("schema_version", "title", "description", "gravity", "order", "support", "fluid", "held", "ask")
 
-        Returns
-        -------
-        dict
 
-        Raises
-        ------
-        SceneError
-            If the modes asked for are not there, or cannot be meant, or the scene holds both ends.
+def is_by_mass(scene: Scene) -> bool:
+    """Whether masses stay masses: no weight is said, or gravity plays no part."""
+    return _is_by_mass(scene) or (isinstance(scene.held, Held) and scene.held.weightless)
 
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1, "repeat": 30}], "ask": {"first": 25}})
-        >>> scene.asked(scene.chain())
-        {'gravity': 9.80665, 'first': 25, 'count': 6}
-        """
-        compiled("revchain.Scene.asked", chain, link_by_link=False)
-        if self.is_held:
-            raise SceneError(
-                "scene", "held", "is for shapes and modes: there is one model of it, `revchain.taut_modes`"
-            )
-        return asked(self.ask, chain, self.gravity_value(), "scene", self.is_rigged)
 
-    def modes(self) -> Modes | RigModes | TautModes:
-        """Solve the scene.
+def _is_by_mass(table: Any) -> bool:
+    """Whether no weight is said in a table, nor in those inside it."""
+    if isinstance(table, list):
+        return all(map(_is_by_mass, table))
+    if not isinstance(table, Table):
+        return True
+    values = {field.name: getattr(table, field.name) for field in fields_of(type(table)) if field.name != "ask"}
+    weights = [name for name, value in values.items() if name.endswith("weight") and value is not UNSET]
+    return not weights and all(map(_is_by_mass, values.values()))
 
-        Returns
-        -------
-        Modes, RigModes or TautModes
-            As `revchain.modes` does for the chain, or the rig, and what is asked, or `revchain.taut_modes` where both
-            ends are held; with the gravity of the scene.
 
-        Raises
-        ------
-        SceneError
-            If the numbers describe no hanging chain, or a chain held at both ends that is slack.
+def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> HeldSystem | None:
+    """The chain or cord held at both ends."""
+    if (table.span is UNSET) == (table.tension is UNSET):
+        numbers.refuse("", "give either span or tension")
+        return None
+    name, quantity = ("span", "length") if table.tension is UNSET else ("tension", "weight")
+    value = numbers.value(name, getattr(table, name), quantity, "positive")
+    numbers.done()
+    if system is None or math.isnan(value):
+        return None
+    try:
+        return HeldSystem(system, **{name: value}, weightless=table.weightless)
+    except ValueError as error:
+        raise SceneError(numbers.source, f"held.{name}", without_place(error).removeprefix(f"{name} ")) from None
 
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1.5, "kind": "rod"}]})
-        >>> scene.modes().conical_height.round(6)
-        array([1.])
 
-        The same rod on a carriage that slides on a spring:
-
-        >>> support = {"stiffness": "50 N/m", "mass": 0.2}
-        >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1.5, "kind": "rod"}], "support": support})
-        >>> scene.modes().angular_speed.round(4)
-        array([ 2.9086, 11.3491])
-        """
-        hung = self._hung("scene")
-        if self.held is not UNSET and isinstance(hung, Chain):
-            return taut_modes_of(self.held, hung, asked_of_held(self.ask, hung, "scene"), "scene")
-        return modes(hung, **self.asked(base_chain(hung)))
-
-    def steady_shapes(self, **changed: Any) -> SteadyShapes | HeldShapes[HeldShape]:
-        """Find the steady shapes that ``[ask.shapes]`` asks for, at any inclination.
-
-        Parameters
-        ----------
-        **changed
-            Instead of what the scene says: `angular_speed` (rad/s) or `conical_height` (m), `sense`, `hanging_only`,
-            `budget` as of `revchain.steady_shapes`, or `half_waves` where both ends are held.
-
-        Returns
-        -------
-        SteadyShapes or HeldShapes
-
-        Raises
-        ------
-        SceneError
-            If the scene says no speed, and none is given.
-        ValueError
-            As `revchain.steady_shapes` and `revchain.held_shapes`.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> chair = {"mass": 80, "length": 4.0}
-        >>> scene = rc.Scene.from_dict({"links": [chair], "support": {"radius": "1 m"}})
-        >>> shapes = scene.steady_shapes(angular_speed=3.0)
-        >>> len(shapes), shapes.complete
-        (3, True)
-        """
-        return shapes_of(self._hung("scene"), self.held, self.ask.shapes, changed, self.gravity_value(), "scene")
-
-    def response(self, **changed: Any) -> Response:
-        """Find the small motions that ``[ask.response]`` asks for, of a support carried round.
-
-        Parameters
-        ----------
-        **changed
-            Instead of what the scene says: `angular_speed` or `conical_height`, a list of one (results are then not
-            arrays of speeds) or the two ends of a range, `steps`, `support_radius`, `pins` as of `revchain.response`.
-
-        Returns
-        -------
-        Response
-
-        Raises
-        ------
-        SceneError
-            If the scene says no speed, and none is given, or holds both ends.
-        ValueError
-            As `revchain.response`.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> scene = rc.Scene.from_dict({"links": [{"mass": 1, "length": 1}], "support": {"radius": 0.02}})
-        >>> scene.response(conical_height=[4.0]).offset.round(4)
-        array([0.0267, 0.02  ])
-        """
-        if self.held is not UNSET:
-            raise SceneError("scene", "held", "is for shapes and modes: no response is known of it")
-        return response_of(self._hung("scene"), self.ask.response, changed, self.gravity_value(), "scene")
-
-    def small_oscillation(self, **changed: Any) -> SmallOscillation:
-        """See the chain swing that ``[ask.swing]`` lets go.
-
-        Parameters
-        ----------
-        **changed
-            Instead of what the scene says: `until` (s), `steps`, `modes` as of `revchain.small_oscillation`.
-
-        Returns
-        -------
-        SmallOscillation
-
-        Raises
-        ------
-        SceneError
-            If the scene lets nothing go, or is more than a chain that hangs from a firm point.
-        ValueError
-            As `revchain.small_oscillation`.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> scene = {"links": [{"mass": 1, "length": 1}], "ask": {"swing": {"offset": ["5 cm"]}}}
-        >>> rc.Scene.from_dict(scene).small_oscillation(until=1.0, steps=1).offset[:, 0].round(4)
-        array([ 0.05, -0.05])
-        """
-        if self.is_rigged or self.held is not UNSET:
-            raise SceneError("scene", "ask.swing", "is for a chain that hangs from a firm point, with nothing else")
-        return swing_of(self.chain(), self.ask.swing, changed, self.gravity_value(), "scene")
-
-    def _check(self, source: str) -> None:
-        """Whatever the other methods would refuse of the scene, said with the name of the file."""
-        hung = self._hung(source)
-        chain = base_chain(hung)
-        if self.held is UNSET:
-            asked(self.ask, chain, self._gravity(source), source, self.is_rigged)
-        elif self.is_rigged:
-            raise SceneError(source, "held", "does not go with a support, standing links, flywheels or a fluid")
-        else:
-            ends_of(self.held, chain, source)
-            asked_of_held(self.ask, chain, source)
-        the_speed(self.ask.shapes, source)
-        the_speeds(self.ask.response, hung, source)
-        if self.ask.swing is not UNSET:
-            start_of(self.ask.swing, chain, source)
-
-    def _links(self) -> list[Link]:
-        return [] if self.links is UNSET else self.links
-
-    def _gravity(self, source: str) -> float:
-        return Numbers(source, "").value("gravity", self.gravity, "gravity", "positive")
-
-    def _hung(self, source: str) -> Chain | Rig:
-        """What hangs; a rig where the scene says more than a chain."""
-        return self._rig(source) if self.is_rigged else self._chain(source)
-
-    def _rig(self, source: str) -> Rig:
-        chain = self._chain(source)
-        return rig_of(chain, self._links(), self.support, self.fluid, self._gravity(source), source)
-
-    def _chain(self, source: str) -> Chain:
-        gravity = self._gravity(source)
-        if sum(given is not UNSET for given in (self.links, self.uniform_chain, self.tapered_chain)) != 1:
-            raise SceneError(source, "", "give either [[links]] or [uniform_chain] or [tapered_chain]")
-        if self.uniform_chain is not UNSET:
-            return uniform_chain(self.uniform_chain, gravity, source)
-        if self.tapered_chain is not UNSET:
-            return tapered_chain(self.tapered_chain, gravity, source)
-        assert self.links is not UNSET
-        return chain_of_links(self.links, gravity, source)
+def _named(problem: Problem, scene: Scene) -> Problem:
+    """With the name of the link in which it is."""
+    index, closed, _ = problem.key.removeprefix("links[").partition("]")
+    if not closed or not index.isdecimal() or isinstance(scene.links, UnsetType) or int(index) >= len(scene.links):
+        return problem
+    name = scene.links[int(index)].name
+    return problem._replace(key=f'{problem.key} ("{name}")') if name else problem
 
 
 def load_scene(path: str | os.PathLike[str]) -> Scene:
@@ -447,18 +399,19 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     Raises
     ------
     SceneError
-        A ValueError that names the file, the key and what is wrong there; for errors of syntax the
-        line and the column.
+        A ValueError that names the file, and of every error the line, the column, the key and what is wrong there.
 
     Examples
     --------
     >>> import revchain as rc, tempfile, pathlib
     >>> path = pathlib.Path(tempfile.mkdtemp()) / "scene.toml"
     >>> _ = path.write_text("[uniform_chain]\\nkind='rods'\\ncount=120\\nlength=0.36\\nmass=0.03\\n")
-    >>> rc.load_scene(path).chain().size
+    >>> rc.load_scene(path).system().size
     120
     """
-    return Scene.from_dict(parse.read(path), os.fspath(path))
+    problems: list[Problem] = []
+    with parse.placed(path):
+        return Scene._read(parse.read(path, problems), os.fspath(path), problems, in_doubt=True)
 
 
 def json_schema() -> dict[str, Any]:
@@ -479,6 +432,6 @@ def json_schema() -> dict[str, Any]:
         if "description" in table:
             table["description"] = table["description"].partition("\n")[0]
     weighed = ("Link", "UniformChain", "TaperedChain", "Flywheel", "Displaced")
-    for name, pair in (("Scene", ("links", "uniform_chain", "tapered_chain")), *((name, _WEIGHT) for name in weighed)):
+    for name, pair in (("Scene", SYSTEMS), *((name, ("weight", "mass")) for name in weighed)):
         schema["$defs"][name]["oneOf"] = [{"required": [key]} for key in pair]
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "revchain scene", **schema}

@@ -1,44 +1,98 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the table [vary] of a study to the numbers of each point: grids and random numbers."""
+"""From the table [vary] of a study to the numbers at each point: grids and random numbers."""
 
 from __future__ import annotations
 
 import math
+import re
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, get_origin
+from typing import Annotated, Any, Literal, get_origin
 
 import numpy as np
-from msgspec import UNSET
+from msgspec import UNSET, Meta, UnsetType
 from numpy.typing import NDArray
 
 from ..scenes import parse
 from ..scenes.error import SceneError
-from ..systems.units import si_value
-from .paths import Path, path_of, quantity_of
-from .tables import Vary
+from ..scenes.tables import Table
+from ..systems.units import SI, si_value
 
 BLOCK = 65536  # random numbers are drawn in blocks of so many points, each from a stream of its own
-MOST_STEPS = 10**7
+MAX_STEPS = 10**7
+MAX_POINTS = 10**12
 
 Values = NDArray[Any]
+Path = tuple[str | int, ...]
+NumberOrText = float | str
+Samples = Annotated[int, Meta(ge=1, le=MAX_POINTS)]
+TwoNumbers = Annotated[list[NumberOrText], Meta(min_length=2, max_length=2)]
+
+_PATH = re.compile(r"[a-z_]+(\[\d{1,9}\])?(\.[a-z_]+(\[\d{1,9}\])?)*")
+_SPEED = r"\.(angular_speed|conical_height)"
+_ASKED = re.compile(rf"ask\.(shapes{_SPEED}|response{_SPEED}(\[\d+\]|\.from|\.to)?)")
+_PERCENT = re.compile(r"\s*([0-9.eE+-]+)\s*%\s*")
+
+
+class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):
+    """The values of one number of the scene. Numbers are SI or text with a unit, as in the scene.
+
+    Attributes
+    ----------
+    first, last : float or str
+        Keys ``from`` and ``to``: a grid from one to the other, both included.
+    steps : int
+        Number of values of this grid.
+    log : bool
+        Whether the grid has equal ratios instead of equal differences.
+    values : list of float, str or bool
+        Instead: a grid of these values.
+    uniform : [low, high]
+        Instead: random numbers with low <= number < high. ``[middle, "5 %"]`` is middle plus or minus 5 %.
+    normal : [mean, deviation]
+        Instead: random numbers of the normal distribution. ``[mean, "5 %"]``: the deviation is 5 % of the mean.
+    log_uniform : [low, high]
+        Instead: random numbers whose logarithm is uniform. ``[middle, "5 %"]`` is middle / 1.05 to middle * 1.05.
+    name : str, optional
+        Name of the column; the path if left out.
+    """
+
+    first: Annotated[NumberOrText | UnsetType, Meta(description="The first value of a grid.")] = UNSET
+    last: Annotated[NumberOrText | UnsetType, Meta(description="Its last value.")] = UNSET
+    steps: Annotated[Samples | UnsetType, Meta(description="Number of values, both ends included.")] = UNSET
+    log: Annotated[bool, Meta(description="Whether in equal ratios instead of equal differences.")] = False
+    values: Annotated[
+        Annotated[list[bool | float | str], Meta(min_length=1)] | UnsetType,
+        Meta(description="Instead: a grid of these values."),
+    ] = UNSET
+    uniform: Annotated[
+        TwoNumbers | UnsetType, Meta(description='Instead: random, [low, high] or [middle, "5 %"].')
+    ] = UNSET
+    normal: Annotated[
+        TwoNumbers | UnsetType, Meta(description='Instead: random, [mean, deviation] or [mean, "5 %"].')
+    ] = UNSET
+    log_uniform: Annotated[
+        TwoNumbers | UnsetType,
+        Meta(description='Instead: random with a uniform logarithm, [low, high] or [middle, "5 %"].'),
+    ] = UNSET
+    name: Annotated[str | UnsetType, Meta(description="Name of the column; the path if left out.")] = UNSET
 
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """One number of the scene, and what it is at each point.
+    """One number of the scene, and its values at the points.
 
     Attributes
     ----------
     key, name : str
-        The path as the study writes it, and what its column is called.
+        The path as the study writes it, and the name of the column.
     path : tuple
         Its steps.
     values : ndarray or None
-        Of a grid; None where the numbers are random.
+        Values of a grid; None where the numbers are random.
     law, law_numbers : str, tuple of float
-        The distribution of random ones, and its two numbers.
+        The distribution of random numbers: normal (mean, deviation), uniform or log_uniform (low, high).
     """
 
     key: str
@@ -48,13 +102,64 @@ class Axis:
     law: str = ""
     law_numbers: tuple[float, float] = (0.0, 0.0)
 
+    @property
+    def quantity(self) -> str:
+        """The quantity of the number, a key of `systems.units.SI`."""
+        return quantity_of(self.path)
+
+    @property
+    def is_number(self) -> bool:
+        """Whether the values are real numbers; others (whole numbers, words) may change what the scene consists of."""
+        return self.values is None or self.values.dtype.kind == "f"
+
+    def examples(self) -> list[Any]:
+        """The ends of a grid, all its words, or a number in the middle of random ones."""
+        if self.values is None:
+            one, two = self.law_numbers
+            return [one if self.law == "normal" else one + (two - one) / 2]
+        if self.values.dtype.kind in "fi":
+            return [self.values.min().item(), self.values.max().item()]
+        return np.unique(self.values).tolist()  # type: ignore[no-any-return]
+
+
+def path_of(text: str, refuse: SceneError) -> Path:
+    """The steps of a path; `refuse` is raised with a reason where it is none."""
+    if _PATH.fullmatch(text) is None:
+        raise SceneError(refuse.source, refuse.key, "is no path into a scene such as links[0].mass")
+    if text in ("title", "description", "schema_version", "held"):
+        raise SceneError(refuse.source, refuse.key, "cannot be varied")
+    if text.startswith("ask") and _ASKED.fullmatch(text) is None:
+        reason = "cannot be varied: of [ask] only the speeds of ask.shapes and ask.response can"
+        raise SceneError(refuse.source, refuse.key, reason)
+    return tuple(int(index) if index else name for name, index in re.findall(r"([a-z_]+)|\[(\d+)\]", text))
+
+
+def quantity_of(path: Path) -> str:
+    """The quantity of the number there, a key of `systems.units.SI`; a length where the name is none."""
+    return next((step for step in reversed(path) if isinstance(step, str) and step in SI), "length")
+
+
+def with_value(data: Any, path: Path, value: Any, refuse: SceneError) -> Any:
+    """A copy of `data` with the value there; tables that are not on the path are shared."""
+    if not path:
+        return value
+    step, rest = path[0], path[1:]
+    if isinstance(step, str):
+        table = data if isinstance(data, dict) else {}
+        return {**table, step: with_value(table.get(step), rest, value, refuse)}
+    if not isinstance(data, list) or step >= len(data):
+        count = len(data) if isinstance(data, list) else 0
+        there = f"there are {count}, counted from 0" if count else "there is no such list"
+        raise SceneError(refuse.source, refuse.key, f"the scene has nothing at [{step}]: {there}")
+    return [*data[:step], with_value(data[step], rest, value, refuse), *data[step + 1 :]]
+
 
 def axis_of(key: str, table: Vary, kind: type, source: str) -> Axis:
-    """The axis that an entry of [vary] means; `kind` is the class of scenes."""
+    """The axis that an entry of [vary] describes; `kind` is the class of scenes."""
     refuse = SceneError(source, f'vary."{key}"', "")
     path = path_of(key, refuse)
     name = key if table.name is UNSET else str(table.name)
-    if not name.strip() or "/" in name or not name.isprintable():
+    if not name.strip() or "/" in name or name == "." or not name.isprintable():
         raise SceneError(source, f"{refuse.key}.name", f'must be a printable name without "/", got {name!r}')
     given = [law for law in ("values", "uniform", "normal", "log_uniform") if getattr(table, law) is not UNSET]
     if table.first is not UNSET or table.last is not UNSET or table.steps is not UNSET:
@@ -69,12 +174,10 @@ def axis_of(key: str, table: Vary, kind: type, source: str) -> Axis:
     whole = int in parts and float not in parts
     numbers = _Numbers(refuse, path, whole)
     if given[0] in ("from", "values"):
-        values = numbers.grid(table) if given[0] == "from" else numbers.listed(table, parts)
-        return Axis(key, name, path, values)
+        return Axis(key, name, path, numbers.grid(table) if given[0] == "from" else numbers.listed(table, parts))
     if whole or not (annotation is None or float in parts):
         raise SceneError(source, refuse.key, "takes no random numbers; give values")
-    law = given[0]
-    return Axis(key, name, path, None, law, numbers.law(law, getattr(table, law)))
+    return Axis(key, name, path, None, given[0], numbers.law(given[0], getattr(table, given[0])))
 
 
 class _Numbers:
@@ -105,8 +208,8 @@ class _Numbers:
                 raise self.error(key, "is missing")
         assert isinstance(table.steps, int)
         low, high = self.number("from", table.first), self.number("to", table.last)
-        if table.steps > MOST_STEPS:
-            raise self.error("steps", f"must be at most {MOST_STEPS:,}, got {table.steps:,}")
+        if table.steps > MAX_STEPS:
+            raise self.error("steps", f"must be at most {MAX_STEPS:,}, got {table.steps:,}")
         if table.log and not (low > 0 and high > 0):
             raise self.error("log", "needs from and to that are positive")
         values = np.geomspace(low, high, table.steps) if table.log else np.linspace(low, high, table.steps)
@@ -118,10 +221,8 @@ class _Numbers:
 
     def listed(self, table: Vary, parts: list[Any]) -> Values:
         assert isinstance(table.values, list)
-        words = any(get_origin(part) is Literal or part is bool for part in parts)
-        if words:
-            kinds = {type(value) for value in table.values}
-            if len(kinds) != 1:
+        if any(get_origin(part) is Literal or part is bool for part in parts):
+            if len({type(value) for value in table.values}) != 1:
                 raise self.error("values", "must be all of one kind")
             return np.array(table.values)
         for k, value in enumerate(table.values):
@@ -131,24 +232,41 @@ class _Numbers:
         return values.astype(np.int64) if self.whole else values
 
     def law(self, law: str, given: Sequence[Any]) -> tuple[float, float]:
-        one, two = (self.number(f"{law}[{k}]", value) for k, value in enumerate(given))
+        one = self.number(f"{law}[0]", given[0])
+        percent = _PERCENT.fullmatch(given[1]) if isinstance(given[1], str) else None
+        if percent is None:
+            two = self.number(f"{law}[1]", given[1])
+        else:
+            try:
+                part = float(percent[1]) / 100
+            except ValueError:
+                reason = f'must be a number or a percentage such as "5 %", got "{given[1]}"'
+                raise self.error(f"{law}[1]", reason) from None
+            if not 0 < part < math.inf:
+                raise self.error(f"{law}[1]", f'a percentage must be positive, got "{given[1]}"')
+            spread = abs(one) * part
+            one, two = {
+                "normal": (one, spread),
+                "uniform": (one - spread, one + spread),
+                "log_uniform": (one / (1 + part), one * (1 + part)),
+            }[law]
         if law == "normal" and not two >= 0:
             raise self.error(law, f"its deviation must not be negative, got {given[1]}")
-        if law != "normal" and not one < two:
-            raise self.error(law, f"its low end must lie below its high end, got {list(given)}")
         if law == "log_uniform" and not one > 0:
             raise self.error(law, f"must be positive, got {given[0]}")
+        if law != "normal" and not one < two:
+            raise self.error(law, f"its low end must lie below its high end, got {list(given)}")
         return one, two
 
 
 def shape_of(axes: Sequence[Axis], samples: int) -> tuple[int, ...]:
-    """How many values of each grid, and samples if there are random numbers: the last counts fastest."""
+    """Number of values of each grid, then samples if there are random numbers; the last counts fastest."""
     grid = [axis.values.size for axis in axes if axis.values is not None]
     return (*grid, samples) if any(axis.values is None for axis in axes) else tuple(grid)
 
 
 class Reader:
-    """The numbers of the axes at one stretch of points after another; quickest if each begins where the last ended."""
+    """The numbers of the axes at stretches of points; fastest if each begins where the last ended."""
 
     def __init__(self, axes: Sequence[Axis], samples: int, seed: int) -> None:
         shape = shape_of(axes, samples)
@@ -157,7 +275,7 @@ class Reader:
         self._draws = [_Draws(axis, seed) if axis.values is None else None for axis in axes]
 
     def at(self, start: int, stop: int) -> list[Values]:
-        """Of each axis, its numbers at the points start <= k < stop; not to be written to."""
+        """For each axis its numbers at the points start <= k < stop; not to be written to."""
         return [
             _repeated(*grid, start, stop) if grid is not None else draws.at(start, stop)  # type: ignore[union-attr]
             for grid, draws in zip(self._grids, self._draws, strict=True)
@@ -167,14 +285,10 @@ class Reader:
 def _repeated(values: Values, stride: int, start: int, stop: int) -> Values:
     """values[k // stride % size] at start <= k < stop, without a division at each k."""
     first, last = start // stride, (stop - 1) // stride
-    runs, size = last - first + 1, values.size
-    at = first % size
-    if at + runs <= size:
-        of_runs = values[at : at + runs]
-    elif runs <= size:
-        of_runs = np.concatenate([values[at:], values[: at + runs - size]])
-    else:
-        of_runs = np.tile(values, -(-(at + runs) // size))[at : at + runs]
+    runs, at = last - first + 1, start // stride % values.size
+    of_runs = values[at : at + runs]
+    if of_runs.size < runs:
+        of_runs = np.tile(values, -(-(at + runs) // values.size))[at : at + runs]
     if stride == 1:
         return of_runs
     lengths = np.full(runs, stride)
@@ -184,7 +298,7 @@ def _repeated(values: Values, stride: int, start: int, stop: int) -> Values:
 
 
 class _Draws:
-    """Random numbers by their points alone: whoever draws them, in whatever pieces, finds the same.
+    """Random numbers that depend on their point alone, in whatever pieces they are drawn.
 
     Each block of points has a stream of its own, which is kept as far as it has been drawn.
     """

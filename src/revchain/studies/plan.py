@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A study made ready: its axes, what each point gives, and the points of a stretch computed."""
+"""A study made ready: its axes, what each point gives, and the computation of a stretch of points."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import prod
 from typing import Any
@@ -14,19 +13,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _core
 from ..questions.batch import conical_heights
 from ..scenes import parse
 from ..scenes.error import SceneError
 from ..scenes.scene import Scene
 from ..systems.numbers import Floats
-from .axes import Axis, Reader, Values, shape_of
-from .batch import LinkColumns, wrong_chains
-from .find import NOT_MET, REFUSED, SUCCESS, Arrays, Block, found_at, put
-from .paths import with_value
+from .axes import Axis, Reader, Values, shape_of, with_value
+from .points import (
+    NOT_MET,
+    REFUSED,
+    SUCCESS,
+    Arrays,
+    Block,
+    Columns,
+    one_by_one,
+    refused_by_chains,
+    solve_compiled,
+)
 
-FORMAT = 2
+FORMAT = 3  # of the chunks on disk
 _LARGEST, _SMALLEST = 32768, 1024  # chains of a batch: few enough that their numbers stay in the cache,
 _WORK = 2**20  # links times modes of a batch: and so many that Python's share of the time is small
+_FEW = 3  # points: as fast by the methods of their scenes
+_MOST_PATTERNS = 100  # scenes that are kept
 _NOWHERE = SceneError("study", "vary", "")
 
 
@@ -58,6 +68,8 @@ class Plan:
         Its results.
     batched : bool
         Whether heights come from `revchain.conical_heights`.
+    derived : bool
+        Whether speeds follow from the heights and are not stored.
     """
 
     base: dict[str, Any]
@@ -67,27 +79,30 @@ class Plan:
     find: tuple[str, ...]
     blocks: tuple[Block, ...]
     batched: bool
+    derived: bool
     _kept: dict[str, Any] = field(default_factory=dict, repr=False)
+    _patterns: dict[tuple[Any, ...], Scene] = field(default_factory=dict, repr=False)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Plan, (self.base, self.axes, self.samples, self.seed, self.find, self.blocks, self.batched)
+        given = (self.base, self.axes, self.samples, self.seed, self.find, self.blocks, self.batched, self.derived)
+        return Plan, given
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values of each grid, then samples."""
+        """Number of values of each grid, then samples."""
         return shape_of(self.axes, self.samples)
 
     @property
     def points(self) -> int:
-        """How many."""
+        """Number of points."""
         return prod(self.shape)
 
     def values(self, start: int, stop: int) -> list[Values]:
-        """Of each axis, its numbers at a stretch of points."""
+        """For each axis its numbers at a stretch of points."""
         return self.reader().at(start, stop)
 
     def reader(self) -> Reader:
-        """What gives the numbers of one stretch after another; one thread's own."""
+        """Gives the numbers of one stretch after another; one thread's own."""
         return Reader(self.axes, self.samples, self.seed)
 
     def scene_data(self, values: list[Any]) -> dict[str, Any]:
@@ -114,8 +129,8 @@ class Plan:
 
     @property
     def stored(self) -> tuple[Block, ...]:
-        """The blocks that are computed; speeds of batches follow from the heights."""
-        return tuple(block for block in self.blocks if not (self.batched and block.name == "angular_speed"))
+        """The blocks that are computed and kept."""
+        return tuple(block for block in self.blocks if not (self.derived and block.name == "angular_speed"))
 
     @property
     def numbers(self) -> int:
@@ -126,100 +141,152 @@ class Plan:
     def batch(self) -> int:
         """How many chains go to `revchain.conical_heights` together."""
         if "batch" not in self._kept:
-            most = _WORK // (self._scene.chain().size * self.stored[0].labels[-1])
+            chain: Any = self._scene.system()
+            most = _WORK // (chain.size * self.stored[0].labels[-1])
             self._kept["batch"] = min(max(1 << max(most.bit_length() - 1, 0), _SMALLEST), _LARGEST)
         return int(self._kept["batch"])
 
     def speeds(self, heights: Floats, values: list[Values]) -> Floats:
-        """Whirl speeds of batches, at points with these heights where the axes have these numbers."""
+        """Whirl speeds at points with these heights where the axes have these numbers."""
         varied = {axis.path: k for k, axis in enumerate(self.axes)}
         where = varied.get(("gravity",))
         gravity = np.asarray(self._scene.gravity_value() if where is None else values[where], float)
-        with np.errstate(invalid="ignore"):  # where a point is refused the height is no number
+        with np.errstate(invalid="ignore"):  # the height of a point that is refused is no number
             speeds: Floats = np.sqrt(heights)
             np.divide(np.sqrt(gravity)[..., np.newaxis], speeds, out=speeds)
         return speeds
 
     def found(
-        self,
-        start: int,
-        stop: int,
-        stopped: Callable[[], bool] | None = None,
-        arrays: Arrays | None = None,
+        self, start: int, stop: int, progress: _core.Progress | None = None, arrays: Arrays | None = None
     ) -> Stretch:
-        """The points of a stretch, put into `arrays` if given; whatever the stretch, the same numbers at each."""
+        """The points of a stretch, put into `arrays` if given; the same numbers at each, whatever the stretch."""
         began = time.perf_counter()
-        arrays = {block.name: block.memory(stop - start) for block in self.stored} if arrays is None else arrays
+        progress = _core.Progress() if progress is None else progress
         status = np.full(stop - start, SUCCESS, np.uint8)
         if self.batched:
-            columns = LinkColumns(self._scene, min(self.batch, stop - start))
-            reader = self.reader()
+            heights = self.stored[0].memory(stop - start) if arrays is None else arrays["conical_height"]
+            columns, reader = Columns(self._scene, min(self.batch, stop - start)), self.reader()
             for first in range(start, stop, self.batch):
                 last = min(first + self.batch, stop)
                 rows = slice(first - start, last - start)
-                self._heights(rows, reader.at(first, last), columns, arrays["conical_height"], status)
-        else:
-            for array in arrays.values():
-                array[...] = np.nan if array.dtype.kind == "f" else 0
-            each = [column.tolist() for column in self.values(start, stop)]
-            for row, values in enumerate(zip(*each, strict=True)):
-                if stopped is not None and stopped():
-                    raise KeyboardInterrupt
-                self._one(row, list(values), arrays, status)
+                self._heights(rows, reader.at(first, last), columns, heights, status, progress)
+            return Stretch(start, stop, {"conical_height": heights}, status, time.perf_counter() - began)
+        if arrays is None:
+            arrays = {block.name: block.memory(stop - start) for block in self.stored}
+        for block in self.stored:
+            arrays[block.name][...] = block.nothing
+        values = self.values(start, stop)
+        for rows in self._alike(values, stop - start):
+            self._solve(rows, [column[rows] for column in values], arrays, status, progress)
         return Stretch(start, stop, arrays, status, time.perf_counter() - began)
-
-    def _scene_of(self, values: list[Any]) -> Scene:
-        """The scene of a point; what its methods refuse they say themselves, so that it is not checked twice."""
-        return parse.convert(self.scene_data(values), Scene, "scene")
 
     def refusal(self, point: int) -> str:
         """The sentence with which the scene of a point is refused; empty if it is not."""
         values = [column.tolist()[0] for column in self.values(point, point + 1)]
         try:
-            found_at(self._scene_of(values), self.find)
+            one_by_one(self._scene_of(values), self.find)
         except (ValueError, OverflowError) as error:
             return str(error).removeprefix("scene: ")
         return ""
 
-    def _one(self, row: int, values: list[Any], arrays: Arrays, status: NDArray[np.uint8]) -> None:
+    def _scene_of(self, values: list[Any]) -> Scene:
+        """The scene of a point; its methods check it."""
+        return parse.convert(self.scene_data(values), Scene, "scene")
+
+    def _alike(self, values: list[Values], count: int) -> list[Any]:
+        """Rows of points that differ in numbers alone, those with the same words and whole numbers together."""
+        words = [column for axis, column in zip(self.axes, values, strict=True) if not axis.is_number]
+        if not words:
+            return [slice(None)]
+        codes = np.stack([np.unique(column, return_inverse=True)[1] for column in words])
+        _, groups = np.unique(codes, axis=1, return_inverse=True)
+        return [np.flatnonzero(groups == group) for group in range(groups.max() + 1)]
+
+    def _solve(self, rows: Any, values: list[Values], arrays: Arrays, status: NDArray[np.uint8], progress: Any) -> None:
+        """Points that differ in numbers alone, each solved by itself."""
+        count = len(values[0])
+        if (solved := self._compiled(values, count, progress)) is not None:
+            for name, found in solved[0].items():
+                arrays[name][rows] = found
+            status[rows] = solved[1]
+            return
+        places = range(count) if isinstance(rows, slice) else rows.tolist()
+        for row, *each in zip(places, *(column.tolist() for column in values), strict=True):
+            if progress.cancelled:
+                raise _core.Cancelled("revchain: cancelled")
+            self._one(row, each, arrays, status)
+
+    def _compiled(self, values: list[Values], count: int, progress: Any) -> tuple[Arrays, NDArray[np.uint8]] | None:
+        """What `solve_compiled` finds of these points; None where it does not serve, or they are too few for it."""
+        if count < _FEW:
+            return None
+        points = {axis.path: column for axis, column in zip(self.axes, values, strict=True) if axis.is_number}
+        columns = zip(self.axes, values, strict=True)
+        words = tuple(column[:1].tolist()[0] for axis, column in columns if not axis.is_number)
         try:
-            found, good = found_at(self._scene_of(values), self.find)
+            pattern = self._pattern(words)
+            return solve_compiled(pattern, self.find, self.stored, points, count, progress)
+        except (ValueError, OverflowError):
+            return None
+
+    def _pattern(self, words: tuple[Any, ...]) -> Scene:
+        """A scene with these words and whole numbers; its other numbers do not matter."""
+        pattern = self._patterns.get(words)
+        if pattern is None:
+            given = iter(words)
+            sample = [axis.examples()[0] if axis.is_number else next(given) for axis in self.axes]
+            if len(self._patterns) >= _MOST_PATTERNS:
+                self._patterns.clear()
+            pattern = self._patterns[words] = Scene.from_dict(self.scene_data(sample))
+        return pattern
+
+    def _one(self, row: int, values: list[Any], arrays: Arrays, status: NDArray[np.uint8]) -> None:
+        """A point by the methods of its scene."""
+        try:
+            found, good = one_by_one(self._scene_of(values), self.find)
         except (ValueError, OverflowError):
             status[row] = REFUSED
             return
-        put(arrays, self.stored, row, found)
         status[row] = SUCCESS if good else NOT_MET
+        for block in self.stored:
+            numbers = np.atleast_1d(found[block.name])
+            if block.along:
+                count = min(len(block.labels), len(numbers))
+                arrays[block.name][row, :count] = numbers[:count]
+            else:
+                arrays[block.name][row] = numbers[0]
 
     def _heights(
         self,
-        rows: slice | NDArray[np.int64],
+        rows: Any,
         values: list[Values],
-        columns: LinkColumns,
+        columns: Columns,
         heights: Floats,
         status: NDArray[np.uint8],
+        progress: Any,
     ) -> None:
-        """Heights of plain chains; where a batch is refused, of those that look right, and of the others each alone."""
+        """Heights of plain chains. Where a batch is refused its wrong chains are left out; a single one is solved."""
         (block,) = self.stored
-        try:
-            points = {axis.path: column for axis, column in zip(self.axes, values, strict=True)}
-            links: dict[str, Any] = dict(columns.at(points))
-            found = conical_heights(**links, count=block.labels[-1])
-        except ValueError:
-            each = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
-            if each.size == 1:
-                heights[each] = np.nan
-                only = [column.tolist()[0] for column in values]
-                self._one(int(each[0]), only, {block.name: heights}, status)
+        links = columns.bodies({axis.path: column for axis, column in zip(self.axes, values, strict=True)})
+        count = len(values[0])
+        wrong = np.broadcast_to(columns.wrong, count)
+        if not wrong.any():
+            try:
+                found = conical_heights(**links, count=block.labels[-1])  # type: ignore[arg-type]
+                heights[rows] = found[..., block.labels[0] - 1 :]
                 return
-            wrong = wrong_chains(links, each.size)
-            parts = [*np.flatnonzero(wrong)[:, np.newaxis], np.flatnonzero(~wrong)]
-            if len(parts) == 1:  # what is wrong is not seen from here: halves, down to it
-                parts = np.array_split(parts[0], 2)
-            for part in parts:
+            except ValueError:
+                wrong = refused_by_chains(links, count)
+        places = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
+        heights[places[wrong]], status[places[wrong]] = np.nan, REFUSED
+        right = np.flatnonzero(~wrong)
+        if right.size == count == 1:  # nothing is seen to be wrong with it
+            heights[places] = np.nan
+            self._solve(places, values, {block.name: heights}, status, progress)
+        else:
+            for part in np.array_split(right, 2) if right.size == count else [right]:
                 if part.size:
-                    self._heights(each[part], [column[part] for column in values], columns, heights, status)
-            return
-        heights[rows] = found[..., block.labels[0] - 1 :]
+                    self._heights(places[part], [column[part] for column in values], columns, heights, status, progress)
 
     @property
     def _scene(self) -> Scene:

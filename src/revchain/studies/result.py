@@ -3,76 +3,110 @@
 
 from __future__ import annotations
 
+import json
+import os
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..systems.numbers import boolean, read_only, word
-from .find import REFUSED, STATUS, Arrays
+from ..results.base import Field, Result, frozen
+from ..results.files import OutputError, naming, written_aside
+from ..results.sheet import Column, Sheet, digits
+from ..systems.extras import require
+from ..systems.numbers import file_path, word
+from . import store
 from .plan import Plan
+from .points import REFUSED, STATUS, Arrays
 from .study import Study
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-MOST_SENTENCES = 20
+MAX_SENTENCES = 20
 
 
-class SweepResult:
-    """All points of a study and what was found there; made by `revchain.sweep`.
+@dataclass(frozen=True)
+class Made:
+    """A study, made ready, and the file that holds its results, if they are not in memory."""
 
-    ``result["angular_speed"]`` is an array whose first axis counts the points, grids with the last fastest, samples
-    faster still; ``result["links[0].mass"]`` is what varied. Of modes, shapes and speeds a second axis counts these.
-    NaN, or 0 of whole numbers, stands where a point has nothing of the kind.
+    study: Study
+    plan: Plan
+    path: Path | None = None
+    written: tuple[int, int] = (0, 0)  # its size and time, to see whether it is still the same
 
-    Attributes
-    ----------
-    study : Study
+    def read(self, status_alone: bool = False) -> Arrays:
+        """The results from the file."""
+        assert self.path is not None
+        if not self.path.is_file() or stamp(self.path) != self.written:
+            raise OutputError(2, "the results are gone: the file was changed or removed since", os.fspath(self.path))
+        return store.read_back(self.path, self.plan, () if status_alone else self.plan.stored)
+
+
+def stamp(path: Path) -> tuple[int, int]:
+    """Size and time of a file."""
+    found = path.stat()
+    return found.st_size, found.st_mtime_ns
+
+
+class SweepResult(Result):
+    """All points of a study and what was found there; returned by `revchain.sweep`.
+
+    ``result["angular_speed"]`` is an array whose first axis counts the points: grids with the last fastest, samples
+    faster still. A second axis counts modes, shapes or speeds. ``result["links[0].mass"]`` is what varied. NaN, or 0
+    of whole numbers, stands where a point has nothing of the kind. Shown is the range of every column.
+
+    Results of ``sweep(..., out=...)`` are read from that file when they are looked at.
 
     Examples
     --------
     >>> import revchain as rc
     >>> found = rc.sweep({
     ...     "scene": {"links": [{"mass": 1.0, "length": 0.5}]},
-    ...     "vary": {"links[0].length": {"values": [0.25, 1.0]}},
+    ...     "vary": {"links[0].length": {"values": [0.25, 0.5, 1.0]}},
     ... })
     >>> found
-    SweepResult: 2 points of links[0].length; angular_speed, conical_height
+    Study of 3 points
+    column              least   median  largest
+    links[0].length   0.25000  0.50000   1.0000
+    angular_speed_1    3.1316   4.4287   6.2631
+    conical_height_1  0.25000  0.50000   1.0000
     >>> found["conical_height"]
     array([[0.25],
+           [0.5 ],
            [1.  ]])
     """
 
-    study: Study
-    _plan: Plan
-    _arrays: Arrays
-    _status: NDArray[np.uint8]
-    _resumed: int
-    _damage: str
+    __slots__ = ()
+    _study: Field[str] = Field("The study as JSON.", part=True)
+    _arrays: Field[dict[str, NDArray[Any]]] = Field(
+        "What is stored of all points, by name.", lambda result: result._found().read(), part=True
+    )
+    resumed: Field[int] = Field("How many of the points were there already, from a run that was ended.", lambda r: 0)
 
     @classmethod
-    def _of(cls, study: Study, plan: Plan, stored: Arrays) -> SweepResult:
-        """With arrays for all points, of what is computed and of the status."""
-        result = cls.__new__(cls)
-        result.study, result._plan, result._resumed, result._damage = study, plan, 0, ""
-        result._arrays = {name: array for name, array in stored.items() if name != "status"}
-        result._status = stored["status"]
-        return result
+    def _of(cls, made: Made, **kept: Any) -> SweepResult:
+        return cls._made(made, _study=json.dumps(made.study.to_dict()), **kept)
+
+    def _again(self) -> Made:
+        study = Study.from_dict(json.loads(self._study))
+        return Made(study, study._plan("study"))
+
+    @property
+    def study(self) -> Study:
+        """The study."""
+        return self._found().study  # type: ignore[no-any-return]
+
+    @property
+    def _plan(self) -> Plan:
+        return self._found().plan  # type: ignore[no-any-return]
 
     def __len__(self) -> int:
         return self._plan.points
-
-    @property
-    def resumed(self) -> int:
-        """How many of the points were there already, from a run that was ended."""
-        return self._resumed
-
-    @property
-    def damage(self) -> str:
-        """What was damaged of the points kept from a run that was ended, and computed again; empty if nothing was."""
-        return self._damage
 
     @property
     def varied(self) -> list[str]:
@@ -86,22 +120,23 @@ class SweepResult:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values each grid has, and, where numbers are random, how many samples."""
+        """Number of values of each grid, then the number of samples where numbers are random."""
         return self._plan.shape
 
     @property
     def status(self) -> NDArray[Any]:
-        """Of each point: ``success``, ``tolerance_not_met`` (something is not proved) or ``refused``."""
-        return np.array(STATUS)[self._status]
+        """Status of each point: ``success``, ``tolerance_not_met`` (something is not proved) or ``refused``."""
+        words: NDArray[Any] = np.array(STATUS)[self._one("status")]
+        return words
 
     @property
     def refused(self) -> dict[int, str]:
-        """Sentences for points that their scenes refuse, by their numbers: the first twenty."""
-        points = np.flatnonzero(self._status == REFUSED)[:MOST_SENTENCES].tolist()
+        """Reasons of points that their scenes refuse, by their numbers: the first twenty."""
+        points = np.flatnonzero(self._one("status") == REFUSED)[:MAX_SENTENCES].tolist()
         return {point: self._plan.refusal(point) for point in points}
 
     def count(self, status: str) -> int:
-        """Count the points with a status.
+        """Return the number of points with a status.
 
         Parameters
         ----------
@@ -125,39 +160,33 @@ class SweepResult:
         1000
         """
         known = word("revchain.SweepResult.count", "status", status, STATUS)
-        return int(np.count_nonzero(self._status == STATUS.index(known)))
+        return int(np.count_nonzero(self._one("status") == STATUS.index(known)))
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        if name in self._arrays:
-            return read_only(self._arrays[name])
         if name == "status":
             return self.status
-        if name in self.varied:
-            self._fill_varied()
-        elif name == "angular_speed" and name in self.found:
-            self._arrays[name] = self._speeds()
-        else:
-            known = ", ".join([*self.varied, *self.found, "status"])
-            raise KeyError(f"there is no {name!r}; there are {known}")
-        return read_only(self._arrays[name])
+        if name not in [*self.varied, *self.found]:
+            raise KeyError(f"there is no {name!r}; there are {', '.join([*self.varied, *self.found, 'status'])}")
+        return self._one(name)
 
-    def _speeds(self) -> NDArray[np.float64]:
-        if "gravity" in [axis.key for axis in self._plan.axes]:
-            self._fill_varied()
-        values = [self._arrays.get(axis.name, np.empty(0)) for axis in self._plan.axes]
-        return self._plan.speeds(self._arrays["conical_height"], values)
+    def _one(self, name: str) -> NDArray[Any]:
+        """An array by its name, the status as 0, 1, 2; computed or read when first asked for, then kept."""
+        kept, made = self._kept, self._found()
+        if name == "status" and "_arrays" not in kept:
+            kept.setdefault("[status]", made.read(status_alone=True)["status"])
+            return kept["[status]"]  # type: ignore[no-any-return]
+        if name == "status" or name in [block.name for block in made.plan.stored]:
+            return self._arrays[name]
+        if (key := f"[{name}]") not in kept:
+            if name in self.varied:
+                found = made.plan.values(0, len(self))[self.varied.index(name)]
+            else:
+                found = made.plan.speeds(self._one("conical_height"), made.plan.values(0, len(self)))
+            kept.setdefault(key, frozen(found))
+        return kept[key]  # type: ignore[no-any-return]
 
-    def _fill_varied(self) -> None:
-        values = self._plan.values(0, self._plan.points)
-        self._arrays.update(zip(self.varied, values, strict=True))
-
-    def columns(self, words: bool = True) -> dict[str, NDArray[Any]]:
+    def columns(self) -> dict[str, NDArray[Any]]:
         """Return everything as columns of equal length, as the tables have them.
-
-        Parameters
-        ----------
-        words : bool
-            Whether the status is said in words, or else as 0, 1, 2 in their order.
 
         Returns
         -------
@@ -171,39 +200,11 @@ class SweepResult:
         >>> list(rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}}).columns())
         ['point', 'gravity', 'angular_speed_1', 'conical_height_1', 'status']
         """
-        from .output import columns_of
-
-        pieces = {name: self[name] for name in [*self.varied, *self.found]}
-        columns = columns_of(self._plan, {**pieces, "status": self._status}, 0, len(self))
-        in_words = boolean("revchain.SweepResult.columns", "words", words)
-        return {**columns, "status": self.status} if in_words else columns
-
-    def to_dataframe(self) -> Any:
-        """Return a pandas table with one row for each point.
-
-        Returns
-        -------
-        pandas.DataFrame
-
-        Raises
-        ------
-        ImportError
-            If pandas is not installed; the message says how to install it.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
-        >>> found = rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}})
-        >>> found.to_dataframe().shape  # doctest: +SKIP
-        (2, 5)
-        """
-        from .output import dataframe_of
-
-        return dataframe_of(self)
+        pieces = {name: self._one(name) for name in [*self.varied, *self.found]}
+        return {**store.columns_of(self._plan, pieces, 0, len(self)), "status": self.status}
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return a labelled dataset with one dimension for each grid, and one for samples.
+        """Return a labelled data set with one dimension for each grid, and one for samples.
 
         Returns
         -------
@@ -222,51 +223,58 @@ class SweepResult:
         >>> dict(rc.sweep({"scene": scene, "vary": vary}).to_xarray().sizes)  # doctest: +SKIP
         {'gravity': 2, 'links[0].length': 5, 'mode': 1}
         """
-        from .output import dataset_of
+        dataset = require("xarray", "netcdf", "to_xarray").Dataset
+        plan = self._plan
+        data = {
+            name: (dimensions, store.shaped(plan, name, self._one(name)), attributes)
+            for name, (dimensions, attributes) in store.variables_of(plan).items()
+        }
+        return dataset(data, store.coordinates_of(plan), store.about(self.study))  # type: ignore[no-any-return]
 
-        dataset: xarray.Dataset = dataset_of(self)
-        return dataset
-
-    def save(self, path: str) -> None:
+    def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to a file.
 
         Parameters
         ----------
         path : path-like
-            Ends in ``.csv``, ``.parquet`` or ``.nc``.
+            Ends in ``.npz`` or ``.nc``, which `revchain.load` reads, or in ``.csv`` or ``.parquet``: a table for
+            other programs, with a row for each point, as ``sweep(..., out=...)`` writes it.
 
         Raises
         ------
         ValueError
             If `path` ends otherwise.
         OSError
-            If it cannot be written.
+            (a ValueError too) If it cannot be written.
         ImportError
             If a package for it is missing; the message says how to install it.
 
         Examples
         --------
-        >>> import revchain as rc
+        >>> import revchain as rc, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "moon.npz"
         >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
-        >>> rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}}).save("moon.csv")
+        >>> found = rc.sweep({"scene": scene, "vary": {"gravity": {"values": [1.62, 9.81]}}})
+        >>> found.save(path)
+        >>> rc.load(path) == found
+        True
         """
-        from ..results.files import naming, written_aside
-        from .output import write_all, writer_of
-
-        writer = writer_of(path)
-        stored = {block.name: self._arrays[block.name] for block in self._plan.stored}
+        if Path(file_path("revchain.SweepResult.save", "path", path)).suffix.lower() not in (".csv", ".parquet"):
+            return super().save(path)
+        store.checked_ending(path)
         with naming(path), written_aside(path) as [aside]:
-            write_all(writer(aside, self.study, self._plan), self._plan, {**stored, "status": self._status})
+            store.write(aside, self.study, self._plan, partial(_pieces, self._arrays))
 
     def plot(self, name: str | None = None, ax: Axes | None = None) -> Axes:
-        """Draw what was found against what varied: one number as curves, two grids as a map of the first.
+        """Draw what was found against what varied.
 
-        Three or more numbers that are all random give a histogram: how what was found scatters about its mean.
+        One grid gives curves, two a map of the first mode, random numbers histograms with percentiles. A grid with
+        random numbers gives percentile bands, two grids a map of medians.
 
         Parameters
         ----------
         name : str, optional
-            Of what was found; whatever comes first if left out.
+            Which result; the first if left out.
         ax : matplotlib.axes.Axes, optional
             Where to draw; a new figure if left out.
 
@@ -277,7 +285,7 @@ class SweepResult:
         Raises
         ------
         ValueError
-            If more than two numbers varied and not all are random, or if words varied.
+            If there are more than two grids, or words varied.
         ImportError
             If matplotlib is not installed; the message says how to install it.
 
@@ -287,14 +295,34 @@ class SweepResult:
         >>> scene = {"links": [{"mass": 1.0, "length": 0.5}]}
         >>> found = rc.sweep({"scene": scene, "vary": {"links[0].length": {"from": 1, "to": 2, "steps": 5}}})
         >>> found.plot().get_xlabel()
-        'links[0].length'
+        'links[0].length (m)'
         """
         from ..plots.sweep import plot_sweep
 
         return plot_sweep(self, name, ax)
 
-    def __repr__(self) -> str:
-        refused = f"; {count:,} refused" if (count := self.count("refused")) else ""
-        damage = f"; {self.damage}" if self.damage else ""
-        found = ", ".join(self.found)
-        return f"SweepResult: {len(self):,} points of {', '.join(self.varied)}; {found}{refused}{damage}"
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = self.columns()
+        if not brief:
+            facts = {"title": self.study.title, "study": self.study.to_dict()}
+            return Sheet("point", "", [Column(name, values) for name, values in columns.items()], facts)
+        names, ranges = [], []
+        for name, values in list(columns.items())[1:-1]:
+            there = values[np.isfinite(values)] if values.dtype.kind == "f" else values
+            if there.size and values.dtype.kind in "fi":
+                names.append(name)
+                ranges.append([there.min(), np.median(there), there.max()])
+        shown = [[digits(float(number), 5) for number in row] for row in ranges]
+        table = [Column("column", names, "column", left=True)]
+        for k, heading in enumerate(("least", "median", "largest")):
+            table.append(Column(heading, [row[k] for row in ranges], heading, shown=[row[k] for row in shown]))
+        counts = [f"{count:,} {what}" for what in STATUS[1:] if (count := self.count(what))]
+        heading = f"Study of {len(self):,} point{'s' * (len(self) != 1)}{''.join(f', {each}' for each in counts)}"
+        return Sheet("column", heading.replace("tolerance_not_met", "not proved"), table)
+
+
+def _pieces(arrays: Arrays, size: int, names: list[str] | None = None) -> Any:
+    """What a file is written from, a piece at a time."""
+    wanted = list(arrays) if names is None else names
+    for start in range(0, len(arrays["status"]), size):
+        yield {name: arrays[name][start : start + size] for name in wanted}

@@ -7,22 +7,19 @@ import os
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args
 
-import numpy as np
 from msgspec import UNSET, Meta, UnsetType, json, to_builtins
 
 from ..scenes import parse
-from ..scenes.ask import DEFAULT_MODES
 from ..scenes.error import SceneError
-from ..scenes.scene import Scene
+from ..scenes.scene import Scene, load_scene
 from ..scenes.tables import Table
+from ..systems.cord import Cord
 from ..systems.numbers import file_path, integer, text
-from .axes import Axis, axis_of
-from .batch import goes_in_batches
-from .find import Block, mode_blocks, response_blocks, shape_blocks
-from .paths import Path as Steps
-from .paths import with_value
+from ..systems.rig import Rig
+from .axes import MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
+from .axes import Path as Steps
 from .plan import Plan
-from .tables import MOST_POINTS, Samples, Vary
+from .points import asked_of, blocks_of, derives_speeds, goes_in_batches
 
 __all__ = ["Study", "Vary", "load_study", "study_schema"]
 
@@ -46,7 +43,7 @@ class Study(Table, frozen=True):
     find : list of {"modes", "shapes", "response"}, optional
         What is computed; what the scene asks if left out: its shapes and response, and its modes if it asks
         for nothing else, or says which.
-    most_shapes : int
+    max_shapes : int
         How many steady shapes are kept of each point.
     error_bounds : bool, optional
         Whether to give bounds of the errors. If left out, they are given but for plain chains of up to 100
@@ -82,7 +79,7 @@ class Study(Table, frozen=True):
         Annotated[list[Find], Meta(min_length=1)] | UnsetType,
         Meta(description="What is computed; what the scene asks if left out."),
     ] = UNSET
-    most_shapes: Annotated[
+    max_shapes: Annotated[
         Annotated[int, Meta(ge=1, le=1000)], Meta(description="How many steady shapes are kept of each point.")
     ] = 4
     error_bounds: Annotated[
@@ -173,8 +170,8 @@ class Study(Table, frozen=True):
         >>> import revchain as rc
         >>> scene = {"links": [{"mass": 1.0, "length": 1.0}]}
         >>> study = rc.Study.from_dict({"scene": scene, "vary": {"links[0].length": {"values": ["1 m", "20 cm"]}}})
-        >>> study.scene_at(1).chain()
-        Chain of 1 link, length 0.2, weight 9.80665
+        >>> study.scene_at(1).system()
+        Chain of 1 link, length 0.2, mass 1
         """
         plan, place = self._plan("study"), "revchain.Study.scene_at"
         point = integer(place, "point", point)
@@ -195,55 +192,23 @@ class Study(Table, frozen=True):
             needs = "is missing: say how many points" if random else "is for random numbers, and none are varied"
             raise SceneError(source, "samples", needs)
         samples = 1 if isinstance(self.samples, UnsetType) else self.samples
-        find = self._find(scene, source)
-        _distinct(axes, source)
+        find = asked_of(scene, self.find, source)
+        _refuse_twice(axes, source)
         for axis in axes:
             _check(base, axis, source)
         batched = find == ("modes",) and goes_in_batches(scene, [axis.path for axis in axes])
         batched = batched and self.error_bounds is not True
         bounds = not batched if isinstance(self.error_bounds, UnsetType) else self.error_bounds
-        blocks: list[Block] = []
-        if "modes" in find:
-            blocks += mode_blocks(scene, _most_modes(scene, base, axes, source), bounds)
-        if "shapes" in find:
-            blocks += shape_blocks(self.most_shapes, bounds)
-        if "response" in find:
-            asked = scene.ask.response
-            assert not isinstance(asked, UnsetType)  # else it would not be found
-            blocks += response_blocks(1 if len(asked.ends) == 1 else asked.steps, bounds)
+        blocks = blocks_of(scene, _largest(base, axes, source), find, self.max_shapes, bounds)
         columns = {column for block in blocks for column in block.columns} | {"point", "status"}
         columns |= {block.name for block in blocks} | {"mode", "shape", "speed", "sample"}
         for axis in axes:
             if axis.name in columns:
                 raise SceneError(source, f'vary."{axis.key}".name', f"{axis.name} is the name of a result")
-        plan = Plan(base, axes, samples, self.seed, find, tuple(blocks), batched)
-        if plan.points > MOST_POINTS:
-            raise SceneError(source, "vary", f"makes {plan.points:,} points; at most {MOST_POINTS:,}")
+        plan = Plan(base, axes, samples, self.seed, find, blocks, batched, derives_speeds(scene))
+        if plan.points > MAX_POINTS:
+            raise SceneError(source, "vary", f"makes {plan.points:,} points; at most {MAX_POINTS:,}")
         return plan
-
-    def _find(self, scene: Scene, source: str) -> tuple[str, ...]:
-        """What is computed, in the order of the columns."""
-        ask = scene.ask
-        asked: list[str] = [name for name in ("shapes", "response") if getattr(ask, name) is not UNSET]
-        if isinstance(self.find, UnsetType):
-            if not asked or ask.modes is not UNSET or ask.first is not UNSET:
-                asked.insert(0, "modes")
-        else:
-            for k, wanted in enumerate(self.find):
-                if wanted not in ("modes", *asked):
-                    raise SceneError(source, f"find[{k}]", f"the scene does not say at which speed: [ask.{wanted}]")
-            asked = [name for name in ("modes", "shapes", "response") if name in self.find]
-        for name in ("conical_height", "angular_speed"):
-            if "modes" in asked and getattr(ask, name) is not UNSET:
-                reason = "finds not as many modes everywhere; give modes and first"
-                raise SceneError(source, f"scene.ask.{name}", reason)
-        if ask.swing is not UNSET and isinstance(self.find, UnsetType):
-            raise SceneError(source, "scene.ask.swing", 'is not for studies; say what is: find = ["modes"]')
-        if "response" in asked and scene.is_held:
-            raise SceneError(source, "scene.ask.response", "does not go with held")
-        if "modes" in asked and scene.held is not UNSET and scene.held.span is not UNSET:
-            raise SceneError(source, "scene.held.span", 'leaves the chain slack, without modes: find = ["shapes"]')
-        return tuple(asked)
 
 
 def load_study(path: str | os.PathLike[str]) -> Study:
@@ -261,8 +226,7 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     Raises
     ------
     SceneError
-        A ValueError that names the file, the key and what is wrong there; for errors of syntax the
-        line and the column.
+        A ValueError that names the file, and of every error the line, the column, the key and what is wrong there.
 
     Examples
     --------
@@ -275,7 +239,8 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     >>> rc.load_study(path).points
     11
     """
-    return Study.from_dict(parse.read(path), os.fspath(path), Path(path).parent)
+    with parse.placed(path):
+        return Study.from_dict(parse.read(path), os.fspath(path), Path(path).parent)
 
 
 def study_schema() -> dict[str, Any]:
@@ -309,17 +274,18 @@ def _tables(data: dict[str, Any], source: str, folder: Path) -> dict[str, Any]:
     scene = data.get("scene")
     if isinstance(scene, str):
         named = folder / scene
-        found["scene"] = Scene.from_dict(parse.read(named), os.fspath(named)).to_dict()
+        found["scene"] = load_scene(named).to_dict()
     elif isinstance(scene, dict):
         try:
             found["scene"] = Scene.from_dict(scene, source).to_dict()
         except SceneError as error:
-            raise SceneError(source, ".".join(part for part in ("scene", error.key) if part), error.reason) from None
+            within = [one._replace(key=".".join(part for part in ("scene", one.key) if part)) for one in error.problems]
+            raise SceneError(source, problems=within) from None
     if isinstance(find := data.get("find"), list):
         words = list(get_args(Find))
         for k, name in enumerate(find):
             if name not in words:
-                raise SceneError(source, f"find[{k}]", parse._choice(words, False, name))
+                raise SceneError(source, f"find[{k}]", parse.choice(words, False, name))
     if isinstance(vary := data.get("vary"), dict):
         for key, table in vary.items():
             try:
@@ -334,7 +300,7 @@ def _tables(data: dict[str, Any], source: str, folder: Path) -> dict[str, Any]:
     return found
 
 
-def _distinct(axes: tuple[Axis, ...], source: str) -> None:
+def _refuse_twice(axes: tuple[Axis, ...], source: str) -> None:
     """No path twice or inside another, no name twice."""
     for k, axis in enumerate(axes):
         for other in axes[:k]:
@@ -348,9 +314,14 @@ def _distinct(axes: tuple[Axis, ...], source: str) -> None:
 def _check(base: dict[str, Any], axis: Axis, source: str) -> None:
     """Refuse what the scene would refuse of its ends, of a grid, or of a number in the middle, of random ones."""
     refuse = SceneError(source, f'vary."{axis.key}"', "")
-    for value in _ends(axis):
+    own = _kind(Scene.from_dict(base, source))
+    for value in axis.examples():
         try:
-            Scene.from_dict(with_value(base, axis.path, value, refuse), source)
+            kind = _kind(Scene.from_dict(with_value(base, axis.path, value, refuse), source))
+            if kind != own and not (kind == "a rig" and own.startswith("a rig")):  # wheels at rest have no backward modes
+                raise SceneError(
+                    source, refuse.key, f"makes {kind} of {own} at {value}: let the scene itself be {kind}, all points alike"
+                )
         except SceneError as error:
             if error.key == refuse.key:
                 raise
@@ -358,25 +329,26 @@ def _check(base: dict[str, Any], axis: Axis, source: str) -> None:
             raise SceneError(source, refuse.key, f"{elsewhere}{error.reason}") from None
 
 
-def _ends(axis: Axis) -> list[Any]:
-    if axis.values is None:
-        one, two = axis.law_numbers
-        return [one if axis.law == "normal" else one + (two - one) / 2]
-    if axis.values.dtype.kind in "fi":
-        return [axis.values.min().item(), axis.values.max().item()]
-    return np.unique(axis.values).tolist()  # type: ignore[no-any-return]
+def _kind(scene: Scene) -> str:
+    """What its results look like."""
+    system = scene.system()
+    if isinstance(system, Rig):
+        return "a rig with flywheels that spin" if system.has_momentum else "a rig"
+    return f"a {type(system).__name__.lower()}"
 
 
-def _most_modes(scene: Scene, base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> int:
-    """For how many modes there are columns: as many as are asked, or as any point has."""
-    asked = scene.ask.modes
-    if isinstance(asked, int):
-        return asked
-    first = 1 if isinstance(scene.ask.first, UnsetType) else scene.ask.first
+def _largest(base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> Scene:
+    """The scene with the largest of all whole numbers, and those words, that has most links."""
     for axis in axes:
-        if axis.values is not None and axis.values.dtype.kind == "i":
+        if not axis.is_number:
+            refuse = SceneError(source, "vary", "")
+            words = [with_value(base, axis.path, word, refuse) for word in axis.examples()]
+            base = max(words, key=lambda data: _links(Scene.from_dict(data, source)))
+        elif axis.values is not None and axis.values.dtype.kind == "i":
             base = with_value(base, axis.path, axis.values.max().item(), SceneError(source, "vary", ""))
-    largest = Scene.from_dict(base, source)
-    there = 2 * (largest.chain().size + 1) if largest.is_rigged else largest.chain().size  # of each sense
-    there = max(there - first + 1, 1)
-    return there if asked == "all" else min(DEFAULT_MODES, there)
+    return Scene.from_dict(base, source)
+
+
+def _links(scene: Scene) -> int:
+    system = scene.system()
+    return 0 if isinstance(system, Cord) else system.size

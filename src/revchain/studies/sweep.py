@@ -1,36 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Computing all points of a study: in threads, or by any executor, in stretches that are kept on disk."""
+"""Computing all points of a study: in threads, or by any executor, in chunks that are kept on disk."""
 
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
-from contextlib import closing
-from functools import partial
-from threading import Event
 from typing import Any
 
 import numpy as np
 
+from .. import _core
 from ..systems.extras import require
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import shown
 from .axes import BLOCK
-from .find import Arrays
-from .journal import Journal
-from .keep import Keeper
-from .output import writer_of
 from .plan import Plan, Stretch
-from .result import SweepResult
+from .points import Arrays
+from .result import Made, SweepResult, stamp
+from .store import Store, checked_ending
 from .study import Study, load_study
 
 _PLACE = "revchain.sweep"
-_FEWEST, _MOST = 16, 8192  # points of a stretch, one by one
+_FEWEST, _MOST = 16, 8192  # points of a chunk, one by one
 _MOST_IN_BATCHES = 2**17
-_NUMBERS = 2**20  # of a stretch in batches
-_SECONDS = 0.5  # that such a stretch is to take
-_IN_FLIGHT = 3  # stretches for each worker
+_NUMBERS = 2**20  # of a chunk in batches
+_SECONDS = 0.5  # that a chunk is to take, or a hundredth of the time spent so far: hundreds of files, not millions
+_IN_FLIGHT = 3  # chunks for each worker
 
 Told = Callable[[int, int], None]
 
@@ -49,20 +46,21 @@ def sweep(
     Parameters
     ----------
     study : Study, path-like or dict
-        What to compute, or its file, or its data.
+        The study, or its file, or its data.
     out : path-like, optional
-        A file for the results, whole or not there: ``.csv``, ``.parquet`` or ``.nc`` (netCDF). Finished points are
-        kept in the folder ``OUT.partial`` beside it until then: the same call goes on where another was ended,
-        even by a kill, and computes no finished point again.
+        A file for the results: ``.csv``, ``.parquet`` or ``.nc`` (netCDF). Finished chunks are kept in the folder
+        ``OUT.partial`` beside it until all are there: the same call goes on where another was ended, even by a kill,
+        and computes no finished chunk again. The output appears when it is whole. It is for other programs:
+        `SweepResult.save` writes what `revchain.load` reads.
     executor : concurrent.futures.Executor, optional
         What computes: a ``ProcessPoolExecutor``, or ``client.get_executor()`` of a Dask cluster. Threads if left out.
         It is not shut down.
     threads : int, optional
-        How many threads, without `executor`; one for each processor if left out.
+        Number of threads, without `executor`; one for each processor if left out.
     chunk : int, optional
         How many points are computed, and kept, together; about half a second's work if left out.
     progress : callable, optional
-        Called with the points finished and all of them, again and again.
+        Called with the number of points finished and of all points, again and again.
 
     Returns
     -------
@@ -74,7 +72,8 @@ def sweep(
     SceneError
         If the study is wrong.
     OSError
-        If `out` cannot be written, or its partial folder holds points of another study.
+        (a ValueError too) If `out` cannot be written, another run is writing it, or its partial folder holds points of
+        another study. Chunks that are finished stay.
     ValueError
         For another ending of `out`, `threads` beside `executor`, or numbers below 1.
     ImportError
@@ -82,9 +81,10 @@ def sweep(
 
     Notes
     -----
-    Plain chains of up to 100 links whose weights, lengths, centroids and radii vary go to
-    `revchain.conical_heights` in batches; other points are solved one by one, as by the methods of `Scene`.
-    A point that its scene refuses has status ``refused`` and no numbers.
+    Plain chains of up to 100 links whose weights, lengths, centroids and radii vary go to `revchain.conical_heights` in
+    batches, also with a tolerance `rtol` that those keep. Other points are solved one by one, in C++ unless both ends
+    are held or a method or precision is asked for. A point that its scene refuses has status ``refused`` and no
+    numbers.
 
     Examples
     --------
@@ -110,88 +110,74 @@ def sweep(
     workers = _processors() if threads is None else checked_count(_PLACE, "threads", threads)
     plan = study._plan("study")
     if out is None:
-        memory = {block.name: block.memory(plan.points) for block in plan.stored}
-        result = SweepResult._of(study, plan, {**memory, "status": np.empty(plan.points, np.uint8)})
-        _Run(plan, _Memory(result), chunk, progress).anywhere(executor, workers)
-        return result
-    writer = writer_of(out)
-    with Journal(out, plan) as journal:
-        stored = journal.map()
-        result = SweepResult._of(study, plan, stored)
-        result._resumed = sum(stop - start for start, stop in journal.kept)
-        result._damage = journal.damage
-        with closing(Keeper(journal, partial(writer, journal.aside, study, plan), stored)) as keeper:
-            _Run(plan, keeper, chunk, progress).anywhere(executor, workers)
-        journal.finish()
-    return result
+        memory = _Memory(plan)
+        _Run(plan, memory, chunk, progress).anywhere(executor, workers)
+        return SweepResult._of(Made(study, plan), _arrays=memory.arrays)
+    checked_ending(out)
+    with Store(out, plan) as store:
+        resumed = store.finished
+        _Run(plan, store, chunk, progress).anywhere(executor, workers)
+        store.join(study)
+    return SweepResult._of(Made(study, plan, store.output, stamp(store.output)), resumed=resumed)
 
 
 class _Memory:
-    """Where stretches go without a file."""
+    """Where chunks go without a file."""
 
-    def __init__(self, result: SweepResult) -> None:
-        self._result = result
+    def __init__(self, plan: Plan) -> None:
+        self.arrays: Arrays = {block.name: block.memory(plan.points) for block in plan.stored}
+        self.arrays["status"] = np.empty(plan.points, np.uint8)
         self.kept: list[tuple[int, int]] = []
         self.finished = 0
 
     def place(self, start: int, stop: int) -> Arrays:
-        """Where a stretch of points belongs."""
-        return {name: array[start:stop] for name, array in self._result._arrays.items()}
+        """Where a chunk belongs."""
+        return {name: array[start:stop] for name, array in self.arrays.items() if name != "status"}
 
     def take(self, stretch: Stretch) -> None:
         for name, place in self.place(stretch.start, stretch.stop).items():
             if (array := stretch.arrays[name]).base is not place.base:
                 place[...] = array
-        self._result._status[stretch.start : stretch.stop] = stretch.status
+        self.arrays["status"][stretch.start : stretch.stop] = stretch.status
         self.finished += stretch.stop - stretch.start
-
-    def finish(self) -> None:
-        """Everything is where it belongs."""
 
 
 class _Run:
-    """What is to be done, and by whom."""
+    """The chunks that are missing, and who computes them."""
 
-    def __init__(self, plan: Plan, kept_in: _Memory | Keeper, chunk: int | None, told: Told | None) -> None:
+    def __init__(self, plan: Plan, kept_in: _Memory | Store, chunk: int | None, told: Told | None) -> None:
         self.plan = plan
         self.kept_in = kept_in
         self.told = told
-        self.missing = _missing(kept_in.kept, plan.points)
+        self.began = time.perf_counter()
         self.fixed = chunk is not None
         self.unit = plan.batch if plan.batched and chunk is None else 1
         self.most = min(max(_NUMBERS // plan.numbers, self.unit), _MOST_IN_BATCHES) if plan.batched else _MOST
         self.chunk = chunk or (self.unit if plan.batched else _FEWEST)
-        self.stopped = Event()
 
     def anywhere(self, executor: Executor | None, workers: int) -> None:
-        """Every stretch that is missing."""
+        """Every chunk that is missing, by the executor or threads of our own."""
         if executor is not None:
             self._all(executor, _workers_of(executor))
-        elif self.missing:
-            self._in_threads(workers)
-        self.kept_in.finish()
-        self._tell()
+        elif self.kept_in.finished < self.plan.points:
+            pool, progress = ThreadPoolExecutor(workers, thread_name_prefix="revchain-sweep"), _core.Progress()
+            try:
+                self._all(pool, workers, progress)
+            except BaseException:
+                progress.cancel()
+                raise
+            finally:
+                pool.shutdown(wait=True, cancel_futures=True)
 
-    def _in_threads(self, workers: int) -> None:
-        """With threads of our own; they end with the stretch at hand when interrupted."""
-        pool = ThreadPoolExecutor(workers, thread_name_prefix="revchain-sweep")
-        try:
-            self._all(pool, workers, own=True)
-        except BaseException:
-            self.stopped.set()
-            raise
-        finally:
-            pool.shutdown(wait=True, cancel_futures=True)
-
-    def _all(self, executor: Executor, workers: int, own: bool = False) -> None:
-        """A few stretches at a time, so that little waits to be kept."""
-        left = self._stretches()
+    def _all(self, executor: Executor, workers: int, progress: _core.Progress | None = None) -> None:
+        """A few chunks at a time, so that little waits to be kept."""
+        left = self._chunks()
         pending: set[Future[Stretch]] = set()
         try:
             self._tell()
             while True:
                 while len(pending) < _IN_FLIGHT * workers and (ends := next(left, None)) is not None:
-                    more = (self.stopped.is_set, self.kept_in.place(*ends)) if own else ()
+                    more = () if progress is None else (progress, self.kept_in.place(*ends))
                     pending.add(executor.submit(_found, self.plan, *ends, *more))
                 if not pending:
                     return
@@ -202,37 +188,30 @@ class _Run:
             for future in pending:
                 future.cancel()
 
-    def _stretches(self) -> Iterator[tuple[int, int]]:
-        for start, stop in self.missing:
-            while start < stop:
-                end = start + self.chunk
-                if not self.fixed and end // BLOCK > start // BLOCK:
-                    end -= end % BLOCK  # a stretch that begins inside a block draws the numbers before it in vain
-                end = min(end, stop)
-                yield start, end
-                start = end
+    def _chunks(self) -> Iterator[tuple[int, int]]:
+        """Their ends, between the chunks that are there."""
+        there = 0
+        for start, stop in [*sorted(self.kept_in.kept), (self.plan.points, self.plan.points)]:
+            while there < start:
+                end = there + self.chunk
+                if not self.fixed and end // BLOCK > there // BLOCK:
+                    end -= end % BLOCK  # a chunk that begins inside a block draws the numbers before it in vain
+                yield there, min(end, start)
+                there = min(end, start)
+            there = stop
 
     def _take(self, stretch: Stretch) -> None:
         self.kept_in.take(stretch)
         if not self.fixed:
             rate = (stretch.stop - stretch.start) / max(stretch.seconds, 1e-9)
-            most = min(rate * _SECONDS, 4 * self.chunk, self.most)
+            seconds = max(_SECONDS, (time.perf_counter() - self.began) / 100)
+            most = min(rate * seconds, 4 * self.chunk, self.most)
             self.chunk = max(int(most) // self.unit, 1) * self.unit
         self._tell()
 
     def _tell(self) -> None:
         if self.told is not None:
             self.told(self.kept_in.finished, self.plan.points)
-
-
-def _missing(kept: list[tuple[int, int]], points: int) -> list[tuple[int, int]]:
-    """The stretches between those that are there, which come in order."""
-    missing, end = [], 0
-    for start, stop in [*kept, (points, points)]:
-        if start > end:
-            missing.append((end, start))
-        end = stop
-    return missing
 
 
 def _found(plan: Plan, start: int, stop: int, *more: Any) -> Stretch:

@@ -3,49 +3,62 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import math
+from collections.abc import Sequence
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from .numbers import Floats, integer, link_arrays, real, refuse_beyond_memory, shown
+from .numbers import Floats, integer, link_arrays, mass_or_weight, real, refuse_beyond_memory, shown, word
 from .numbers import count as checked_count
-from .unchangeable import Unchangeable
+from .system import System, plain
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+Order = Literal["free end first", "support first"]
+_FREE_END = "free end first"
+_ORDERS = (_FREE_END, "support first")
+_GROUPS = 6  # of equal links that are described in words
 
 
-class Chain(Unchangeable):
-    """A chain of links hanging from a support, listed lowest first.
+class Chain(System):
+    """A chain of rigid links that hangs from a support, listed from the free end up.
 
-    Give each quantity as one number for every link, or as an array with one number for each link;
-    at least one array unless the chain has a single link. Use any consistent units: weights enter
-    only by their ratios, and every result is in the unit of the lengths.
+    Give each quantity as one number for every link, or as an array with one number for each link; at least one array
+    unless the chain has a single link. With only mass and length a link is a point mass on a massless thread
+    (plummet); with `centroid` and an inertia it is a rigid body. Numbers are in SI units; text with a unit
+    (``"39 inch"``) and pint quantities are converted.
 
     Parameters
     ----------
+    mass : array_like, shape (N,) or scalar
+        Mass of each link, kg, not negative; the lowest must be positive, 0 is a massless thread.
     weight : array_like, shape (N,) or scalar
-        Weight of each link, not negative; the lowest must be positive, 0 is a massless thread.
+        Instead of `mass`: the weight of each link, N or any unit, as speeds depend on ratios only. Forces in results
+        are in the unit of the weights, with `mass` in newtons.
     length : array_like, shape (N,) or scalar
-        Distance between the pins of each link, positive.
+        Distance between the pins of each link, m, positive.
     centroid : array_like, shape (N,) or scalar, optional
-        Distance of the centre of gravity from the *upper* pin, positive downwards, of any sign.
-        Left out: plummets, with all the weight at the lower pin.
+        Distance of the centre of gravity from the *upper* pin, m, positive downwards, of any sign.
+        Left out: point masses, with all the weight at the lower pin.
     pendulum_length : array_like, shape (N,) or scalar, optional
-        Length of the equivalent simple pendulum about the upper pin.
+        Length of the equivalent simple pendulum about the upper pin, m.
     radius_of_gyration : array_like, shape (N,) or scalar, optional
-        Radius of gyration about the centre of gravity, not negative. With `centroid` give either
+        Radius of gyration about the centre of gravity, m, not negative. With `centroid` give either
         this or `pendulum_length`.
+    order : {"free end first", "support first"}
+        The order of the links in the arrays given. All results begin at the free end.
+    names : sequence of str, optional
+        A name for each link, in the order given, for reports and pictures.
 
     Raises
     ------
     ValueError
         For anything but real finite numbers, arrays of more than one dimension or of different
-        lengths, no links, a length that is not positive, a negative weight, a massless lowest link,
-        weights whose sum overflows, an imaginary radius of gyration, a link that would stand rather
-        than hang, or a `centroid` without exactly one of the two arguments that go with it.
+        lengths, no links, a length that is not positive, a negative mass, a massless lowest link,
+        masses whose sum overflows, an imaginary radius of gyration, a link that would stand rather
+        than hang, a `centroid` without exactly one of the two arguments that go with it, another order, or a unit of
+        another kind.
 
     Notes
     -----
@@ -60,25 +73,35 @@ class Chain(Unchangeable):
     A bell (upper link) and its clapper (lower link):
 
     >>> import revchain as rc
-    >>> rc.Chain(weight=[180, 5000], length=[0.7, 0.15], centroid=[0.55, 0.05],
+    >>> rc.Chain(mass=[180, 5000], length=[0.7, 0.15], centroid=[0.55, 0.05],
     ...          radius_of_gyration=[0.2, 0.36])
-    Chain of 2 links, length 0.85, weight 5180
+    Chain of 2 links, length 0.85, mass 5180
+    >>> rc.Chain(mass=[1.0, 2.0], length=["30 cm", "1 ft"], order="support first").length
+    array([0.3048, 0.3   ])
     """
 
-    __slots__ = ("_compiled",)
+    __slots__ = ("_compiled", "_names", "by_mass")
     _compiled: _core.Chain
+    _names: tuple[str, ...] | None
+    by_mass: bool
 
     def __init__(
         self,
         *,
-        weight: ArrayLike,
+        mass: ArrayLike | None = None,
+        weight: ArrayLike | None = None,
         length: ArrayLike,
         centroid: ArrayLike | None = None,
         pendulum_length: ArrayLike | None = None,
         radius_of_gyration: ArrayLike | None = None,
+        order: Order = "free end first",
+        names: Sequence[str] | None = None,
     ) -> None:
+        place = "revchain.Chain"
+        by_mass, _ = mass_or_weight(place, mass, weight)
         columns = link_arrays(
-            "revchain.Chain",
+            place,
+            mass=mass,
             weight=weight,
             length=length,
             centroid=centroid,
@@ -86,24 +109,36 @@ class Chain(Unchangeable):
             radius_of_gyration=radius_of_gyration,
         )
         _check_shapes(columns)
-        object.__setattr__(self, "_compiled", _core.Chain(**columns))
+        if order is not _FREE_END and word(place, "order", order, _ORDERS) == "support first":
+            columns = {name: column[::-1] if column.ndim else column for name, column in columns.items()}
+        if by_mass:
+            columns["weight"] = columns.pop("mass")
+        _set(self, "_compiled", _core.Chain(**columns))
+        _set(self, "by_mass", by_mass)
+        _set(self, "_names", None if names is None else _checked_names(place, names, self.size, order))
 
     @classmethod
-    def _wrap(cls, compiled: _core.Chain) -> Chain:
+    def _wrap(cls, compiled: _core.Chain, by_mass: bool = False, names: tuple[str, ...] | None = None) -> Chain:
         chain = cls.__new__(cls)
-        object.__setattr__(chain, "_compiled", compiled)
+        _set(chain, "_compiled", compiled)
+        _set(chain, "by_mass", by_mass)
+        _set(chain, "_names", names)
         return chain
 
     @classmethod
-    def uniform_plummets(cls, count: int, length: float = 1.0, weight: float = 1.0) -> Chain:
+    def uniform_plummets(
+        cls, count: int, length: float = 1.0, weight: float | None = None, *, mass: float | None = None
+    ) -> Chain:
         """Make a chain of `count` equal plummets on equal threads.
 
         Parameters
         ----------
         count : int
             Number of links, at least 1.
-        length, weight : float
-            Length and weight of the WHOLE chain, positive.
+        length : float
+            Length of the WHOLE chain, m, positive.
+        weight, mass : float, optional
+            Weight of the WHOLE chain or, instead, its mass in kg, positive; the weight is 1 if both are left out.
 
         Returns
         -------
@@ -126,22 +161,24 @@ class Chain(Unchangeable):
         array([1.707107, 0.292893])
         """
         place = "revchain.Chain.uniform_plummets"
-        return cls._wrap(
-            _core.Chain.uniform_plummets(
-                checked_count(place, "count", count), real(place, "length", length), real(place, "weight", weight)
-            )
-        )
+        by_mass, whole = _whole(place, mass, weight)
+        number, long = checked_count(place, "count", count), real(place, "length", length)
+        return cls._wrap(_core.Chain.uniform_plummets(number, long, whole), by_mass)
 
     @classmethod
-    def uniform_rods(cls, count: int, length: float = 1.0, weight: float = 1.0) -> Chain:
+    def uniform_rods(
+        cls, count: int, length: float = 1.0, weight: float | None = None, *, mass: float | None = None
+    ) -> Chain:
         """Make a chain of `count` equal uniform rods.
 
         Parameters
         ----------
         count : int
             Number of links, at least 1.
-        length, weight : float
-            Length and weight of the WHOLE chain, positive.
+        length : float
+            Length of the WHOLE chain, m, positive.
+        weight, mass : float, optional
+            Weight of the WHOLE chain or, instead, its mass in kg, positive; the weight is 1 if both are left out.
 
         Returns
         -------
@@ -164,22 +201,24 @@ class Chain(Unchangeable):
         array([1.])
         """
         place = "revchain.Chain.uniform_rods"
-        return cls._wrap(
-            _core.Chain.uniform_rods(
-                checked_count(place, "count", count), real(place, "length", length), real(place, "weight", weight)
-            )
-        )
+        by_mass, whole = _whole(place, mass, weight)
+        number, long = checked_count(place, "count", count), real(place, "length", length)
+        return cls._wrap(_core.Chain.uniform_rods(number, long, whole), by_mass)
 
     @classmethod
-    def tapered(cls, count: int, length: float = 1.0, weight: float = 1.0, *, exponent: float) -> Chain:
+    def tapered(
+        cls, count: int, length: float = 1.0, weight: float | None = None, *, mass: float | None = None, exponent: float
+    ) -> Chain:
         """Cut a cord that tapers by a power law into `count` straight links of equal length.
 
         Parameters
         ----------
         count : int
             Number of links, at least 1.
-        length, weight : float
-            Length and weight of the WHOLE chain, positive.
+        length : float
+            Length of the WHOLE chain, m, positive.
+        weight, mass : float, optional
+            Weight of the WHOLE chain or, instead, its mass in kg, positive; the weight is 1 if both are left out.
         exponent : float
             Of the line density, which is as the distance from the free end to this power; above -1 and at most
             1000. 0: uniform rods; 1: a cord that thickens upwards; towards -1 the weight gathers at the free end.
@@ -198,7 +237,7 @@ class Chain(Unchangeable):
         Notes
         -----
         Greenhill (1908) section 4. The conical heights tend to those of the cord (`revchain.tapered_chain`) as
-        1 / count**2, and `revchain.solve` knows how. Weights within 0.51 ulp, and centroids for the
+        1 / count**2; `revchain.modes` with `rtol` makes use of it. Weights within 0.51 ulp, and centroids for the
         length of a link as it is stored. Cost: 0.5 to 2 microseconds a link.
 
         Examples
@@ -208,14 +247,9 @@ class Chain(Unchangeable):
         array([0.111111, 0.333333, 0.555556])
         """
         place = "revchain.Chain.tapered"
-        return cls._wrap(
-            _core.Chain.tapered(
-                checked_count(place, "count", count, each=8),
-                real(place, "length", length),
-                real(place, "exponent", exponent),
-                real(place, "weight", weight),
-            )
-        )
+        by_mass, whole = _whole(place, mass, weight)
+        number, long = checked_count(place, "count", count, each=8), real(place, "length", length)
+        return cls._wrap(_core.Chain.tapered(number, long, real(place, "exponent", exponent), whole), by_mass)
 
     @property
     def taper(self) -> float | None:
@@ -238,14 +272,31 @@ class Chain(Unchangeable):
         return self._compiled.total_length
 
     @property
+    def total_mass(self) -> float:
+        """Mass of all links together, kg, of a chain given by mass."""
+        return self._measured("total_mass", True) and self._compiled.total_weight
+
+    @property
     def total_weight(self) -> float:
-        """Weight of all links together."""
-        return self._compiled.total_weight
+        """Weight of all links together, of a chain given by weight."""
+        return self._measured("total_weight", False) and self._compiled.total_weight
+
+    @property
+    def mass(self) -> Floats:
+        """Mass of each link, kg, shape (N,), lowest first, of a chain given by mass; read-only."""
+        self._measured("mass", True)
+        return self._column(self._compiled.weight)
 
     @property
     def weight(self) -> Floats:
-        """Weight of each link, shape (N,), lowest first; read-only."""
+        """Weight of each link, shape (N,), lowest first, of a chain given by weight; read-only."""
+        self._measured("weight", False)
         return self._column(self._compiled.weight)
+
+    @property
+    def names(self) -> tuple[str, ...] | None:
+        """Names of the links, lowest first; None where none were given."""
+        return self._names
 
     @property
     def length(self) -> Floats:
@@ -268,23 +319,25 @@ class Chain(Unchangeable):
         """Radius of gyration of each link about its centre of gravity, shape (N,); read-only."""
         return self._column(self._compiled.radius_of_gyration)
 
-    def with_weight(self, weight: float, pin: int = 0, *, radius_of_gyration: float = 0.0) -> Chain:
-        """Return the chain with a weight fixed at one of its pins.
+    def with_body(
+        self, *, mass: float | None = None, weight: float | None = None, pin: int = 0, radius_of_gyration: float = 0.0
+    ) -> Chain:
+        """Return the chain with a body fixed at one of its pins.
 
         Parameters
         ----------
-        weight : float
-            Positive.
+        mass, weight : float
+            Positive; the mass, in kg, if the chain was given by mass, else the weight.
         pin : int
             0 for the free end, else the number of links below the pin, less than N.
         radius_of_gyration : float
-            Of a body, about its centre of gravity, which lies in the pin; it turns with the link above. A
-            point weight has none.
+            Of a body, m, about its centre of gravity, which lies in the pin; it turns with the link above. A
+            point mass has none.
 
         Returns
         -------
         Chain
-            The link above the pin and the weight are one body in it: weight and centroid rounded once, the
+            The link above the pin and the body are one body in it: mass and centroid rounded once, the
             radius of gyration kept in two words. Heights within 3 ulp of the exact body's.
 
         Raises
@@ -295,18 +348,14 @@ class Chain(Unchangeable):
         Examples
         --------
         >>> import revchain as rc
-        >>> rc.Chain.uniform_plummets(2, length=2.0).with_weight(1.5).weight
+        >>> rc.Chain.uniform_plummets(2, length=2.0).with_body(weight=1.5).weight
         array([2. , 0.5])
         """
-        place = "revchain.Chain.with_weight"
-        return self._wrap(
-            _core.with_weight(
-                compiled(place, self),
-                real(place, "weight", weight),
-                integer(place, "pin", pin),
-                real(place, "radius_of_gyration", radius_of_gyration),
-            )
-        )
+        place = "revchain.Chain.with_body"
+        heavy = like(place, self, mass, weight)
+        body = real(place, "mass" if self.by_mass else "weight", heavy)
+        at, radius = integer(place, "pin", pin), real(place, "radius_of_gyration", radius_of_gyration)
+        return self._wrap(_core.with_weight(compiled(place, self), body, at, radius), self.by_mass, self._names)
 
     def with_thread(self, length: float, pin: int) -> Chain:
         """Return the chain with a massless thread put in.
@@ -335,8 +384,9 @@ class Chain(Unchangeable):
         array([1.5])
         """
         place = "revchain.Chain.with_thread"
-        core = compiled(place, self)
-        return self._wrap(_core.with_thread(core, real(place, "length", length), integer(place, "pin", pin)))
+        core, at = compiled(place, self), integer(place, "pin", pin)
+        made = _core.with_thread(core, real(place, "length", length), at)
+        return self._wrap(made, self.by_mass, self._names and (*self._names[:at], "thread", *self._names[at:]))
 
     def clamped(self, link: int) -> Chain:
         """Return the chain with two neighbouring links locked in line, as one rigid link.
@@ -344,7 +394,7 @@ class Chain(Unchangeable):
         Parameters
         ----------
         link : int
-            Number of the lower of the two, from 1 for the lowest link.
+            Index of the lower of the two, from 0 for the lowest link.
 
         Returns
         -------
@@ -354,46 +404,75 @@ class Chain(Unchangeable):
         Raises
         ------
         ValueError
-            If `link` is not from 1 to N - 1.
+            If `link` is not from 0 to N - 2.
 
         Examples
         --------
         >>> import revchain as rc
-        >>> rc.Chain.uniform_rods(3, length=3.0).clamped(1).length
+        >>> rc.Chain.uniform_rods(3, length=3.0).clamped(0).length
         array([2., 1.])
         """
         place = "revchain.Chain.clamped"
-        return self._wrap(_core.clamped(compiled(place, self), integer(place, "link", link)))
+        at = integer(place, "link", link)
+        made = _core.clamped(compiled(place, self), at)
+        names = self._names and (*self._names[:at], " and ".join(self._names[at : at + 2]), *self._names[at + 2 :])
+        return self._wrap(made, self.by_mass, names)
 
-    def plot(self, ax: Axes | None = None, *, length_unit: str = "m", weight_unit: str = "N") -> Axes:
-        """Draw the chain at rest: pins, centres of gravity and weights.
+    def _words(self) -> list[str]:
+        return ["support: firm", *self._link_words()]
 
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            Where to draw; a new figure if left out.
-        length_unit, weight_unit : str
-            What to write on the axes.
+    def _link_words(self) -> list[str]:
+        """Its links from the support down, equal ones together, some left out where there are many kinds."""
+        starts = self._groups()
+        ends = [*starts[1:], self.size]
+        words = [self._group(start, end - start) for start, end in zip(starts, ends, strict=True)][::-1]
+        if len(words) > _GROUPS:
+            hidden = ends[-4] - starts[2]
+            words = [*words[:3], f"{hidden:,} more links", *words[-2:]]
+        return words
 
-        Returns
-        -------
-        matplotlib.axes.Axes
+    def _groups(self) -> list[int]:
+        """Where links begin that are unlike those below."""
+        numbers = (self._compiled.weight, self._compiled.length, self._compiled.centroid, self._compiled.radius_of_gyration)
+        columns = [np.asarray(numbers_of) for numbers_of in numbers if numbers_of.ndim]
+        if not columns and self._names is None:
+            return [0]
+        unlike = np.zeros(self.size, bool)
+        unlike[0] = True
+        for column in columns:
+            unlike[1:] |= np.diff(column) != 0
+        if self._names is not None:
+            unlike[:] = True
+        return [int(k) for k in np.flatnonzero(unlike)]
 
-        Raises
-        ------
-        ImportError
-            If matplotlib is not installed; the message says how to install it.
+    def _group(self, first: int, count: int) -> str:
+        """In words, so many equal links."""
+        core = self._compiled
+        numbers = (core.weight, core.length, core.centroid, core.radius_of_gyration)
+        heavy, long, centroid, radius = (float(x[first] if x.ndim else x) for x in numbers)
+        if heavy == 0:
+            what = f"thread, {long:.6g} m"
+        elif centroid == long and radius == 0:
+            what = f"{heavy:.6g} {self._unit} on {long:.6g} m"
+        elif centroid == long / 2 and math.isclose(radius, long / math.sqrt(12), rel_tol=1e-12):
+            what = f"rod, {heavy:.6g} {self._unit}, {long:.6g} m"
+        else:
+            what = f"body, {heavy:.6g} {self._unit}, {long:.6g} m"
+        named = f"{self._names[first]}: {what}" if self._names is not None else what
+        return f"{count:,} times {named}" if count > 1 else named
 
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> ax = rc.Chain(weight=[1.0, 2.0], length=[0.5, 0.3]).plot()
-        >>> ax.get_ylabel()
-        'depth below the support (m)'
-        """
-        from ..plots.style import plot_chain
+    @property
+    def _unit(self) -> str:
+        return "kg" if self.by_mass else "N"
 
-        return plot_chain(self, ax, length_unit=length_unit, weight_unit=weight_unit)
+    def _measured(self, name: str, by_mass: bool) -> bool:
+        """True; an AttributeError where a mass is asked of a chain given by weight, or a weight of one given by mass."""
+        if self.by_mass != by_mass:
+            given, other = ("mass", "weight") if self.by_mass else ("weight", "mass")
+            raise AttributeError(
+                f"this chain was given by {given}: it has no {name} without gravity; use {name.replace(other, given)}"
+            )
+        return True
 
     def _column(self, stored: Floats) -> Floats:
         if stored.ndim:
@@ -407,31 +486,91 @@ class Chain(Unchangeable):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Chain):
             return NotImplemented
-        return bool(self._compiled == other._compiled)
+        alike = self.by_mass == other.by_mass and self._names == other._names
+        return alike and bool(self._compiled == other._compiled)
 
     def __hash__(self) -> int:
-        return hash((self.size, self.total_length, self.total_weight))
+        return hash((self.size, self.total_length, self._compiled.total_weight))
 
     def __repr__(self) -> str:
         links = "1 link" if self.size == 1 else f"{self.size:,} links"
-        return f"Chain of {links}, length {self.total_length:.6g}, weight {self.total_weight:.6g}"
+        heavy = f"{'mass' if self.by_mass else 'weight'} {self._compiled.total_weight:.6g}"
+        return f"Chain of {links}, length {self.total_length:.6g}, {heavy}"
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Chain._from_state, (self._state(),)
+    def _under(self, gravity: float) -> _core.Chain:
+        return self._compiled
 
     def _state(self) -> tuple[Any, ...]:
         """All it is made of: numbers and arrays."""
-        return self._compiled.__getstate__()
+        return self._compiled.__getstate__(), self.by_mass, self._names
 
     @classmethod
-    def _from_state(cls, state: tuple[Any, ...]) -> Chain:
+    def _from_state(cls, state: Any) -> Chain:
         """For every pickle protocol, which the compiled one is not."""
+        parts, by_mass, names = state
         compiled = _core.Chain.__new__(_core.Chain)
-        compiled.__setstate__(tuple(state))
-        return cls._wrap(compiled)
+        compiled.__setstate__(tuple(parts))
+        return cls._wrap(compiled, by_mass, names)
+
+    def _data(self) -> dict[str, Any]:
+        core = self._compiled
+        size, _, _, _, high, low, *_ = core.__getstate__()
+        columns = {
+            "mass" if self.by_mass else "weight": core.weight,
+            "length": core.length,
+            "centroid": core.centroid,
+            "gyration_ratio": high,
+            "gyration_ratio_low": low,
+        }
+        data: dict[str, Any] = {"links": size, **{name: plain(column) for name, column in columns.items()}}
+        more = {"names": self._names and list(self._names), "taper": self.taper}
+        return data | {name: value for name, value in more.items() if value is not None}
+
+    @classmethod
+    def _from_data(cls, data: dict[str, Any]) -> Chain:
+        by_mass = "mass" in data
+        if "gyration_ratio" not in data:
+            return cls(**data)
+        known = {"links", "mass" if by_mass else "weight", "length", "centroid", "gyration_ratio", "gyration_ratio_low"}
+        if unknown := sorted(data.keys() - known - {"names", "taper"}):
+            raise TypeError(f"there is no {unknown[0]}")
+        heavy = data["mass" if by_mass else "weight"]
+        numbers = [heavy, *(data[name] for name in ("length", "centroid", "gyration_ratio", "gyration_ratio_low"))]
+        taper = (data["taper"],) if "taper" in data else ()
+        arrays = [np.asarray(number, np.float64) for number in numbers]
+        names = data.get("names")
+        return cls._from_state(((data["links"], *arrays, 2, *taper), by_mass, names and tuple(names)))
+
+
+def like(place: str, chain: Chain, mass: Any, weight: Any, of: str = "") -> Any:
+    """A mass where the chain was given by mass, else a weight; a ValueError for the other."""
+    by_mass, heavy = mass_or_weight(place, mass, weight, of)
+    if by_mass != chain.by_mass:
+        given, other = ("mass", "weight") if chain.by_mass else ("weight", "mass")
+        raise ValueError(f"{place}: the chain was given by {given}: give {of}{given}, not {of}{other}, got {shown(heavy)}")
+    return heavy
+
+
+def _whole(place: str, mass: float | None, weight: float | None) -> tuple[bool, float]:
+    """Whether the mass of a whole chain is given, and the number; its weight is 1 if nothing is."""
+    if mass is None and weight is None:
+        return False, 1.0
+    by_mass, heavy = mass_or_weight(place, mass, weight)
+    return by_mass, real(place, "mass" if by_mass else "weight", heavy)
+
+
+def _checked_names(place: str, names: Sequence[str], size: int, order: str) -> tuple[str, ...]:
+    if not isinstance(names, list | tuple) or not all(isinstance(name, str) for name in names):
+        raise ValueError(f"{place}: names must be a list of text, got {shown(names)}")
+    if len(names) != size:
+        raise ValueError(f"{place}: names must have one name for each of the {size} links, got {len(names)}")
+    return tuple(names) if order == "free end first" else tuple(names)[::-1]
 
 
 def _check_shapes(columns: dict[str, Floats]) -> None:
+    shapes = {column.shape for column in columns.values()}
+    if len(shapes) == 1 and len(next(iter(shapes))) < 2:
+        return
     sizes = {}
     for name, column in columns.items():
         if column.ndim > 1:
@@ -452,3 +591,6 @@ def compiled(place: str, chain: Chain, link_by_link: bool = True) -> _core.Chain
     if link_by_link:
         refuse_beyond_memory(place, "the number of links", chain.size, 8)
     return chain._compiled
+
+
+_set = object.__setattr__

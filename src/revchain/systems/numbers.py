@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
+from . import units
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[Any]  # float32, float64 or longdouble, by the precision asked for
@@ -23,12 +24,17 @@ Whole = NDArray[np.int64]
 Scalar = TypeVar("Scalar", bound=np.generic)
 
 LARGEST = 2**63 - 1
+_FLOAT64 = np.dtype(np.float64)
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s^2 (exact by definition, CGPM 1901)."""
 
 
 def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
-    """`value` as a float64 array; anything but real numbers is refused with a ValueError."""
+    """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers."""
+    if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.flags.c_contiguous:
+        return value  # as fast as can be: there is nothing to convert
+    if type(value) is not float and units.are_there(value):
+        value = units.in_si(place, name, value)
     array = array_of(value)
     if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
         with suppress(OverflowError):
@@ -71,6 +77,8 @@ def count(place: str, name: str, value: object, each: int = 0) -> int:
 
 def refuse_beyond_memory(place: str, name: str, number: int, each: int) -> None:
     """A ValueError where so many numbers of `each` bytes are more than the memory of this machine."""
+    if number < 100_000:
+        return
     if number * each > (memory := _memory()):
         needed, there = number * each / 2**30, memory / 2**30
         raise ValueError(
@@ -165,6 +173,11 @@ def real(place: str, name: str, value: object) -> float:
     return float(array)
 
 
+def reals(place: str, **given: object) -> dict[str, float]:
+    """Single real numbers by name; their ranges are left to the compiled module."""
+    return {name: real(place, name, value) for name, value in given.items()}
+
+
 def positive(place: str, name: str, value: ArrayLike) -> Floats:
     """`value` as a float64 array of positive finite numbers."""
     array = floats(place, name, value)
@@ -189,11 +202,16 @@ def exactly_one(place: str, **given: float | None) -> tuple[str, float]:
 
 
 def height_of(
-    place: str, conical_height: float | None, speed: float | None, gravity: float, speed_name: str = "angular_speed"
+    place: str,
+    conical_height: float | None,
+    speed: float | None,
+    gravity: float,
+    height_name: str = "conical_height",
+    speed_name: str = "angular_speed",
 ) -> float:
     """The conical height given, or that of the speed given."""
-    name, value = exactly_one(place, conical_height=conical_height, **{speed_name: speed})
-    if name == "conical_height":
+    name, value = exactly_one(place, **{height_name: conical_height, speed_name: speed})
+    if name == height_name:
         return value
     g = one_positive(place, "gravity", gravity)
     return one_positive(
@@ -210,20 +228,31 @@ def together(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
         raise ValueError(f"{place}: these shapes do not go together: {shapes}") from None
 
 
+def beside(place: str, **arrays: NDArray[np.generic]) -> list[NDArray[Any]]:
+    """The arrays broadcast to one shape; a single number after the first stays one, compiled functions repeat it."""
+    first, *others = together(place, **arrays)
+    given = list(arrays.values())[1:]
+    return [first, *(one if one.ndim == 0 else many for one, many in zip(given, others, strict=True))]
+
+
+def as_length(place: str, name: str, value: Any) -> Any:
+    """`value`, a force given as the length of chain that weighs as much; a ValueError if it has a unit."""
+    if units.are_there(value):
+        why = "it is the length of chain or rope that weighs as much"
+        raise ValueError(f"{place}: {name} must be a number without a unit ({why}), got {shown(value)}")
+    return value
+
+
 def positives(place: str, **given: ArrayLike) -> list[Floats]:
-    """Positive finite numbers, broadcast to one shape."""
-    return together(place, **{name: positive(place, name, value) for name, value in given.items()})
+    """Positive finite numbers, broadcast as by `beside`."""
+    return beside(place, **{name: positive(place, name, value) for name, value in given.items()})
 
 
 def places(place: str, x: ArrayLike, mode: ArrayLike, **chain: Floats) -> list[NDArray[Any]]:
-    """Places on a chain, numbers of modes and the chain's own numbers, length first, broadcast to one shape.
-
-    A single number stays one: a copy of it for each of many places takes as long as the rest.
-    """
-    given = {"x": floats(place, "x", x), "mode": counts(place, "mode", mode), **chain}
-    at, *others = together(place, **given)
-    refuse_where(~((at >= 0) & (at <= given["length"])), at, f"{place}: x must lie between 0 and length")
-    return [at, *(one if one.ndim == 0 else many for one, many in zip(list(given.values())[1:], others, strict=True))]
+    """Places on a chain, numbers of modes and the chain's own numbers, length first, broadcast as by `beside`."""
+    at, *others = beside(place, x=floats(place, "x", x), mode=counts(place, "mode", mode), **chain)
+    refuse_where(~((at >= 0) & (at <= chain["length"])), at, f"{place}: x must lie between 0 and length")
+    return [at, *others]
 
 
 def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
@@ -231,15 +260,22 @@ def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:
     return (array[()] for array in arrays)
 
 
+def mass_or_weight(place: str, mass: Any, weight: Any, of: str = "") -> tuple[bool, Any]:
+    """Whether the mass is given, and which number it is; a ValueError unless exactly one of the two is."""
+    if (mass is None) == (weight is None):
+        both = "both" if mass is not None else "neither"
+        raise ValueError(f"{place}: give either {of}mass, in kg, or {of}weight, in N, got {both}")
+    return mass is not None, weight if mass is None else mass
+
+
 def link_arrays(place: str, **given: ArrayLike | None) -> dict[str, Floats]:
-    """What `Chain` takes, as arrays by name: weight, length and, of links that are no plummets, what goes with them."""
-    bodies = [name for name in ("pendulum_length", "radius_of_gyration") if given[name] is not None]
-    if given["centroid"] is None and bodies:
-        raise ValueError(f"{place}: {bodies[-1]} needs centroid beside it")
-    if given["centroid"] is not None and len(bodies) != 1:
+    """The numbers of links as arrays by name: mass or weight, length and, for bodies, what goes with them."""
+    centroid, pendulum, radius = given["centroid"], given["pendulum_length"], given["radius_of_gyration"]
+    if centroid is None and not (pendulum is None and radius is None):
+        raise ValueError(f"{place}: {'pendulum_length' if radius is None else 'radius_of_gyration'} needs centroid beside it")
+    if centroid is not None and (pendulum is None) == (radius is None):
         raise ValueError(f"{place}: centroid needs exactly one of pendulum_length and radius_of_gyration beside it")
-    required = ("weight", "length")
-    return {name: floats(place, name, value) for name, value in given.items() if value is not None or name in required}
+    return {name: floats(place, name, value) for name, value in given.items() if value is not None or name == "length"}
 
 
 def shown(value: object, width: int = 60) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A chain and what it is rigged with: a support that yields or is carried round, standing links, flywheels, a fluid."""
+"""A chain and what it is rigged with: a support that yields or is carried round, flywheels, a fluid, inverted links."""
 
 from __future__ import annotations
 
@@ -10,84 +10,309 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core
-from .chain import Chain, compiled
+from .chain import Chain, compiled, like
 from .numbers import (
     STANDARD_GRAVITY,
     Floats,
     array_of,
     floats,
-    numbers,
-    positive,
+    mass_or_weight,
     read_only,
     real,
     refuse_where,
     shown,
-    together,
     word,
 )
+from .system import System, plain
 from .unchangeable import Unchangeable
 
-_PER_LINK = (
-    "momentum",
-    "axial_moment",
-    "displaced_weight",
-    "displaced_centroid",
-    "displaced_radius_of_gyration",
-    "added_weight",
-)
-_FLUIDS = ("still", "turning")
+FLUIDS = ("still", "turning")
 
 
-class Rig(Unchangeable):
-    """A chain and what it is rigged with.
+class _Fitting(Unchangeable):
+    """Something that a rig has beside its chain: numbers by name."""
 
-    What is left out is not there, and costs nothing. Quantities of the links are given as one number
-    for every link or as an array with one for each, lowest first.
+    __slots__ = ("_given",)
+    _given: dict[str, Any]
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "_given" or name.startswith("__"):
+            raise AttributeError(name)
+        if name in type(self).__init__.__annotations__:
+            return self._given.get(name)
+        raise AttributeError(f"a {type(self).__name__} has no {name}")
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self._given.keys() == other._given.keys() and all(
+            _alike(value, other._given[name]) for name, value in self._given.items()
+        )
+
+    def __hash__(self) -> int:
+        return hash((type(self), tuple(sorted(self._given))))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={plain(value)}' for name, value in self._given.items())})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _fitting, (type(self), self._given)
+
+
+def _alike(one: Any, other: Any) -> bool:
+    """Whether numbers are equal; one number equals an array of it."""
+    shapes = {np.shape(one), np.shape(other)} - {()}
+    return len(shapes) < 2 and bool(np.all(np.equal(one, other)))
+
+
+def _fitting(kind: type[_Fitting], given: dict[str, Any]) -> _Fitting:
+    return kind(**given)
+
+
+class Support(_Fitting):
+    """What the uppermost pin is held by; a firm point on the axis where no support is given.
 
     Parameters
     ----------
-    chain : Chain
-        The chain of N links. Its weights, lengths and inertia are those of the links with whatever
-        wheels they carry, in vacuum.
     stiffness : float
-        Of a spring that holds the support sideways, force over length; infinite: a firm support.
-    carriage_weight : float
-        Of what moves sideways with a support that yields.
-    support_radius : float
-        Radius of the circle in which the support (the place of rest of its spring) is carried round;
-        0 on the axis.
-    standing : array_like of bool, shape (N,) or scalar
-        Links that stand on their upper pin (counted along the chain) rather than hang from it, in
-        the straight chain that small oscillations are about.
-    momentum : array_like, shape (N,) or scalar
-        Angular momentum that each link carries along its own axis and keeps, from the lower to the
-        upper pin: positive where a hanging link's wheel turns in the sense of a positive speed.
-        Force times length times time; see `free_flywheel`.
-    axial_moment : array_like, shape (N,) or scalar
-        Of what turns with each link about its own axis, weight times length squared, not negative; see
-        `driven_flywheel`.
-    displaced_weight : array_like, shape (N,) or scalar
-        Of the fluid that each link displaces, not negative.
-    displaced_centroid, displaced_radius_of_gyration : array_like, shape (N,) or scalar, optional
-        Centre of gravity of that fluid, from the upper pin, and its radius of gyration about there; those
-        of the link if left out.
-    added_weight : array_like, shape (N,) or scalar
-        Of still fluid that has to move with each link, spread as the fluid displaced; none where it turns.
-    fluid : {"still", "turning"}
-        Fluid at rest bears; fluid that turns with the chain also lessens what whirls.
+        Of a spring that holds it sideways, N/m, positive; infinite: firm.
+    mass, weight : float, optional
+        Of what moves sideways with a support that yields, kg or N, as the chain was given.
+    radius : float
+        Radius of the circle in which the support (the place of rest of its spring) is carried round, m; 0 on the axis.
 
     Raises
     ------
     ValueError
-        For numbers that are not finite (`stiffness` may be infinite) or out of the range given above, and
-        for arrays that have not one number for each link; the message names the link.
-    TypeError
-        If `chain` is not a `Chain`.
+        For numbers that are not finite or out of their range.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rc.Support(stiffness="2 kN/m", mass=20.0)
+    Support(stiffness=2000.0, mass=20.0)
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self, *, stiffness: float = math.inf, mass: float | None = None, weight: float | None = None, radius: float = 0.0
+    ) -> None:
+        place = "revchain.Support"
+        if mass is not None and weight is not None:
+            raise ValueError(f"{place}: give either mass or weight, got both")
+        numbers = {"stiffness": stiffness, "mass": mass, "weight": weight, "radius": radius}
+        given = {name: real(place, name, value) for name, value in numbers.items() if value is not None}
+        for name, value in given.items():
+            if name == "stiffness" and not value > 0:
+                raise ValueError(f"{place}: stiffness must be positive, got {value:g}")
+            if name != "stiffness" and not 0 <= value < math.inf:
+                raise ValueError(f"{place}: {name} must be finite and not negative, got {value:g}")
+        left_out = {"stiffness": math.inf}
+        _set(self, "_given", {name: value for name, value in given.items() if value != left_out.get(name, 0.0)})
+
+    @property
+    def stiffness(self) -> float:
+        """Of the spring, N/m; infinite where it is firm."""
+        return float(self._given.get("stiffness", math.inf))
+
+    @property
+    def radius(self) -> float:
+        """Of the circle in which it is carried round, m."""
+        return float(self._given.get("radius", 0.0))
+
+    @property
+    def carriage(self) -> float:
+        """Mass or weight of what moves with it."""
+        return float(self._given.get("mass", self._given.get("weight", 0.0)))
+
+
+class Flywheel(_Fitting):
+    """Wheels that spin about the axes of links. Numbers are one for all links or arrays with one for each, lowest first.
+
+    Parameters
+    ----------
+    mass, weight : array_like, shape (N,) or scalar
+        Of each wheel, kg or N, as the chain was given; 0 where there is none. It is part of the link's own mass.
+    radius_of_gyration : array_like
+        Of each wheel about its axis, which is that of the link, m.
+    spin : array_like
+        rad/s, positive where a hanging link's wheel turns as a positive speed does. On free bearings: as seen from
+        outside, and the wheel keeps it. Driven: as seen from the link.
+    driven : array_like of bool
+        Whether a motor turns the wheel relative to its link.
+    momentum : array_like
+        Instead of all these: the angular momentum that each link carries along its axis and keeps, kg m^2/s; for a
+        chain given by weight, weight times length times time.
+    axial_moment : array_like, optional
+        With `momentum`: moment of inertia about the link's axis of what turns with it, kg m^2; for a chain given by
+        weight, weight times length squared.
+
+    Raises
+    ------
+    ValueError
+        For numbers that are not finite, or negative where they must not be, and for combinations other than these.
 
     Notes
     -----
-    With `momentum` H and `axial_moment` C a link carries the angular momentum ``H + C n cos(inclination) / g`` along
-    its axis, `n` the speed. Cost O(N), once.
+    With momentum H and axial moment of inertia C a link carries the angular momentum ``H + C n cos(inclination)`` along
+    its axis, `n` the speed. The wheel's mass, and its inertia across its axis, belong to the link's own numbers.
+    Greenhill (1908) section 6 (11)-(12).
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rc.Flywheel(mass=1.5, radius_of_gyration=0.29, spin="400 rpm").spin.round(3)
+    np.float64(41.888)
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        *,
+        mass: ArrayLike | None = None,
+        weight: ArrayLike | None = None,
+        radius_of_gyration: ArrayLike | None = None,
+        spin: ArrayLike | None = None,
+        driven: ArrayLike = False,
+        momentum: ArrayLike | None = None,
+        axial_moment: ArrayLike | None = None,
+    ) -> None:
+        place = "revchain.Flywheel"
+        wheel = {"radius_of_gyration": radius_of_gyration, "spin": spin}
+        if momentum is None and axial_moment is None:
+            by_mass, heavy = mass_or_weight(place, mass, weight)
+            for name, value in wheel.items():
+                if value is None:
+                    raise ValueError(f"{place}: {name} is missing")
+            given = {"mass" if by_mass else "weight": heavy, **wheel}
+        elif any(value is not None for value in (mass, weight, *wheel.values())):
+            raise ValueError(f"{place}: give mass, radius_of_gyration and spin, or momentum instead of them, not both")
+        else:
+            given = {"momentum": 0.0 if momentum is None else momentum, "axial_moment": axial_moment}
+        columns = {name: floats(place, name, value) for name, value in given.items() if value is not None}
+        for name, column in columns.items():
+            refuse_where(~np.isfinite(column), column, f"{place}: {name} must be finite")
+            if name not in ("spin", "momentum"):
+                refuse_where(column < 0, column, f"{place}: {name} must not be negative")
+        flags = array_of(driven)
+        if flags.dtype != np.bool_:
+            raise ValueError(f"{place}: driven must be True, False or an array of them, got {shown(driven)}")
+        if "axial_moment" in columns and not columns["axial_moment"].any():
+            del columns["axial_moment"]
+        _set(self, "_given", {name: read_only(column) for name, column in columns.items()})
+        if flags.any() and "spin" not in columns:
+            raise ValueError(f"{place}: driven goes with mass, radius_of_gyration and spin; with momentum give axial_moment")
+        if flags.any():
+            self._given["driven"] = read_only(flags)
+
+    def _about(self, gravity: float) -> tuple[Floats, Floats]:
+        """Momentum over what a force of the compiled chain is in, and axial moment."""
+        given = self._given
+        if "momentum" in given:
+            return given["momentum"], given.get("axial_moment", np.float64(0))
+        place = "revchain.Flywheel"
+        heavy, radius = given.get("mass", given.get("weight")), given["radius_of_gyration"]
+        with np.errstate(over="ignore", invalid="ignore"):
+            moment = np.asarray(heavy * radius * radius)
+            long = np.asarray(heavy, np.longdouble) * radius * radius * given["spin"] / gravity  # rounded once, to double
+            momentum = np.asarray(long.astype(np.float64))
+        wrong = ~(np.isfinite(moment) & np.isfinite(momentum))
+        refuse_where(
+            wrong, np.broadcast_to(radius, wrong.shape), f"{place}: gives too large a momentum with radius_of_gyration"
+        )
+        return momentum, np.where(given.get("driven", False), moment, 0.0)
+
+
+class Displaced(_Fitting):
+    """What links displace of a fluid around them. Numbers are one for all links or arrays, lowest first.
+
+    Parameters
+    ----------
+    mass, weight : array_like, shape (N,) or scalar
+        Of the fluid that each link displaces, kg or N, as the chain was given.
+    centroid, radius_of_gyration : array_like, optional
+        Centre of gravity of that fluid, from the upper pin, and its radius of gyration about there, m; those of the
+        link if left out.
+    added_mass, added_weight : array_like, optional
+        Of still fluid that has to move with each link, spread as the fluid displaced; none where it turns.
+
+    Raises
+    ------
+    ValueError
+        For numbers that are not finite or out of their range.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rc.Displaced(mass=0.3, added_mass=0.15)
+    Displaced(mass=0.3, added_mass=0.15)
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        *,
+        mass: ArrayLike | None = None,
+        weight: ArrayLike | None = None,
+        centroid: ArrayLike | None = None,
+        radius_of_gyration: ArrayLike | None = None,
+        added_mass: ArrayLike | None = None,
+        added_weight: ArrayLike | None = None,
+    ) -> None:
+        place = "revchain.Displaced"
+        by_mass, heavy = mass_or_weight(place, mass, weight)
+        wrong, other = ("added_weight", added_weight) if by_mass else ("added_mass", added_mass)
+        if other is not None:
+            raise ValueError(f"{place}: {wrong} does not go with {'mass' if by_mass else 'weight'}, got {shown(other)}")
+        given = {
+            "mass" if by_mass else "weight": heavy,
+            "centroid": centroid,
+            "radius_of_gyration": radius_of_gyration,
+            "added_mass": added_mass,
+            "added_weight": added_weight,
+        }
+        columns = {name: floats(place, name, value) for name, value in given.items() if value is not None}
+        for name, column in columns.items():
+            refuse_where(~np.isfinite(column), column, f"{place}: {name} must be finite")
+            if name != "centroid":
+                refuse_where(column < 0, column, f"{place}: {name} must not be negative")
+        _set(self, "_given", {name: read_only(column) for name, column in columns.items()})
+
+
+class Rig(System):
+    """A chain and what it is rigged with. What is left out is not there, and costs nothing.
+
+    Parameters
+    ----------
+    chain : Chain
+        The chain of N links. Its masses, lengths and inertia are those of the links with whatever
+        wheels they carry, in vacuum.
+    support : Support, optional
+        What holds the uppermost pin, if not a firm point on the axis.
+    flywheels : Flywheel, optional
+        Wheels that spin about the axes of links.
+    displaced : Displaced, optional
+        What the links displace of a fluid.
+    fluid : {"still", "turning"}
+        Fluid at rest bears; fluid that turns with the chain also lessens what whirls.
+    inverted : array_like of bool, shape (N,) or scalar
+        Links that stand on their upper pin (counted along the chain) rather than hang from it, in
+        the straight chain that small oscillations are about.
+
+    Raises
+    ------
+    ValueError
+        For numbers out of the range given above, arrays that have not one number for each link, a mass where the chain
+        was given by weight; the message names the link.
+    TypeError
+        If an argument is of another class.
+
+    Notes
+    -----
+    Cost O(N), once.
 
     References
     ----------
@@ -95,138 +320,137 @@ class Rig(Unchangeable):
 
     Examples
     --------
-    Two plummets under a hook that gives way by 5 cm to a force of 1 N:
+    Two point masses under a hook that gives way by 5 cm to a force of 1 N:
 
     >>> import revchain as rc
-    >>> rc.Rig(rc.Chain(weight=[1.0, 3.0], length=0.5), stiffness=20.0)
+    >>> rc.Rig(rc.Chain(weight=[1.0, 3.0], length=0.5), support=rc.Support(stiffness=20.0))
     Rig of a chain of 2 links: support of stiffness 20
 
     A chain of bicycle wheels, the lowest two spinning:
 
-    >>> wheels = rc.Chain(weight=15.0, length=[0.1] * 4, centroid=0.05, radius_of_gyration=0.2)
-    >>> spin = rc.free_flywheel(weight=15.0, radius_of_gyration=0.29, spin=[40.0, 40.0, 0.0, 0.0])
-    >>> rc.Rig(wheels, **spin)
+    >>> wheels = rc.Chain(mass=1.5, length=[0.1] * 4, centroid=0.05, radius_of_gyration=0.2)
+    >>> spinning = rc.Flywheel(mass=1.5, radius_of_gyration=0.29, spin=[40.0, 40.0, 0.0, 0.0])
+    >>> rc.Rig(wheels, flywheels=spinning)
     Rig of a chain of 4 links: 2 links with momentum
     """
 
-    __slots__ = ("_chain", "_compiled", "_given")
-    _chain: Chain
-    _compiled: _core.Rig
-    _given: dict[str, Any]
+    __slots__ = ("_at", "_inverted", "chain", "displaced", "flywheels", "fluid", "support")
+    chain: Chain
+    support: Support
+    flywheels: Flywheel | None
+    displaced: Displaced | None
+    fluid: str
+    _inverted: NDArray[np.bool_] | None
+    _at: tuple[float, _core.Rig]
 
     def __init__(
         self,
         chain: Chain,
         *,
-        stiffness: float = math.inf,
-        carriage_weight: float = 0.0,
-        support_radius: float = 0.0,
-        standing: ArrayLike = False,
-        momentum: ArrayLike = 0.0,
-        axial_moment: ArrayLike = 0.0,
-        displaced_weight: ArrayLike = 0.0,
-        displaced_centroid: ArrayLike | None = None,
-        displaced_radius_of_gyration: ArrayLike | None = None,
-        added_weight: ArrayLike = 0.0,
+        support: Support | None = None,
+        flywheels: Flywheel | None = None,
+        displaced: Displaced | None = None,
         fluid: str = "still",
+        inverted: ArrayLike = False,
     ) -> None:
         place = "revchain.Rig"
-        core = compiled(place, chain)
-        word(place, "fluid", fluid, _FLUIDS)
-        support = {
-            "stiffness": real(place, "stiffness", stiffness),
-            "carriage_weight": real(place, "carriage_weight", carriage_weight),
-            "support_radius": real(place, "support_radius", support_radius),
-        }
-        columns: dict[str, Any] = {"standing": _flags(place, standing, chain.size)}
-        for name, value in zip(
-            _PER_LINK,
-            (
-                momentum,
-                axial_moment,
-                displaced_weight,
-                displaced_centroid,
-                displaced_radius_of_gyration,
-                added_weight,
-            ),
-            strict=True,
-        ):
-            columns[name] = _column(place, name, value, chain.size)
-        given = {**support, **columns}
-        object.__setattr__(self, "_chain", chain)
-        object.__setattr__(self, "_given", {**given, "fluid": fluid})
-        object.__setattr__(self, "_compiled", _core.Rig(core, **given, turning_fluid=fluid == "turning"))
-        _check_fluid(place, columns, fluid)
-
-    @property
-    def chain(self) -> Chain:
-        """The chain by itself."""
-        return self._chain
+        compiled(place, chain)
+        word(place, "fluid", fluid, FLUIDS)
+        fittings = {"support": (support, Support), "flywheels": (flywheels, Flywheel), "displaced": (displaced, Displaced)}
+        for name, (fitting, kind) in fittings.items():
+            if fitting is not None and not isinstance(fitting, kind):
+                raise TypeError(f"{place}: {name} must be a revchain.{kind.__name__}, got {shown(fitting)}")
+            if fitting is not None and ("mass" in fitting._given or "weight" in fitting._given):
+                like(f"{place}: {name}", chain, fitting._given.get("mass"), fitting._given.get("weight"))
+        if displaced is not None and not any(value.any() for name, value in displaced._given.items() if name in _HEAVY):
+            displaced = None
+        if fluid == "turning" and displaced is not None:
+            added = displaced._given.get("added_mass", displaced._given.get("added_weight", np.zeros(())))
+            refuse_where(added > 0, added, f"{place}: fluid that turns with the chain has no added mass")
+        _set(self, "chain", chain)
+        _set(self, "support", Support() if support is None else support)
+        _set(self, "flywheels", flywheels)
+        _set(self, "displaced", displaced)
+        _set(self, "fluid", fluid)
+        _set(self, "_inverted", _flags(place, inverted, chain.size))
+        _set(self, "_at", (STANDARD_GRAVITY, self._made(STANDARD_GRAVITY)))  # what is wrong is said now
 
     @property
     def size(self) -> int:
         """Number of links."""
-        return self._chain.size
+        return self.chain.size
 
     @property
-    def stiffness(self) -> float:
-        """Of the spring at the support, force over length; infinite where it is firm."""
-        return float(self._given["stiffness"])
+    def by_mass(self) -> bool:  # type: ignore[override]
+        """Whether masses were given, not weights."""
+        return self.chain.by_mass
 
     @property
-    def carriage_weight(self) -> float:
-        """Of what moves sideways with the support."""
-        return float(self._given["carriage_weight"])
-
-    @property
-    def support_radius(self) -> float:
-        """Of the circle in which the support is carried round."""
-        return float(self._given["support_radius"])
-
-    @property
-    def fluid(self) -> str:
-        """``"still"`` or ``"turning"``."""
-        return str(self._given["fluid"])
-
-    @property
-    def standing(self) -> NDArray[np.bool_]:
+    def inverted(self) -> NDArray[np.bool_]:
         """Which links stand, shape (N,), lowest first; read-only."""
-        flags = self._given["standing"]
-        return np.broadcast_to(np.False_, self.size) if flags is None else flags
+        return np.broadcast_to(np.False_, self.size) if self._inverted is None else self._inverted
+
+    def _momentum(self, gravity: float) -> Floats:
+        """Angular momentum that each link keeps, for the compiled rig, shape (N,)."""
+        if self.flywheels is None:
+            return np.broadcast_to(np.float64(0), self.size)
+        momentum = _column("revchain.Rig", "momentum", self.flywheels._about(gravity)[0], self.size)
+        return momentum / gravity if self.by_mass and "momentum" in self.flywheels._given else momentum
 
     @property
-    def momentum(self) -> Floats:
-        """Angular momentum that each link keeps along its axis, shape (N,); read-only."""
-        return self._column("momentum", 0.0)
+    def has_momentum(self) -> bool:
+        """Whether a wheel keeps its own momentum, so that the two directions of rotation differ."""
+        return self.flywheels is not None and bool(self._momentum(STANDARD_GRAVITY).any())
 
-    @property
-    def axial_moment(self) -> Floats:
-        """Of what turns with each link about its axis, weight times length squared, shape (N,); read-only."""
-        return self._column("axial_moment", 0.0)
+    def _under(self, gravity: float) -> _core.Rig:
+        at = self._at  # of two threads each sees one pair
+        if at[0] == gravity or not self._needs_gravity():
+            return at[1]
+        made = self._made(gravity)
+        _set(self, "_at", (gravity, made))
+        return made
 
-    @property
-    def displaced_weight(self) -> Floats:
-        """Of the fluid that each link displaces, shape (N,); read-only."""
-        return self._column("displaced_weight", 0.0)
+    def _needs_gravity(self) -> bool:
+        wheels = self.flywheels is not None and (self.by_mass or "spin" in self.flywheels._given)
+        return wheels or (self.by_mass and math.isfinite(self.support.stiffness))
 
-    @property
-    def displaced_centroid(self) -> Floats:
-        """Of that fluid, from the upper pin, shape (N,); read-only."""
-        return self._column("displaced_centroid", self._chain.centroid)
+    def _made(self, gravity: float) -> _core.Rig:
+        place, size = "revchain.Rig", self.size
+        columns: dict[str, Any] = dict.fromkeys(_COLUMNS)
+        if self.flywheels is not None:
+            moment = _column(place, "axial_moment", self.flywheels._about(gravity)[1], size)
+            momentum = self._momentum(gravity)
+            columns["momentum"] = momentum if momentum.any() else None
+            columns["axial_moment"] = moment if moment.any() else None
+        if self.displaced is not None:
+            for name, value in self.displaced._given.items():
+                columns[_COLUMN_OF[name]] = _column(place, f"displaced {name}", value, size)
+        return _core.Rig(
+            self.chain._compiled,
+            stiffness=self.support.stiffness / self._force(gravity),
+            carriage_weight=self.support.carriage,
+            support_radius=self.support.radius,
+            standing=self._inverted,
+            turning_fluid=self.fluid == "turning",
+            **columns,
+        )
 
-    @property
-    def displaced_radius_of_gyration(self) -> Floats:
-        """Of that fluid, shape (N,); read-only."""
-        return self._column("displaced_radius_of_gyration", self._chain.radius_of_gyration)
+    def _words(self) -> list[str]:
+        support, unit = self.support, self.chain._unit
+        held = "firm" if math.isinf(support.stiffness) else f"on a spring of {support.stiffness:.6g} N/m"
+        held += f" with {support.carriage:.6g} {unit}" if support.carriage else ""
+        held += f", carried round at {support.radius:.6g} m" if support.radius else ""
+        return [f"support: {held}", *self.chain._link_words(), *self._extras()]
 
-    @property
-    def added_weight(self) -> Floats:
-        """Of still fluid that moves with each link, shape (N,); read-only."""
-        return self._column("added_weight", 0.0)
-
-    def _column(self, name: str, otherwise: float | Floats) -> Floats:
-        given = self._given[name]
-        return np.broadcast_to(np.asarray(otherwise), self.size) if given is None else given
+    def _extras(self) -> list[str]:
+        """What links have beside themselves."""
+        borne = self.displaced is not None and np.broadcast_to(next(iter(self.displaced._given.values())), self.size)
+        counts = (
+            (np.count_nonzero(self.inverted), "inverted"),
+            (np.count_nonzero(self._momentum(STANDARD_GRAVITY)), "with momentum"),
+            (np.count_nonzero(borne), f"in {self.fluid} fluid"),
+        )
+        return [f"{count:,} link{'s' if count > 1 else ''} {what}" for count, what in counts if count]
 
     def __len__(self) -> int:
         return self.size
@@ -234,176 +458,90 @@ class Rig(Unchangeable):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Rig):
             return NotImplemented
-        return (
-            self._chain == other._chain
-            and all(getattr(self, name) == getattr(other, name) for name in _NUMBERS)
-            and all(np.array_equal(getattr(self, name), getattr(other, name)) for name in ("standing", *_PER_LINK))
-        )
+        by_spin = [rig.flywheels is not None and "spin" in rig.flywheels._given and not rig.by_mass for rig in (self, other)]
+        same = self.chain == other.chain and by_spin[0] == by_spin[1]
+        return same and bool(self._under(STANDARD_GRAVITY) == other._under(STANDARD_GRAVITY))
 
     def __hash__(self) -> int:
-        return hash((self._chain, *(getattr(self, name) for name in _NUMBERS)))
+        return hash((self.chain, self.fluid))
 
     def __repr__(self) -> str:
         links = "1 link" if self.size == 1 else f"{self.size:,} links"
-        with_what = []
-        if math.isfinite(self.stiffness):
-            with_what.append(f"support of stiffness {self.stiffness:.6g}")
-        if self.carriage_weight:
-            with_what.append(f"carriage of weight {self.carriage_weight:.6g}")
-        if self.support_radius:
-            with_what.append(f"carried round at radius {self.support_radius:.6g}")
-        for count, what in (
-            (np.count_nonzero(self.standing), "standing"),
-            (np.count_nonzero(self.momentum), "with momentum"),
-            (np.count_nonzero(self.displaced_weight), f"in {self.fluid} fluid"),
-        ):
-            if count:
-                with_what.append(f"{count:,} link{'s' if count > 1 else ''} {what}")
-        return f"Rig of a chain of {links}: {', '.join(with_what) or 'nothing added'}"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return Rig._from_state, (self._state(),)
+        support, with_what = self.support, []
+        if math.isfinite(support.stiffness):
+            with_what.append(f"support of stiffness {support.stiffness:.6g}")
+        if support.carriage:
+            with_what.append(f"carriage of {'mass' if self.by_mass else 'weight'} {support.carriage:.6g}")
+        if support.radius:
+            with_what.append(f"carried round at radius {support.radius:.6g}")
+        return f"Rig of a chain of {links}: {', '.join(with_what + self._extras()) or 'nothing added'}"
 
     def _state(self) -> tuple[Any, ...]:
         """All it is made of."""
-        return self._chain, {name: value for name, value in self._given.items() if value is not None}
+        fittings = (self.support, self.flywheels, self.displaced)
+        given = tuple(None if fitting is None else dict(fitting._given) for fitting in fittings)
+        return self.chain, *given, self.fluid, self._inverted
 
     @classmethod
-    def _from_state(cls, state: tuple[Any, ...]) -> Rig:
-        chain, given = state
-        return cls(chain, **given)
+    def _from_state(cls, state: Any) -> Rig:
+        chain, support, flywheels, displaced, fluid, inverted = state
+        return cls(
+            chain,
+            support=Support(**support),
+            flywheels=None if flywheels is None else Flywheel(**flywheels),
+            displaced=None if displaced is None else Displaced(**displaced),
+            fluid=fluid,
+            inverted=False if inverted is None else inverted,
+        )
+
+    def _data(self) -> dict[str, Any]:
+        _, *given, fluid, inverted = self._state()
+        names = ("support", "flywheels", "displaced")
+        fittings = {
+            name: {key: plain(value) for key, value in fitting.items()}
+            for name, fitting in zip(names, given, strict=True)
+            if fitting
+        }
+        more = {} if inverted is None else {"inverted": plain(inverted)}
+        return {"chain": self.chain.to_dict(), **fittings, "fluid": fluid, **more}
+
+    @classmethod
+    def _from_data(cls, data: dict[str, Any]) -> Rig:
+        kinds = {"support": Support, "flywheels": Flywheel, "displaced": Displaced}
+        fittings: dict[str, Any] = {name: kind(**data[name]) for name, kind in kinds.items() if name in data}
+        chain = Chain.from_dict(data["chain"])
+        return cls(chain, **fittings, fluid=data["fluid"], inverted=data.get("inverted", False))
 
 
-_NUMBERS = ("stiffness", "carriage_weight", "support_radius", "fluid")
-
-
-def free_flywheel(
-    *, weight: ArrayLike, radius_of_gyration: ArrayLike, spin: ArrayLike, gravity: float = STANDARD_GRAVITY
-) -> dict[str, Floats]:
-    """What a wheel on free bearings brings to a `Rig`: the angular momentum it keeps.
-
-    Parameters
-    ----------
-    weight, radius_of_gyration : array_like
-        Of the wheel, the latter about its axis, along the link; not negative.
-    spin : array_like
-        In rad/s about the link's axis as seen from outside, not from the link; positive where a hanging
-        link's wheel turns in the sense of a positive speed.
-    gravity : float
-        What `weight` is under; standard gravity, in m/s^2, if left out.
-
-    Returns
-    -------
-    dict
-        ``momentum``, broadcast: ``rc.Rig(chain, **rc.free_flywheel(...))``. The wheel's weight, and its
-        inertia across its axis, belong to the link's own numbers.
-
-    Raises
-    ------
-    ValueError
-        For numbers that are not finite or negative where they must not be.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> float(rc.free_flywheel(weight=9.80665, radius_of_gyration=0.3, spin=100.0)["momentum"])
-    9.0
-    """
-    return {"momentum": _wheel("revchain.free_flywheel", weight, radius_of_gyration, spin, gravity)[0]}
-
-
-def driven_flywheel(
-    *, weight: ArrayLike, radius_of_gyration: ArrayLike, spin: ArrayLike, gravity: float = STANDARD_GRAVITY
-) -> dict[str, Floats]:
-    """What a wheel turned by a motor brings to a `Rig`: its spin is relative to a link that turns with the whole.
-
-    Parameters
-    ----------
-    weight, radius_of_gyration, spin, gravity
-        As for `free_flywheel`, but for `spin`, which is seen from the link.
-
-    Returns
-    -------
-    dict
-        ``momentum`` and ``axial_moment``, broadcast.
-
-    Raises
-    ------
-    ValueError
-        As `free_flywheel`.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> {name: float(x) for name, x in rc.driven_flywheel(weight=9.80665, radius_of_gyration=0.3, spin=100.0).items()}
-    {'momentum': 9.0, 'axial_moment': 0.8825985}
-    """
-    momentum, moment = _wheel("revchain.driven_flywheel", weight, radius_of_gyration, spin, gravity)
-    return {"momentum": momentum, "axial_moment": moment}
-
-
-def _wheel(place: str, weight: ArrayLike, radius: ArrayLike, spin: ArrayLike, gravity: float) -> list[Floats]:
-    """Angular momentum and axial moment."""
-    given = {"weight": weight, "radius_of_gyration": radius, "spin": spin}
-    arrays = {name: floats(place, name, value) for name, value in given.items()}
-    for name, array in arrays.items():
-        refuse_where(~np.isfinite(array), array, f"{place}: {name} must be finite")
-        if name != "spin":
-            refuse_where(array < 0, array, f"{place}: {name} must not be negative")
-    w, k, turns, g = together(place, **arrays, gravity=positive(place, "gravity", gravity))
-    with np.errstate(over="ignore", invalid="ignore"):
-        moment = np.asarray(w * k * k)
-        momentum = np.asarray(moment / g * turns)
-    refuse_where(
-        ~(np.isfinite(moment) & np.isfinite(momentum)),
-        k,
-        f"{place}: weight * radius_of_gyration**2 * spin / gravity must be finite, give a smaller radius_of_gyration",
-    )
-    return list(numbers([momentum, moment]))
+_HEAVY = ("mass", "weight", "added_mass", "added_weight")
+_COLUMN_OF = {
+    "mass": "displaced_weight",
+    "weight": "displaced_weight",
+    "centroid": "displaced_centroid",
+    "radius_of_gyration": "displaced_radius_of_gyration",
+    "added_mass": "added_weight",
+    "added_weight": "added_weight",
+}
+_COLUMNS = ("momentum", "axial_moment", *dict.fromkeys(_COLUMN_OF.values()))
 
 
 def _flags(place: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:
     flags = array_of(value)
     if flags.dtype != np.bool_ or flags.ndim > 1 or (flags.ndim == 1 and flags.size != size):
         raise ValueError(
-            f"{place}: standing must be True, False or an array of them, one for each of the {size} links, "
+            f"{place}: inverted must be True, False or an array of them, one for each of the {size} links, "
             f"got {shown(value)}"
         )
     return read_only(np.ascontiguousarray(np.broadcast_to(flags, size))) if flags.any() else None
 
 
-def _column(place: str, name: str, value: ArrayLike | None, size: int) -> Floats | None:
-    if value is None:
-        return None
-    column = floats(place, name, value)
+def _column(place: str, name: str, column: Floats, size: int) -> Floats:
     if column.ndim > 1 or (column.ndim == 1 and column.size != size):
         raise ValueError(
             f"{place}: {name} must be a number or an array with one for each of the {size} links, "
             f"got shape {column.shape}"
         )
-    if not column.any() and name not in ("displaced_centroid", "displaced_radius_of_gyration"):
-        return None
     return read_only(np.ascontiguousarray(np.broadcast_to(column, size)))
 
 
-def _check_fluid(place: str, columns: dict[str, Any], fluid: str) -> None:
-    """Refuse what is not looked at further on: places of fluid where there is none, still fluid in fluid that turns."""
-    middle, radius, added = (columns[name] for name in _PER_LINK[3:])
-    if middle is not None:
-        _refuse_link(place, ~np.isfinite(middle), middle, "displaced_centroid must be finite")
-    if radius is not None:
-        wrong = ~(np.isfinite(radius) & (radius >= 0))
-        _refuse_link(place, wrong, radius, "displaced_radius_of_gyration must be finite and not negative")
-    if added is not None and fluid == "turning":
-        _refuse_link(place, added > 0, added, "fluid that turns with the chain has no added_weight")
-
-
-def _refuse_link(place: str, wrong: NDArray[np.bool_], column: Floats, sentence: str) -> None:
-    if wrong.any():
-        link = int(np.argmax(wrong))
-        raise ValueError(f"{place}: link {link + 1}: {sentence}, got {column[link]:g}")
-
-
-def base_chain(hung: Chain | Rig) -> Chain:
-    """The chain by itself."""
-    return hung.chain if isinstance(hung, Rig) else hung
+_set = object.__setattr__

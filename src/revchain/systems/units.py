@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers with units in scene files, through pint where it is installed."""
+"""Numbers with units: text such as "39 inch" and pint quantities, converted to SI by the name of what they are."""
 
 from __future__ import annotations
 
+import math
 import re
 from functools import lru_cache
 from typing import Any
@@ -10,56 +11,108 @@ from typing import Any
 from .extras import require
 
 _NUMBER = r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?"
-_UNIT = r"[a-zA-Zµμ°]+((\^|\*\*)-?\d)?"
+_UNIT = r"([a-zA-Zµμ°]+((\^|\*\*)-?\d)?|%)"
 PATTERN = rf"^\s*{_NUMBER}\s*{_UNIT}((\s*[*/]\s*|\s+){_UNIT})*\s*$"
 """A number and a unit, such as ``39.1396 inch`` or ``9.81 m/s^2``.
 
 Exponents have one digit: pint works out whatever stands there, and ``m**9**9**9`` would take it for ever.
 """
 
-SI = {
-    "length": ("m", "a length", "39.1396 inch"),
-    "mass": ("kg", "a mass", "2 kg"),
-    "weight": ("N", "a force", "20 N"),
-    "gravity": ("m/s^2", "an acceleration", "9.81 m/s^2"),
-    "stiffness": ("N/m", "a force per length", "2 kN/m"),
-    "spin": ("rad/s", "an angular speed", "3000 rpm"),
-    "angular_speed": ("rad/s", "an angular speed", "30 rpm"),
-    "speed": ("m/s", "a speed", "2 cm/s"),
-    "time": ("s", "a time", "2 min"),
-    "added_mass": ("kg", "a mass", "2 kg"),
-    "added_weight": ("N", "a force", "20 N"),
-    "tip_mass": ("kg", "a mass", "2 kg"),
-    "tip_weight": ("N", "a force", "20 N"),
+_KINDS = {
+    "a length": ("m", "39.1396 inch"),
+    "a mass": ("kg", "2 kg"),
+    "a force": ("N", "20 N"),
+    "an acceleration": ("m/s^2", "9.81 m/s^2"),
+    "a force per length": ("N/m", "2 kN/m"),
+    "an angular speed": ("rad/s", "30 rpm"),
+    "a speed": ("m/s", "2 cm/s"),
+    "a time": ("s", "2 min"),
+    "an angle": ("rad", "20 deg"),
+    "an angular momentum": ("kg m^2/s", "0.5 N m s"),
+    "a moment of inertia": ("kg m^2", "0.1 kg m^2"),
+    "a fraction": ("", "1 %"),
 }
-"""Quantity: its SI unit, its name, an example."""
+_NAMES = {
+    "a length": "length centroid radius_of_gyration pendulum_length length_in_proportion conical_height min_conical_height span radius "
+    "tip_radius support_radius offset arc_length displaced_centroid displaced_radius_of_gyration "
+    "height x arm thread rod distance deflection tip slack sag arc place pendulum",
+    "a mass": "mass added_mass tip_mass",
+    "a force": "weight added_weight tip_weight tension top_tension",
+    "an acceleration": "gravity",
+    "a force per length": "stiffness",
+    "an angular speed": "angular_speed angle_rate spin max_angular_speed low_speed high_speed",
+    "a speed": "speed velocity",
+    "a time": "time period",
+    "an angle": "angle phase inclination tip_inclination",
+    "an angular momentum": "momentum",
+    "a moment of inertia": "axial_moment",
+    "a fraction": "rtol",
+}
+SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.items() for name in names.split()}
+"""Quantity: its SI unit, its kind, an example."""
 
 
+def are_there(value: Any) -> bool:
+    """Whether a number with a unit is among what was given."""
+    if isinstance(value, str) or hasattr(value, "dimensionality"):
+        return True
+    return isinstance(value, list | tuple) and any(map(are_there, value))
+
+
+def in_si(place: str, name: str, value: Any) -> Any:
+    """`value` with all its numbers in SI units; a ValueError where they are of another kind than `name` is."""
+    if isinstance(value, list | tuple):
+        return [in_si(place, name, item) for item in value]
+    if not isinstance(value, str) and not hasattr(value, "dimensionality"):
+        return value
+    words = re.split(r"[ \[(]", name)[0].split("_")  # "lower_radius_of_gyration" is a radius of gyration
+    quantity = next((known for k in range(len(words)) if (known := "_".join(words[k:])) in SI), name)
+    if quantity not in SI:
+        raise ValueError(f"{place}: {name} must be a number without a unit, got {str(value)!r}")
+    try:
+        return si_value(value, quantity) if isinstance(value, str) else _converted(value, quantity)
+    except ValueError as error:
+        raise ValueError(f"{place}: {name} {error}") from None
+
+
+@lru_cache(maxsize=4096)  # pint takes half a millisecond, and files repeat their numbers
 def si_value(text: str, quantity: str) -> float:
     """The number that `text` means in SI units; a ValueError says what is wrong with it."""
-    unit, name, example = SI[quantity]
     if len(text) > 100 or re.match(PATTERN, text) is None:
-        raise ValueError(f'must be a number, or a number and its unit such as "{example}", got "{text}"')
+        comma = "; write a decimal point, not a comma" if re.match(r"\s*[+-]?\d+,\d+\s*[a-zA-Z%]*\s*$", text) else ""
+        raise ValueError(f'must be a number, or a number and its unit such as "{SI[quantity][2]}", got "{text}"{comma}')
     number = re.match(rf"\s*{_NUMBER}", text)
     assert number is not None
+    unit = text[number.end() :].strip()
+    if unit == "%" and quantity == "rtol":
+        return float(number.group()) / 100
     registry = _registry()
     try:
-        given = registry.parse_units(text[number.end() :].strip())
-        if not given.is_compatible_with(unit):
-            hint = "; give it as mass" if quantity == "weight" and given.is_compatible_with("kg") else ""
-            raise ValueError(f'must be {name} such as "{example}", got "{text}"{hint}')
-        return float(registry.Quantity(float(number.group()), given).m_as(unit))
-    except ValueError as error:
-        if "must be" in str(error):
-            raise
-        raise ValueError(f'has a unit that is not known: "{text}"') from None
+        given = registry.Quantity(float(number.group()), registry.parse_units(unit.replace("%", "percent")))
     except Exception:  # pint has many errors of its own for what is not a unit
         raise ValueError(f'has a unit that is not known: "{text}"') from None
+    return float(_converted(given, quantity, text))
+
+
+def _converted(given: Any, quantity: str, text: str = "") -> Any:
+    """A pint quantity in SI units."""
+    unit, kind, example = SI[quantity]
+    if not given.is_compatible_with(unit or "dimensionless"):
+        hint = "; give it as mass" if quantity.endswith("weight") and given.is_compatible_with("kg") else ""
+        hint = "; give it as weight" if quantity.endswith("mass") and given.is_compatible_with("N") else hint
+        raise ValueError(f'must be {kind} such as "{example}", got "{text or given}"{hint}')
+    number = given.m_as(unit or "dimensionless")
+    if kind == "an angular speed" and "hertz" in str(given.units):
+        number = 2 * math.pi * number  # pint takes Hz for rad/s; it is a turn in a second
+    return number
 
 
 @lru_cache(maxsize=1)
 def _registry() -> Any:
     try:
-        return require("pint", "units", "a number with a unit").UnitRegistry()
+        registry = require("pint", "units", "a number with a unit").UnitRegistry()
+        registry.define("rev = turn")
+        registry.define("RPM = rpm")
+        return registry
     except ModuleNotFoundError as error:
         raise ValueError(str(error)) from None

@@ -292,7 +292,7 @@ TEST_CASE("the momentum that a speed asks for makes it a whirl speed", "[linear]
                 Rigged rigged;
                 rigged.turning = turning;
                 const double momentum =
-                    revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(link), speed, 9.8125);
+                    revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(link) - 1, speed, 9.8125);
                 rigged.H[link - 1] = momentum;
                 const Quad near = rigged.speed(speed);
                 CAPTURE(turning, speed, link, momentum);
@@ -302,8 +302,37 @@ TEST_CASE("the momentum that a speed asks for makes it a whirl speed", "[linear]
     CHECK(worst < 1e-14);
     const Chain<double> one({revchain::plummet(2.0, 3.0)});
     const double A = 18 / 9.80665;
-    CHECK(std::abs(revchain::momentum_for_speed(revchain::Rig(one, {}), 1, 2.0) / (A * 2 - 3) - 1) < 1e-15);
-    CHECK_THROWS_AS(revchain::momentum_for_speed(revchain::Rig(one, {}), 2, 2.0), revchain::InvalidArgument);
+    CHECK(std::abs(revchain::momentum_for_speed(revchain::Rig(one, {}), 0, 2.0) / (A * 2 - 3) - 1) < 1e-15);
+    CHECK_THROWS_AS(revchain::momentum_for_speed(revchain::Rig(one, {}), 1, 2.0), revchain::InvalidArgument);
+}
+
+TEST_CASE("the stiffness that a speed asks for makes it a whirl speed", "[linear]") {
+    double worst = 0;
+    int found = 0;
+    for (const bool turning : {false, true})
+        for (const double speed : {-7.0, -3.0, -1.25, 1.0, 2.5, 4.0, 6.0}) {
+            Rigged rigged;
+            rigged.turning = turning;
+            double stiffness = 0;
+            try {
+                stiffness = revchain::stiffness_for_speed(rigged.rig(), speed, 9.8125);
+            } catch (const revchain::InvalidArgument&) {
+                continue;  // a spring cannot pull outwards
+            }
+            ++found;
+            rigged.E = stiffness;
+            const Quad near = rigged.speed(speed);
+            CAPTURE(turning, speed, stiffness);
+            worst = std::max(worst, std::abs(static_cast<double>(near - speed) / speed));
+        }
+    CAPTURE(worst);
+    CHECK(found >= 4);
+    CHECK(worst < 1e-14);
+    const Chain<double> one({revchain::plummet(2.0, 3.0)});  // height 6 = length 3 + weight/stiffness
+    const revchain::Rig rig(one, {.support = {.stiffness = 1.0}});
+    CHECK(std::abs(revchain::stiffness_for_speed(rig, 1.0, 6.0) / (2.0 / 3) - 1) < 1e-15);
+    CHECK_THROWS_AS(revchain::stiffness_for_speed(rig, 2.0, 6.0), revchain::InvalidArgument);  // height 1.5
+    CHECK_THROWS_AS(revchain::stiffness_for_speed(rig, 0.0), revchain::InvalidArgument);
 }
 
 TEST_CASE("what rig_modes finds: derivatives of its speeds, and the momentum that gives one back", "[linear]") {
@@ -334,7 +363,7 @@ TEST_CASE("what rig_modes finds: derivatives of its speeds, and the momentum tha
                 CHECK(std::abs(found.momentum[static_cast<Index>(m)] - sense * (more - less) / (2 * step)) <
                       2e-9 * (1 + std::abs(n)));
                 const double momentum =
-                    revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(m) + 1, n, 9.8125);
+                    revchain::momentum_for_speed(rigged.rig(), static_cast<Index>(m), n, 9.8125);
                 CHECK(std::abs(momentum - static_cast<double>(was)) * std::abs(found.momentum[static_cast<Index>(m)]) <=
                       4e-16 * std::abs(n) * (1 + std::abs(found.momentum[static_cast<Index>(m)])));
             }

@@ -76,7 +76,7 @@ TEST_CASE("clamped links: the body of both, and its heights between those of the
         const auto chain = family.make(6);
         const auto free = revchain::modes(chain, {.count = revchain::all_modes}).conical_height;
         for (Index m = 1; m < 6; ++m) {
-            const auto one = revchain::clamped(chain, m);
+            const auto one = revchain::clamped(chain, m - 1);
             CAPTURE(family.name, m);
             REQUIRE(one.size() == 5);
             const auto lower = moments(chain.link(m - 1)), upper = moments(chain.link(m)),
@@ -107,7 +107,7 @@ TEST_CASE("a uniform rod jointed where it does not bend whirls as the whole rod 
                                                   .length = joint,
                                                   .centroid = upper / 2 - above,
                                                   .radius_of_gyration = upper / std::sqrt(12.0)})});
-        const auto whole = revchain::modes(revchain::clamped(jointed, 1), {.count = revchain::all_modes});
+        const auto whole = revchain::modes(revchain::clamped(jointed, 0), {.count = revchain::all_modes});
         const auto free = revchain::modes(jointed, {.count = revchain::all_modes});
         CAPTURE(pin);
         CHECK(std::abs(free.conical_height[0] / whole.conical_height[0] - 1) < 1e-15);
@@ -126,6 +126,6 @@ TEST_CASE("what cannot be attached is refused", "[chain]") {
     CHECK_THROWS_AS(revchain::with_thread(chain, 1.0, 0), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::with_thread(chain, 1.0, 4), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::with_thread(chain, 0.0, 1), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::clamped(chain, 3), revchain::InvalidArgument);
-    CHECK_THROWS_AS(revchain::clamped(chain, 0), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::clamped(chain, 2), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::clamped(chain, -1), revchain::InvalidArgument);
 }

@@ -122,7 +122,7 @@ inline RiggedLinks rigged_links(const Rig& rig, const Wide<double>& height, cons
         const RigLink& link = result.given[static_cast<std::size_t>(m)];
         const S pull = link.spin == S(0) ? link.tension : link.tension + result.speed * link.spin;
         const auto reject = [&](std::string_view what) {
-            revchain::detail::throw_invalid("steady_shapes", "link " + std::to_string(m + 1) + ": " + std::string(what),
+            revchain::detail::throw_invalid("steady_shapes", "links[" + std::to_string(m) + "]: " + std::string(what),
                                             pull.high);
         };
         if (detail::effective_tension<Far>(link, result.speed).may_vanish())

@@ -164,7 +164,7 @@ Disturbed disturbed(const Chain<double>& chain, const Shape& shape) {
         const double length = std::hypot(shape.offset[m] - shape.offset[m + 1], shape.height[m] - shape.height[m + 1]);
         if (!(std::abs(length - chain.length()[m]) <= rounding))
             revchain::detail::throw_invalid(
-                "stability", "the shape is not of this chain; in it link " + std::to_string(m) + " is as long as",
+                "stability", "the shape is not of this chain; in it links[" + std::to_string(m) + "] is as long as",
                 length);
     }
     return Disturbed(pulled_links(links_of(chain), shape));

@@ -213,6 +213,20 @@ TEST_CASE("units do not matter", "[finite]") {
     }
 }
 
+TEST_CASE("a density made again from its pieces is the same", "[finite]") {
+    for (const double power : {0.0, 0.5, -0.5}) {
+        const LineDensity density([=](double s) { return (1 + (s > 0.4 ? s : 0)) * std::pow(s, power); }, 1);
+        const LineDensity again(density.length(), density.pieces());
+        CHECK(again.total() == density.total());
+        for (const double s : {1e-14, 1e-3, 0.3, 0.4, 0.7, 1.0}) {
+            CAPTURE(power, s);
+            CHECK(again.weight_below(s) == density.weight_below(s));
+            CHECK(again.about(s) == density.about(s));
+        }
+    }
+    CHECK_THROWS_AS(LineDensity(1.0, {}), revchain::InvalidArgument);
+}
+
 TEST_CASE("critical heights of a chain with a tip mass, of a power law, of two halves", "[finite]") {
     double worst = 0;
     int rows = 0;

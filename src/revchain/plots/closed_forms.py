@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of force diagrams and funicular polygons by matplotlib."""
+"""Pictures of the closed forms of the paper, and force diagrams, by matplotlib."""
 
 from __future__ import annotations
 
@@ -8,16 +8,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..systems.numbers import shown
-from .style import checked_axes, keep_room, new_figure
+from ..systems.numbers import one_positive, refuse_beyond_memory, shown
+from .style import axes_or_new, checked_axes, keep_room, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ..closed_forms.governor import GovernorMotion
+    from ..closed_forms.gyrostatic_string import GyrostaticString
+    from ..closed_forms.rope import SkippingRope, TortuousRope
     from ..closed_forms.statics import FunicularPolygon
     from ..results.diagrams import ForceDiagram
 
-MOST_LETTERED = 8  # points of one kind with a letter each
+BYTES = 64  # of a point of a curve
+MAX_LETTERED = 8  # points of one kind with a letter each
+MAX_LINKS_SEEN = 12  # of which the plane is drawn end on
 
 
 def _two_axes(axes: tuple[Axes, Axes] | None, width: float, height: float) -> tuple[Axes, Axes]:
@@ -51,14 +56,12 @@ def _finish(ax: Axes, across: str, up: str, title: str) -> None:
     ax.locator_params(axis="x", nbins=3 if ax.dataLim.height > 2.5 * ax.dataLim.width else 5)
 
 
-def plot_force_diagram(
-    diagram: ForceDiagram, axes: tuple[Axes, Axes] | None, *, length_unit: str, weight_unit: str
-) -> tuple[Axes, Axes]:
+def plot_force_diagram(diagram: ForceDiagram, axes: tuple[Axes, Axes] | None) -> tuple[Axes, Axes]:
     """See `ForceDiagram.plot`."""
     figure, forces = _two_axes(axes, 9.0, 5.5)
     pin, ray, reaction, load = diagram.pin, diagram.ray, diagram.reaction, diagram.load
     count, height = len(ray), diagram.conical_height
-    lettered = count <= MOST_LETTERED
+    lettered = count <= MAX_LETTERED
     plummets = bool(np.array_equal(ray, reaction))
     centre = diagram.centre_of_gravity
 
@@ -79,7 +82,7 @@ def plot_force_diagram(
             if m > 0:
                 figure.plot(x, z, marker="+", color=colour, zorder=3)
                 _letter(figure, f"G_{m + 1}", x, z, right=bool(x >= 0), color=colour)
-    _finish(figure, f"from the axis ({length_unit})", f"above the support ({length_unit})", "funicular polygon")
+    _finish(figure, "from the axis (m)", "above the support (m)", "funicular polygon")
 
     total = float(ray[-1, 1])
     scale = total / count / height  # ON as the mean weight
@@ -107,19 +110,17 @@ def plot_force_diagram(
     forces.plot([min(reach), max(reach)], [-scale * height] * 2, color="0.6", linewidth=0.9, zorder=1)
     _letter(forces, "O", 0.0, 0.0, right=bool(ray[0, 0] < 0))
     _letter(forces, "N", 0.0, -scale * height, right=False)
-    _finish(forces, f"sideways ({weight_unit})", f"upwards ({weight_unit})", "diagram of force")
+    _finish(forces, "sideways (N)", "upwards (N)", "diagram of force")
     if not plummets:
         forces.legend(fontsize="small")
     return figure, forces
 
 
-def plot_funicular_polygon(
-    polygon: FunicularPolygon, axes: tuple[Axes, Axes] | None, *, length_unit: str, weight_unit: str
-) -> tuple[Axes, Axes]:
+def plot_funicular_polygon(polygon: FunicularPolygon, axes: tuple[Axes, Axes] | None) -> tuple[Axes, Axes]:
     """See `FunicularPolygon.plot`."""
     left, forces = _two_axes(axes, 10.0, 4.5)
     x, z, rise, pull = polygon.place, polygon.height, polygon.rise, polygon.horizontal_tension
-    lettered = len(x) - 2 <= MOST_LETTERED
+    lettered = len(x) - 2 <= MAX_LETTERED
     line = max(float(z.max()), 0.0) + 0.12 * (float(x[-1] - x[0]))
     left.plot([x[0], x[-1]], [line, line], color="0.4", linewidth=1.0)
     left.vlines(x[1:-1], z[1:-1], line, color="0.7", linewidth=0.8, linestyle=":")
@@ -136,6 +137,88 @@ def plot_funicular_polygon(
         for j in range(1, len(x) - 1):
             _letter(left, f"P_{j}", x[j], z[j])
             _letter(forces, f"W_{j}", pull, 0.5 * float(rise[j - 1] + rise[j]))
-    _finish(left, f"along ({length_unit})", f"upwards ({length_unit})", "funicular polygon")
-    _finish(forces, f"sideways ({weight_unit})", f"upwards ({weight_unit})", "diagram of force")
+    _finish(left, "along (m)", "upwards (m)", "funicular polygon")
+    _finish(forces, "sideways (N)", "upwards (N)", "diagram of force")
     return left, forces
+
+
+def plot_skipping_rope(rope: SkippingRope, ax: Axes | None) -> Axes:
+    """See `SkippingRope.plot`."""
+    refuse_beyond_memory("revchain.SkippingRope.plot", "half_waves", rope.half_waves, 200 * BYTES)
+    ax = axes_or_new(ax, 6.4, 4.0)
+    places = rope.at_arc(np.linspace(0.0, rope.length, 200 * rope.half_waves + 1))
+    ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    label = f"{rope.angular_speed:.4g} rad/s" if rope.has_speed else f"length {rope.length:.4g}"
+    ax.plot(places.x, places.offset, linewidth=1.6, label=label)
+    ax.set(xlabel="along the axis (m)", ylabel="from the axis (m)", aspect="equal")
+    ax.legend()
+    return ax
+
+
+def plot_tortuous_rope(rope: TortuousRope, ax: Axes | None, half_waves: float) -> Axes:
+    """See `TortuousRope.plot`."""
+    refuse_beyond_memory("revchain.TortuousRope.plot", "half_waves", int(half_waves), 200 * BYTES)
+    ax = axes_or_new(ax, 5.0, 5.0)
+    places = rope.at(np.linspace(0.0, half_waves * rope.half_wave, 1 + int(200 * max(half_waves, 1.0))))
+    round_ = np.linspace(0.0, 2 * np.pi, 200)
+    for radius in {rope.least_radius, rope.greatest_radius} - {0.0}:
+        ax.plot(radius * np.cos(round_), radius * np.sin(round_), color="0.7", linestyle="--", linewidth=0.9)
+    ax.plot(places.radius * np.cos(places.angle), places.radius * np.sin(places.angle), linewidth=1.6)
+    ax.plot(0.0, 0.0, marker="+", color="0.4")
+    ax.set(
+        xlabel="across (m)",
+        ylabel="across (m)",
+        title=f"seen along the axis: {np.degrees(rope.half_wave_angle):.4g}° in {rope.half_wave:.3g} m",
+        aspect="equal",
+    )
+    return ax
+
+
+def plot_governor(motion: GovernorMotion, ax: Axes | None, duration: float | None) -> Axes:
+    """See `GovernorMotion.plot`."""
+    place = "revchain.GovernorMotion.plot"
+    if duration is None:
+        if motion.regime == "asymptotic":
+            raise ValueError(f"{place}: give duration: the motion never returns")
+        duration = 2 * motion.period if motion.period > 0 else 1.0
+    time = np.linspace(0.0, one_positive(place, "duration", duration), 801)
+    ax = axes_or_new(ax, 6.4, 4.0)
+    for angle in (motion.least_angle, motion.greatest_angle):
+        if np.isfinite(angle):
+            ax.axhline(np.degrees(angle), color="0.6", linestyle=":", linewidth=0.9, zorder=1)
+    ax.plot(time, np.degrees(motion.state(time).angle), linewidth=1.6)
+    period = f", period {motion.period:.4g} s" if 0 < motion.period < np.inf else ""
+    ax.set(xlabel="time (s)", ylabel="angle (degrees)", title=f"{motion.regime}{period}")
+    return ax
+
+
+def plot_waves(string: GyrostaticString, ax: Axes | None) -> Axes:
+    """See `GyrostaticString.plot`."""
+    ax = axes_or_new(ax, 5.0, 4.0)
+    phase = np.linspace(0.0, np.pi, 200)[1:]
+    speeds = string.angular_speeds(phase)
+    both = [speeds.forward, -speeds.backward]
+    labels = ["with the spin", "against the spin"][:: 1 if string.momentum >= 0 else -1]
+    for speed, color, label in zip(both, ("C0", "C3"), labels, strict=True):
+        ax.plot(np.degrees(phase), speed, color=color, label=label)
+    ax.set(xlabel="phase from link to link (degrees)", ylabel="speed (rad/s)", xlim=(0, 180))
+    usual = 2 * np.nanmedian(both)  # a wave of bodies without inertia across themselves has no bound at 180 degrees
+    ax.set_ylim(0, usual if np.nanmax(both) > 3 * usual else None)
+    ax.legend()
+    return ax
+
+
+def plot_vibration(turn: float, phase: float, links: int, ax: Axes | None) -> Axes:
+    """See `GyrostaticString.plot_vibration`; the plane turns by `turn` from link to link, the wave by `phase`."""
+    ax = axes_or_new(ax, 8.0, 4.0)
+    pin = np.arange(links + 1)
+    wave, angle = np.cos(phase * pin), turn * pin
+    ax.plot(pin, wave * np.cos(angle), color="C0", linewidth=1.2, label="in the plane it starts in")
+    ax.plot(pin, wave * np.sin(angle), color="C3", linewidth=1.2, label="across it")
+    for at in np.unique(np.linspace(0, links, min(MAX_LINKS_SEEN, links) + 1).astype(int)):
+        across, along = 0.45 * np.sin(turn * at) * links / 30, 0.22 * np.cos(turn * at)
+        ax.plot([at - across, at + across], [1.5 - along, 1.5 + along], color="black", linewidth=1.4)
+    ax.annotate("plane of vibration, end on", (0.0, 1.85), fontsize="small")
+    ax.set(xlabel="link", ylabel="offset over the amplitude", ylim=(-1.7, 2.1), yticks=[-1, 0, 1])
+    ax.legend(loc="lower center", ncols=2, fontsize="small")
+    return ax

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The commands that answer a scene: all it asks, or one question, with the keys of its table as options."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import sys
+from pathlib import Path
+from typing import Annotated, Any, get_args
+
+import typer
+from msgspec import Meta, structs
+from rich.console import Console
+
+from ..results.files import written_aside
+from ..results.motions import Swing
+from ..scenes.ask import QUESTIONS, AskExplain, Pair, Spread
+from ..scenes.chain import without_place
+from ..scenes.error import SceneError
+from ..scenes.scene import Scene, load_scene
+from ..scenes.tables import Table, fields_of
+from ..systems.extras import require
+from .exit_codes import ExitCode
+from .frame import EXIT_CODES, PICTURES, STDOUT, Stop, app, guarded, outputs_of, save_picture
+from .progress import watched
+from .report import Report
+
+SceneFile = Annotated[
+    Path, typer.Argument(metavar="SCENE", help="Scene file (.toml or .json); [b]revchain new[/b] writes one.")
+]
+Gravity = Annotated[str | None, typer.Option(metavar="G", help='In m/s^2 or with a unit, instead of the scene\'s.')]
+Units = Annotated[str, typer.Option(metavar="deg|rad", help="Of angles in tables; files have radians.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No table, no progress bar.")]
+MANY_TIMES = 12
+COMMON: dict[str, tuple[Any, Any]] = {
+    "gravity": (Gravity, None),
+    "units": (Units, "deg"),
+    "plot": (Annotated[Path | None, typer.Option(metavar="FILE", help="Picture: .png, .svg or .pdf.")], None),
+    "json": (Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as JSON; - is stdout.")], None),
+    "csv": (Annotated[str | None, typer.Option(metavar="FILE|-", help="All numbers as CSV; - is stdout.")], None),
+    "quiet": (Quiet, False),
+}
+
+
+@app.command(epilog=EXIT_CODES)
+@guarded
+def run(
+    scene: SceneFile,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder of reports, numbers, pictures; out/SCENE if left out.")
+    ] = None,
+    gravity: Gravity = None,
+    units: Units = "deg",
+    quiet: Quiet = False,
+) -> None:
+    """Answer all that a scene asks; its modes if it asks nothing."""
+    read, folder = _read(scene, gravity, units), Path("out", scene.stem) if out is None else out
+    kinds = [".txt", ".json", ".csv", ".png"]
+    try:
+        require("matplotlib", "plot", "the picture")
+    except ModuleNotFoundError as error:
+        kinds.pop()
+        print(f"revchain: no picture: {error}", file=sys.stderr)
+    if scene.resolve() in [(folder / f"{question}.json").resolve() for question in QUESTIONS]:
+        raise Stop(f"{scene}: the scene itself would be overwritten", ExitCode.WRONG_USAGE)
+    folder.mkdir(parents=True, exist_ok=True)
+    failed: list[Stop] = []
+    for nth, question in enumerate(read.asks or ("modes",)):
+        outputs = [(folder / f"{question}{kind}", kind) for kind in kinds]
+        try:
+            report = _answer(scene, read, question, {}, outputs, units, quiet)
+            if not quiet:
+                _show(report, outputs, heading=nth == 0)
+            report.check(scene)
+        except Stop as stop:
+            failed.append(stop)
+    if failed:
+        raise Stop("\nrevchain: ".join(map(str, failed)), max(stop.code for stop in failed))
+
+
+def _command(question: str, table: type[Table], summary: str) -> None:
+    """Make the command of a question."""
+
+    def command(scene: Path, **given: Any) -> None:
+        common = {name: given.pop(name) for name in COMMON if name in given}
+        changed = {name: _meant(field, given[name]) for name, field in fields.items() if given[name] is not None}
+        read = _read(scene, common["gravity"], common["units"])
+        outputs = outputs_of(scene, common.get("plot"), common["json"], common["csv"])
+        report = _answer(scene, read, question, changed, outputs, common["units"], common["quiet"])
+        if STDOUT in (common["json"], common["csv"]):
+            sys.stdout.write(report.text(".json" if common["json"] == STDOUT else ".csv"))
+        elif not common["quiet"]:
+            _show(report, outputs)
+            if others := [name for name in read.asks if name != question]:
+                print(f"the scene also asks: {', '.join(others)}; for all of it: revchain run {scene}")
+        report.check(scene)
+
+    fields = {field.name: field for field in fields_of(table)}
+    options = {name: (_option(field), None) for name, field in fields.items()} | COMMON
+    if question == "explain":
+        del options["plot"]
+    kind = inspect.Parameter.KEYWORD_ONLY
+    scene = inspect.Parameter("scene", kind, annotation=SceneFile)
+    others = [inspect.Parameter(name, kind, annotation=hint, default=x) for name, (hint, x) in options.items()]
+    command.__signature__ = inspect.Signature([scene, *others])  # type: ignore[attr-defined]
+    command.__annotations__ = {each.name: each.annotation for each in (scene, *others)}
+    command.__doc__ = summary
+    app.command(name=question, epilog=EXIT_CODES)(guarded(command))
+
+
+def _option(field: structs.FieldInfo) -> Any:
+    """The option for a key of a table."""
+    help_text = next(part.description for part in get_args(field.type) if isinstance(part, Meta)) or ""
+    help_text = help_text.replace("[", "\\[")
+    name = f"--{field.encode_name.replace('_', '-')}"
+    if bool in get_args(field.type):
+        return Annotated[bool | None, typer.Option(f"{name}/--no-{name[2:]}", help=help_text)]
+    return Annotated[str | None, typer.Option(name, metavar=_FORMS.get(_form(field), "X"), help=help_text)]
+
+
+_FORMS = {Pair: '"LOW to HIGH"', Spread: 'X|"FROM to TO in N"|"X; Y; ..."', list: '"X; Y; ..."'}
+
+
+def _form(field: structs.FieldInfo) -> Any:
+    """A pair, a spread, a list or one value."""
+    text = str(field.type)
+    return Pair if "tuple[" in text else Spread if "Spread" in text else list if "list[" in text else None
+
+
+def _meant(field: structs.FieldInfo, given: Any) -> Any:
+    """What an option means, as a scene file would say it."""
+    if not isinstance(given, str):
+        return given
+    form = _form(field)
+    if form is Pair:
+        if " to " not in given:
+            return [0, _number(given)]
+        return [_number(part) for part in re.split(r"\s+to\s+", given)]
+    if form is Spread and (found := re.fullmatch(r"(.*\S)\s+to\s+(.*?\S)(?:\s+in\s+(\d{1,9}))?", given)):
+        steps = {"steps": int(found[3])} if found[3] else {}
+        return {"from": _number(found[1]), "to": _number(found[2]), **steps}
+    if form in (Spread, list) and (";" in given or form is list):
+        return [_number(part) for part in given.split(";")]
+    return _number(given)
+
+
+def _number(text: str) -> Any:
+    """A number, or the text."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text.strip()
+
+
+def _read(path: Path, gravity: str | None, units: str) -> Scene:
+    """The scene, under another gravity if that is said."""
+    if units not in ("deg", "rad"):
+        raise Stop(f"--units: must be deg or rad, got {units}", ExitCode.WRONG_USAGE)
+    read = load_scene(path)
+    if gravity is not None:
+        read = structs.replace(read, gravity=_number(gravity))
+        try:
+            read.gravity_value()
+        except SceneError as error:
+            raise Stop(f"--gravity: {error.reason}", ExitCode.WRONG_USAGE) from None
+    return read
+
+
+def _answer(
+    path: Path,
+    scene: Scene,
+    question: str,
+    changed: dict[str, Any],
+    outputs: list[tuple[Path, str]],
+    units: str,
+    quiet: bool,
+) -> Report:
+    """Answer one question and write the files. Places to write are tried first."""
+    with written_aside(*(place for place, _ in outputs)) as asides:
+        try:
+            if question == "modes":
+                console = Console(stderr=True)
+                found = watched(lambda progress: scene._answer(question, changed, progress), console, quiet)
+            else:
+                found = scene._answer(question, changed)
+        except SceneError as error:
+            said = [f"{path}: {_said(each.key, each.reason, question, changed)}" for each in error.problems]
+            raise Stop("\nrevchain: ".join(said), ExitCode.WRONG_USAGE) from None
+        except (ValueError, TypeError) as error:
+            raise Stop(f"{path}: {without_place(error)}", ExitCode.WRONG_USAGE) from None
+        report = Report(scene, path.stem, question, found, units)
+        for aside, (place, kind) in zip(asides, outputs, strict=True):
+            try:
+                if kind in PICTURES:
+                    save_picture(_drawn(found), report.title, aside)
+                else:
+                    aside.write_text(report.text(kind), encoding="utf-8")
+            except OSError as error:  # says the place that was asked for, or none
+                raise OSError(error.errno, error.strerror or str(error), str(place)) from None
+    return report
+
+
+def _drawn(found: Any) -> Any:
+    """The picture of an answer; of a swing of many times the offsets against time, as so many shapes hide each other."""
+    if isinstance(found, Swing) and found.time.size > MANY_TIMES:
+        size = found.system.size
+        return found.plot(kind="time", pins=sorted({0, size // 3, 2 * size // 3}))
+    return found.plot()
+
+
+def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True) -> None:
+    """The tables on the terminal, and what was written."""
+    report.print(Console(), heading)
+    print(f"wrote {', '.join(str(place) for place, _ in outputs)}\n" if outputs else "", end="")
+
+
+def _said(key: str, reason: str, question: str, changed: dict[str, Any]) -> str:
+    """A problem of an option, or of the scene."""
+    name = key.removeprefix(f"ask.{question}.")
+    option = re.split(r"[.\[]", name)[0]
+    where = f"--{name.replace('_', '-')}" if option in changed else key
+    return f"{where}: {reason}" if where else reason
+
+
+_SUMMARIES = {
+    "modes": "Find the whirl speeds (natural frequencies) and mode shapes.",
+    "shapes": "Find every steady shape (relative equilibrium) at one speed, at any inclination.",
+    "response": "Find how far each pin goes out when the support is carried round a small circle, or to and fro.",
+    "swing": "Let the chain go and see it swing: small oscillations in a plane.",
+    "branches": "Find the bifurcation diagram: all branches of steady shapes up to a speed.",
+}
+for _question, _table in QUESTIONS.items():
+    _command(_question, _table, _SUMMARIES[_question])
+_command("explain", AskExplain, "Say which method finds the modes for a tolerance, and what others would cost.")

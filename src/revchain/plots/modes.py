@@ -1,0 +1,298 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of systems at rest, and beside them the shapes in which they whirl."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..results.motions import Response
+from ..results.sheet import digits
+from ..systems.chain import Chain
+from ..systems.cord import Cord
+from ..systems.held import Held
+from ..systems.numbers import integer, listed, shown
+from ..systems.rig import Rig
+from .style import MOST_PINS_AS_DOTS, MOST_POINTS, axes_or_new, plain, thinned
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ..results.modes import Modes
+    from ..systems.numbers import Floats, Whole
+    from ..systems.system import System
+
+FORWARD, BACKWARD, LINK, FLUID = "C0", "C3", "0.35", "#e4f1f9"
+CARRIED = "C2"
+ARM: dict[str, Any] = {"color": "black", "linewidth": 2.5, "zorder": 3, "clip_on": False}
+SUPPORT: dict[str, Any] = {"color": "black", "markersize": 7.0, "zorder": 4, "clip_on": False}
+FOLD = 0.3  # sideways, between the links that hang and those that stand on them, at rest
+MOST_SHAPES = 6  # drawn unless asked: more do not stay legible side by side
+SPACING = 2.6  # between the axes of neighbouring shapes, each of which reaches from -1 to 1
+MOST_NAMES = 12
+
+
+class _Straight:
+    """A system as it hangs straight: the places of its pins along the axis, and what the axis is called."""
+
+    def __init__(self, system: System) -> None:
+        base = system.system if isinstance(system, Held) else system.chain if isinstance(system, Rig) else system
+        self.system, self.base = system, base
+        self.inverted = system.inverted if isinstance(system, Rig) else np.zeros(max(len_of(base), 1), bool)
+        self.upwards = isinstance(system, Held) or bool(self.inverted.all())
+        if isinstance(base, Cord):
+            level = np.linspace(base.length, 0.0, 201)
+        else:
+            assert isinstance(base, Chain)
+            steps = base.length * np.where(self.inverted, -1.0, 1.0) * (-1.0 if self.inverted.all() else 1.0)
+            level = np.concatenate([np.cumsum(steps[::-1])[::-1], [0.0]])
+        self.level: Floats = level[0] - level if isinstance(system, Held) else level
+        self.few = isinstance(base, Chain) and base.size <= MOST_PINS_AS_DOTS
+
+    def finish(self, ax: Axes, bodies: bool = True) -> None:
+        low, high = float(self.level.min()), float(self.level.max())
+        if bodies and self.few and isinstance(self.base, Chain):
+            middle, reach = self._middles(), math.sqrt(3) * self.base.radius_of_gyration
+            low, high = min(low, float((middle - reach).min())), max(high, float((middle + reach).max()))
+        margin = 0.04 * (high - low)
+        ends = (low - margin, high + margin)
+        ax.set_ylim(*(ends if self.upwards else ends[::-1]))
+        what = "depth below the support"
+        if self.upwards:
+            what = "height above the " + ("lower end" if isinstance(self.system, Held) else "support")
+        ax.set_ylabel(f"{what} (m)")
+        for side in ("top", "right"):
+            ax.spines[side].set_visible(False)
+
+    def axis(self, ax: Axes, at: float) -> None:
+        ends = [self.level.max(), self.level.min()]
+        ax.plot([at, at], ends, color="0.6", linestyle="--", linewidth=0.9, zorder=1)
+
+    def supports(self, ax: Axes, at: float) -> None:
+        ax.plot(at, self.level[-1], marker="^" if self.inverted.all() else "v", **SUPPORT)
+        if isinstance(self.system, Held):
+            ax.plot(at, self.level[0], marker="^", **SUPPORT)
+
+    def links(self, ax: Axes, across: Floats, colour: str, label: str | None = None) -> None:
+        """The links, inverted ones drawn stout."""
+        kept = thinned(across)
+        marker = "o" if self.few else ""
+        line: dict[str, Any] = {"color": colour, "linewidth": 1.6, "marker": marker, "markersize": 4.0, "zorder": 2}
+        ax.plot(across[kept], self.level[kept], label=label, **line)
+        stout = np.flatnonzero(self.inverted)
+        stout = stout[:: 1 + stout.size // MOST_POINTS]
+        if stout.size:
+            none = np.full(stout.size, np.nan)
+            x, z = (np.stack([at[stout], at[stout + 1], none], 1).ravel() for at in (across, self.level))
+            ax.plot(x, z, color=colour, linewidth=4.0, alpha=0.45, zorder=2)
+
+    def at_rest(self, ax: Axes) -> None:
+        """The straight system: bodies as heavy as they are, wheels seen edge-on, and what holds it."""
+        if isinstance(self.base, Cord):
+            density = self.base.density
+            where = (self.level[0] - self.level) if not isinstance(self.system, Held) else self.level
+            thick = np.ones(201)
+            if isinstance(density, float) and density:
+                thick = np.maximum(where / self.base.length, 1e-9) ** density
+            elif callable(density):
+                thick = np.array([density(float(s)) for s in np.clip(where, 1e-9 * self.base.length, None)])
+            thick = 0.02 + 0.06 * np.minimum(thick / np.median(thick), 4.0)
+            ax.fill_betweenx(self.level, -thick, thick, color=LINK, linewidth=0.0)
+            if self.base._compiled.tip_weight:
+                ax.plot(0.0, self.level[0], marker="o", color=LINK, markersize=9.0)
+            self.supports(ax, 0.0)
+            return
+        across = self._folded(ax)
+        if self.few:
+            self._bodies(ax, across)
+        elif isinstance(self.system, Rig) and self.system.has_momentum:
+            ax.axvspan(-0.5, 0.5, color=FORWARD, alpha=0.12)
+        if isinstance(self.system, Rig):
+            _draw_support(self.system, ax, self.level, float(across[-1]))
+        else:
+            self.supports(ax, 0.0)
+
+    def _folded(self, ax: Axes) -> Floats:
+        """Draw the line of the chain, beside itself where it turns back; the places of the links are returned."""
+        stands, level, size = self.inverted, self.level, len_of(self.base)
+        turns = np.flatnonzero(stands[1:] != stands[:-1]) + 1
+        first, end = np.concatenate([[0], turns]), np.concatenate([turns, [size]])
+        places = min(FOLD, 1.0 / first.size) * np.arange(first.size)[::-1]
+        path = np.stack([level[first], level[end]], 1).ravel()
+        ax.plot(np.repeat(places, 2), path, color=LINK, linewidth=1.6)
+        up = stands[first]
+        ax.vlines(places[up], level[first][up], level[end][up], color=LINK, linewidth=4.0)
+        return np.repeat(places, end - first)
+
+    def _middles(self) -> Floats:
+        """Centres of gravity."""
+        assert isinstance(self.base, Chain)
+        along = (self.level[:-1] - self.level[1:]) / self.base.length  # +1 or -1
+        middle: Floats = self.level[1:] + along * self.base.centroid
+        return middle
+
+    def _bodies(self, ax: Axes, across: Floats) -> None:
+        chain, level, system = self.base, self.level, self.system
+        assert isinstance(chain, Chain)
+        weight = np.broadcast_to(chain._compiled.weight, chain.size)
+        middle = self._middles()
+        heavy, floats = weight > 0, np.zeros(chain.size, bool)
+        if isinstance(system, Rig) and system.displaced is not None:
+            floats = np.broadcast_to(next(iter(system.displaced._given.values())), chain.size) > weight
+        reach = math.sqrt(3) * chain.radius_of_gyration  # of a uniform rod of that inertia
+        long = heavy & (reach > 0)
+        ax.vlines(across[long], (middle - reach)[long], (middle + reach)[long], color=LINK, linewidth=6.0, alpha=0.35)
+        face = np.where(floats, "white", LINK)
+        size = 20 + 60 * np.sqrt(weight / weight.max())
+        ax.scatter(across[heavy], middle[heavy], s=size[heavy], c=face[heavy], edgecolors=LINK, zorder=3)
+        ax.plot(across, level[1:], "o", color="white", markeredgecolor=LINK, markersize=4.0, zorder=4)
+        if isinstance(system, Rig):
+            momentum = system._momentum(1.0)
+            for sign, colour in ((1, FORWARD), (-1, BACKWARD)):
+                spun = np.flatnonzero(np.sign(momentum) == sign)
+                ax.hlines(middle[spun], across[spun] - 0.6, across[spun] + 0.6, color=colour, linewidth=4.0, zorder=3)
+        if chain.names is not None and chain.size <= MOST_NAMES:
+            for x, z, name in zip(across, middle, chain.names, strict=True):
+                ax.annotate(plain(name), (x, z), xytext=(9, 0), textcoords="offset points", va="center", fontsize="small")
+
+
+def len_of(system: Any) -> int:
+    """Number of links; 0 of a cord."""
+    return system.size if isinstance(system, Chain | Rig) else 0
+
+
+def plot_system(system: System, ax: Axes | None) -> Axes:
+    """A system at rest; see `Chain.plot`."""
+    ax = axes_or_new(ax, 4.2, 6.0)
+    straight = _Straight(system)
+    straight.at_rest(ax)
+    straight.finish(ax)
+    ax.set_xlim(-1.3, 1.3)
+    if straight.few:
+        ax.set_xlabel("dots: centres of gravity, larger where heavier; rings: pins;\nbars: rods of the same inertia", fontsize="small")
+    ax.set_xticks([])
+    if isinstance(system, Rig) and system.displaced is not None:
+        ax.set_facecolor(FLUID)
+        ax.set_title(f"in {system.fluid} fluid", fontsize="small")
+    return ax
+
+
+def chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[int]:
+    """Numbers of the modes to draw."""
+    if available.size == 0:
+        raise ValueError(f"{place}: there are no modes")
+    if which is None:
+        return [int(number) for number in available[:MOST_SHAPES]]
+    numbers = [integer(place, "modes", mode) for mode in listed(place, "modes", which)]
+    for mode in numbers:
+        if not available.min() <= mode <= available.max():
+            raise ValueError(f"{place}: mode must be from {available.min()} to {available.max()}, got {mode}")
+    if not numbers:
+        raise ValueError(f"{place}: modes names no mode")
+    return numbers
+
+
+def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carried: Response | None = None) -> Axes:
+    """See `Modes.plot` and `RigModes.plot`."""
+    place = f"revchain.{type(modes).__name__}.plot"
+    system = modes.system
+    rigged = isinstance(system, Rig)
+    if carried is not None and not isinstance(carried, Response):
+        raise TypeError(f"{place}: carried must be a revchain.Response, got {shown(carried)}")
+    if carried is not None and (carried.system != system or carried.offset.shape != (system.size + 1,)):
+        raise ValueError(f"{place}: carried must be the response of the same rig at one speed, of every pin")
+    if which is None and (rigged or len(modes)):
+        rows = np.arange(min(len(modes), MOST_SHAPES))
+    else:
+        numbers = chosen(place, modes.number, which)
+        rows = np.concatenate([np.flatnonzero(modes.number == number) for number in numbers])
+    straight = _Straight(system)
+    before = 1 if carried is None else 2
+    ax = axes_or_new(ax, 1.6 + 1.25 * (before + max(len(rows), 2)), 6.0)
+    straight.at_rest(ax)
+    labels = ["at rest" + (f"\nin {system.fluid} fluid" if rigged and system.displaced is not None else "")]
+    if carried is not None:
+        labels.append(_speed_label("carried round", float(carried.angular_speed)))
+        most = np.abs(carried.offset).max()  # nothing is drawn of a resonance: NaN
+        straight.axis(ax, SPACING)
+        straight.links(ax, SPACING + carried.offset / most, CARRIED)
+        ax.plot([SPACING, SPACING + carried.support_radius / most], [0.0, 0.0], **ARM)
+    for nth, row in enumerate(rows):
+        _draw_mode(ax, modes, straight, int(row), SPACING * (nth + before), nth)
+        way = ""
+        if getattr(modes, "has_momentum", False):
+            way = " forward" if modes.angular_speed[row] > 0 else " backward"
+        labels.append(_speed_label(f"mode {modes.number[row]}{way}", float(modes.angular_speed[row])))
+    ticks = [SPACING * nth for nth in range(len(rows) + before)]
+    if not len(rows):
+        rate = digits(modes.other.growth_rate.max(initial=0.0), 4)  # type: ignore[attr-defined]
+        labels.append(f"no steady motion:\nfalls away as\nexp({rate} t), t in s")
+        ticks.append(SPACING * (before + 0.5))
+    ax.set_xticks(ticks, labels, fontsize="x-small")
+    ax.set_xlim(-SPACING / 2, SPACING * (max(len(rows), 2) + before - 0.5))
+    straight.finish(ax)
+    if len(rows) or carried is not None:
+        ax.set_xlabel("offset from the axis, own scale each; rings mark the nodes", fontsize="small")
+    if rigged and system.displaced is not None:
+        ax.set_facecolor(FLUID)
+    return ax
+
+
+def _speed_label(name: str, speed: float) -> str:
+    return f"{name}\n{digits(speed, 4)} rad/s\n{digits(speed * 30 / np.pi, 4)} rev/min"
+
+
+def _draw_mode(ax: Axes, modes: Modes, straight: _Straight, row: int, axis: float, nth: int) -> None:
+    shape, system = modes.shape[row], straight.system
+    colour = f"C{nth % 10}"
+    if isinstance(system, Rig) and getattr(modes, "has_momentum", False):
+        colour = FORWARD if modes.angular_speed[row] > 0 else BACKWARD
+    straight.axis(ax, axis)
+    straight.links(ax, axis + shape, colour, f"mode {modes.number[row]}")
+    nodes = modes.nodes[row]
+    if nodes.size <= MOST_PINS_AS_DOTS and not straight.inverted.any():
+        places = nodes if isinstance(system, Held) else straight.level[0] - nodes
+        rings: dict[str, Any] = {"markersize": 7.0, "markerfacecolor": "white", "markeredgecolor": "black", "zorder": 3}
+        ax.plot(np.full(nodes.size, axis), places, linestyle="none", marker="o", **rings)
+    if isinstance(system, Rig) and np.isfinite(system.support.stiffness):
+        ax.plot([axis, axis + shape[-1]], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=3)
+        ax.plot(axis + shape[-1], 0.0, marker="s", **{**SUPPORT, "markersize": 6.0})
+    else:
+        straight.supports(ax, axis)
+
+
+def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
+    """The response at one speed as a shape, the support on its circle."""
+    straight = _Straight(found.system)
+    offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
+    ax = axes_or_new(ax, 5.0, 6.0)
+    straight.axis(ax, 0.0)
+    places = range(found.system.size + 1)
+    across = np.array([offset.get(pin, np.nan) if pin in pins else np.nan for pin in places])
+    if len(pins) == straight.level.size:
+        straight.links(ax, across, CARRIED)
+    else:
+        ax.plot(across, straight.level, "o", color=CARRIED)
+    ax.plot([0.0, found.support_radius], [0.0, 0.0], **ARM)
+    straight.finish(ax, bodies=False)
+    ax.set_xlabel(f"offset from the axis (m) at {digits(found.angular_speed.item(), 4)} rad/s")
+    return ax
+
+
+def _draw_support(rig: Rig, ax: Axes, level: Floats, across: float) -> None:
+    """What holds the uppermost pin: a firm point, a spring, an arm."""
+    if rig.support.radius:
+        ax.plot([-1.0, -1.0], [level.max(), level.min()], color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+        ax.plot([-1.0, across], [0.0, 0.0], **ARM)
+    if np.isfinite(rig.support.stiffness):
+        tall = np.ptp(level)
+        x = np.concatenate([[-1.0, -0.85], np.linspace(-0.8, -0.3, 9), [-0.25, 0.0]])
+        zigzag = np.concatenate([[0.0, 0.0], np.tile([1.0, -1.0], 5)[:9], [0.0, 0.0]])
+        ax.plot(x, 0.012 * tall * zigzag, color=LINK, linewidth=1.0, clip_on=False)
+        ax.plot([-1.0, -1.0], [-0.03 * tall, 0.03 * tall], color="black", linewidth=2.5, zorder=4, clip_on=False)
+        ax.plot(0.0, 0.0, marker="s", **{**SUPPORT, "markersize": 8.0 if rig.support.carriage else 4.0})
+    else:
+        ax.plot(across, 0.0, marker="^" if rig.inverted.all() else "v", **SUPPORT)

@@ -1,0 +1,376 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Steady shapes of cords, and of chains and cords whose two ends are held."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _core
+from ..systems.cord import Cord
+from ..systems.held import Held
+from ..systems.numbers import Floats, floats, numbers, refuse_where
+from .base import Field
+from .shapes import Shape, Stability, SteadyShapes, forced, is_driven
+from .sheet import Column, Sheet
+
+
+class Place(NamedTuple):
+    """What there is at places of a cord.
+
+    Attributes
+    ----------
+    offset : float or ndarray
+        From the axis, m.
+    height : float or ndarray
+        Above the support, negative where the cord hangs; of a held cord above its lower end, m.
+    inclination : float or ndarray
+        To the vertical, rad; positive where the cord leads towards the axis going up.
+    tension : float or ndarray
+        N, or in the unit of the weights.
+    """
+
+    offset: Any
+    height: Any
+    inclination: Any
+    tension: Any
+
+
+class _Bent(Shape):
+    """What shapes of cords and of held chains share. Each is found again by its place in the list of shapes."""
+
+    __slots__ = ()
+    inclination: Field[Floats] = Field(
+        "To the vertical, rad, within (-pi, pi], of each link or place: positive where it leads to the axis going up.",
+        part=True,
+    )
+    offset: Field[Floats] = Field("Distance of each pin or place from the axis, m.", part=True)
+    height: Field[Floats] = Field(
+        "Height of each pin or place, m: above the support, of what is held at both ends above the lower end.", part=True
+    )
+    tension: Field[Floats] = Field(
+        "Tension at each pin or place, N or in the unit of the weights.", forced("tension"), part=True
+    )
+    condition: Field[float] = Field(
+        "Largest change of an inclination, rad, over the relative change of length, span or conical height that makes "
+        "it: great near a critical height.",
+        part=True,
+    )
+    _asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
+
+    def stability(self, *, frame: str = "free") -> Stability:
+        """Refuse: the stability of cords is not available. Ask that of a chain of links.
+
+        Parameters
+        ----------
+        frame : {"free", "driven"}
+            As of chains.
+
+        Raises
+        ------
+        ValueError
+            Always.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> chain = rc.Cord(1.0).chain(10)
+        >>> rc.steady_shapes(chain, conical_height=0.2)[0].stability().verdict
+        'minimum'
+        """
+        place = f"revchain.{type(self).__name__}.stability"
+        is_driven(place, frame)
+        raise ValueError(f"{place}: is for chains; cut the cord into links: cord.chain(10)")
+
+    @property
+    def _reach(self) -> float:
+        return float(np.abs(self.offset).max())
+
+    def _places(self) -> list[Column]:
+        cord: Any = self  # chains have pins
+        return [Column("arc_length", cord.arc_length, "arc length (m)")]
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = [
+            *self._places(),
+            Column("offset", self.offset, "from axis (m)"),
+            Column("height", self.height, "height (m)"),
+            Column("tension", self.tension, "tension"),
+        ]
+        names = [name for name in self._fields if name not in ("system", "period") and not name.startswith("_")]
+        facts = {name: getattr(self, name) for name in names}
+        facts = {name: value for name, value in facts.items() if np.ndim(value) == 0}
+        heading = f"Steady shape of {self.half_waves} half wave{'s' * (self.half_waves != 1)} at {self.angular_speed:.6g} rad/s"
+        return Sheet("place", heading, columns, facts, [self._note], spread=True)
+
+    _note: ClassVar[str]
+
+    @classmethod
+    def _columns(cls, shapes: Sequence[Any]) -> list[Column]:
+        lowest = [x.inclination[0] for x in shapes]
+        return [
+            Column("lowest_inclination", lowest, "lower end (°)", 5, shown=np.degrees(lowest)),
+            Column("largest_offset", [x._reach for x in shapes], "largest distance from axis (m)", 5),
+            Column("free_end_offset", [x.offset[0] for x in shapes]),
+            Column("top_tension", [x.tension[-1] for x in shapes], "top tension", 5),
+            *cls._ends(shapes),
+            Column(cls._accuracy, [getattr(x, cls._accuracy) for x in shapes], "error (rad)"),
+            Column("inclination", [x.inclination for x in shapes], axes=(cls._axes[0],)),
+            *(Column(name, [getattr(x, name) for x in shapes], axes=(cls._axes[1],)) for name in ("offset", "height", "tension")),
+        ]
+
+    _accuracy: ClassVar[str] = "error_estimate"
+    _axes: ClassVar[tuple[str, str]] = ("place", "place")
+
+    @classmethod
+    def _ends(cls, shapes: Sequence[Any]) -> list[Column]:
+        return []
+
+
+class CordShape(_Bent):
+    """One steady shape of a cord hung from one end; arrays are dense where the cord turns sharply.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> shape = rc.steady_shapes(rc.Cord(1.0), conical_height=0.1)[0]
+    >>> round(float(shape.at(0.5).offset), 6)
+    0.493314
+    """
+
+    __slots__ = ()
+    arc_length: Field[Floats] = Field("Of the places, from the free end, m, shape (n,).", part=True)
+    residual: Field[float] = Field(
+        "What is left of the horizontal pull of the whole cord at the support, over its tension there; with a density of "
+        "the tension's own series against pull and weight.",
+        part=True,
+    )
+    error_estimate: Field[float] = Field(
+        "Of every inclination, rad, and of every offset and height over the length; errors measured reach 0.6 of it.",
+        lambda s: s._found().error_bound,
+        part=True,
+    )
+    _note: ClassVar[str] = "arc lengths from the free end, heights above the support; error: estimated"
+
+    def at(self, arc_length: ArrayLike) -> Place:
+        """Return what there is at distances along the cord.
+
+        Parameters
+        ----------
+        arc_length : array_like
+            From the free end, m, 0 to the length, any shape.
+
+        Returns
+        -------
+        Place
+            `offset`, `height`, `inclination`, `tension`, of the shape of `arc_length`; as accurate as the arrays.
+            Cost: 1 microsecond each, 10 with a line density.
+
+        Raises
+        ------
+        ValueError
+            If a number lies outside the cord.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> shape = rc.steady_shapes(rc.Cord(1.0), conical_height=0.1)[0]
+        >>> round(float(shape.at(0.0).offset), 6)
+        0.989943
+        """
+        arc = _on_cord("revchain.CordShape.at", arc_length, self.system.length)
+        offset, height, inclination, tension = self._found().at(arc)
+        return Place(*numbers([offset, height, inclination, self._per * tension]))
+
+    def _again(self) -> Any:
+        height, scanned, place = self._asked
+        return _core.cord_shapes(self.system._compiled, height, scanned).shapes[place]
+
+
+class _HeldShape(_Bent):
+    """What shapes of chains and of cords held at both ends share."""
+
+    __slots__ = ()
+    tension: Field[Floats] = Field(
+        "Size of the force at each pin or place, N or in the unit of the weights.",
+        forced("height_times_tension"),
+        part=True,
+    )
+    lower_pull: Field[Floats] = Field(
+        "The pull on the lower bearing, shape (2,): to the side of the second pin, and up.",
+        lambda s: s._per * np.array(s._found().lower_pull),
+        part=True,
+    )
+    upper_pull: Field[Floats] = Field(
+        "The pull on the upper bearing, shape (2,): to the side of the lowest free pin, and up.",
+        lambda s: s._per * np.array(s._found().upper_pull),
+        part=True,
+    )
+    span: Field[float] = Field("Distance of the two ends, m.", part=True)
+    residual: Field[float] = Field(
+        "Largest of what the balance leaves over of a tension, and of the gaps at the ends over the length.", part=True
+    )
+    _note: ClassVar[str] = "inclinations: to the upward vertical; heights above the lower end"
+
+    @property
+    def _per(self) -> float:
+        if self.system.weightless:
+            return float(self.angular_speed) ** 2
+        return float(self.system._force(self.gravity) / self.conical_height)
+
+    @classmethod
+    def _ends(cls, shapes: Sequence[Any]) -> list[Column]:
+        return [
+            Column("span", [x.span for x in shapes], "span (m)", 5),
+            Column("lower_pull", np.array([x.lower_pull for x in shapes]), axes=("axis",)),
+            Column("upper_pull", np.array([x.upper_pull for x in shapes]), axes=("axis",)),
+        ]
+
+    def _again(self) -> Any:
+        *asked, place = self._asked
+        held = self.system
+        by = (held.span, held._pull(self.gravity), held.weightless)
+        return _core.held_shapes(held.system._compiled, *by, *asked).shapes[place]
+
+
+class HeldShape(_HeldShape):
+    """One steady shape of a chain with both ends on the axis: links lowest first, pins from the lower end up.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rope = rc.Held(rc.Chain.uniform_rods(10, length=1.0), span=0.5)
+    >>> shape = rc.steady_shapes(rope, angular_speed=10.0)[0]
+    >>> round(float(shape.offset.max()), 6), shape.proved
+    (0.383428, True)
+    """
+
+    __slots__ = ()
+    force_inclination: Field[Floats] = Field(
+        "Of the force at each pin (`tension`), as it pulls upwards, to the vertical, rad, shape (N + 1,).", part=True
+    )
+    error_bound: Field[float] = Field("Of every inclination, rad; an estimate unless `proved`.", part=True)
+    proved: Field[bool] = Field("Whether `error_bound` is proved; else it is an estimate.", part=True)
+    moment_of_inertia: Field[float] = Field(
+        "About the axis, kg m^2; of a chain given by weight, weight times length squared.", part=True
+    )
+    effective_energy: Field[float] = Field(
+        "Potential energy less that of the centrifugal forces, J: stationary among figures of the same span.",
+        forced("height_times_energy"),
+        part=True,
+    )
+    _accuracy: ClassVar[str] = "error_bound"
+    _axes: ClassVar[tuple[str, str]] = ("link", "pin")
+
+    def stability(self, *, frame: str = "free") -> Stability:
+        """Say what becomes of a small disturbance, both ends staying where they are.
+
+        Parameters
+        ----------
+        frame : {"free", "driven"}
+            ``free``: ball joints and no torque about the axis. ``driven``: axles at right angles to a plane
+            that is made to turn, so that links move in that plane alone.
+
+        Returns
+        -------
+        Stability
+            Of N links ``4 N - 8`` exponents in the free frame, ``2 N - 4`` in the driven one, to about 1e-13
+            of the largest where they are simple. Cost ``(4 N)**3``.
+
+        Raises
+        ------
+        ValueError
+            If `frame` is neither, or a pin has no mass.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rope = rc.Held(rc.Chain.uniform_rods(10, length=1.0), span=0.5)
+        >>> [shape.stability().verdict for shape in rc.steady_shapes(rope, conical_height=0.01, max_half_waves=2)]
+        ['minimum', 'spectrally stable']
+        """
+        driven = is_driven("revchain.HeldShape.stability", frame)
+        return Stability._made(_core.held_stability(self.system.system._compiled, self._found(), driven), frame=frame)
+
+    def _places(self) -> list[Column]:
+        return [Column("pin", np.arange(len(self.offset)), "pin")]
+
+
+class HeldCordShape(_HeldShape):
+    """One steady shape of a uniform cord with both ends on the axis; places from the lower end up.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> cord = rc.Held(rc.Cord(1.0), span=0.5)
+    >>> round(float(rc.steady_shapes(cord, conical_height=0.1)[0].at(0.5).offset), 6)
+    0.380421
+    """
+
+    __slots__ = ()
+    arc_length: Field[Floats] = Field("Of the places, from the lower end, m, shape (n,).", part=True)
+    error_estimate: Field[float] = Field(
+        "Of every inclination, rad, and of every offset and height over the length.",
+        lambda s: s._found().error_bound,
+        part=True,
+    )
+
+    def at(self, arc_length: ArrayLike) -> Place:
+        """Return what there is at distances along the cord.
+
+        Parameters
+        ----------
+        arc_length : array_like
+            From the lower end, m, 0 to the length, any shape.
+
+        Returns
+        -------
+        Place
+            Each of the shape of `arc_length`.
+
+        Raises
+        ------
+        ValueError
+            If a number lies outside the cord.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> cord = rc.Held(rc.Cord(1.0), span=0.5)
+        >>> round(float(rc.steady_shapes(cord, conical_height=0.1)[0].at(0.5).offset), 6)
+        0.380421
+        """
+        arc = _on_cord("revchain.HeldCordShape.at", arc_length, self.system.length)
+        offset, height, inclination, tension = self._found().at_arc(arc)
+        return Place(*numbers([offset, height, inclination, self._per * tension]))
+
+
+def _on_cord(place: str, arc_length: ArrayLike, length: float) -> Floats:
+    arc = floats(place, "arc_length", arc_length)
+    refuse_where(~((arc >= 0) & (arc <= length)), arc, f"{place}: arc_length must lie between 0 and the length {length:g}")
+    return arc
+
+
+_NONE: dict[str, Any] = {"undecided": np.empty((0, 2)), "cells": 0}
+
+
+def held_shapes_made(
+    found: Any, system: Held, height: float, speed: float, gravity: float, asked: tuple[Any, ...]
+) -> SteadyShapes:
+    """A list around compiled shapes of something held."""
+    kind = HeldCordShape if isinstance(system.system, Cord) else HeldShape
+    given: dict[str, Any] = {"system": system, "gravity": gravity, "conical_height": height, "angular_speed": speed}
+    items = tuple(kind._made(shape, _asked=(*asked, k), **given) for k, shape in enumerate(found.shapes))
+    return SteadyShapes._made(None, _items=items, complete=False, missing=tuple(found.missing), **given, **_NONE)
+
+
+def cord_shapes_made(
+    found: Any, system: Cord, height: float, speed: float, gravity: float, scanned: int
+) -> SteadyShapes:
+    """A list around compiled shapes of a cord."""
+    given: dict[str, Any] = {"system": system, "gravity": gravity, "conical_height": height, "angular_speed": speed}
+    items = tuple(CordShape._made(shape, _asked=(height, scanned, k), **given) for k, shape in enumerate(found.shapes))
+    return SteadyShapes._made(None, _items=items, complete=found.complete, missing=(), **given, **_NONE)

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Line and column of every key of a TOML or JSON file."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Callable
+
+_TOKEN = re.compile(
+    r'"""(?:\\.|[^\\])*?"""|\'\'\'.*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\'|#[^\n]*|[\[\]{},=:\n]|[^\s\[\]{},=:#"\']+',
+    re.DOTALL,
+)
+
+
+class _Scanner:
+    """Reads a text that is known to be valid, and notes where each key and each item of a list begins."""
+
+    def __init__(self, text: str) -> None:
+        found = (match for match in _TOKEN.finditer(text) if not match.group().startswith("#"))
+        self.tokens = [(match.group(), match.start()) for match in found]
+        self.next = 0
+        self.places: dict[str, int] = {}
+
+    def token(self, skip_lines: bool = True) -> tuple[str, int]:
+        """The next one; empty at the end."""
+        while self.next < len(self.tokens):
+            self.next += 1
+            if not (skip_lines and self.tokens[self.next - 1][0] == "\n"):
+                return self.tokens[self.next - 1]
+        return "", 0
+
+    def key(self, ends: str) -> list[str]:
+        """The parts of a dotted key; the token that ends it is read, too."""
+        parts: list[str] = []
+        while (word := self.token()[0]) and word not in ends:
+            parts += [word[1:-1]] if word[0] in "\"'" else [part for part in word.split(".") if part]
+        return parts
+
+    def value(self, path: str, ends: str = ",]}") -> None:
+        """A value at `path`, and all inside it."""
+        word, _ = self.token()
+        if word == "[":
+            number = 0
+            while (opens := self.token())[0] not in ("]", ""):
+                if opens[0] != ",":
+                    self.next -= 1
+                    self.places[f"{path}[{number}]"] = opens[1]
+                    self.value(f"{path}[{number}]")
+                    number += 1
+        elif word == "{":
+            while (opens := self.token())[0] not in ("}", ""):
+                if opens[0] != ",":
+                    self.next -= 1
+                    self.entry(path, opens[1])
+        else:
+            while self.next < len(self.tokens) and self.tokens[self.next][0] not in ends + "\n":
+                self.next += 1
+
+    def entry(self, path: str, at: int, ends: str = ",]}") -> None:
+        """A key and its value."""
+        for part in self.key("=:"):
+            path = _joined(path, part)
+            self.places.setdefault(path, at)
+        self.value(path, ends)
+
+    def document(self) -> None:
+        """A whole TOML file."""
+        table, counts = "", dict[str, int]()
+        while (opens := self.token())[0]:
+            if opens[0] != "[":
+                self.next -= 1
+                self.entry(table, opens[1], "")
+                continue
+            listed = self.tokens[self.next][0] == "["
+            self.next += listed
+            table = ""
+            parts = self.key("]")
+            for nth, part in enumerate(parts, 1):
+                table = _joined(table, part)
+                self.places.setdefault(table, opens[1])
+                if listed and nth == len(parts):
+                    counts[table] = counts.get(table, 0) + 1
+                if table in counts:
+                    table += f"[{counts[table] - 1}]"
+                self.places.setdefault(table, opens[1])
+            self.next += listed
+
+
+def _joined(path: str, part: str) -> str:
+    return f"{path}.{part}" if path else part
+
+
+def places_in(text: str, json: bool) -> Callable[[str], tuple[int, int]]:
+    """A function from a key path to its line and column; of what is missing, those of the table it should be in."""
+    scanner = _Scanner(text)
+    try:
+        scanner.value("") if json else scanner.document()
+    except (RecursionError, IndexError):
+        pass  # of what could not be scanned the places are those of the tables around it
+    places = {key.removeprefix("."): at for key, at in scanner.places.items()}
+    starts = [0, *(match.end() for match in re.finditer("\n", text))]
+
+    def place(key: str) -> tuple[int, int]:
+        key = re.sub(r' \("[^"]*"\)$', "", key)
+        while key and key not in places:
+            shorter = re.sub(r"(^|\.)[^.\[]*$|\[\d+\]$", "", key)
+            key = "" if shorter == key else shorter
+        at = places.get(key, 0)
+        line = bisect_right(starts, at)
+        return line, at - starts[line - 1] + 1
+
+    return place

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The continuous limit: a perfectly flexible cord."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from .. import _core
+from .chain import Chain
+from .numbers import mass_or_weight, one_positive, real
+from .system import System
+
+Density = float | Callable[[float], float]
+
+
+class Cord(System):
+    """A perfectly flexible cord hung from one end: the limit of a chain of ever more, ever shorter links.
+
+    Parameters
+    ----------
+    length : float
+        m, positive.
+    mass, weight : float, optional
+        Of the whole cord without its tip, kg or N. If both are left out it is 1 in the unit of the tip, or what
+        `density` adds up to.
+    density : float or callable
+        How the mass is spread: the exponent p of ``s**p``, s the distance from the free end, above -1 (0: uniform,
+        1: thicker towards the support); or a function of s, positive inside the cord. Where mass or weight is given,
+        only its proportions count; else it is the mass per length, kg/m (with `tip_weight`: the weight per length).
+        Jumps and corners are welcome; at the free end it may vanish or grow as a power.
+    tip_mass, tip_weight : float, optional
+        Of a particle at the free end, in kg or N, as the cord was given.
+
+    Raises
+    ------
+    ValueError
+        For numbers out of their range, masses mixed with weights, a function that is not positive inside the cord or
+        rough at too many places.
+
+    Notes
+    -----
+    A function is kept as polynomials, to 1e-14 of its largest value on each piece; a power is kept as such.
+    Greenhill (1908) section 4.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> cord = rc.Cord(0.36, mass=0.2)
+    >>> rc.modes(cord, 3).angular_speed.round(4)
+    array([ 6.2757, 14.4054, 22.583 ])
+    >>> rc.Cord(2.0, mass=0.5, density=1.0, tip_mass=3.0)
+    Cord of length 2, mass 0.5, density as s^1, tip 3
+    """
+
+    __slots__ = ("_compiled", "_function", "by_mass")
+    _compiled: _core.Cord
+    _function: _core.LineDensity | float
+    by_mass: bool
+
+    def __init__(
+        self,
+        length: float,
+        *,
+        mass: float | None = None,
+        weight: float | None = None,
+        density: Density = 0.0,
+        tip_mass: float | None = None,
+        tip_weight: float | None = None,
+    ) -> None:
+        place = "revchain.Cord"
+        long = one_positive(place, "length", length)
+        by_mass = weight is None and tip_weight is None
+        if mass is not None or weight is not None:
+            by_mass, heavy = mass_or_weight(place, mass, weight)
+            total = one_positive(place, "mass" if by_mass else "weight", heavy)
+        else:
+            total = None
+        name, tip = ("tip_mass", tip_mass) if by_mass else ("tip_weight", tip_weight)
+        if (tip_weight if by_mass else tip_mass) is not None:
+            raise ValueError(f"{place}: give {name} for a cord given by {'mass' if by_mass else 'weight'}")
+        hung = 0.0 if tip is None else real(place, name, tip)
+        if not 0 <= hung < math.inf:
+            raise ValueError(f"{place}: {name} must be finite and not negative, got {hung:g}")
+        function: _core.LineDensity | float
+        if isinstance(density, _core.LineDensity):
+            function = density
+        elif callable(density):
+            function = _core.LineDensity(_checked(place, density), long)
+        else:
+            function = real(place, "density (the exponent, or a function of the distance from the free end)", density)
+        self._set(_core.Cord(long, total, function, hung), function, by_mass)
+
+    def _set(self, compiled: _core.Cord, density: _core.LineDensity | float, by_mass: bool) -> None:
+        _set(self, "_compiled", compiled)
+        _set(self, "_function", density)
+        _set(self, "by_mass", by_mass)
+
+    @property
+    def length(self) -> float:
+        """Length, m."""
+        return self._compiled.length
+
+    @property
+    def mass(self) -> float:
+        """Mass without the tip, kg, of a cord given by mass."""
+        return self._measured("mass", self._compiled.weight)
+
+    @property
+    def weight(self) -> float:
+        """Weight without the tip, of a cord given by weight."""
+        return self._measured("weight", self._compiled.weight)
+
+    @property
+    def tip_mass(self) -> float:
+        """Mass of the particle at the free end, kg, of a cord given by mass."""
+        return self._measured("tip_mass", self._compiled.tip_weight)
+
+    @property
+    def tip_weight(self) -> float:
+        """Weight of the particle at the free end, of a cord given by weight."""
+        return self._measured("tip_weight", self._compiled.tip_weight)
+
+    @property
+    def density(self) -> Density:
+        """The exponent, or the function as it is kept."""
+        return self._function
+
+    def chain(self, count: int) -> Chain:
+        """Cut a cord whose density is a power into straight links of equal length.
+
+        Parameters
+        ----------
+        count : int
+            Number of links, at least 1.
+
+        Returns
+        -------
+        Chain
+            With the tip fixed to its free end.
+
+        Raises
+        ------
+        ValueError
+            If `count` is below 1, or the density was given as a function.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.Cord(2.0, mass=1.0).chain(4).length
+        array([0.5, 0.5, 0.5, 0.5])
+        """
+        if not isinstance(self._function, float):
+            raise ValueError("revchain.Cord.chain: the density must be a power, got a function")
+        name = "mass" if self.by_mass else "weight"
+        whole: dict[str, Any] = {"length": self.length, name: self._compiled.weight}
+        if self._function == 0:
+            made = Chain.uniform_rods(count, **whole)
+        else:
+            made = Chain.tapered(count, **whole, exponent=self._function)
+        return made.with_body(**_named(name, self._compiled.tip_weight)) if self._compiled.tip_weight else made
+
+    def _measured(self, name: str, number: float) -> float:
+        if ("mass" in name) != self.by_mass:
+            raise AttributeError(f"this cord was given by {'mass' if self.by_mass else 'weight'}: it has no {name}")
+        return number
+
+    def _words(self) -> list[str]:
+        unit = "kg" if self.by_mass else "N"
+        tip = [f"tip: {self._compiled.tip_weight:.6g} {unit}"] if self._compiled.tip_weight else []
+        return ["support: firm", f"{self._spread()} cord: {self._compiled.weight:.6g} {unit}, {self.length:.6g} m", *tip]
+
+    def _spread(self) -> str:
+        if not isinstance(self._function, float):
+            return "uneven"
+        return f"tapered (s^{self._function:g})" if self._function else "uniform"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Cord):
+            return NotImplemented
+        return self.by_mass == other.by_mass and _alike(self._state(), other._state())
+
+    def __hash__(self) -> int:
+        return hash((self.length, self._compiled.weight, self._compiled.tip_weight))
+
+    def __repr__(self) -> str:
+        heavy = f"{'mass' if self.by_mass else 'weight'} {self._compiled.weight:.6g}"
+        spread = "density as a function" if not isinstance(self._function, float) else f"density as s^{self._function:g}"
+        tip = f", tip {self._compiled.tip_weight:.6g}" if self._compiled.tip_weight else ""
+        return f"Cord of length {self.length:.6g}, {heavy}{', ' + spread if self._function != 0.0 else ''}{tip}"
+
+    def _under(self, gravity: float) -> _core.Cord:
+        return self._compiled
+
+    def _state(self) -> tuple[Any, ...]:
+        kept = self._function if isinstance(self._function, float) else self._function.__getstate__()
+        return self.length, self._compiled.weight, self._compiled.tip_weight, kept, self.by_mass
+
+    @classmethod
+    def _from_state(cls, state: Any) -> Cord:
+        length, weight, tip, kept, by_mass = state
+        density = kept
+        if not isinstance(kept, float):
+            density = _core.LineDensity.__new__(_core.LineDensity)
+            density.__setstate__(tuple(kept))
+        cord = cls.__new__(cls)
+        cord._set(_core.Cord(length, weight, density, tip), density, by_mass)
+        return cord
+
+    def _data(self) -> dict[str, Any]:
+        length, weight, tip, kept, by_mass = self._state()
+        density = kept if isinstance(kept, float) else [kept[0], kept[1].tolist()]
+        heavy, hung = ("mass", "tip_mass") if by_mass else ("weight", "tip_weight")
+        return {"length": length, heavy: weight, hung: tip, "density": density}
+
+    @classmethod
+    def _from_data(cls, data: dict[str, Any]) -> Cord:
+        if not isinstance(data.get("density"), list):
+            return cls(**data)
+        by_mass = "mass" in data
+        heavy, hung = ("mass", "tip_mass") if by_mass else ("weight", "tip_weight")
+        return cls._from_state((data["length"], data[heavy], data.get(hung, 0.0), data["density"], by_mass))
+
+
+def _named(name: str, value: float) -> dict[str, Any]:
+    return {name: value}
+
+
+def _checked(place: str, density: Callable[[float], float]) -> Callable[[float], float]:
+    return lambda s: real(place, f"density({s:g})", density(s))
+
+
+def _alike(one: Any, other: Any) -> bool:
+    if isinstance(one, tuple) and isinstance(other, tuple):
+        return len(one) == len(other) and all(map(_alike, one, other))
+    return bool((one == other).all()) if hasattr(one, "all") and hasattr(other, "all") else bool(one == other)
+
+
+_set = object.__setattr__

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What all systems share: they cannot be changed, and can be compared, pickled, described and written as data."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+from .unchangeable import Unchangeable
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class System(Unchangeable):
+    """What hangs: a `Chain`, a `Rig`, a `Cord` or a `Held`."""
+
+    __slots__ = ()
+    by_mass: bool
+    _kinds: ClassVar[dict[str, type[System]]] = {}
+
+    def __init_subclass__(cls, **given: Any) -> None:
+        super().__init_subclass__(**given)
+        if cls.__module__.startswith("revchain."):
+            System._kinds[cls.__name__] = cls
+
+    def _under(self, gravity: float) -> Any:
+        """The compiled system. Of one given by mass it holds masses as weights, and forces over gravity."""
+        raise NotImplementedError
+
+    def _force(self, gravity: float) -> float:
+        """What a force of the compiled system is multiplied by."""
+        return gravity if self.by_mass else 1.0
+
+    def _state(self) -> tuple[Any, ...]:
+        """All it is made of: numbers, words, arrays, systems."""
+        raise NotImplementedError
+
+    @classmethod
+    def _from_state(cls, state: Any) -> Self:
+        raise NotImplementedError
+
+    def describe(self) -> str:
+        """Say in words what it is, from the support down.
+
+        Returns
+        -------
+        str
+            A system given by mass in kilograms, one given by weight in newtons.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.Chain(mass=[2500.0, 400.0], length=[6.0, 24.0], names=["load", "hook block"]).describe()
+        'support: firm; hook block: 400 kg on 24 m; load: 2500 kg on 6 m'
+        """
+        return "; ".join(self._words())
+
+    def _words(self) -> list[str]:
+        raise NotImplementedError
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the system at rest, true to scale along the axis.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            Pins, centres of gravity (larger where heavier) and names of up to 40 links; inverted links stout, wheels
+            seen edge-on, bodies that float hollow; a cord as thick as it is heavy.
+
+        Raises
+        ------
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rc.Chain(mass=[1.0, 2.0], length=[0.5, 0.3]).plot().get_ylabel()
+        'depth below the support (m)'
+        """
+        from ..plots.modes import plot_system
+
+        return plot_system(self, ax)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the system as plain Python data, which `from_dict` reads.
+
+        Returns
+        -------
+        dict
+            Ready for JSON, but for infinite numbers.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> chain = rc.Chain(mass=[1.0, 3.0], length=1.0)
+        >>> rc.Chain.from_dict(chain.to_dict()) == chain
+        True
+        """
+        return {"system": type(self).__name__, **self._data()}
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any]) -> Self:
+        """Return the system that `to_dict` was asked of.
+
+        Parameters
+        ----------
+        data : dict
+            What `to_dict` returned.
+
+        Raises
+        ------
+        ValueError
+            If the data are those of another kind of system, or of none.
+        """
+        place = f"revchain.{cls.__name__}.from_dict"
+        name = data.get("system") if isinstance(data, dict) else None
+        if name != cls.__name__:
+            raise ValueError(f'{place}: data must have "system": "{cls.__name__}", got {name!r}')
+        try:
+            return cls._from_data({key: value for key, value in data.items() if key != "system"})
+        except (KeyError, TypeError) as error:
+            raise ValueError(f"{place}: these are not data of a {cls.__name__}: {error}") from None
+
+    def _data(self) -> dict[str, Any]:
+        raise NotImplementedError
+
+    @classmethod
+    def _from_data(cls, data: dict[str, Any]) -> Self:
+        return cls(**data)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (type(self).__name__, self._state())
+
+    def __copy__(self) -> Self:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        rows = "".join(f"<tr><td>{escape(part)}</td></tr>" for part in self._words())
+        return f"<table><caption>{escape(repr(self))}</caption><tbody>{rows}</tbody></table>"
+
+
+def restored(kind: str, state: Any) -> System:
+    """A system from its state."""
+    return System._kinds[kind]._from_state(state)
+
+
+def from_data(data: dict[str, Any]) -> System:
+    """A system of any kind from what `to_dict` returned."""
+    kind = System._kinds.get(data.get("system", "")) if isinstance(data, dict) else None
+    if kind is None:
+        raise ValueError(f'data of a system must have "system": one of {", ".join(System._kinds)}')
+    return kind.from_dict(data)
+
+
+def plain(value: Any) -> Any:
+    """An array as lists, and numpy's numbers as Python's."""
+    return value.tolist() if hasattr(value, "tolist") else value
+
+
+_set = object.__setattr__

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rigs to try, and their mechanics written out here with nothing of the library's: small offsets as a matrix pencil
+from the heights of centres of gravity, steady figures by their effective potential, any motion by Newton's equations of
+bodies in space. All chains are given by weight."""
+
+import math
+from types import SimpleNamespace
+
+import mpmath as mp
+import numpy as np
+import scipy.integrate
+
+import revchain as rc
+
+G = 9.80665
+
+
+def rigged(chain, *, stiffness=math.inf, carriage=0.0, radius=0.0, momentum=None, axial_moment=None, displaced=None,
+           centroid=None, gyration=None, added=None, fluid="still", inverted=False):
+    """A rig from plain numbers; `centroid`, `gyration` and `added` are those of the fluid displaced."""
+    spins = momentum is not None or axial_moment is not None
+    bears = any(each is not None for each in (displaced, centroid, gyration, added))
+    return rc.Rig(
+        chain,
+        support=rc.Support(stiffness=stiffness, weight=carriage, radius=radius),
+        flywheels=rc.Flywheel(momentum=momentum, axial_moment=axial_moment) if spins else None,
+        displaced=rc.Displaced(weight=0.0 if displaced is None else displaced, centroid=centroid,
+                               radius_of_gyration=gyration, added_weight=added) if bears else None,
+        fluid=fluid,
+        inverted=inverted,
+    )  # fmt: skip
+
+
+def columns(rig):
+    """One number for each link of all that a rig made by `rigged` has."""
+    chain, wheels, fluid = rig.chain, rig.flywheels, rig.displaced
+
+    def column(of, name, left_out=0.0):
+        value = getattr(of, name, None)
+        return np.broadcast_to(left_out if value is None else value, rig.size).astype(float)
+
+    return SimpleNamespace(
+        w=chain.weight, a=chain.length, h=chain.centroid, rho=chain.radius_of_gyration,
+        p=column(wheels, "momentum"), c=column(wheels, "axial_moment"), fluid=column(fluid, "weight"),
+        hf=column(fluid, "centroid", chain.centroid), rf=column(fluid, "radius_of_gyration", chain.radius_of_gyration),
+        added=column(fluid, "added_weight"),
+    )  # fmt: skip
+
+
+def random_chain(rng, size, spread=2.0, plummets=False):
+    weight = np.exp(rng.uniform(-spread, spread, size))
+    length = np.exp(rng.uniform(-1, 1, size))
+    if plummets:
+        return rc.Chain(weight=weight, length=length)
+    centroid = length * rng.uniform(0.1, 1.2, size)
+    radius = length * rng.uniform(0.1, 0.6, size)
+    return rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
+
+
+def pencil(rig, number=mp.mpf, whole=False):
+    """K, P and M of ``(K + n P - n^2 M / g) y = 0``, dense; the support last if it is on a spring, or if `whole`."""
+    size, given = len(rig), columns(rig)
+    count = size + 1
+    stiff, spin, mass = ([[number(0)] * count for _ in range(count)] for _ in range(3))
+
+    def add(matrix, row, factor):
+        for i, u in row.items():
+            for j, v in row.items():
+                matrix[i][j] += factor * u * v
+
+    below = number(0)
+    for m in range(size):
+        w, a, h, rho, p, c, fluid, hf, rf, added = (number(float(column[m])) for column in vars(given).values())
+        lean = {m: 1 / a, m + 1: -1 / a}
+        kappa = w * h - fluid * hf + a * below
+        add(stiff, lean, -kappa if rig.inverted[m] else kappa)
+        below += w - fluid
+        add(mass, {m: h / a, m + 1: 1 - h / a}, w)
+        add(mass, lean, w * rho**2 - c)
+        dragged = added - (fluid if rig.fluid == "turning" else 0)
+        add(mass, {m: hf / a, m + 1: 1 - hf / a}, dragged)
+        add(mass, lean, dragged * rf**2)
+        add(spin, lean, -p if rig.inverted[m] else p)  # along the link, from its upper pin to its lower
+    if math.isfinite(rig.support.stiffness):
+        stiff[size][size] += number(rig.support.stiffness)
+        mass[size][size] += number(rig.support.carriage)
+    elif not whole:
+        return tuple([row[:size] for row in matrix[:size]] for matrix in (stiff, spin, mass))
+    return stiff, spin, mass
+
+
+def real_speeds(rig, gravity=G, digits=60):
+    """All real speeds, slowest first, by linearising; singular M falls out as infinite speeds."""
+    with mp.workdps(digits):
+        stiff, spin, mass = (mp.matrix(x) for x in pencil(rig))
+        size = stiff.rows
+        # reversed polynomial in w = 1 / n: (w^2 K + w P - M / g) y = 0, K regular
+        inverse = stiff**-1
+        big = mp.zeros(2 * size)
+        top_left, top_right = -inverse * spin, inverse * mass / mp.mpf(gravity)
+        for i in range(size):
+            for j in range(size):
+                big[i, j], big[i, size + j] = top_left[i, j], top_right[i, j]
+            big[size + i, i] = 1
+        inverses, _ = mp.eig(big)
+        cut = max(abs(w) for w in inverses) * mp.mpf(10) ** (-digits // 3)
+        every = [1 / w for w in inverses if abs(w) > cut]
+    return sorted((mp.re(n) for n in every if abs(mp.im(n)) < abs(n) * mp.mpf(10) ** (-digits // 4)), key=abs)
+
+
+def agree(rig, found, tolerance=2.0**-50, digits=60):
+    """The whirl speeds found, both signs where there is momentum, are all of the pencil's."""
+    want = [n for n in real_speeds(rig, found.gravity, digits) if found.has_momentum or n > 0]
+    assert len(found) == len(want), (found, [float(n) for n in want])
+    for got, exact in zip(sorted(found.angular_speed), sorted(want), strict=True):
+        assert abs(mp.mpf(got) - exact) <= tolerance * abs(exact), (got, float(exact))
+    assert np.all(np.diff(np.abs(found.angular_speed)) >= 0)
+
+
+def pivots(rig, speeds):
+    """Negative pivots of K + n P - n^2 M / g, speeds side by side in 80-bit floats, link by link."""
+    ld = np.longdouble
+    n, given = np.asarray(speeds, dtype=ld), columns(rig)
+    weight, a, h, rho, p = (x.astype(ld) for x in (given.w, given.a, given.h, given.rho, given.p))
+    below, s, mu = ld(0), np.zeros_like(n), n * n / ld(G)
+    negative = np.zeros(n.shape, dtype=int)
+    for m in range(len(rig)):
+        k = ((weight[m] * h[m] + a[m] * below) + n * p[m]) / a[m] ** 2
+        q = weight[m] * (h[m] ** 2 + rho[m] ** 2) / a[m] ** 2
+        r = weight[m] * ((a[m] - h[m]) ** 2 + rho[m] ** 2) / a[m] ** 2
+        d = s + k - mu * q
+        negative += d < 0
+        s = ((k - mu * r) * s - mu * (k * weight[m] - mu * (weight[m] * rho[m] / a[m]) ** 2)) / d
+        below += weight[m]
+    return negative
+
+
+class Motion:
+    """Unit vectors e of the links, from upper to lower pin: kinetic energy is quadratic in their rates with constant
+    coefficients, gravity is linear in them, and a wheel adds -p e x e'. The support may be carried, or slide;
+    `to_and_fro` along x only."""
+
+    def __init__(self, rig, speed, axial=None, to_and_fro=False):
+        assert rig.fluid == "still"
+        self.rig, self.speed, self.size, given = rig, speed, len(rig), columns(rig)
+        self.slides, self.plane = math.isfinite(rig.support.stiffness), not to_and_fro
+        size, both = self.size, self.size + 1  # the last place is the support's
+        self.inertia, self.pull = np.zeros((both, both)), np.zeros(size)
+        for m in range(size):
+            for weight, depth, turn, bears in (
+                (given.w[m], given.h[m], given.rho[m], given.w[m]),
+                (given.added[m], given.hf[m], given.rf[m], 0.0),
+                (0.0, given.hf[m], 0.0, -given.fluid[m]),
+            ):
+                row = np.concatenate([np.zeros(m), [depth], given.a[m + 1 :], [1.0]])
+                self.pull += bears * row[:size]
+                self.inertia += weight / G * np.outer(row, row)
+                self.inertia[m, m] += weight / G * turn**2
+        self.inertia[size, size] += rig.support.carriage / G
+        self.axial = given.p if axial is None else np.asarray(axial)
+
+    def __call__(self, t, state):
+        size, both, n = self.size, self.size + 1, self.speed
+        place, rate = state.reshape(2, both, 3)
+        e, f = place[:size], rate[:size]
+        force = np.zeros((both, 3))
+        force[:size, 2] = -self.pull
+        force[:size] -= self.axial[:, None] * np.cross(e, f)
+        rest = self.rig.support.radius * np.array([math.cos(n * t), self.plane * math.sin(n * t), 0.0])
+        if self.slides:
+            force[size] -= self.rig.support.stiffness * (place[size] - rest)
+        unknown = size + self.slides
+        # unknown accelerations (3 each) and a multiplier for each link
+        big = np.zeros((3 * unknown + size, 3 * unknown + size))
+        big[: 3 * unknown, : 3 * unknown] = np.kron(self.inertia[:unknown, :unknown], np.eye(3))
+        side = np.zeros(3 * unknown + size)
+        side[: 3 * unknown] = force[:unknown].ravel()
+        if self.slides:  # level
+            j = 3 * size + 2
+            big[j, :], big[j, j], side[j] = 0.0, 1.0, 0.0
+        else:
+            side[: 3 * unknown] -= np.outer(self.inertia[:size, size], -n * n * rest).ravel()
+        for m in range(size):
+            big[3 * m : 3 * m + 3, 3 * unknown + m] = big[3 * unknown + m, 3 * m : 3 * m + 3] = e[m]
+            side[3 * unknown + m] = -f[m] @ f[m]
+        change = np.empty((2, both, 3))
+        change[0], change[1, size] = rate, -n * n * rest
+        change[1, :unknown] = np.linalg.solve(big, side)[: 3 * unknown].reshape(unknown, 3)
+        return change.ravel()
+
+    def after(self, time, lean, offset, rate=None, tolerance=1e-12, t_eval=None):
+        """Unit vectors and support after a time, or times (last axis), from a plane, at rest or turning at `rate`."""
+        place = np.zeros((self.size + 1, 3))
+        place[: self.size, 0], place[: self.size, 2], place[-1, 0] = np.sin(lean), -np.cos(lean), offset
+        first = np.stack([place, np.zeros_like(place) if rate is None else np.cross([0.0, 0.0, rate], place)]).ravel()
+        times, tolerances = [time] if t_eval is None else t_eval, dict(rtol=tolerance, atol=tolerance / 100)
+        done = scipy.integrate.solve_ivp(self, (0.0, time), first, "DOP853", t_eval=times, **tolerances)
+        assert done.success
+        places = done.y.reshape(2, self.size + 1, 3, -1)[0]
+        return places[..., 0] if t_eval is None else places
+
+    def run(self, inclination, offset_of_support, turns):
+        """From a steady figure: largest departure of unit vectors and support from turning as one piece."""
+        time = abs(turns * 2 * math.pi / self.speed)
+        end = self.after(time, inclination, offset_of_support, self.speed, tolerance=1e-11)
+        x, angle = np.append(np.sin(inclination), offset_of_support), self.speed * time
+        down = np.append(-np.cos(inclination), 0.0)
+        return float(np.abs(end - np.column_stack([x * math.cos(angle), x * math.sin(angle), down])).max())
+
+
+def figure_moments(rig, shape, sense=1):
+    """Derivative of the effective potential by each inclination, over weight times length, in 50 digits.
+
+    The support is where the shape has it; where it slides, the last number is the balance of the slide."""
+    with mp.workdps(50):
+        given, size = columns(rig), len(rig)
+        height, g = mp.mpf(float(shape.conical_height)), mp.mpf(G)
+        n = sense * mp.sqrt(g / height)
+        angle = [mp.mpf(float(x)) for x in shape.inclination]
+        sine, cosine = [mp.sin(x) for x in angle], [mp.cos(x) for x in angle]
+        rows = [[mp.mpf(float(column[m])) for column in vars(given).values()] for m in range(size)]
+        a, top = [row[1] for row in rows], mp.mpf(float(shape.offset[-1]))
+        moment, across = [mp.mpf(0)] * size, mp.mpf(0)
+        for m, (w, _, h, rho, p, c, b, hb, rb, added) in enumerate(rows):
+            parts = [(w, w, h, rho), (-b, (-b if rig.fluid == "turning" else 0) + added, hb, rb)]
+            for bears, whirls, depth, turn in parts:
+                y = top + depth * sine[m] + sum(a[r] * sine[r] for r in range(m + 1, size))
+                across += whirls * y / height
+                for r in range(m, size):
+                    arm = depth if r == m else a[r]
+                    moment[r] += bears * arm * sine[r] - whirls * y * arm * cosine[r] / height
+                moment[m] -= whirls * turn**2 * sine[m] * cosine[m] / height
+            moment[m] += (p + c * n * cosine[m] / g) * n * sine[m]  # angular momentum along the axis, turned at n
+        scale = sum(row[0] for row in rows) * sum(a)
+        answer = [float(abs(x) / scale) for x in moment]
+        if math.isfinite(rig.support.stiffness):
+            across += mp.mpf(rig.support.carriage) * top / height
+            balance = across - mp.mpf(rig.support.stiffness) * (top - mp.mpf(rig.support.radius))
+            answer.append(float(abs(balance) * sum(a) / scale))
+        return max(answer)

@@ -1,0 +1,351 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The interface as a whole: systems, the table of systems and questions, mass and weight, gravity, units, names."""
+
+import copy
+import json
+import math
+import pickle
+import pydoc
+
+import numpy as np
+import pytest
+
+import revchain as rc
+
+BODIES = {"length": [0.7, 0.15], "centroid": [0.55, 0.05], "radius_of_gyration": [0.2, 0.36]}
+MASS = np.array([180.0, 5000.0])
+BELL = rc.Chain(mass=MASS, **BODIES)
+RODS = rc.Chain.uniform_rods(3, length=1.5, mass=3.0)
+POINTS = rc.Chain(mass=[1.0, 3.0], length=1.0, names=["load", "hook block"])
+SYSTEMS = {
+    "chain": POINTS,
+    "bodies": BELL,
+    "tapered": rc.Chain.tapered(4, exponent=0.7, weight=2.0),
+    "rods": RODS,
+    "rig": rc.Rig(
+        RODS,
+        support=rc.Support(stiffness=20.0, mass=0.5, radius=0.1),
+        flywheels=rc.Flywheel(mass=0.2, radius_of_gyration=0.1, spin=[30.0, 0.0, -3.0], driven=[True, False, False]),
+        displaced=rc.Displaced(mass=0.1, added_mass=0.05),
+        inverted=[False, True, False],
+    ),
+    "rig by momentum": rc.Rig(rc.Chain(weight=2.0, length=1.0), flywheels=rc.Flywheel(momentum=0.3), fluid="turning"),
+    "cord": rc.Cord(0.36, mass=0.2, tip_mass=0.01),
+    "cord of a density": rc.Cord(2.0, density=lambda s: 1 + s if s < 1 else 3.0, tip_weight=0.1),
+    "held chain": rc.Held(RODS, span=0.9),
+    "held cord": rc.Held(rc.Cord(1.0), tension=30.0, weightless=True),
+}
+
+
+# ---- systems are values
+
+
+@pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS.keys())
+def test_systems_are_values(system):
+    twins = [pickle.loads(pickle.dumps(system, protocol)) for protocol in range(pickle.HIGHEST_PROTOCOL + 1)]
+    twins += [copy.copy(system), copy.deepcopy(system), type(system).from_dict(json.loads(json.dumps(system.to_dict())))]
+    for twin in twins:
+        assert type(twin) is type(system) and twin == system and hash(twin) == hash(system)
+        assert repr(twin) == repr(system) and twin.describe() == system.describe()
+        assert twin._repr_html_() == system._repr_html_()
+    assert system != "text" and all((other == system) == (other is system) for other in SYSTEMS.values())
+    for name in ("by_mass", "anything"):
+        with pytest.raises(AttributeError):
+            setattr(system, name, 1)
+    assert "<table>" in system._repr_html_()
+    with pytest.raises(ValueError, match=r'must have "system"'):
+        type(system).from_dict({})
+    with pytest.raises(ValueError, match="not data of a"):
+        type(system).from_dict({"system": type(system).__name__, "colour": 1})
+
+
+@pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS.keys())
+def test_systems_are_drawn_at_rest(system):
+    pytest.importorskip("matplotlib")
+    ax = system.plot()
+    assert ax.get_ylabel().endswith("(m)")
+    if getattr(system, "names", None):
+        assert [text.get_text() for text in ax.texts] == ["load", "hook block"]
+
+
+def test_words_from_the_support_down():
+    assert POINTS.describe() == "support: firm; hook block: 3 kg on 1 m; load: 1 kg on 1 m"
+    assert rc.Chain.uniform_rods(120, length=0.36, weight=1.0).describe() == (
+        "support: firm; 120 times rod, 0.00833333 N, 0.003 m"
+    )
+    many = rc.Chain(weight=np.arange(1.0, 101.0), length=1.0).describe()
+    assert many == "support: firm; 100 N on 1 m; 99 N on 1 m; 98 N on 1 m; 95 more links; 2 N on 1 m; 1 N on 1 m"
+    assert SYSTEMS["rig"].describe() == (
+        "support: on a spring of 20 N/m with 0.5 kg, carried round at 0.1 m; 3 times rod, 1 kg, 0.5 m; 1 link inverted; "
+        "2 links with momentum; 3 links in still fluid"
+    )
+    assert SYSTEMS["held chain"].describe().startswith("both ends held on the axis, 0.9 m apart; 3 times rod")
+    assert SYSTEMS["cord"].describe() == "support: firm; uniform cord: 0.2 kg, 0.36 m; tip: 0.01 kg"
+
+
+# ---- the table of systems and questions
+
+HELD = rc.Held(RODS, tension=80.0)
+SPAN = rc.Held(RODS, span=0.9)
+CORD = rc.Cord(1.5, mass=3.0)
+CORD_HELD = rc.Held(rc.Cord(1.0, mass=1.0), span=0.5)
+RIG = rc.Rig(RODS, support=rc.Support(stiffness=200.0, mass=0.5))
+QUESTIONS = {
+    "modes": lambda system: rc.modes(system, 2),
+    "count_modes": lambda system: rc.count_modes(system, angular_speed=9.0),
+    "steady_shapes": lambda system: rc.steady_shapes(system, angular_speed=9.0),
+    "steady_shape": lambda system: rc.steady_shape(system, mode=1, angular_speed=9.0),
+    "branches": lambda system: rc.branches(system, max_angular_speed=9.0),
+    "branch": lambda system: rc.branch(system, 1, max_angular_speed=9.0),
+    "response": lambda system: rc.response(system, angular_speed=9.0),
+    "swing": lambda system: rc.swing(system, [0.1] * 3, None, [0.0, 1.0]),
+    "tune": lambda system: rc.tune(system, angular_speed=9.0),
+    "explain": lambda system: rc.explain(system, 1),
+    "stability": lambda system: rc.steady_shapes(system, angular_speed=9.0)[0].stability(),
+    "sensitivity": lambda system: rc.modes(system, 2).sensitivity,
+    "uncertainty": lambda system: rc.modes(system, 2).uncertainty(mass=0.05),
+}
+CELLS = {  # question: system: None for an answer, or words of the reason and of what to ask instead
+    "modes": {"held, span": "is bent.*ask steady_shapes", "held cord": "cut it into links"},
+    "count_modes": {"held, span": "is bent.*ask steady_shapes", "held cord": "cut it into links"},
+    "steady_shapes": {},
+    "steady_shape": {"rig": "ask steady_shapes", "cord": "ask the branches of its chain", "held": "ask steady_shapes"},
+    "branches": {"rig": "ask steady_shapes", "cord": "its chain: cord.chain", "held": "ask steady_shapes"},
+    "branch": {"rig": "ask steady_shapes", "cord": "its chain: cord.chain", "held": "ask steady_shapes"},
+    "response": {"cord": "ask its chain: cord.chain", "held": "ask steady_shapes"},
+    "swing": {"rig": "ask its modes", "cord": "ask its chain: cord.chain", "held": "ask its modes"},
+    "tune": {"rig": "vary must be .*support.stiffness", "held": "change its system"},
+    "explain": {"held, span": "is bent", "held cord": "cut it into links"},
+    "stability": {"rig": "is for shapes of a Chain", "cord": r"cord\.chain", "held cord": r"cord\.chain"},
+    "sensitivity": {"cord": r"cord\.chain", "held": "is for a Chain", "held, span": "is bent", "held cord": "cut it"},
+    "uncertainty": {
+        "rig": "take sensitivity",
+        "cord": "is for a Chain",
+        "held": "is for a Chain",
+        "held, span": "is bent",
+        "held cord": "cut it",
+    },
+}
+KINDS = {"chain": RODS, "rig": RIG, "cord": CORD, "held": HELD, "held, span": SPAN, "held cord": CORD_HELD}
+WHOLLY_HELD = {"steady_shape", "branches", "branch", "response", "swing", "tune"}  # refuse all that is held alike
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_cells(question, kind):
+    refusals = CELLS[question]
+    reason = refusals.get(kind, refusals.get("held") if question in WHOLLY_HELD and "held" in kind else None)
+    if kind == "held" and question == "stability":
+        pytest.skip("no shape at this tension and speed")
+    if reason is None:
+        answer = QUESTIONS[question](KINDS[kind])
+        assert answer is not None
+        return
+    with pytest.raises(ValueError, match=reason) as error:
+        QUESTIONS[question](KINDS[kind])
+    assert str(error.value).startswith("revchain.")
+
+
+def test_a_rig_is_tuned_by_its_spring_and_its_wheels():
+    for vary, speed in (("support.stiffness", 2.0), ("flywheels[1].momentum", -3.0)):
+        tuned = rc.tune(RIG, vary=vary, angular_speed=speed)
+        found = rc.modes(tuned.system).angular_speed
+        assert np.abs(found - speed).min() < 1e-13 * abs(speed)
+        assert rc.tune(RIG, vary=vary, mode=3, angular_speed=speed).status == "no_value"
+    assert rc.tune(RIG, vary="support.stiffness", angular_speed=4.0).status == "no_value"  # it would have to push
+
+
+@pytest.mark.parametrize("system", [RODS, BELL, CORD, SYSTEMS["cord of a density"]], ids=repr)
+def test_the_length_that_gives_a_speed(system):
+    tuned = rc.tune(system, mode=2, angular_speed=12.0)
+    again = rc.modes(tuned.system, 1, first=2)
+    assert math.isclose(again.angular_speed[0], 12.0, rel_tol=4e-15)
+    assert type(tuned.system) is type(system) and tuned.complete
+    assert rc.tune(tuned.system, mode=2, angular_speed=12.0).value == pytest.approx(tuned.value, rel=1e-14)
+
+
+def test_what_is_no_system():
+    for ask in QUESTIONS.values():
+        with pytest.raises(TypeError, match="system must be a revchain"):
+            ask("chain")
+
+
+# ---- mass, weight, gravity, order, names
+
+
+def test_forces_come_out_in_newtons_of_masses():
+    g = 1.62
+    weights = rc.Chain(weight=MASS * g, **BODIES)
+    for ask in (
+        lambda c: rc.steady_shapes(c, angular_speed=9.0, gravity=g)[0].tension,
+        lambda c: rc.steady_shapes(c, angular_speed=9.0, gravity=g)[0].angular_momentum,
+        lambda c: rc.steady_shapes(c, angular_speed=9.0, gravity=g)[0].effective_energy,
+        lambda c: rc.steady_shapes(c, angular_speed=9.0, gravity=g)[0].force_diagram().load,
+        lambda c: rc.branch(c, 1, max_angular_speed=9.0, gravity=g).top_tension,
+        lambda c: rc.response(c, angular_speed=4.0, gravity=g).support_force,
+        lambda c: rc.swing(c, [0.01, 0.0], None, 1.0, gravity=g).energy,
+        lambda c: rc.modes(rc.Held(c, tension=2e5), gravity=g).angular_speed,
+        lambda c: rc.steady_shape(c, mode=1, top_tension=1.5 * MASS.sum() * g, gravity=g).angular_speed,
+    ):
+        by_mass, by_weight = ask(BELL), ask(weights)
+        np.testing.assert_allclose(by_mass, by_weight, rtol=2e-13, atol=1e-13)
+    ropes = [rc.Held(rc.Chain.uniform_rods(9, **heavy), span=0.5) for heavy in ({"mass": 2.0}, {"weight": 2.0 * g})]
+    by_mass, by_weight = (rc.steady_shapes(rope, angular_speed=9.0, gravity=g)[0].tension for rope in ropes)
+    np.testing.assert_allclose(by_mass, by_weight, rtol=1e-13)
+    cords = rc.Cord(1.0, mass=2.0, tip_mass=0.3), rc.Cord(1.0, weight=2.0 * g, tip_weight=0.3 * g)
+    by_mass, by_weight = (rc.steady_shapes(cord, angular_speed=9.0, gravity=g)[0].tension for cord in cords)
+    np.testing.assert_allclose(by_mass, by_weight, rtol=1e-13)
+
+
+@pytest.mark.parametrize("g", [9.80665, 1.62, 24.8])
+def test_rigs_by_mass_and_by_weight(g):
+    def rig(name, unit):
+        chain = rc.Chain(**{name: unit * np.array([1.0, 2.0])}, length=0.5, centroid=0.2, radius_of_gyration=0.1)
+        return rc.Rig(
+            chain,
+            support=rc.Support(**{name: unit * 0.3}, stiffness=40.0),
+            flywheels=rc.Flywheel(**{name: unit * 0.4}, radius_of_gyration=0.1, spin=[50.0, -9.0], driven=[True, False]),
+            displaced=rc.Displaced(**{name: unit * 0.1, f"added_{name}": unit * 0.05}),
+        )
+
+    by_mass, by_weight = rig("mass", 1.0), rig("weight", g)
+    one, other = rc.modes(by_mass, gravity=g), rc.modes(by_weight, gravity=g)
+    np.testing.assert_allclose(one.angular_speed, other.angular_speed, rtol=1e-13)
+    np.testing.assert_allclose(one.sensitivity.stiffness, other.sensitivity.stiffness, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(one.sensitivity.momentum, other.sensitivity.momentum, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(one.sensitivity.mass, g * other.sensitivity.mass, rtol=1e-9, atol=1e-12)
+    driven = [rc.response(each, angular_speed=3.0, gravity=g, support_radius=0.1) for each in (by_mass, by_weight)]
+    np.testing.assert_allclose(driven[0].support_force, driven[1].support_force, rtol=1e-13)
+    kept = [sum(shape.angular_momentum for shape in rc.steady_shapes(each, angular_speed=9.0, gravity=g)) for each in (by_mass, by_weight)]
+    np.testing.assert_allclose(kept[0], kept[1], rtol=1e-11)
+
+
+def test_what_a_chain_was_given_by():
+    for chain, given, other in ((BELL, "mass", "weight"), (rc.Chain(weight=1.0, length=1.0), "weight", "mass")):
+        assert np.array_equal(getattr(chain, given), np.broadcast_to(getattr(chain, given), chain.size))
+        assert getattr(chain, f"total_{given}") == getattr(chain, given).sum()
+        for name in (other, f"total_{other}"):
+            with pytest.raises(AttributeError, match=f"was given by {given}: it has no {name}"):
+                getattr(chain, name)
+        with pytest.raises(ValueError, match=f"given by {given}: give {given}, not {other}"):
+            chain.with_body(**{other: 1.0})
+        with pytest.raises(ValueError, match=f"given by {given}"):
+            rc.Rig(chain, support=rc.Support(**{other: 1.0}, stiffness=1.0))
+        with pytest.raises(ValueError, match=f"given by {given}"):
+            rc.tune(chain, vary=f"links[0].{other}", angular_speed=1.0)
+    for both in ({"mass": 1.0, "weight": 1.0}, {}):
+        with pytest.raises(ValueError, match="give either mass, in kg, or weight, in N"):
+            rc.Chain(length=1.0, **both)
+    assert BELL != rc.Chain(weight=MASS, **BODIES)
+
+
+def test_order_of_the_links():
+    turned = {name: values[::-1] for name, values in BODIES.items()}
+    assert rc.Chain(mass=MASS[::-1], **turned, order="support first") == BELL
+    named = rc.Chain(mass=[3.0, 1.0], length=1.0, names=["hook block", "load"], order="support first")
+    assert named == POINTS and named.names == ("load", "hook block")
+    with pytest.raises(ValueError, match="order must be one of free end first, support first, got 'top first'"):
+        rc.Chain(mass=1.0, length=1.0, order="top first")
+    for names in ("ab", ["a"], ["a", 2]):
+        with pytest.raises(ValueError, match="names must"):
+            rc.Chain(mass=[3.0, 1.0], length=1.0, names=names)
+
+
+def test_gravity_is_kept_in_the_result():
+    m = rc.modes(POINTS, gravity=1.62)
+    assert m.gravity == 1.62 and m.at(gravity="9.81 m/s^2").gravity == 9.81
+    assert np.array_equal(m.at(gravity=9.81).angular_speed, rc.modes(POINTS, gravity=9.81).angular_speed)
+    assert rc.steady_shapes(POINTS, angular_speed=3.0, gravity=1.62)[0].gravity == 1.62
+
+
+# ---- units
+
+
+def test_numbers_with_units():
+    pint = pytest.importorskip("pint")
+    unit = pint.UnitRegistry()
+    inch = rc.Chain(mass=["1 lb", 0.5], length=39 * unit.inch)
+    assert inch.length == pytest.approx([0.9906] * 2, rel=1e-15) and inch.mass[0] == pytest.approx(0.45359237)
+    assert rc.Chain(mass=[1.0, 2.0] * unit.gram, length=[10, 20] * unit.cm).length.tolist() == [0.1, 0.2]
+    m = rc.modes(POINTS, angular_speed=("10 rpm", 3 * unit.rad / unit.s), gravity="981 cm/s^2", rtol="1 %")
+    assert len(m) == 1 and m.gravity == 9.81 and m.rtol == 0.01
+    assert rc.count_modes(POINTS, angular_speed=["1 rpm", "200 rpm"]).tolist() == [0, 2]
+    assert rc.steady_shape(POINTS, tip_inclination="20 deg").inclination[0] == pytest.approx(math.radians(20))
+    assert rc.Held(rc.Cord("1 m"), span="50 cm").span == 0.5
+    assert rc.Flywheel(mass="200 g", radius_of_gyration="5 cm", spin="3000 rpm").spin == pytest.approx(100 * math.pi)
+    turns = [rc.steady_shapes(POINTS, angular_speed=speed).angular_speed for speed in ("2 Hz", "2 rev/s", 2 * unit.Hz, "120 RPM")]
+    assert turns == pytest.approx([4 * math.pi] * 4, rel=1e-15)  # a frequency is in turns
+    by_parts = rc.modes(POINTS).uncertainty(mass=["5 %", 0])
+    assert by_parts == rc.modes(POINTS).uncertainty(mass=[0.05 * 1.0, 0.0])
+    assert rc.modes(POINTS).uncertainty(length="1 %") == rc.modes(POINTS).uncertainty(length=["1 %", "1 cm"])
+    assert rc.response(POINTS, angular_speed="30 rpm", support_radius="1 cm").support_radius == 0.01
+    assert rc.swing(POINTS, ["1 cm", 0.0], None, "2 min").time.tolist() == [120.0]
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: rc.Chain(mass="2 m", length=1.0), r'mass must be a mass such as "2 kg", got "2 m"'),
+        (lambda: rc.Chain(mass="20 N", length=1.0), r'mass must be a mass .*; give it as weight'),
+        (lambda: rc.Chain(weight="2 kg", length=1.0), r'weight must be a force .*; give it as mass'),
+        (lambda: rc.Chain(mass=1.0, length="2,5 m"), r"a decimal point, not a comma"),
+        (lambda: rc.Chain(mass=1.0, length="2 parsnips"), r"length has a unit that is not known"),
+        (lambda: rc.modes(POINTS, gravity="9.81 m/s"), r"gravity must be an acceleration"),
+        (lambda: rc.modes(POINTS, "3 m"), r"count must be a number or \"all\""),
+        (lambda: rc.steady_shapes(POINTS, angular_speed="3 Hz m"), r"angular_speed must be an angular speed"),
+        (lambda: rc.heavy_chain.conical_heights(3, length="2 kg"), r"length must be a length"),
+    ],
+)
+def test_wrong_units(ask, message):
+    pytest.importorskip("pint")
+    with pytest.raises(ValueError, match=message):
+        ask()
+
+
+# ---- names and speed
+
+
+def test_public_names():
+    shown = [name for name in dir(rc) if not name.startswith("_")]
+    assert len(shown) <= 65 and not {"annotations", "questions", "systems", "np", "Any"} & set(shown)
+    assert all(name in rc.__doc__ for name in shown)
+    words = pydoc.render_doc(rc, renderer=pydoc.plaintext)
+    assert len(words.splitlines()) < 10 * 60
+
+
+def test_ten_modes_by_default():
+    assert len(rc.modes(rc.Chain.uniform_rods(10**6))) == len(rc.modes(CORD)) == 10
+    assert len(rc.modes(POINTS)) == 2 and len(rc.modes(rc.Chain.uniform_rods(30), "all")) == 30
+
+
+def test_what_does_not_scale_with_gravity():
+    held = rc.Held(rc.Chain.uniform_rods(5, length=1.0, mass=1.0), tension=30.0)
+    with pytest.raises(ValueError, match="tension in newtons.*ask revchain.modes again"):
+        rc.modes(held).at(gravity=1.62)
+    by_weight = rc.Held(rc.Chain.uniform_rods(5, length=1.0, weight=1.0), tension=30.0)
+    moon = rc.modes(by_weight, gravity=1.62)
+    assert np.array_equal(rc.modes(by_weight).at(gravity=1.62).angular_speed, moon.angular_speed)
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: rc.modes(rc.Held(POINTS, tension=5.0)), "must exceed the weight 39.2266 of the chain, .*, got 5$"),
+        (lambda: rc.steady_shape(POINTS, top_tension=20.0), "more than the weight 39.2266 of the chain, got 20$"),
+        (lambda: rc.Flywheel(momentum=1.0, driven=True), "driven goes with mass"),
+        (lambda: rc.tune(RIG, vary="support.stiffness", mode=99, angular_speed=2.0), "mode must be from 1 to 4, got 99"),
+        (lambda: rc.Chain.from_dict({**POINTS.to_dict(), "lenght": 3}), "there is no lenght"),
+        (lambda: rc.count_modes(POINTS, conical_height=1.0, gravity=-1), "gravity must be positive"),
+        (lambda: rc.modes(POINTS).uncertainty(mass="abc %"), r'mass must be a number, or a part of it such as "5 %"'),
+    ],
+)
+def test_messages(ask, message):
+    with pytest.raises(ValueError, match=message):
+        ask()
+
+
+def test_all_modes_below_two_ulp():
+    assert rc.modes(POINTS, "all", rtol=1e-20).method == rc.modes(POINTS, 2, method="double-double").method
+    assert rc.modes(POINTS, "all", rtol=1e-20).status == "success" and rc.explain(POINTS, "all").meets_tolerance
+    kept = rc.Chain.from_dict({"system": "Chain", "mass": [1.0, 2.0], "length": 1.0, "order": "support first"})
+    assert kept.mass.tolist() == [2.0, 1.0]

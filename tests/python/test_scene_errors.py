@@ -1,0 +1,301 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is said of scene files that are wrong: the mistakes people make, each with its message, and every one at once."""
+
+import json
+import math
+import pickle
+import re
+from pathlib import Path
+
+import pytest
+
+import revchain as rc
+from revchain.cli import app as _cli
+from revchain.scenes.scene import Scene
+
+LINK = "[[links]]\nmass = 1\nlength = 1\n"
+
+# A file, and what is said of it: line and column, key, sentence. The first two dozen are those of engineers.
+FILES = {
+    "decimal comma": ("[[links]]\nmass = 1\nlength = 2,5  # m\n", "3:1 the decimal mark is a point: write length = 2.5, not 2,5"),
+    "decimal comma in text": ('[[links]]\nmass = 1\nlength = "2,5 m"\n', '3:1 links[0].length: must be a number, or a number and its unit such as "39.1396 inch", got "2,5 m"; write a decimal point, not a comma'),
+    "unit without quotes": ("[[links]]\nmass = 5000 kg\nlength = 1\n", '2:1 a number with a unit is text, in quotes: write mass = "5000 kg", not 5000 kg'),
+    "unit inside a line": ("[[links]]\nmass = 1\nlength = 1\nflywheel = {spin = 30 rpm, mass = 1, radius_of_gyration = 1}\n", '4:13 a number with a unit is text, in quotes: write spin = "30 rpm", not 30 rpm'),
+    "text without quotes": ("[[links]]\nmass = 1\nlength = 1\nkind = rod\n", '4:1 text is in quotes: write kind = "rod", not rod'),
+    "True": (LINK + "standing = True\n", "4:1 true is written small: write standing = true, not True"),
+    "no digit before the point": ("[[links]]\nmass = .5\nlength = 1\n", "2:1 a number has a digit before its point: write mass = 0.5, not .5"),
+    "no digit behind the point": ("[[links]]\nmass = 5.\nlength = 1\n", "2:1 a number has a digit after its point: write mass = 5.0, not 5."),
+    "colon": ("[[links]]\nmass = 1\nlength: 2\n", "3:1 an equals sign is missing: write length = 2"),
+    "[links]": ("[links]\nmass = 1\nlength = 1\n", "1:1 links: is a list of tables: write [[links]], with two brackets, above each of them"),
+    "[links] twice": ("[links]\nmass = 1\n[links]\nmass = 2\n", "3:7 [links] is there twice: write [[links]], with two brackets, above each link"),
+    "[[link]]": ("[[link]]\nmass = 1\nlength = 1\n", "1:1 link: unknown key; did you mean [[links]]?"),
+    "[[support]]": (LINK + "[[support]]\nradius = 1\n", "4:1 support: is one table: write [support], with one pair of brackets"),
+    "lenght": ("[[links]]\nmass = 1\nlenght = 1\n", "1:1 links[0].length: is missing\n3:1 links[0].lenght: unknown key; did you mean length?"),
+    "inertia": (LINK + "inertia = 3\n", "4:1 links[0].inertia: unknown key; give radius_of_gyration, the square root of inertia / mass, about the centre of gravity"),
+    "rpm": (LINK + "[ask.shapes]\nrpm = 3\n", '5:1 ask.shapes.rpm: unknown key; write angular_speed = "60 rpm"'),
+    "one number for two": (LINK + "[ask.modes]\nangular_speed = 30\n", "5:1 ask.modes.angular_speed: must be a pair [low, high], got 30; either end may be 0 or inf"),
+    "two numbers for one": (LINK + "[ask.shapes]\nangular_speed = [1, 2]\n", '5:1 ask.shapes.angular_speed: must be a number, or a number and its unit such as "30 rpm", got [1, 2]'),
+    "one number for a list": (LINK + "[ask.swing]\noffset = 1\n", "5:1 ask.swing.offset: must be a list of numbers, got 1"),
+    "negative mass": ("[[links]]\nmass = -2\nlength = 1\n", "2:1 links[0].mass: must not be negative, got -2"),
+    "both mass and weight": (LINK + "weight = 3\n", "4:1 links[0].weight: is given beside mass: give one of them, not both"),
+    "neither mass nor weight": ("[[links]]\nlength = 1\n", "1:1 links[0]: mass (kg) or weight (N) is missing"),
+    "order misspelt": ('order = "support frist"\n' + LINK, '1:1 order: must be one of free end first, support first, got "support frist"; did you mean support first?'),
+    "kind of another table": (LINK + 'kind = "rods"\n', '4:1 links[0].kind: must be one of plummet, rod, got "rods"; did you mean rod?'),
+    "wrong dimension": ('[[links]]\nmass = 1\nlength = "2 kg"\n', '3:1 links[0].length: must be a length such as "39.1396 inch", got "2 kg"'),
+    "kilograms as weight": ('[[links]]\nweight = "2 kg"\nlength = 1\n', '2:1 links[0].weight: must be a force such as "20 N", got "2 kg"; give it as mass'),
+    "unknown unit": ('[[links]]\nmass = "2 parsnip"\nlength = 1\n', '2:1 links[0].mass: has a unit that is not known: "2 parsnip"'),
+    "quotes without a unit": ('[[links]]\nmass = "2"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2"'),
+    "missing length": (LINK + "[[links]]\nmass = 1\n", "4:1 links[1].length: is missing"),
+    "empty links": ("links = []\n", "1:1 links: is an empty list: give at least one link"),
+    "nothing hangs": ('title = "x"\n', "1:1 give one of [[links]], [uniform_chain], [tapered_chain] or [cord], got none of them"),
+    "two systems": (LINK + '[uniform_chain]\nkind = "rods"\ncount = 2\nlength = 1\nmass = 1\n', "1:1 give one of [[links]], [uniform_chain], [tapered_chain] or [cord], got links and uniform_chain"),
+    "no speed": (LINK + "[ask.branches]\n", "4:1 ask.branches: give max_angular_speed or min_conical_height: at which speed"),
+    "a range without its end": (LINK + "[ask.response]\nangular_speed = {from = 1}\n", "5:1 ask.response.angular_speed.to: is missing"),
+    "a study": ('scene = "a.toml"\n[vary."links[0].mass"]\nvalues = [1]\n', "2:1 vary: is of a study, not of a scene: revchain sweep a.toml"),
+    "version 1": (LINK + "[ask]\nmodes = 3\n[ask.shapes]\nsense = 1\nangular_speed = 3\n", "5:1 ask.modes: is of version 1: write [ask.modes] count = 3; revchain validate --upgrade rewrites the file\n6:1 ask.shapes: is of version 1: write [ask.shapes] angular_speed = 3, direction = 1; revchain validate --upgrade rewrites the file"),
+    "perhaps version 1": (LINK + "[ask.response]\nangular_speed = [1, 2]\n", "4:1 ask.response: may be of version 1: write [ask.response] angular_speed = {from = 1, to = 2, steps = 200}, or schema_version = 2 at the top; revchain validate --upgrade rewrites the file"),
+    "the name of the link": ('[[links]]\nmass = 1\nlength = 0\nname = "bell"\n', '3:1 links[0].length ("bell"): must be positive, got 0'),
+    "key twice": ("[[links]]\nmass = 1\nmass = 2\n", "3:9 is there twice"),
+    "no value": ("[[links]]\nmass =\nlength = 1\n", "2:7 Invalid value"),
+    "the end": ("mass = [1,", "1:11 Invalid value (the file ends)"),
+    "inside a JSON file": ('{"links": [{"mass": 1,\n  "length": -1, "flywheel": {"mas": 2}}],\n "ask": {"modes": {"angular_speed": ["1 rpm", "3 kg"]}}}', '2:3 links[0].length: must be positive, got -1\n2:17 links[0].flywheel.radius_of_gyration: is missing\n2:17 links[0].flywheel.spin: is missing\n2:30 links[0].flywheel.mas: unknown key; did you mean mass?\n3:47 ask.modes.angular_speed[1]: must be an angular speed such as "30 rpm", got "3 kg"'),
+    "JSON": ('{"title": "x",\n "links": [}', "2:12 Expecting value"),
+    "no JSON": ("{", "1:2 Expecting property name enclosed in double quotes"),
+}  # fmt: skip
+PYTHON = re.compile(r"\bdict\b|\bNone\b|\bfloat\b|\bint\b|\bstr\b|Traceback|array|object|shape \(|\btuple\b|struct")
+
+
+@pytest.mark.parametrize(("text", "said"), FILES.values(), ids=FILES.keys())
+def test_mistakes(tmp_path, monkeypatch, capsys, text, said):
+    monkeypatch.chdir(tmp_path)
+    name = "a.json" if text.startswith("{") else "a.toml"
+    Path(name).write_text(text)
+    lines = [re.sub(r"^(\d+):(\d+) ", rf"{name}: line \1, column \2: ", line) for line in said.split("\n")]
+    with pytest.raises(rc.SceneError) as caught:
+        rc.load_scene(name)
+    assert str(caught.value).split("\n") == lines
+    assert [f"{line}:{column}" for line, column, _, _ in caught.value.problems] == re.findall(r"(?m)^\d+:\d+", said)
+    assert _cli.run(["run", name]) == 3
+    printed = capsys.readouterr()
+    assert printed.err.splitlines() == [f"revchain: {line}" for line in lines] and printed.out == ""
+    assert PYTHON.search(printed.err) is None
+
+
+def test_all_at_once(tmp_path):
+    text = "\n".join(
+        ("gravity = -1", "[[links]]", 'name = "a"', "mass = 5000 kg", "length = 2,5 # m", "[[links]]", "lenght = 1", "mass = -1")
+        + ('kind = "rood"', "[[support]]", "[ask.modes]", "count = 0", "[ask.shapes]", "angular_speed = '3 m'", "[ask.swing]", "")
+    )
+    (tmp_path / "a.toml").write_text(text)
+    with pytest.raises(rc.SceneError) as caught:
+        rc.load_scene(tmp_path / "a.toml")
+    assert [problem.line for problem in caught.value.problems] == [1, 4, 5, 6, 7, 8, 9, 10, 12, 14, 15]
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert again.problems == caught.value.problems and str(again) == str(caught.value)
+    assert (again.source, again.key) == (str(tmp_path / "a.toml"), "gravity")
+
+
+def test_what_follows_from_another_error_is_not_said(tmp_path):
+    """But what does not follow is."""
+    for link, keys in (
+        ("length = -1", ["links[0]", "links[0].length"]),
+        ("length = 1\nmas = 1", ["links[0].mas"]),
+        ("length = 1\nmass = '1 m'", ["links[0].mass"]),
+    ):
+        (tmp_path / "a.toml").write_text(f"[[links]]\n{link}\n")
+        with pytest.raises(rc.SceneError) as caught:
+            rc.load_scene(tmp_path / "a.toml")
+        assert [problem.key for problem in caught.value.problems] == keys
+
+
+def test_a_scene_given_to_sweep(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("a.toml").write_text(LINK)
+    assert _cli.run(["sweep", "a.toml"]) == 3
+    assert "is of a scene, not of a study: revchain run a.toml" in capsys.readouterr().err
+
+
+def test_a_relative_tolerance_in_percent():
+    assert Scene.from_dict({"links": [ONE], "ask": {"modes": {"rtol": "1 %"}}}).modes().rtol == 0.01
+
+
+ONE = {"mass": 1.0, "length": 1.0}
+ROD = {"mass": 1.0, "length": 1.5, "kind": "rod"}
+WHEEL = {"mass": 1.5, "radius_of_gyration": 0.29, "spin": "300 rpm"}
+RODS = {"uniform_chain": {"kind": "rods", "count": 30, "length": 1, "mass": 1}}
+BLADE = {"uniform_chain": {"kind": "rods", "count": 40, "length": 3.0, "mass": 12.0}, "held": {"span": 2.4}}
+UP = {"standing": True}
+
+
+def of(table, **ask):
+    return {**table, "ask": ask}
+
+
+# Plain data, and how the first line begins.
+DATA = {
+    "negative length": ({"links": [ONE, ONE, {**ONE, "length": -0.5}]}, "links[2].length: must be positive, got -0.5"),
+    "nan": ({"links": [{**ONE, "length": math.nan}]}, "links[0].length: must be"),
+    "infinite": ({"links": [{**ONE, "mass": math.inf}]}, "links[0].mass: must be finite"),
+    "massless lowest": ({"links": [{**ONE, "mass": 0}, ONE]}, "links[0]: "),
+    "massless uniform": ({"uniform_chain": {"kind": "rods", "count": 2, "length": 1, "mass": 0}}, "uniform_chain.mass: must be positive"),
+    "stands": ({"links": [{**ONE, "repeat": 3}, {"mass": 9, "length": 1, "centroid": -1, "radius_of_gyration": 1}]}, "links[1]: "),
+    "stands, from the top": ({"order": "support first", "links": [{"mass": 9, "length": 1, "centroid": -1, "radius_of_gyration": 1}, {**ONE, "repeat": 3}]}, "links[0]: "),
+    "imaginary": ({"links": [{**ONE, "centroid": 0.5, "pendulum_length": 0.4}]}, "links[0].pendulum_length: makes the radius"),
+    "pendulum of a link at its pin": ({"links": [ONE, {**ONE, "centroid": 0, "pendulum_length": 0.4}]}, "links[1].pendulum_length: says nothing"),
+    "centroid alone": ({"links": [{**ONE, "centroid": 0.5}]}, "links[0].centroid: needs either"),
+    "centroid with both": ({"links": [{**ONE, "centroid": 0.5, "pendulum_length": 1, "radius_of_gyration": 1}]}, "links[0].centroid: needs either"),
+    "radius alone": ({"links": [{**ONE, "radius_of_gyration": 0.5}]}, "links[0].radius_of_gyration: needs centroid"),
+    "rod with centroid": ({"links": [{**ONE, "kind": "rod", "centroid": 0.5}]}, 'links[0].centroid: does not go with kind = "rod"'),
+    "unknown key, nothing near": ({"links": [{**ONE, "colour": 1}]}, "links[0].colour: unknown key; known keys: length, name, weight, mass"),
+    "unknown method": (of(RODS, modes={"method": "qr"}), "ask.modes.method: must be one of bisection, condensed, aberth, interpolated, dense, recurrence"),
+    "a boolean for a number": ({"links": [{**ONE, "length": True}]}, "links[0].length: must be a number"),
+    "huge integer": ({"links": [{**ONE, "length": 10**400}]}, "links[0].length: must be a number"),
+    "a number for a table": ({"links": [3]}, "links[0]: must be a table, got 3"),
+    "repeat 0": ({"links": [{**ONE, "repeat": 0}]}, "links[0].repeat: must be at least 1, got 0"),
+    "repeat not whole": ({"links": [{**ONE, "repeat": 1.5}]}, "links[0].repeat: must be a whole number, got 1.5"),
+    "too many": ({"links": [{**ONE, "repeat": 6_000_000}] * 2}, "links: must be at most 10,000,000"),
+    "no number": ({"links": [{**ONE, "length": "long"}]}, "links[0].length: must be a number, or a number and its unit"),
+    "negative with unit": ({"links": [{**ONE, "length": "-2 m"}]}, 'links[0].length: must be positive, got "-2 m"'),
+    "infinite with unit": ({"links": [{**ONE, "length": "1e999 m"}]}, "links[0].length: must be finite"),
+    "gravity 0": ({"links": [ONE], "gravity": 0}, "gravity: must be positive, got 0"),
+    "gravity of another kind": ({"links": [ONE], "gravity": "9.81 m"}, "gravity: must be an acceleration"),
+    "another version": ({"links": [ONE], "schema_version": 3}, "schema_version: must be 2, got 3"),
+    "version 1": ({"links": [ONE], "schema_version": 1}, "schema_version: is of version 1: write schema_version = 2"),
+    "no table at all": ([], "must be a table"),
+    "keys that are no text": ({1: 2}, "every key must be text"),
+    "spring 0": ({"links": [ROD], "support": {"stiffness": 0}}, "support.stiffness: must be positive, got 0"),
+    "spring in kg": ({"links": [ROD], "support": {"stiffness": "3 kg"}}, 'support.stiffness: must be a force per length such as "2 kN/m"'),
+    "no spring": ({"links": [ROD], "support": {"mass": 1}}, "support.stiffness: is missing"),
+    "fluid": ({"links": [ROD], "fluid": "air"}, "fluid: must be one of still, turning"),
+    "standing": ({"links": [{**ROD, "standing": 1}]}, "links[0].standing: must be true or false, got 1"),
+    "no radius": ({"links": [ROD, {**ROD, "flywheel": {"mass": 1, "spin": 1}}]}, "links[1].flywheel.radius_of_gyration: is missing"),
+    "spin": ({"links": [{**ROD, "flywheel": {**WHEEL, "spin": "3 m"}}]}, "links[0].flywheel.spin: must be an angular speed"),
+    "wheel": ({"links": [{**ROD, "flywheel": {**WHEEL, "weight": 1}}]}, "links[0].flywheel.weight: is given beside mass"),
+    "displaced": ({"links": [{**ROD, "displaced": {}}]}, "links[0].displaced: mass (kg) or weight (N) is missing"),
+    "added mass": ({"links": [{**ROD, "displaced": {"mass": 1, "added_mass": "1 m"}}]}, "links[0].displaced.added_mass: must be a mass"),
+    "tip of many": ({"links": [{**ROD, "tip_mass": 1, "repeat": 2}]}, "links[0].repeat: must be 1 where a weight is fixed"),
+    "two tips": ({"links": [{**ROD, "tip_mass": 1, "tip_weight": 2}]}, "links[0].tip_weight: is given beside tip_mass"),
+    "no link above": ({"links": [ROD, {**ROD, "clamped": True}]}, "links[1].clamped: there is no link above"),
+    "clamped to many": ({"links": [{**ROD, "clamped": True}, {**ROD, "repeat": 2}]}, "links[0].clamped: needs repeat = 1"),
+    "clamped wheel": ({"links": [{**ROD, "clamped": True, "flywheel": WHEEL}, ROD]}, "links[0].flywheel: is said by the link above"),
+    "held by nothing": ({**BLADE, "held": {}}, "held: give either span or tension"),
+    "span": ({**BLADE, "held": {"span": 3.0}}, "held.span: must be less than the length"),
+    "held rig": ({**BLADE, "support": {"radius": 1}}, "held: does not go with"),
+    "count 0": (of(RODS, modes={"count": 0}), "ask.modes.count: must be at least 1, got 0"),
+    "count not whole": (of(RODS, modes={"count": 1.5}), "ask.modes.count: must be a whole number or all, got 1.5"),
+    "more modes than there are": (of(RODS, modes={"count": 31}), "ask.modes.count: must be at most 30, got 31"),
+    "first too far": (of(RODS, modes={"first": 31}), "ask.modes.first: must be at most 30, got 31"),
+    "count from there on": (of(RODS, modes={"first": 30, "count": 2}), "ask.modes.count: must be at most 1 from number 30 on, got 2"),
+    "window and count": (of(RODS, modes={"count": 2, "conical_height": [1, 2]}), "ask.modes.conical_height: does not go with count"),
+    "two windows": (of(RODS, modes={"conical_height": [1, 2], "angular_speed": [1, 2]}), "ask.modes.angular_speed: does not go with conical_height"),
+    "low above high": (of(RODS, modes={"conical_height": ["2 cm", "2 mm"]}), 'ask.modes.conical_height: its low end must lie below its high end, got ["2 cm", "2 mm"]'),
+    "three ends": (of(RODS, modes={"conical_height": [1, 2, 3]}), "ask.modes.conical_height: must be a pair [low, high], got [1, 2, 3]"),
+    "end nan": (of(RODS, modes={"angular_speed": [1, math.nan]}), "ask.modes.angular_speed[1]: must"),
+    "rtol nan": (of(RODS, modes={"rtol": math.nan}), "ask.modes.rtol: must"),
+    "rtol infinite": (of(RODS, modes={"rtol": math.inf}), "ask.modes.rtol: must be finite"),
+    "rtol in m": (of(RODS, modes={"rtol": "1 m"}), 'ask.modes.rtol: must be a fraction such as "1 %", got "1 m"'),
+    "precision with method": (of(RODS, modes={"precision": "single", "method": "dense"}), "ask.modes.precision: method ="),
+    "certify": (of(RODS, modes={"certify": "yes"}), 'ask.modes.certify: must be true or false, got "yes"'),
+    "direction": (of(RODS, shapes={"angular_speed": 1.0, "direction": 2}), "ask.shapes.direction: must be one of 1, -1, got 2"),
+    "half waves of what hangs": (of(RODS, shapes={"angular_speed": 1.0, "max_half_waves": 2}), "ask.shapes.max_half_waves: is for a chain held at both ends, got 2"),
+    "response in s": (of(RODS, response={"conical_height": ["2 s"]}), "ask.response.conical_height[0]: must be a length"),
+    "response backward": (of(RODS, response={"angular_speed": -1.0}), "ask.response.angular_speed: must be positive, got -1"),
+    "response at rest": (of({"links": [{**ROD, "flywheel": WHEEL}]}, response={"angular_speed": 0}), "ask.response.angular_speed: must not be 0"),
+    "log through 0": (of({"links": [{**ROD, "flywheel": WHEEL}]}, response={"angular_speed": {"from": -1, "to": 2, "log": True}}), "ask.response.angular_speed.log: equal ratios"),
+    "offsets": (of({"links": [ONE, ONE]}, swing={"offset": [0.1]}), "ask.swing.offset: must have a number for each of the 2 pins"),
+    "offset in s": (of({"links": [ONE, ONE]}, swing={"offset": [0.1, "3 s"]}), "ask.swing.offset[1]: must be a length"),
+    "time": (of({"links": [ONE]}, swing={"offset": [0.1], "time": "2 m"}), "ask.swing.time: must be a time"),
+    "certified rig": (of({"links": [{**ROD, "standing": True}]}, modes={"certify": True}), "ask.modes.certify: is for a chain that hangs"),
+    "window of a rig": (of({"links": [{**ROD, "standing": True}]}, modes={"angular_speed": [0, 1]}), "ask.modes.angular_speed: is for systems without"),
+    "supported cord": ({"cord": {"length": 1, "mass": 1}, "support": {"radius": 1}}, "cord: does not go with a support"),
+    "held cord with a tip": ({"cord": {"length": 1, "mass": 1, "tip_mass": 1}, "held": {"span": 0.5}}, "held.span: a held cord must be uniform"),
+    "direction of held": (of(BLADE, shapes={"angular_speed": 1, "direction": -1}), "ask.shapes.direction: is for a chain that hangs, got -1"),
+    "text that is not Unicode": ({"links": [ONE], "title": "\ud800"}, "has text that is not Unicode"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("data", "message"), DATA.values(), ids=DATA.keys())
+def test_errors_name_the_key(data, message):
+    with pytest.raises(rc.SceneError) as caught:
+        Scene.from_dict(data, source="my.toml")
+    assert str(caught.value).startswith(f"my.toml: {message}")
+    assert isinstance(caught.value, ValueError) and PYTHON.search(str(caught.value)) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.json", "[" * 100_000),
+        ("a.toml", "x = " + "[" * 100_000),
+        ("a.json", '{"gravity": ' + "9" * 5000 + "}"),
+        ("a.json", '{"links": [{"mass": ' + "1" * 10**5 + ', "length": 1}]}'),
+        ("a.toml", "links = [{mass = 0x" + "f" * 10**4 + ", length = 1}]"),
+        ("a.toml", 'links = [{mass = "' + "1" * 20_000 + ' kg!", length = 1}]'),
+        ("a.json", '{"a": ' * 900 + "1" + "}" * 900),
+    ],
+)
+def test_files_beyond_all_measure(tmp_path, name, text):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(rc.SceneError, match=name):
+        rc.load_scene(tmp_path / name)
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    for path, message in ((tmp_path / "missing.toml", "No such file"), (tmp_path, "directory")):
+        with pytest.raises(rc.SceneError, match=f"cannot be read: .*{message}"):
+            rc.load_scene(path)
+    (tmp_path / "latin.toml").write_bytes("title = 'Glöckner'".encode("latin-1"))
+    with pytest.raises(rc.SceneError, match="is not UTF-8 text .byte 12."):
+        rc.load_scene(tmp_path / "latin.toml")
+
+
+OLD = """# a comment
+[[links]]
+mass = 1   # kg
+length = 1
+repeat = 3
+[ask]    # what is asked
+modes = "all"   # of them
+method = "auto"
+[ask.shapes]
+sense = -1   # backward
+any_posture = true
+angular_speed = 3
+[ask.response]
+angular_speed = ["1 rpm", "3 rpm"]  # both ends
+steps = 30
+[ask.swing]
+offset = [1, 0, 0]
+until = 3   # s
+"""
+
+
+def test_files_of_version_1_are_rewritten(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    Path("a.toml").write_text(OLD)
+    assert _cli.run(["validate", "a.toml"]) == 3 and Path("a.toml").read_text() == OLD
+    assert _cli.run(["validate", "--upgrade", "a.toml"]) == 0
+    assert Path("a.toml").read_text() == """# a comment
+[[links]]
+mass = 1   # kg
+length = 1
+repeat = 3
+[ask.modes]    # what is asked
+count = "all"   # of them
+[ask.shapes]
+angular_speed = 3
+direction = -1  # backward
+hanging_only = false
+[ask.response]
+angular_speed = {from = "1 rpm", to = "3 rpm", steps = 30}  # both ends
+[ask.swing]
+offset = [1, 0, 0]
+time = {to = 3, steps = 201}  # s
+"""
+    Path("b.json").write_text(json.dumps({"links": [ONE], "ask": {"first": 1, "response": {"conical_height": [2.0]}}}))
+    assert _cli.run(["validate", "--upgrade", "a.toml", "b.json"]) == 0
+    assert json.loads(Path("b.json").read_text())["ask"] == {"response": {"conical_height": 2.0}, "modes": {"first": 1}}
+    assert capsys.readouterr().out.count("wrote") == 2  # nothing was wrong with the first any more
+    for text in ("ask = {modes = 1}\n" + LINK, "ask.modes = 1\n" + LINK, LINK + "[ask]\nmodes = 1\n[support]\nradius = 1\n[ask.shapes]\nangular_speed=1"):
+        Path("c.toml").write_text(text)
+        assert _cli.run(["validate", "--upgrade", "c.toml"]) == 0 and rc.load_scene("c.toml").ask.modes.count == 1
