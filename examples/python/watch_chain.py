@@ -14,7 +14,7 @@ continuous = rc.heavy_chain.conical_heights(5, length=0.36)
 
 print(result)
 print()
-print("mode  rev/min  rev/min, continuous  relative difference of the height")
+print("mode  rpm  rpm, continuous  relative difference of the height")
 for k, (height, limit) in enumerate(zip(result.conical_height, continuous, strict=True)):
     speeds = 60 * rc.conical_pendulum.revolutions_per_second([height, limit])
     print(f"{k + 1:4}  {speeds[0]:7.3f}  {speeds[1]:19.3f}  {height / limit - 1:+33.2e}")

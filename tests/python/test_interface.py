@@ -342,7 +342,6 @@ def test_what_does_not_scale_with_gravity():
         (lambda: POINTS.with_body(mass=-1.0), "^revchain.Chain.with_body: mass must be positive"),
         (lambda: rc.modes(POINTS).uncertainty(mass=-1.0), "^revchain.Modes.uncertainty: mass must be finite"),
         (lambda: rc.modes(POINTS, 3), "^revchain.modes: count must not exceed the 2 modes"),
-        (lambda: rc.explain(RIG, rtol=0.1), "rtol is for chains, cords and what is held, got a Rig"),
         (lambda: rc.explain(CORD, "all"), "infinitely many modes"),
         (lambda: rc.explain(POINTS, 3), "there are 2 modes, got first = 1 and count = 3"),
         (lambda: rc.explain(rc.Held(CORD, tension=9.0)), r"cut it into links: Held\(cord.chain\(1000\)"),

@@ -74,8 +74,6 @@ def explain(
     if not isinstance(system, System):
         raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
     if isinstance(system, Rig):
-        if rtol is not None:
-            raise ValueError(f"{place}: rtol is for chains, cords and what is held, got a Rig; leave it out")
         n = min(count_of(place, count, 10) or 2 * system.size, 2 * system.size)
     else:
         if isinstance(system, Held):
