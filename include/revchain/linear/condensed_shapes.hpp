@@ -14,7 +14,27 @@ struct ModeShapes;  // revchain/modes.hpp
 
 namespace revchain::detail {
 
+/// Distances of the lower pins of links from the free end, along the chain.
+template <Real T>
+std::vector<Wide<T>> pin_places(const Chain<T>& chain) {
+    std::vector<Wide<T>> places;
+    places.reserve(static_cast<std::size_t>(chain.size()));
+    Wide<T> below(T(0));
+    for (Index m = 0; m < chain.size(); ++m) places.push_back(below), below = below + Wide<T>(chain.length()[m]);
+    return places;
+}
+
 /// Distances of the crossings from the free end, along the chain.
+template <Real T>
+Vector<T> nodes(const Chain<T>& chain, const std::vector<Wide<T>>& places,
+                const std::vector<pencil::Crossing<T>>& crossings) {
+    Vector<T> found(static_cast<Index>(crossings.size()));
+    Index i = 0;
+    for (const pencil::Crossing<T>& crossing : crossings)
+        found[i++] = static_cast<T>(places[static_cast<std::size_t>(crossing.element)] +
+                                    T(crossing.share * chain.length()[crossing.element]));
+    return found;
+}
 template <Real T>
 Vector<T> nodes(const Chain<T>& chain, const std::vector<pencil::Crossing<T>>& crossings) {
     Vector<T> found(static_cast<Index>(crossings.size()));

@@ -7,6 +7,7 @@
 
 #include "revchain/linear/condensed_shapes.hpp"
 #include "revchain/linear/one_mode.hpp"
+#include "revchain/pencil/twisted_lanes.hpp"
 
 /// Stage 2 of `modes`: shapes, residuals and nodes of modes whose heights are known.
 namespace revchain::detail {
@@ -49,20 +50,65 @@ class ShapeFinder {
                 if (shapes_by_condensation(shapes, chain_, condensed, height, progress)) return shapes;
             }
         const Pencils<T> pencils(chain_);
+        if constexpr (std::is_same_v<T, double>)
+            if (pencils.wide().units.empty() && chain_.size() <= most_in_lanes) {
+                in_lanes(shapes, pencils, height, progress);
+                return shapes;
+            }
         for (Index j = 0; j < count; ++j) {
-            const Height<T>& at = height[static_cast<std::size_t>(j)];
-            if (loose_)
-                set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,
-                          pencil::eigenvector(pencils.rounded(), at.eigenvalue));
-            else
-                set_shape(shapes, j, chain_, pencils.wide(), at.eigenvalue,
-                          fine_shape<T>(pencils.wide(), at.unrounded));
+            alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]);
             advance(progress, 1.0);  // may be cancelled
         }
         return shapes;
     }
 
    private:
+    static constexpr Index most_in_lanes = 20000;  // 500 bytes of scratch a link
+
+    void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
+        if (loose_)
+            set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,
+                      pencil::eigenvector(pencils.rounded(), at.eigenvalue));
+        else
+            set_shape(shapes, j, chain_, pencils.wide(), at.eigenvalue, fine_shape<T>(pencils.wide(), at.unrounded));
+    }
+
+    /// Several modes at a time; those whose lanes say that they cannot, alone.
+    void in_lanes(ModeShapes<T>& shapes, const Pencils<T>& pencils, const Heights<T>& height,
+                  Progress* progress) const {
+        constexpr std::size_t lanes = pencil::shape_lanes;
+        const bool lumped = pencil::is_lumped(pencils.wide());
+        const std::vector<Wide<T>> places = pin_places(chain_);
+        const std::size_t pins = static_cast<std::size_t>(chain_.size()) + 1;
+        pencil::ShapesInLanes<T> found;
+        std::vector<pencil::Crossing<T>> crossed;
+        for (std::size_t first = 0; first < height.size(); first += lanes) {
+            const std::size_t there = std::min(lanes, height.size() - first);
+            std::array<Wide<T>, lanes> unrounded;
+            std::array<T, lanes> rounded;
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const Height<T>& at = height[first + std::min(i, there - 1)];
+                unrounded[i] = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;
+                rounded[i] = at.eigenvalue;
+            }
+            pencil::shapes_in_lanes(pencils.wide(), lumped, unrounded, rounded, found);
+            T* const row = &shapes.offset(static_cast<Index>(first), 0);
+            for (std::size_t m = 0; m < pins; ++m)
+                for (std::size_t i = 0; i < there; ++i) row[i * pins + m] = found.offset[m * lanes + i];
+            for (std::size_t i = 0; i < there; ++i) {
+                const auto j = static_cast<Index>(first + i);
+                if (found.found[i]) {
+                    shapes.residual[j] = found.residual[i];
+                    found.crossings(i, row + i * pins, crossed);
+                    shapes.nodes[first + i] = nodes(chain_, places, crossed);
+                } else {
+                    alone(shapes, j, pencils, height[first + i]);
+                }
+                advance(progress, 1.0);  // may be cancelled
+            }
+        }
+    }
+
     Chain<T> chain_;
     Index first_;
     Heights<T> height_;

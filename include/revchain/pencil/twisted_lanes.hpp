@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "revchain/pencil/twisted.hpp"
+#include "revchain/simd/pack.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+
+/// Eigenvectors of several modes at once: twisted factorizations in plain arithmetic, one mode a lane, and one
+/// correction from forces left over that are evaluated in twice the digits.
+namespace revchain::pencil {
+
+/// How many modes are found at once.
+inline constexpr std::size_t shape_lanes = 8;
+
+/// Offsets of pins 0 ... n in each lane, pin by pin, and their residuals.
+template <std::floating_point T>
+struct ShapesInLanes {
+    static constexpr T least_offset{1e-290};
+    std::vector<T> offset;                       ///< (n + 1, shape_lanes); the largest of each lane is 1
+    std::array<T, shape_lanes> residual;         ///< as `relative_residual` of height rounded and offsets
+    std::array<bool, shape_lanes> found;         ///< whether the correction was small enough to be all there is
+    std::array<bool, shape_lanes> underflows;    ///< whether signs of neighbours are to be seen from ratios alone
+    std::array<std::size_t, shape_lanes> twist;  ///< below this pin ratios go down, from it on up
+    std::vector<T> down, up;                     ///< (n, shape_lanes): ratios of the offsets of neighbours
+    std::vector<T> below, above, rest, change;   ///< scratch
+
+    /// Where the mode in `lane`, whose offsets `row` has, crosses the axis, lowest first, the held pin left out.
+    void crossings(std::size_t lane, const T* row, std::vector<Crossing<T>>& crossed) const {
+        const std::size_t n = down.size() / shape_lanes;
+        crossed.resize(n);
+        std::size_t count = 0;
+        for (std::size_t m = 0; m + 1 < n; ++m) {  // without branches: nobody can foresee them
+            crossed[count].element = static_cast<Index>(m);
+            count += (row[m] < T(0)) != (row[m + 1] < T(0)) ? 1 : 0;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const T *at = row + crossed[i].element, lower = at[0], upper = at[1];
+            crossed[i].share = lower / (lower - upper);
+        }
+        crossed.resize(count);
+        if (underflows[lane]) by_ratios(lane, row, crossed);
+    }
+
+   private:
+    void by_ratios(std::size_t lane, const T* row, std::vector<Crossing<T>>& crossed) const {
+        using std::abs;
+        crossed.clear();
+        for (std::size_t m = 0; m + 1 < down.size() / shape_lanes; ++m) {
+            const T lower = row[m], upper = row[m + 1];
+            const T ratio = m < twist[lane] ? down[m * shape_lanes + lane] : up[m * shape_lanes + lane];
+            const bool seen = std::min(abs(lower), abs(upper)) > least_offset;
+            if (seen ? (lower < T(0)) == (upper < T(0)) : !(ratio < T(0))) continue;
+            const T share = seen                  ? lower / (lower - upper)
+                            : m < twist[lane] ? ratio / (ratio - T(1))
+                                                  : T(1) / (T(1) - ratio);
+            crossed.push_back({static_cast<Index>(m), share});
+        }
+    }
+};
+
+namespace detail {
+
+/// high + low, unevaluated: of sums and products whose low parts only need to be right to T's own digits.
+template <class V>
+struct Pair {
+    V high{}, low{};
+};
+
+template <bool fused, class V, class T>
+[[gnu::always_inline]] inline Pair<V> times(const DoubleWord<T>& x, const V& y) {
+    const DoubleWord<V> p = two_product<fused>(V(x.high), y);
+    return {p.high, p.low + V(x.low) * y};
+}
+
+template <bool fused, class V>
+[[gnu::always_inline]] inline Pair<V> times(const Pair<V>& x, const DoubleWord<V>& y) {
+    const DoubleWord<V> p = two_product<fused>(x.high, y.high);
+    return {p.high, p.low + (x.high * y.low + x.low * y.high)};
+}
+
+template <class V>
+[[gnu::always_inline]] inline Pair<V> operator+(const Pair<V>& x, const Pair<V>& y) {
+    const DoubleWord<V> s = two_sum(x.high, y.high);
+    return {s.high, s.low + (x.low + y.low)};
+}
+
+/// Coupling over pivot, from its difference to 1 where that is small.
+template <class V>
+[[gnu::always_inline]] inline V ratio_in_lanes(const V& coupling, const V& pivot, const V& inverse) {
+    using T = Lane<V>;
+    const V change = (coupling - pivot) * inverse;
+    return if_less(abs(change), V(T(0.5)), V(T(1)) + change, coupling * inverse);
+}
+
+/// The dynamic stiffness carried across an element, as `across` does.
+template <bool lumped, class V, class T>
+[[gnu::always_inline]] inline V carried(const Element<DoubleWord<T>>& e, const V& k, const V& near, const T& near_mass,
+                                        const T& far_mass, const V& coupling, const V& inverse) {
+    if constexpr (lumped) {
+        if (near_mass == T(0)) return k * (near * inverse) - V(far_mass);
+        return k * ((near - V(near_mass)) * inverse);
+    } else {
+        const V far(far_mass), weight(e.weight), turning(e.turning.high), size = abs(inverse);
+        const V of_coupling = V(T(2)) * abs(coupling) * ((k + weight + V(near_mass) + far) * size) + (k + far);
+        const V of_weight = (k + far) * (abs(near) * size) + (k + turning) * (weight * size);
+        return if_less(of_coupling, of_weight, (k - far) - coupling * (coupling * inverse),
+                       (k - far) * (near * inverse) - (k - turning) * (weight * inverse));
+    }
+}
+
+template <class V>
+[[gnu::always_inline]] inline V not_zero_in_lanes(const V& pivot, const V& stiffness) {
+    using T = Lane<V>;
+    const V least(least_pivot<T>());
+    return if_less(abs(pivot), least, stiffness * (epsilon<T>() * epsilon<T>()) + least, pivot);
+}
+
+/// Forces left over at the pins but the held one, (lambda K - M) y, from the free end up: `take(m, force, size)` gets
+/// that at pin m, and the sum of the sizes of what meets there if `sized`.
+template <bool lumped, bool fused, bool sized, class V, class T, class Offset, class Take>
+[[gnu::always_inline]] inline void forces_left(const std::vector<Element<DoubleWord<T>>>& elements,
+                                               const Pair<V>& height, const Offset& offset, const Take& take) {
+    const std::size_t n = elements.size();
+    Pair<V> from_below{};
+    V size{}, lower = offset(0);
+    for (std::size_t m = 0; m < n; ++m) {
+        const Element<DoubleWord<T>>& e = elements[m];
+        const V upper = m + 1 < n ? offset(m + 1) : V{};
+        const DoubleWord<V> p = two_product<fused>(height.high, V(e.stiffness.high));
+        const Pair<V> k{p.high, p.low + (height.high * V(e.stiffness.low) + height.low * V(e.stiffness.high))};
+        const Pair<V> spring = times<fused>(k, two_sum(lower, -upper));
+        Pair<V> near = times<fused>(e.lower, -lower), far{};
+        V near_size = abs(near.high), far_size{};
+        if constexpr (!lumped) {
+            const Pair<V> by_upper = times<fused>(e.cross, -upper), by_lower = times<fused>(e.cross, -lower);
+            far = times<fused>(e.upper, -upper);
+            if constexpr (sized) near_size += abs(by_upper.high), far_size = abs(far.high) + abs(by_lower.high);
+            near = near + by_upper;
+            far = far + by_lower;
+        }
+        const Pair<V> left = (from_below + spring) + near;
+        V spring_size{};
+        if constexpr (sized) spring_size = abs(k.high) * (abs(lower) + abs(upper));
+        take(m, left.high + left.low, size + (spring_size + near_size));
+        from_below = {-spring.high, -spring.low};
+        if constexpr (!lumped) from_below = from_below + far;
+        if constexpr (sized) size = spring_size + far_size;
+        lower = upper;
+    }
+}
+
+template <bool lumped, class Where, class T>
+[[gnu::always_inline]] inline void shapes_in_lanes(Where, const std::vector<Element<DoubleWord<T>>>& elements,
+                                                   const std::array<DoubleWord<T>, shape_lanes>& heights,
+                                                   const std::array<T, shape_lanes>& rounded, ShapesInLanes<T>& s) {
+    constexpr bool fused = Where::fused;
+    constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
+    using V = Pack<T, width, L / width>;
+    const std::size_t n = elements.size();
+    Pair<V> height;
+    V near_height;
+    for (std::size_t i = 0; i < L; ++i) {
+        height.high.set(i, heights[i].high);
+        height.low.set(i, heights[i].low);
+        near_height.set(i, rounded[i]);
+    }
+    const V zero{}, one(T(1));
+    // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what holds it from above. The
+    // two take turns: each waits for its divisions.
+    V below{}, above{};
+    for (std::size_t m = 0; m < n; ++m) {
+        const Element<DoubleWord<T>>& e = elements[m];
+        const V k = height.high * V(e.stiffness.high);
+        const V coupling = lumped ? k : k + V(e.cross.high);
+        const V pivot = not_zero_in_lanes(below + (k - V(e.lower.high)), k);
+        const V inverse = one / pivot;
+        const std::size_t i = n - 1 - m;
+        const Element<DoubleWord<T>>& f = elements[i];
+        const V k_f = height.high * V(f.stiffness.high);
+        if (m == 0) {
+            above = k_f - V(f.lower.high);
+            zero.store(&s.up[i * L]);
+        } else {
+            const V coupling_f = lumped ? k_f : k_f + V(f.cross.high);
+            const V pivot_f = not_zero_in_lanes(above + (k_f - V(f.upper.high)), k_f);
+            const V inverse_f = one / pivot_f;
+            inverse_f.store(&s.above[(i + 1) * L]);
+            ratio_in_lanes(coupling_f, pivot_f, inverse_f).store(&s.up[i * L]);
+            above = carried<lumped>(f, k_f, above, f.upper.high, f.lower.high, coupling_f, inverse_f);
+        }
+        above.store(&s.change[i * L]);
+        below.store(&s.rest[m * L]);
+        inverse.store(&s.below[m * L]);
+        ratio_in_lanes(coupling, pivot, inverse).store(&s.down[m * L]);
+        below = carried<lumped>(e, k, below, e.lower.high, e.upper.high, coupling, inverse);
+    }
+    // They balance best where the mode is largest.
+    V least(std::numeric_limits<T>::infinity()), least_forces(T(1)), twist{}, from_link{};
+    for (std::size_t m = 0; m < n; ++m) {
+        const Element<DoubleWord<T>>& e = elements[m];
+        const V k = height.high * V(e.stiffness.high), forces = from_link + (k + V(e.lower.high));
+        const V balance = abs(V::load(&s.rest[m * L]) + V::load(&s.change[m * L]));
+        const auto better = balance * least_forces < least * forces;
+        least = select(better, balance, least);
+        least_forces = select(better, forces, least_forces);
+        twist = select(better, V(static_cast<T>(m)), twist);
+        from_link = k + V(e.upper.high);
+    }
+    // Offsets, 1 at the twist, outwards by ratios.
+    V y = one, side = one;  // of the axis: signs outlast offsets that underflow
+    for (std::size_t m = n; m-- > 0;) {
+        const V at(static_cast<T>(m)), ratio = V::load(&s.down[m * L]);
+        y = if_less(at, twist, ratio * y, one);
+        side = if_less(at, twist, if_less(ratio, zero, -side, side), one);
+        y.store(&s.offset[m * L]);
+    }
+    zero.store(&s.offset[n * L]);
+    // What is left over at all other pins is taken away by a correction that is 0 at the twist.
+    V load{};
+    forces_left<lumped, fused, false, V>(
+        elements, height,
+        [&](std::size_t m) REVCHAIN_INLINED {
+            V next = V::load(&s.offset[m * L]);
+            if (m > 0) next = if_less(twist, V(static_cast<T>(m)), V::load(&s.up[(m - 1) * L]) * y, next);
+            next.store(&s.offset[m * L]);
+            return y = next;
+        },
+        [&](std::size_t m, const V& force, const V&) REVCHAIN_INLINED {
+            if (m > 0) load = V::load(&s.down[(m - 1) * L]) * load;
+            load -= force;
+            if_less(V(static_cast<T>(m)), twist, load, -force).store(&s.change[m * L]);
+        });
+    V change{};
+    for (std::size_t m = n; m-- > 0;) {
+        const V at(static_cast<T>(m)), given = V::load(&s.change[m * L]);
+        const V lower = given * V::load(&s.below[m * L]) + V::load(&s.down[m * L]) * change;
+        const V upper = given + V::load(&s.up[m * L]) * change;
+        change = if_less(at, twist, lower, if_less(twist, at, upper, zero));
+        change.store(&s.change[m * L]);
+    }
+    V largest{}, largest_low{}, size{}, most{}, smallest(std::numeric_limits<T>::infinity());
+    for (std::size_t m = 0; m < n; ++m) {
+        const V at(static_cast<T>(m)), given = V::load(&s.change[m * L]);
+        if (m > 0)
+            change = if_less(twist, at, given * V::load(&s.above[m * L]) + V::load(&s.up[(m - 1) * L]) * change, given);
+        else
+            change = given;
+        change.store(&s.change[m * L]);
+        const V offset = V::load(&s.offset[m * L]);
+        const auto larger = size < abs(offset);
+        size = select(larger, abs(offset), size);
+        largest = select(larger, offset, largest);
+        largest_low = select(larger, change, largest_low);
+        most = max(most, abs(change));
+        smallest = min(smallest, abs(offset));
+    }
+    // Scaled by one over the largest, in twice the digits; the free end positive.
+    const DoubleWord<V> whole = fast_two_sum(largest, largest_low);
+    V scale = one / whole.high;
+    const DoubleWord<V> unit = two_product<fused>(whole.high, scale);
+    V scale_low = scale * (((one - unit.high) - unit.low) - whole.low * scale);
+    const V turn = if_less(side * scale, zero, -one, one);
+    scale *= turn;
+    scale_low *= turn;
+    V worst{}, meeting{};
+    forces_left<lumped, fused, true, V>(
+        elements, Pair<V>{near_height, zero},
+        [&](std::size_t m) REVCHAIN_INLINED {
+            const V offset = V::load(&s.offset[m * L]);
+            const DoubleWord<V> scaled = two_product<fused>(offset, scale);
+            const V rest = scaled.low + (offset * scale_low + V::load(&s.change[m * L]) * scale);
+            const V final = (scaled.high + rest) + zero;
+            final.store(&s.offset[m * L]);
+            return final;
+        },
+        [&](std::size_t, const V& force, const V& sizes) REVCHAIN_INLINED {
+            worst = max(worst, abs(force));
+            meeting = max(meeting, sizes);
+        });
+    const V residual = worst / meeting;
+    for (std::size_t i = 0; i < L; ++i) {
+        s.residual[i] = residual[i];
+        s.found[i] = most[i] < T(0x1p-28) * size[i] && size[i] < T(1e200);
+        s.underflows[i] = !(smallest[i] > ShapesInLanes<T>::least_offset * T(4) * size[i]);
+        s.twist[i] = static_cast<std::size_t>(twist[i]);
+    }
+}
+
+}  // namespace detail
+
+/// Shapes of the pencil at some heights, which the last one fills up, and residuals of the heights `rounded`. Accuracy
+/// as `eigenvector` of a pencil in double words; `found` is false in a lane where the correction is not small, which
+/// `eigenvector` can still do. Precondition: the pencil is in one unit.
+template <std::floating_point T>
+void shapes_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped,
+                     const std::array<DoubleWord<T>, shape_lanes>& heights, const std::array<T, shape_lanes>& rounded,
+                     ShapesInLanes<T>& shapes) {
+    const std::size_t n = pencil.elements.size();
+    shapes.offset.resize((n + 1) * shape_lanes);
+    for (std::vector<T>* each : {&shapes.down, &shapes.up, &shapes.below, &shapes.above, &shapes.rest, &shapes.change})
+        each->resize(n * shape_lanes);
+    simd([&](auto where) REVCHAIN_INLINED {
+        if (lumped)
+            detail::shapes_in_lanes<true>(where, pencil.elements, heights, rounded, shapes);
+        else
+            detail::shapes_in_lanes<false>(where, pencil.elements, heights, rounded, shapes);
+    });
+}
+
+/// Whether all elements are point masses at their lower pins.
+template <class S>
+bool is_lumped(const ElementPencil<S>& pencil) {
+    for (const Element<S>& e : pencil.elements)
+        if (!(e.upper == S(0)) || !(e.cross == S(0)) || !(e.turning == S(0))) return false;
+    return true;
+}
+
+}  // namespace revchain::pencil
+
+#pragma GCC diagnostic pop
