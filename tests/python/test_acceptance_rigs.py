@@ -395,8 +395,9 @@ def test_held_by_its_tension_is_held_by_its_span():
 
 def test_continuous_chain_with_a_tip_weight_at_any_inclination():
     length, height, tip = 1.0, 0.35, 0.4
-    found = rc.steady_shapes(rc.Cord(length, weight=length, tip_weight=tip), conical_height=height)
-    first = rc.tip_mass.conical_heights(2, tip=tip, length=length)
+    cord = rc.Cord(length, weight=length, tip_weight=tip)
+    found = rc.steady_shapes(cord, conical_height=height)
+    first = rc.modes(cord, 2).conical_height
     assert len(found) == int((first > height).sum())
     start = float(found[0].offset[0])
 
@@ -811,9 +812,9 @@ def test_as_many_speeds_as_links_hang(seed):
 # ---- 6. attached weights --------------------------------------------------------------------------------------------
 
 
-def test_tip_mass_on_the_continuous_chain():
+def test_tip_mass_on_a_cord():
     for tip, length in [(0.0, 1.0), (1e-8, 1.0), (0.3, 2.0), (1e6, 1.0), (1e-3, 1e5)]:
-        found = rc.tip_mass.conical_heights(4, tip=tip, length=length)
+        found = rc.modes(rc.Cord(length, weight=length, tip_weight=tip), 4).conical_height
         with mp.workdps(40):
 
             def f(x, tip=tip, length=length):
@@ -829,7 +830,7 @@ def test_tip_mass_on_the_continuous_chain():
 
 
 def test_tip_mass_is_the_limit_of_links():
-    want = rc.tip_mass.conical_heights(3, tip=0.4, length=1.0)
+    want = rc.modes(rc.Cord(1.0, weight=2.0, tip_weight=0.8), 3).conical_height
     error = []
     for count in (50, 100, 200):
         chain = rc.Chain.uniform_rods(count, length=1.0, weight=2.0).with_body(weight=0.8)
@@ -971,9 +972,10 @@ def test_swing_of_the_continuous_chain():
     # started in the shape of its second mode, a fine chain keeps it
     chain = rc.Chain.uniform_rods(400, length=1.0)
     x = np.linspace(0, 1, 401)
-    start = 1e-3 * rc.heavy_chain.shape(x, 2)
+    second = rc.modes(rc.Cord(1.0), 1, first=2, gravity=G)
+    start = 1e-3 * second.offset(x)[0]
     start[-1] = 0.0
-    n = math.sqrt(G / rc.heavy_chain.conical_heights(2)[1])
+    (n,) = second.angular_speed
     found = rc.swing(chain, start, None, [0.0, math.pi / n, 2 * math.pi / n])
     assert found.offset[1] == pytest.approx(-start, abs=2e-7)
     assert found.offset[2] == pytest.approx(start, abs=2e-7)
@@ -1035,8 +1037,8 @@ CHAIN = rc.Chain(weight=[1.0, 2.0, 3.0], length=[0.5, 0.4, 0.3])
         lambda: CHAIN.clamped(-1),
         lambda: CHAIN.clamped(2),
         lambda: CHAIN.clamped(1.5),
-        lambda: rc.tip_mass.conical_heights(0, tip=1.0),
-        lambda: rc.tip_mass.conical_heights(1, tip=-1.0),
+        lambda: rc.modes(rc.Cord(1.0, tip_mass=1.0), 0),
+        lambda: rc.Cord(1.0, tip_mass=-1.0),
     ],
 )
 def test_nonsense_is_refused_in_a_sentence(call, capfd):

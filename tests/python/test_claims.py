@@ -16,7 +16,7 @@ import pytest
 from exact import heights_of, jacobi, stored_links
 
 import revchain as rc
-from revchain import elliptic, heavy_chain, plummet, tapered_chain, tip_mass
+from revchain import elliptic, plummet
 
 ULP = 2.0**-52
 TINY, HUGE = mp.mpf(2) ** -1021, mp.mpf(2) ** 1023
@@ -462,7 +462,7 @@ def test_elliptic(name):
     check_random(name, *ELLIPTIC[name])
 
 
-# Chains without links ------------------------------------------------------------------------------------------------
+# Cords ----------------------------------------------------------------------------------------------------------------
 
 
 def root_next_to(function, guess):
@@ -472,7 +472,7 @@ def root_next_to(function, guess):
 
 def zero_of_bessel(order, number):
     """Zero of J of any order, next to the one that the library's heights give."""
-    height = tapered_chain.conical_heights(number, exponent=float(order))[-1]
+    (height,) = rc.modes(rc.Cord(1.0, density=float(order)), 1, first=number).conical_height
     return root_next_to(lambda z: mp.besselj(mp.mpf(order), z), mp.mpf(2 * math.sqrt((order + 1) / height)))
 
 
@@ -502,58 +502,67 @@ def test_speeds_of_a_tolerance():
             assert ulps(speed, mp.sqrt(mp.mpf(solution.gravity) / mp.mpf(float(height)))) <= 1
 
 
-def test_heights_of_the_heavy_chain():
+def check_places(worst, d, modes, exact, allowed):
+    """Offset and slope of one mode against `exact` at shares of the length, of the largest of either."""
+    length = modes.system.length
+    grid = length * np.linspace(0, 1, 400)
+    largest, steepest = (max(1.0 * first, np.abs(f(grid)).max()) for f, first in ((modes.offset, 1), (modes.slope, 0)))
+    for share in places(d):
+        offset, slope = exact(mp.mpf(share * length) / mp.mpf(length))
+        worst.note("offset", off(modes.offset(share * length)[0], offset) / mp.mpf(largest) / allowed)
+        worst.note("slope", off(modes.slope(share * length)[0], slope) / mp.mpf(steepest) / allowed)
+
+
+def test_modes_of_a_uniform_cord():
     d, worst = Draw("heavy_chain"), Worst()
 
     for _ in range(40):
         length, mode = d.power(-150, 150), modes_up_to(d, 30_000)
         zero = zero_of_bessel(0, mode)
-        height = heavy_chain.conical_heights(mode, length)[-1]
-        worst.note("conical_heights", ulps(height, 4 * mp.mpf(length) / zero**2) / 3)
         gravity = d.power(-100, 100)
-        turns = heavy_chain.revolutions_per_second(mode, length, gravity)[-1]
+        found = rc.modes(rc.Cord(length), 1, first=mode, gravity=gravity)
+        worst.note("conical_height", ulps(found.conical_height[0], 4 * mp.mpf(length) / zero**2) / 3)
         turning = mp.sqrt(mp.mpf(gravity) / mp.mpf(length)) / (2 * mp.pi)
-        worst.note("revolutions_per_second", ulps(turns, turning * zero / 2) / 4)
+        worst.note("frequency", ulps(found.frequency[0], turning * zero / 2) / 4)
         energy = (zero * mp.besselj(1, zero)) ** 2 / 8
-        worst.note("kinetic_energy", ulps(heavy_chain.kinetic_energy(mode), energy) * ULP / 1e-15 / (1 + mode))
+        of_slope = (mp.mpf(length) * mp.mpf(float(found.slope(length)[0]))) ** 2 / 2  # over weight per length
+        worst.note("kinetic energy", ulps(of_slope, energy) * ULP / 1e-15 / (1 + mode))
         if mode > 1:
             node = int(d.rng.integers(1, mode))
-            there = heavy_chain.nodes(mode, length)[node - 1]
+            there = found.nodes[0][node - 1]
             worst.note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(0, node) / zero) ** 2) / 5)
-            there = heavy_chain.vertical_points(mode, length)[node - 1]
+            there = found.vertical_points[0][node - 1]
             worst.note("vertical_points", ulps(there, mp.mpf(length) * (zero_of_bessel(1, node) / zero) ** 2) / 5)
         for share in places(d):
             x = length * share
             z = zero * mp.sqrt(mp.mpf(x) / mp.mpf(length))
-            worst.note("shape", off(heavy_chain.shape(x, mode, length), mp.besselj(0, z)) / 1e-15 / mode)
-            slope = mp.mpf(float(heavy_chain.slope(x, mode, length))) * mp.mpf(height)
+            worst.note("offset", off(found.offset(x)[0], mp.besselj(0, z)) / 1e-15 / mode)
+            slope = mp.mpf(float(found.slope(x)[0])) * mp.mpf(found.conical_height[0])
             worst.note("slope", abs(slope + 2 * mp.besselj(1, z) / z) / 1e-15 / mode)
     worst.check()
 
 
-def test_chains_that_taper():
+def test_modes_of_cords_that_taper():
     d, worst = Draw("tapered_chain"), Worst()
 
     for _ in range(40):
         length, mode = d.power(-150, 150), modes_up_to(d, 3000)
         p = [d.uniform(-0.99, 1), d.power(-1, 2), -0.99 + d.power(-6, -2)][d.rng.integers(3)]
         order, zero = mp.mpf(p), zero_of_bessel(p, mode)
-        height = tapered_chain.conical_heights(mode, exponent=p, length=length)[-1]
-        worst.note("conical_heights", ulps(height, 4 * (order + 1) * mp.mpf(length) / zero**2) / 3)
+        found = rc.modes(rc.Cord(length, density=p), 1, first=mode)
+        worst.note("conical_height", ulps(found.conical_height[0], 4 * (order + 1) * mp.mpf(length) / zero**2) / 3)
         if mode > 1:
             node = int(d.rng.integers(1, mode))
-            there = tapered_chain.nodes(mode, exponent=p, length=length)[node - 1]
-            worst.note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(p, node) / zero) ** 2) / 3)
-        at = lambda f, share: f(np.asarray(share) * length, mode, exponent=p, length=length)  # noqa: E731, B023
-        largest = max(1.0, np.abs(at(tapered_chain.shape, np.linspace(0, 1, 400))).max())
-        steepest = np.abs(at(tapered_chain.slope, np.linspace(0, 1, 400))).max()
-        for share in places(d):
-            z = zero * mp.sqrt(mp.mpf(share * length) / mp.mpf(length))
-            allowed = mp.mpf(1e-15) * (1 + zero)
-            exact = mp.hyp0f1(order + 1, -(z**2) / 4)
-            worst.note("shape", off(at(tapered_chain.shape, share), exact) / largest / allowed)
-            exact = -mp.hyp0f1(order + 2, -(z**2) / 4) * zero**2 / (4 * (order + 1) * mp.mpf(length))
-            worst.note("slope", off(at(tapered_chain.slope, share), exact) / mp.mpf(steepest) / allowed)
+            for name, of_node in (("nodes", p), ("vertical_points", p + 1)):
+                there = getattr(found, name)[0][node - 1]
+                worst.note(name, ulps(there, mp.mpf(length) * (zero_of_bessel(of_node, node) / zero) ** 2) / 3)
+
+        def exact(share, order=order, zero=zero, length=length):
+            z = zero * mp.sqrt(share)
+            slope = -mp.hyp0f1(order + 2, -(z**2) / 4) * zero**2 / (4 * (order + 1) * mp.mpf(length))
+            return mp.hyp0f1(order + 1, -(z**2) / 4), slope
+
+        check_places(worst, d, found, exact, mp.mpf(1e-15) * (1 + zero))
     worst.check()
 
 
@@ -571,7 +580,7 @@ def tip_shape(m, height):
     return at
 
 
-def test_chains_with_a_tip():
+def test_modes_of_cords_with_a_tip():
     d, worst = Draw("tip_mass"), Worst()
 
     for turn in range(16):
@@ -580,43 +589,44 @@ def test_chains_with_a_tip():
         where = (length, mode, tip)
         with mp.workdps(60 if tip < 1e12 * length else 300):
             L, m = mp.mpf(length), mp.mpf(tip) / mp.mpf(length)
-            found = tip_mass.conical_heights(mode, tip=tip, length=length)[-1]
+            found = rc.modes(rc.Cord(length, weight=length, tip_weight=tip), 1, first=mode)
             cross = lambda y, m=m: tip_shape(m, y)(mp.mpf(1))[0]  # noqa: E731
-            root = root_next_to(cross, mp.mpf(float(found)) / L)
-            worst.note("conical_heights", ulps(found, root * L) / 2, where)
+            root = root_next_to(cross, mp.mpf(float(found.conical_height[0])) / L)
+            worst.note("conical_height", ulps(found.conical_height[0], root * L) / 2, where)
             exact = tip_shape(m, root)
-            at = lambda f, share: f(np.asarray(share) * length, mode, tip=tip, length=length)  # noqa: E731, B023
-            largest, steepest = (np.abs(at(f, np.linspace(0, 1, 400))).max() for f in (tip_mass.shape, tip_mass.slope))
-            for share in places(d):
-                offset, slope = exact(mp.mpf(share * length) / L)
-                allowed = mp.mpf(2e-15) * mode
-                worst.note("shape", off(at(tip_mass.shape, share), offset) / mp.mpf(float(largest)) / allowed, where)
-                error = off(at(tip_mass.slope, share), slope / (root * L)) / mp.mpf(float(steepest))
-                worst.note("slope", error / allowed, where)
+            scaled = lambda x, exact=exact, L=L, root=root: (exact(x)[0], exact(x)[1] / (root * L))  # noqa: E731
+            check_places(worst, d, found, scaled, mp.mpf(2e-15) * mode)
             if mode > 1:
-                nodes = tip_mass.nodes(mode, tip=tip, length=length)
-                node = mp.mpf(float(nodes[d.rng.integers(0, mode - 1)])) / L
-                worst.note("nodes", abs(root_next_to(lambda x: exact(x)[0], node) - node) / 1e-15, where)  # noqa: B023
+                index = d.rng.integers(0, mode - 1)
+                for name, which in (("nodes", 0), ("vertical_points", 1)):
+                    at = mp.mpf(float(getattr(found, name)[0][index])) / L
+                    zero = root_next_to(lambda x: exact(x)[which], at)  # noqa: B023
+                    worst.note(name, abs(zero - at) / 1e-15, where)
     worst.check()
 
 
-def test_critical_heights_without_links():
-    """`modes` of a `Cord`, its density a function too, against the closed forms, in any unit; offsets, too."""
+def test_modes_of_cords_by_power_series():
+    """A density given as a function against the same cord in closed form, in any unit."""
     d, worst = Draw("continuous_critical_heights"), Worst()
     for turn in range(40):
-        length = d.power(-100, 100) if turn % 2 else d.power(-3, 3)
-        tip, p, count = length * d.power(-9, 9), d.uniform(-0.9, 5), modes_up_to(d, 60) if turn % 2 else 5
+        length = d.power(-3, 3)
         if turn % 2:
-            cord, other, given, bound = rc.Cord(length, weight=length, tip_weight=tip), tip_mass, {"tip": tip}, 3e-15 * count
+            tip, p = length * d.power(-2, 2), 0.0
+            given = {"weight": length, "tip_weight": tip}
         else:
-            cord = rc.Cord(length, density=lambda s, p=p, length=length: (s / length) ** p if s > 0 else 0.0)
-            other, given, bound = tapered_chain, {"exponent": p}, 1.5e-14
-        found, x = rc.modes(cord, count), length * np.linspace(0, 1, 5)
-        exact = other.conical_heights(count, **given, length=length)
-        worst.note("heights", np.abs(found.conical_height / exact - 1).max() / 4e-15, (length, tip, p))
-        shape = other.shape(x, count, **given, length=length)
-        off_by = np.abs(found.offset(x)[-1] - shape).max() / max(1, np.abs(shape).max())
-        worst.note("offset", off_by / bound, (length, tip, p, count))
+            tip, p, given = 0.0, d.uniform(-0.9, 5), {}
+        function = lambda s, p=p, length=length: (s / length) ** p if s > 0 or p == 0 else 0.0  # noqa: E731
+        found = rc.modes(rc.Cord(length, density=function, **given), 5)
+        closed = rc.modes(rc.Cord(length, density=p, **given), 5)
+        assert found.method == "power series" != closed.method
+        where, x = (length, tip, p), length * np.linspace(0, 1, 101)
+        worst.note("heights", np.abs(found.conical_height / closed.conical_height - 1).max() / 4e-15, where)
+        for name in ("offset", "slope"):
+            values, exact = getattr(found, name)(x), getattr(closed, name)(x)
+            worst.note(name, (np.abs(values - exact).max(axis=1) / np.abs(exact).max(axis=1)).max() / 1e-14, where)
+        for name in ("nodes", "vertical_points"):
+            pairs = list(zip(getattr(found, name)[1:], getattr(closed, name)[1:], strict=True))
+            worst.note(name, max(np.abs(a - b).max() for a, b in pairs) / length / 1e-15, where)
     worst.check()
 
 

@@ -18,10 +18,11 @@ import revchain as rc
 def test_the_driven_chain_without_end():
     """N links carried round go over to J0 of the depth over J0 at the hand, as (A + B log N)/N^2."""
     length, links = 0.36, np.array([100, 200, 400, 800])
+    eighth = rc.modes(rc.Cord(1.0), 1, first=8)
     for turns in (0.4, 0.9, 1.5, 2.5):
         speed = 2 * np.pi * turns
-        longer = rc.conical_pendulum.height(speed) / rc.heavy_chain.conical_heights(8)[-1]
-        exact = 1 / rc.heavy_chain.shape(length, 8, longer)
+        longer = rc.conical_pendulum.height(speed) / eighth.conical_height[0]
+        exact = 1 / eighth.offset(length / longer)[0]
         chains = [rc.Chain.uniform_rods(count, length=length) for count in links]
         off = np.array([rc.response(chain, angular_speed=speed, pins=0).offset for chain in chains]) / exact - 1
         assert np.all(np.abs(off) < 5e-4)  # 4.2e-4: 100 links at 2.5 turns
@@ -137,7 +138,7 @@ def test_the_rope_with_gravity(length, span, height):
 
 def test_where_the_rope_folds():
     """Its sag vanishes as exp(-c/(n - n0)), n0 the first speed of a chain as long as the upper part when folded."""
-    (first,) = rc.heavy_chain.revolutions_per_second(1, 1.5)
+    (first,) = rc.modes(rc.Cord(1.5), 1).frequency
     rope = rc.Held(rc.Cord(2.0), span=1.0)
 
     def sag(turns):

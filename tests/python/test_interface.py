@@ -293,7 +293,7 @@ def test_numbers_with_units():
         (lambda: rc.modes(POINTS, gravity="9.81 m/s"), r"gravity must be an acceleration"),
         (lambda: rc.modes(POINTS, "3 m"), r"count must be a number or \"all\""),
         (lambda: rc.steady_shapes(POINTS, angular_speed="3 Hz m"), r"angular_speed must be an angular speed"),
-        (lambda: rc.heavy_chain.conical_heights(3, length="2 kg"), r"length must be a length"),
+        (lambda: rc.Cord("2 kg"), r"length must be a length"),
     ],
 )
 def test_wrong_units(ask, message):

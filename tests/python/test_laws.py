@@ -104,14 +104,14 @@ RODS = (0.0614, 2.065, 8.985)
 
 def test_rods_converge_with_the_square_of_their_number():
     n = 400
-    exact = rc.heavy_chain.conical_heights(3)
+    exact = rc.modes(rc.Cord(1.0), 3).conical_height
     found = rc.modes(rc.Chain.uniform_rods(n), count=3).conical_height
     coefficient = (exact / found - 1) * n**2
     np.testing.assert_allclose(coefficient, RODS, rtol=2e-3)  # next term ~ j^2/N^2 and 3 given digits
 
 
 def test_plummets_converge_with_their_number():
-    exact = rc.heavy_chain.conical_heights(3)
+    exact = rc.modes(rc.Cord(1.0), 3).conical_height
     for n in (1000, 10_000):
         found = rc.modes(rc.Chain.uniform_plummets(n), count=3).conical_height
         np.testing.assert_allclose((exact / found - 1) * n, -0.5, rtol=4 / n)  # next term ((j^2 - 2)/48 + 1/4)/N
@@ -119,9 +119,8 @@ def test_plummets_converge_with_their_number():
 
 def test_shapes_tend_to_bessel_functions():
     n = 2000
-    result = rc.modes(rc.Chain.uniform_rods(n), count=4)
+    result, cord = rc.modes(rc.Chain.uniform_rods(n), count=4), rc.modes(rc.Cord(1.0), count=4)
     x = np.arange(n + 1) / n
     for mode in range(1, 5):
-        expected = rc.heavy_chain.shape(x, mode)
-        assert np.abs(result.shape[mode - 1] - expected).max() < 20 * mode**2 / n**2 * np.log(n)
-        np.testing.assert_allclose(result.nodes[mode - 1], rc.heavy_chain.nodes(mode), atol=20 * mode**2 / n**2)
+        assert np.abs(result.shape[mode - 1] - cord.offset(x)[mode - 1]).max() < 20 * mode**2 / n**2 * np.log(n)
+        np.testing.assert_allclose(result.nodes[mode - 1], cord.nodes[mode - 1], atol=20 * mode**2 / n**2)

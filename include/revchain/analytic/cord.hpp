@@ -18,7 +18,9 @@ struct HeavyChainMode {
 
     double conical_height() const { return analytic::heavy_chain::detail::height(mode, length); }
     double shape(double s) const { return analytic::heavy_chain::shape(s, mode, length); }
+    double slope(double s) const { return analytic::heavy_chain::slope(s, mode, length); }
     Vector<double> nodes() const { return analytic::heavy_chain::nodes(mode, length); }
+    Vector<double> vertical_points() const { return analytic::heavy_chain::vertical_points(mode, length); }
 };
 
 /// The method that finds the modes of a cord, and its accuracy.
@@ -122,8 +124,23 @@ inline Vector<double> CordModes::offset(Index j, const Vector<double>& s) const 
     });
 }
 
+inline double CordModes::slope(Index j, double s) const {
+    return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) { return mode.slope(s); });
+}
+
+inline Vector<double> CordModes::slope(Index j, const Vector<double>& s) const {
+    return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) {
+        return Vector<double>(s.unaryExpr([&](double at) { return mode.slope(at); }));
+    });
+}
+
 inline Vector<double> CordModes::nodes(Index j) const {
     return detail::with_mode("CordModes::nodes", *this, j, [](const auto& mode) { return mode.nodes(); });
+}
+
+inline Vector<double> CordModes::vertical_points(Index j) const {
+    return detail::with_mode("CordModes::vertical_points", *this, j,
+                             [](const auto& mode) { return mode.vertical_points(); });
 }
 
 inline Vector<double> CordModes::angular_speed(double gravity) const {

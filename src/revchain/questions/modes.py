@@ -14,7 +14,8 @@ from ..results.modes import CordModes, Modes, RigModes
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, one_positive, positive, real, shown, together
+from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, one_positive, positive, real
+from ..systems.numbers import refuse_beyond_memory, shown, together
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import word as checked_word
 from ..systems.rig import Rig
@@ -279,6 +280,7 @@ def _of_cord_or_held(
         if count == "all":
             raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
         wanted = None if heights or speeds else _count(place, count, 10)
+        refuse_beyond_memory(place, "count", wanted or 0, 24)
         of_cord = _core.cord_modes(system._under(gravity), first, wanted, heights, speeds, rtol, progress)
         return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
     if not isinstance(system, Held):
