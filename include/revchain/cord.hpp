@@ -47,7 +47,7 @@ struct CordModes {
     Vector<double> slope(Index j, const Vector<double>& s) const;
     /// Arc lengths at which the mode at index j crosses the axis, ascending, without the support.
     Vector<double> nodes(Index j) const;
-    /// Arc lengths at which it is vertical, one above each node, ascending. The centre of gravity of what hangs below is
+    /// Arc lengths at which it is vertical, one above each node, ascending: what hangs below has its centre of gravity
     /// on the axis.
     Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.

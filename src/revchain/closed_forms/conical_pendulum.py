@@ -41,8 +41,7 @@ def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     >>> float(rc.conical_pendulum.angular_speed(2.4525, gravity=9.81))
     2.0
     """
-    place = "revchain.conical_pendulum.angular_speed"
-    return _core.conical_pendulum_angular_speed(*positives(place, height=height, gravity=gravity))
+    return _core.conical_pendulum_angular_speed(*positives("revchain.conical_pendulum.angular_speed", **locals()))
 
 
 def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -111,8 +110,7 @@ def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     >>> float(rc.conical_pendulum.height(2.0, gravity=9.81))
     2.4525
     """
-    place = "revchain.conical_pendulum.height"
-    return _core.conical_pendulum_height(*positives(place, angular_speed=angular_speed, gravity=gravity))
+    return _core.conical_pendulum_height(*positives("revchain.conical_pendulum.height", **locals()))
 
 
 def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:

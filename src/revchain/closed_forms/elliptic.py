@@ -182,10 +182,7 @@ def complete_pi(
 
 
 def incomplete_pi(
-    characteristic: ArrayLike,
-    amplitude: ArrayLike,
-    *,
-    modulus: ArrayLike | None = None,
+    characteristic: ArrayLike, amplitude: ArrayLike, *, modulus: ArrayLike | None = None,
     complementary_modulus: ArrayLike | None = None,
 ) -> Any:
     """Return the integral of the third kind up to an amplitude.

@@ -81,14 +81,8 @@ class GovernorMotion(Solved):
     _row = "motion"
 
     def __init__(
-        self,
-        *,
-        angular_speed: float,
-        pendulum_length: float,
-        angle: float,
-        angle_rate: float = 0.0,
-        gravity: float = STANDARD_GRAVITY,
-        axial_inertia: float = 0.0,
+        self, *, angular_speed: float, pendulum_length: float, angle: float, angle_rate: float = 0.0,
+        gravity: float = STANDARD_GRAVITY, axial_inertia: float = 0.0,
     ) -> None:
         link = {"pendulum_length": pendulum_length, "gravity": gravity, "axial_inertia": axial_inertia}
         start = {"angle": angle, "angle_rate": angle_rate}
