@@ -24,6 +24,12 @@ void interrupt() {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+/// The message of a wrong call, its function named as in Python: "revchain::Chain: ..." is "revchain.Chain: ...".
+std::string in_python(std::string message) {
+    for (std::size_t at = 0; (at = message.find("::", at)) < message.find(": "); ++at) message.replace(at, 2, ".");
+    return message;
+}
+
 }  // namespace
 
 void bind_core(py::module_& module) {
@@ -33,6 +39,14 @@ void bind_core(py::module_& module) {
     namespace pendulum = revchain::conical_pendulum;
 
     py::register_exception<revchain::Cancelled>(module, "Cancelled", PyExc_RuntimeError);
+
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const revchain::InvalidArgument& error) {
+            PyErr_SetString(PyExc_ValueError, in_python(error.what()).c_str());
+        }
+    });
 
     py::class_<revchain::Progress>(module, "Progress", "How far modes() is, readable from another thread.")
         .def(py::init<>())

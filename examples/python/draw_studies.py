@@ -23,8 +23,8 @@ for sense, colour in (("forward", COLOURS[0]), ("backward", COLOURS[1])):
     speeds = wheels[f"{sense}_angular_speed"] * RPM
     lines = spun.plot(wheels["spin"] * RPM, speeds, color=colour)
     lines[0].set_label(sense)
-    print(f"twelve wheels at 600 rpm, {sense}: " + ", ".join(f"{speed:.2f}" for speed in speeds[-1]) + " rev/min")
-spun.set(title="Twelve bicycle wheels spun up", xlabel="spin, rev/min", ylabel="whirl, rev/min")
+    print(f"twelve wheels at 600 rpm, {sense}: " + ", ".join(f"{speed:.2f}" for speed in speeds[-1]) + " rpm")
+spun.set(title="Twelve bicycle wheels spun up", xlabel="spin, rpm", ylabel="whirl, rpm")
 spun.legend()
 
 weights = rc.sweep(STUDIES / "two_weights.toml").to_xarray()

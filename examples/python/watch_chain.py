@@ -14,7 +14,7 @@ continuous = rc.modes(rc.Cord(0.36), count=5)
 
 print(result)
 print()
-print("mode  rev/min  rev/min, continuous  relative difference of the height")
+print("mode  rpm  rpm, continuous  relative difference of the height")
 for k, off in enumerate(result.conical_height / continuous.conical_height - 1):
     print(f"{k + 1:4}  {result.rpm[k]:7.3f}  {continuous.rpm[k]:19.3f}  {off:+33.2e}")
 

@@ -16,7 +16,7 @@ def test_counted_by_the_critical_heights():
         assert shapes.complete
         assert len(shapes) == np.sum(rc.modes(Cord(ratio), 20).conical_height > 1.0)
         assert [shape.half_waves for shape in shapes] == list(range(1, len(shapes) + 1))
-    assert repr(shapes).startswith("14 shapes at 3.13156 rad/s, proved complete\n")
+    assert repr(shapes).startswith("14 shapes at 3.13156 rad/s (29.90 rpm), proved complete\n")
     assert len(shapes[1:3]) == 2
 
 

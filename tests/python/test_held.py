@@ -80,7 +80,7 @@ def test_a_slow_chain_folds_and_says_so() -> None:
     assert len(slow) == 0
     assert slow.missing == (1, 2)
     assert not slow.complete
-    assert repr(slow).startswith("0 shapes at 0.442869 rad/s; none found with 1, 2 half waves")
+    assert repr(slow).startswith("0 shapes at 0.442869 rad/s (4.229 rpm); none found with 1, 2 half waves")
 
 
 def test_a_folded_cord_is_given_up_soon() -> None:

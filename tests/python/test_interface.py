@@ -277,6 +277,7 @@ def test_numbers_with_units():
     assert turns == pytest.approx([4 * math.pi] * 4, rel=1e-15)  # a frequency is in turns
     by_parts = rc.modes(POINTS).uncertainty(mass=["5 %", 0])
     assert by_parts == rc.modes(POINTS).uncertainty(mass=[0.05 * 1.0, 0.0])
+    assert by_parts == rc.modes(POINTS).uncertainty(mass=np.array(["5 %", "0 kg"]))
     assert rc.modes(POINTS).uncertainty(length="1 %") == rc.modes(POINTS).uncertainty(length=["1 %", "1 cm"])
     assert rc.response(POINTS, angular_speed="30 rpm", support_radius="1 cm").support_radius == 0.01
     assert rc.swing(POINTS, ["1 cm", 0.0], None, "2 min").time.tolist() == [120.0]
@@ -336,6 +337,14 @@ def test_what_does_not_scale_with_gravity():
         (lambda: rc.tune(RIG, vary="support.stiffness", mode=99, angular_speed=2.0), "mode must be from 1 to 4, got 99"),
         (lambda: rc.Chain.from_dict({**POINTS.to_dict(), "lenght": 3}), "there is no lenght"),
         (lambda: rc.count_modes(POINTS, conical_height=1.0, gravity=-1), "gravity must be positive"),
+        (lambda: rc.Chain(mass=[-1.0], length=1.0), r"^revchain.Chain: links\[0\]: mass must be finite and not negative, got -1$"),
+        (lambda: rc.Chain.uniform_rods(5, mass=-1.0), "^revchain.Chain.uniform_rods: mass must be positive"),
+        (lambda: POINTS.with_body(mass=-1.0), "^revchain.Chain.with_body: mass must be positive"),
+        (lambda: rc.modes(POINTS).uncertainty(mass=-1.0), "^revchain.Modes.uncertainty: mass must be finite"),
+        (lambda: rc.modes(POINTS, 3), "^revchain.modes: count must not exceed the 2 modes"),
+        (lambda: rc.explain(CORD, "all"), "infinitely many modes"),
+        (lambda: rc.explain(POINTS, 3), "there are 2 modes, got first = 1 and count = 3"),
+        (lambda: rc.explain(rc.Held(CORD, tension=9.0)), r"cut it into links: Held\(cord.chain\(1000\)"),
         (lambda: rc.modes(POINTS).uncertainty(mass="abc %"), r'mass must be a number, or a part of it such as "5 %"'),
     ],
 )

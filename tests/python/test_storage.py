@@ -148,6 +148,15 @@ def test_every_kind_of_result(tmp_path, name, ending):
             twin.anything = 1
 
 
+@pytest.mark.parametrize("name", [name for name, _ in results()])
+def test_xarray_has_all_that_the_dictionary_has(tmp_path, name):
+    result = dict(results())[name]
+    data, whole = result.to_xarray(), result.to_dict()
+    there = {*data.variables, *data.attrs}
+    assert not {key for key, value in whole.items() if value is not None} - there - {result._sheet().row + "s"}
+    data.to_netcdf(tmp_path / "data.nc", engine="h5netcdf")
+
+
 def test_a_result_of_a_module_that_is_not_imported_yet(tmp_path, python):
     result = rc.two_links.link_on_thread_shapes(2.0, 1.0, 1.0, height=0.5)[0]
     result.save(tmp_path / "shape.npz")

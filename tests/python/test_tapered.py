@@ -83,7 +83,7 @@ def test_scene():
     for wrong, words in (
         ({**table, "exponent": -1.0}, "tapered_chain.exponent"),
         ({**table, "exponent": 1000.5}, "tapered_chain.exponent"),
-        ({**table, "exponent": 900.0}, "tapered_chain: .*too little weight"),
+        ({**table, "exponent": 900.0}, "tapered_chain: .*too little mass"),
         ({**table, "count": 0}, "tapered_chain.count"),
         ({**table, "kind": "rods"}, "kind"),
         ({key: value for key, value in table.items() if key != "exponent"}, "exponent"),

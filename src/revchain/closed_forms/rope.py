@@ -324,7 +324,6 @@ class TortuousRope(Solved):
         -------
         matplotlib.axes.Axes
 
-
         Examples
         --------
         >>> import revchain as rc

@@ -534,10 +534,8 @@ def jointed_links_shapes(
     ----------
     lower_weight, lower_centroid, lower_radius_of_gyration : float
         As in `jointed_links`.
-    upper_weight, upper_length, upper_centroid, upper_radius_of_gyration : float
-        As in `jointed_links`.
-    height : float
-        Conical height, positive.
+    upper_weight, upper_length, upper_centroid, upper_radius_of_gyration, height : float
+        As in `jointed_links`; conical height, positive.
 
     Returns
     -------

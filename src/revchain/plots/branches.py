@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import Floats, word
-from .style import axes_or_new, half_waves_style
+from .modes import beside_at_rest
+from .style import half_waves_style
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -35,7 +36,7 @@ CLOSEST = 0.03  # of the width, between births that are written out
 def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, quantity: str, place: str) -> Axes:
     """See `Branches.plot`; `first` is the conical height of the slowest mode."""
     word(place, "quantity", quantity, QUANTITIES)
-    ax = axes_or_new(ax, 7.2, 5.0)
+    ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
     named: set[int] = set()
     curves: dict[Artist, int] = {}
     births: list[tuple[float, str]] = []

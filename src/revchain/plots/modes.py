@@ -16,7 +16,7 @@ from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import integer, listed, shown
 from ..systems.rig import Rig
-from .style import MOST_PINS_AS_DOTS, MOST_POINTS, axes_or_new, plain, thinned
+from .style import MOST_PINS_AS_DOTS, MOST_POINTS, axes_or_new, new_figure, plain, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -180,6 +180,16 @@ def plot_system(system: System, ax: Axes | None) -> Axes:
     return ax
 
 
+def beside_at_rest(system: System | None, ax: Axes | None, width: float, height: float) -> Axes:
+    """The axes of the caller, or new ones: beside the system at rest where its links can be told apart."""
+    if ax is not None or system is None or not _Straight(system).few:
+        return axes_or_new(ax, width, height)
+    left, right = new_figure(width + 1.8, height).subplots(1, 2, width_ratios=[1.8, width])
+    plot_system(system, left).set_xlabel("at rest")
+    axes: Axes = right
+    return axes
+
+
 def chosen(place: str, available: Whole, which: Iterable[int] | None) -> list[int]:
     """Numbers of the modes to draw."""
     if available.size == 0:
@@ -242,7 +252,8 @@ def plot_modes(modes: Modes, ax: Axes | None, which: Iterable[int] | None, carri
 
 
 def _speed_label(name: str, speed: float) -> str:
-    return f"{name}\n{digits(speed, 4)} rad/s\n{digits(speed * 30 / np.pi, 4)} rev/min"
+    lines = [name, f"{digits(speed, 4)} rad/s", f"{digits(speed * 30 / np.pi, 4)} rpm", f"{digits(2 * np.pi / abs(speed), 4)} s"]
+    return "\n".join(lines)
 
 
 def _draw_mode(ax: Axes, modes: Modes, straight: _Straight, row: int, axis: float, nth: int) -> None:
@@ -268,7 +279,7 @@ def plot_carried(found: Response, ax: Axes | None, pins: list[int]) -> Axes:
     """The response at one speed as a shape, the support on its circle."""
     straight = _Straight(found.system)
     offset = dict(zip(np.atleast_1d(found.pins).tolist(), found.offset.reshape(-1).tolist(), strict=True))
-    ax = axes_or_new(ax, 5.0, 6.0)
+    ax = beside_at_rest(found.system, ax, 5.0, 6.0)
     straight.axis(ax, 0.0)
     places = range(found.system.size + 1)
     across = np.array([offset.get(pin, np.nan) if pin in pins else np.nan for pin in places])

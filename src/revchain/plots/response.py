@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import integer, listed, word
-from .modes import plot_carried
-from .style import MOST_PINS_AS_DOTS, axes_or_new, thinned
+from .modes import beside_at_rest, plot_carried
+from .style import MOST_PINS_AS_DOTS, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,7 +32,7 @@ def plot_response(found: Response, ax: Axes | None, pins: Iterable[int] | None, 
     speed = speed[order]
     offset = found.offset.reshape(speed.size, -1)[order]
     chosen = _spread(available, found.system.size) if pins is None else _known(pins, available)
-    ax = axes_or_new(ax, 7.0, 4.5)
+    ax = beside_at_rest(found.system, ax, 7.0, 4.5)
     for number, pin in enumerate(chosen):
         y = offset[:, available.index(pin)]
         name = "free end" if pin == 0 else f"pin {pin}"
@@ -93,7 +93,7 @@ def plot_swing(
     for pin in chosen:
         if not 0 <= pin <= size:
             raise ValueError(f"{place}: pins must be numbers from 0 to {size}, got {pin}")
-    ax = axes_or_new(ax, *((7.0, 4.0) if kind == "time" else (5.0, 6.0)))
+    ax = beside_at_rest(found.system, ax, *((7.0, 4.0) if kind == "time" else (5.0, 6.0)))
     order = np.argsort(found.time)
     if kind == "time":
         for number, pin in enumerate(chosen):

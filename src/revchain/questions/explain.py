@@ -13,7 +13,8 @@ from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, real, shown
 from ..systems.numbers import count as checked_count
 from ..systems.rig import Rig
-from .modes import modes, straight
+from ..systems.system import System
+from .modes import count_of, modes, straight
 
 
 def explain(
@@ -62,10 +63,7 @@ def explain(
         raise ValueError(f"{place}: rtol must not be negative or NaN, got {tolerance}")
     if isinstance(system, Chain):
         core = compiled(place, system, link_by_link=False)
-        most = max(core.mode_count - start + 1, 1)
-        n = min(10, most) if count is None else most if isinstance(count, str) and count == "all" else checked_count(place, "count", count)
-        if start - 1 + n > core.mode_count:
-            raise ValueError(f"{place}: there are {core.mode_count} modes, got first = {start} and count = {n}")
+        n = _how_many(place, count, start, core.mode_count)
         rows, chosen, met = _core.select(core, start, n, tolerance, 0.0, None)
         estimates = tuple(
             (name, reason is None, reason or "", bound, cost, i == chosen and reason is None)
@@ -73,9 +71,26 @@ def explain(
             if name != "finite amplitude"  # steady_shape answers at an inclination
         )
         return Explanation._made(None, estimates=estimates, meets_tolerance=met, rtol=tolerance)
-    most = 2 * system.size if isinstance(system, Rig) else 10
-    n = 10 if count is None else most if isinstance(count, str) and count == "all" else checked_count(place, "count", count)
+    if not isinstance(system, System):
+        raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+    if isinstance(system, Rig):
+        n = min(count_of(place, count, 10) or 2 * system.size, 2 * system.size)
+    else:
+        if isinstance(system, Held):
+            straight(place, system, STANDARD_GRAVITY)
+        n = _how_many(place, count, start, getattr(system, "mode_count", None))
     return _only(*_method(place, system, start, n), tolerance)
+
+
+def _how_many(place: str, count: Any, first: int, most: int | None) -> int:
+    """How many modes are asked for, of `most` or of infinitely many."""
+    if most is None and isinstance(count, str) and count == "all":
+        raise ValueError(f"{place}: a cord has infinitely many modes; give count")
+    there = 10 if most is None else max(most - first + 1, 1)
+    n = count_of(place, count, min(10, there)) or there
+    if most is not None and first - 1 + n > most:
+        raise ValueError(f"{place}: there {'is 1 mode' if most == 1 else f'are {most} modes'}, got first = {first} and count = {n}")
+    return n
 
 
 def _method(place: str, system: Any, first: int, count: int) -> tuple[str, float, float]:
@@ -86,10 +101,7 @@ def _method(place: str, system: Any, first: int, count: int) -> tuple[str, float
     if isinstance(system, Cord):
         one = modes(system, 1)
         return one.method, float(one.error_bound[0]), (1e-3 * (first + count) if one.method == "power series" else 1e-5 * count)
-    if isinstance(system, Held):
-        straight(place, system, STANDARD_GRAVITY)
-        return "bisection", 2.0**-52, 6e-6 * system.size * count
-    raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+    return "bisection", 2.0**-52, 6e-6 * system.size * count
 
 
 def _only(name: str, bound: float, cost: float, rtol: float) -> Explanation:

@@ -209,7 +209,7 @@ def find_modes(
     if isinstance(system, Rig):
         asked = {"conical_height": conical_height, "angular_speed": angular_speed, "rtol": rtol, "method": method, "precision": precision, "certify": certify}
         _refuse(place, asked, "is for a Chain; the modes of a Rig are chosen by count and first")
-        of_rig = _core.rig_modes(system._under(g), start, _count(place, count, 10), g, progress)
+        of_rig = _core.rig_modes(system._under(g), start, count_of(place, count, 10), g, progress)
         found = RigModes._made(of_rig, system=system, gravity=g)
         if start > max(1, *found.available):
             raise ValueError(f"{place}: there are {max(found.available)} modes in a direction, got first = {start}")
@@ -227,7 +227,7 @@ def find_modes(
     core = compiled(place, system)
     wanted: int | None = None
     if heights is None and speeds is None:
-        wanted = _count(place, count, max(min(10, core.mode_count - start + 1), 1)) or max(core.mode_count - start + 1, 1)
+        wanted = count_of(place, count, max(min(10, core.mode_count - start + 1), 1)) or max(core.mode_count - start + 1, 1)
     if precision is not _DOUBLE:
         checked_word(place, "precision", precision, _core.PRECISIONS)
     if certify is not False:
@@ -278,14 +278,14 @@ def _of_cord_or_held(
         _refuse(place, asked, "is for a Chain; the heights of a Cord have closed forms or power series")
         if count == "all":
             raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
-        wanted = None if heights or speeds else _count(place, count, 10, each=24)
+        wanted = None if heights or speeds else count_of(place, count, 10, each=24)
         of_cord = _core.cord_modes(system._under(gravity), first, wanted, heights, speeds, rtol, progress)
         return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
     if not isinstance(system, Held):
         raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
     _refuse(place, asked, "is for a Chain that hangs")
     core = straight(place, system, gravity)
-    wanted = None if heights or speeds else _count(place, count, max(min(10, system.mode_count - first + 1), 1))
+    wanted = None if heights or speeds else count_of(place, count, max(min(10, system.mode_count - first + 1), 1))
     of_held = _core.held_modes(core, first, wanted, heights, speeds, rtol, progress)
     return Modes._made(of_held, system=system, gravity=gravity, precision="double", rtol=rtol)
 
@@ -315,7 +315,7 @@ def straight(place: str, held: Held, gravity: float) -> _core.Held:
     return held._under(gravity)
 
 
-def _count(place: str, count: int | str | None, default: int, each: int = 0) -> int | None:
+def count_of(place: str, count: int | str | None, default: int, each: int = 0) -> int | None:
     """How many, of so many bytes each; None for all."""
     if count is None:
         return default

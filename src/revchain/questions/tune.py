@@ -131,7 +131,7 @@ def tune(
         present=present,
         between=(low, high),
         reachable=(lowest, highest) if status != "found" else None,
-        datum=f"{datum} of links[{link}]",
+        vary=vary,
     )
 
 
@@ -175,7 +175,7 @@ def _length(system: Chain | Cord, mode: int, name: str, value: float, gravity: f
         present=present,
         between=(0.0, np.inf),
         reachable=None,
-        datum="length",
+        vary="length",
     )
 
 
@@ -243,7 +243,7 @@ def _of_rig(
         present=present,
         between=(-np.inf if path else 0.0, np.inf),
         reachable=None,
-        datum=vary,
+        vary=vary,
     )
 
 

@@ -14,7 +14,7 @@ from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import Floats, floats, numbers, refuse_where
 from .base import Field
-from .shapes import Shape, Stability, SteadyShapes, forced, is_driven
+from .shapes import Shape, Stability, SteadyShapes, at_speed, forced, is_driven
 from .sheet import Column, Sheet
 
 
@@ -98,12 +98,12 @@ class _Bent(Shape):
             *self._places(),
             Column("offset", self.offset, "from axis (m)"),
             Column("height", self.height, "height (m)"),
-            Column("tension", self.tension, "tension"),
+            Column("tension", self.tension, "tension" + " (N)" * self.system.by_mass),
         ]
         names = [name for name in self._fields if name not in ("system", "period") and not name.startswith("_")]
         facts = {name: getattr(self, name) for name in names}
         facts = {name: value for name, value in facts.items() if np.ndim(value) == 0}
-        heading = f"Steady shape of {self.half_waves} half wave{'s' * (self.half_waves != 1)} at {self.angular_speed:.6g} rad/s"
+        heading = f"Steady shape of {self.half_waves} half wave{'s' * (self.half_waves != 1)}{at_speed(self.angular_speed)}"
         return Sheet("place", heading, columns, facts, [self._note], spread=True)
 
     _note: ClassVar[str]
@@ -115,7 +115,7 @@ class _Bent(Shape):
             Column("lowest_inclination", lowest, "lower end (°)", 5, shown=np.degrees(lowest)),
             Column("largest_offset", [x._reach for x in shapes], "largest distance from axis (m)", 5),
             Column("free_end_offset", [x.offset[0] for x in shapes]),
-            Column("top_tension", [x.tension[-1] for x in shapes], "top tension", 5),
+            Column("top_tension", [x.tension[-1] for x in shapes], f"top tension{' (N)' if shapes[0].system.by_mass else ''}", 5),
             *cls._ends(shapes),
             Column(cls._accuracy, [getattr(x, cls._accuracy) for x in shapes], "error (rad)"),
             Column("inclination", [x.inclination for x in shapes], axes=(cls._axes[0],)),

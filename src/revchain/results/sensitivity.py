@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.chain import like
+from ..systems.chain import checked, like
 from ..systems.numbers import Floats, Whole, floats, shown
 from .base import Field, Result
 from .sheet import Column, Sheet
@@ -227,6 +227,8 @@ def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty
         value = given[name]
         if isinstance(value, str):
             value = [value] * size
+        if isinstance(value, np.ndarray) and value.dtype.kind == "U":
+            value = value.tolist()
         if isinstance(value, list | tuple):
             value = _parts_of_data(f"{place}: {name}", value, np.abs(_data(modes.system)[name]))
         array = None if value is None else floats(place, name, value)
@@ -238,9 +240,9 @@ def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty
         deviations.append(array)
     sensitivity: Any = modes.sensitivity
     heights = modes.conical_height.astype(np.float64)
-    height, relative, share, datum, link = _core.uncertainty(
-        heights, [sensitivity[name] for name in DATA], deviations
-    )
+    of = [sensitivity[name] for name in DATA]
+    found = checked(place, modes.system.by_mass, _core.uncertainty, heights, of, deviations)
+    height, relative, share, datum, link = found
     return Uncertainty._made(
         None,
         number=modes.number,

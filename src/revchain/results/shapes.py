@@ -122,7 +122,7 @@ class Shape(Result):
         >>> ax.get_xlabel()
         'distance from the axis (m)'
         """
-        from ..plots.style import plot_shapes
+        from ..plots.shapes import plot_shapes
 
         return plot_shapes([self], ax)
 
@@ -305,16 +305,16 @@ class SteadyShape(Shape):
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
-            Column("link", np.arange(len(self.inclination)), "link"),
+            Column("link", np.arange(len(self.inclination)), "link", shown=getattr(self.system, "names", None)),
             Column("inclination", self.inclination, "inclination (°)", shown=np.degrees(self.inclination)),
             Column("offset", self.offset[:-1], "lower pin: from axis (m)"),
             Column("height", self.height[:-1], "above support (m)"),
-            Column("tension", self.tension, "tension"),
+            Column("tension", self.tension, "tension" + " (N)" * self.system.by_mass),
             Column("reaction_inclination", self.reaction_inclination),
         ]
         names: tuple[str, ...] = ("angular_speed", "conical_height", "half_waves", "error_bound", "residual", "condition")
         names += ("gravity", "direction", "moment_of_inertia", "effective_energy", "angular_momentum")
-        heading = f"Steady shape of {self.half_waves} half wave{'s' * (self.half_waves != 1)} at {self.angular_speed:.6g} rad/s"
+        heading = f"Steady shape of {self.half_waves} half wave{'s' * (self.half_waves != 1)}{at_speed(self.angular_speed)}"
         notes = ["links from the free end up; inclinations to the downward vertical"]
         facts = {name: getattr(self, name) for name in names} | {"support_offset": float(self.offset[-1])}
         return Sheet("link", heading, columns, facts, notes)
@@ -403,7 +403,7 @@ class SteadyShapes(Results[Any]):
         >>> ax.get_title()
         '5 shapes, proved complete'
         """
-        from ..plots.style import plot_shapes
+        from ..plots.shapes import plot_shapes
 
         axes = plot_shapes(self, ax)
         axes.set_title(self._how_many())
@@ -430,9 +430,14 @@ class SteadyShapes(Results[Any]):
             columns += kind._columns(self)
             notes = [kind._note]
         names = ("gravity", "angular_speed", "conical_height", "complete", "undecided", "missing")
-        heading = self._how_many(f" at {digits(self.angular_speed, 6)} rad/s")
+        heading = self._how_many(at_speed(self.angular_speed))
         facts = {name: getattr(self, name) for name in names}
         return Sheet("shape", heading, columns, facts, notes, self.complete or isinstance(self.system, Held))
+
+
+def at_speed(speed: float) -> str:
+    """In headings."""
+    return f" at {digits(speed, 6)} rad/s ({digits(speed * 30 / math.pi, 4)} rpm)"
 
 
 def _speed(height: float, gravity: float) -> float:

@@ -206,7 +206,7 @@ def as_dataframe(sheet: Sheet) -> Any:
 
 
 def as_dataset(sheet: Sheet) -> Dataset:
-    """A data set of xarray: the first axis counts the rows."""
+    """A data set of xarray: the first axis counts the rows; facts are variables (arrays) or attributes."""
     xarray = require("xarray", "netcdf", "to_xarray")
     variables = {
         column.name: ((sheet.row, *column.axes), padded(column.values, 1 + len(column.axes)))
@@ -214,13 +214,22 @@ def as_dataset(sheet: Sheet) -> Dataset:
         if column.name != sheet.row
     }
     coordinates = {column.name: column.values for column in sheet.columns if column.name == sheet.row}
-    facts = {name: value for name, value in plain(sheet.facts).items() if isinstance(value, str | int | float)}
+    for name, value in sheet.facts.items():
+        if isinstance(value, np.ndarray):
+            variables[name] = tuple(f"{name}_axis_{k}" for k in range(value.ndim)), value
+    facts = {name: value for name, value in sheet.facts.items() if name not in variables and value is not None}
     data: Dataset = xarray.Dataset(variables, coordinates, {name: _attribute(value) for name, value in facts.items()})
     return data
 
 
-def _attribute(value: str | int | float) -> str | int | float:
-    return int(value) if isinstance(value, bool) else value  # netCDF has no bool
+def _attribute(value: Any) -> str | int | float:
+    """As netCDF can hold it: it has no bool and no nested data."""
+    import json
+
+    value = plain(value)
+    if isinstance(value, bool):
+        return int(value)
+    return value if isinstance(value, str | int | float) else json.dumps(value)
 
 
 def padded(rows: Any, axes: int) -> Numbers:

@@ -20,7 +20,7 @@ class Tuned(Result):
     >>> import revchain as rc
     >>> chain = rc.Chain(weight=[1.0, 3.0], length=1.0)
     >>> rc.tune(chain, vary="links[0].weight", conical_height=1.7)
-    Tuned: weight of links[0] = 2.88235
+    Tuned: links[0].weight = 2.88235
       value
     2.88235
     >>> rc.tune(chain, vary="links[0].weight", conical_height=2.5).status
@@ -33,7 +33,7 @@ class Tuned(Result):
         "none could not be shown.",
         part=True,
     )
-    datum: Field[str] = Field("What was changed.", part=True)
+    vary: Field[str] = Field("What was changed, as in the question.", part=True)
     system: Field[Any] = Field("The system with `value` in place; None where none was found.", part=True)
     value: Field[float | None] = Field(
         "The one nearest to the present value (for weights, in ratio, and but for others within a few per cent of it); "
@@ -58,8 +58,8 @@ class Tuned(Result):
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        names = ("status", "datum", "value", "error_bound", "complete", "present", "between", "reachable")
+        names = ("status", "vary", "value", "error_bound", "complete", "present", "between", "reachable")
         found = f"= {self.value:.6g}" if self.value is not None else self.status.replace("_", " ")
-        heading = f"Tuned: {self.datum} {found}{', all found' if self.complete else ''}"
+        heading = f"Tuned: {self.vary} {found}{', all found' if self.complete else ''}"
         columns = [Column("value", self.values, "value")]
         return Sheet("value", heading, columns, {name: getattr(self, name) for name in names}, good=self.status == "found")

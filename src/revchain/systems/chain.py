@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -113,7 +113,7 @@ class Chain(System):
             columns = {name: column[::-1] if column.ndim else column for name, column in columns.items()}
         if by_mass:
             columns["weight"] = columns.pop("mass")
-        _set(self, "_compiled", _core.Chain(**columns))
+        _set(self, "_compiled", checked(place, by_mass, _core.Chain, **columns))
         _set(self, "by_mass", by_mass)
         _set(self, "_names", None if names is None else _checked_names(place, names, self.size, order))
 
@@ -163,7 +163,7 @@ class Chain(System):
         place = "revchain.Chain.uniform_plummets"
         by_mass, whole = _whole(place, mass, weight)
         number, long = checked_count(place, "count", count), real(place, "length", length)
-        return cls._wrap(_core.Chain.uniform_plummets(number, long, whole), by_mass)
+        return cls._wrap(checked(place, by_mass, _core.Chain.uniform_plummets, number, long, whole), by_mass)
 
     @classmethod
     def uniform_rods(
@@ -203,7 +203,7 @@ class Chain(System):
         place = "revchain.Chain.uniform_rods"
         by_mass, whole = _whole(place, mass, weight)
         number, long = checked_count(place, "count", count), real(place, "length", length)
-        return cls._wrap(_core.Chain.uniform_rods(number, long, whole), by_mass)
+        return cls._wrap(checked(place, by_mass, _core.Chain.uniform_rods, number, long, whole), by_mass)
 
     @classmethod
     def tapered(
@@ -249,7 +249,8 @@ class Chain(System):
         place = "revchain.Chain.tapered"
         by_mass, whole = _whole(place, mass, weight)
         number, long = checked_count(place, "count", count, each=8), real(place, "length", length)
-        return cls._wrap(_core.Chain.tapered(number, long, real(place, "exponent", exponent), whole), by_mass)
+        power = real(place, "exponent", exponent)
+        return cls._wrap(checked(place, by_mass, _core.Chain.tapered, number, long, power, whole), by_mass)
 
     @property
     def taper(self) -> float | None:
@@ -355,7 +356,8 @@ class Chain(System):
         heavy = like(place, self, mass, weight)
         body = real(place, "mass" if self.by_mass else "weight", heavy)
         at, radius = integer(place, "pin", pin), real(place, "radius_of_gyration", radius_of_gyration)
-        return self._wrap(_core.with_weight(compiled(place, self), body, at, radius), self.by_mass, self._names)
+        made = checked(place, self.by_mass, _core.with_weight, compiled(place, self), body, at, radius)
+        return self._wrap(made, self.by_mass, self._names)
 
     def with_thread(self, length: float, pin: int) -> Chain:
         """Return the chain with a massless thread put in.
@@ -582,6 +584,15 @@ def _check_shapes(columns: dict[str, Floats]) -> None:
     if len(set(sizes.values())) > 1:
         found = ", ".join(f"{name} has {size}" for name, size in sizes.items())
         raise ValueError(f"revchain.Chain: arrays must have one number for each link, but {found}")
+
+
+def checked(place: str, by_mass: bool, make: Callable[..., Any], *given: Any, **named: Any) -> Any:
+    """What `make` returns; its errors name `place`, and masses where masses were given."""
+    try:
+        return make(*given, **named)
+    except ValueError as error:
+        text = str(error).partition(": ")[2]
+        raise ValueError(f"{place}: {text.replace('weight', 'mass') if by_mass else text}") from None
 
 
 def compiled(place: str, chain: Chain, link_by_link: bool = True) -> _core.Chain:

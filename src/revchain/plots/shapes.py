@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of steady shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from ..systems.held import Held
+from .modes import beside_at_rest
+from .style import MOST_PINS_AS_DOTS, half_waves_style, keep_room, thinned
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ..results.shapes import Shape
+
+
+def plot_shapes(shapes: Sequence[Shape], ax: Axes | None) -> Axes:
+    """See `SteadyShapes.plot`; dots mark the pins of links, of cords the free end."""
+    ax = beside_at_rest(shapes[0].system if len(shapes) else None, ax, 5.0, 6.0)
+    ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
+    named: set[int] = set()
+    origin = "support"
+    for shape in shapes:
+        drawn: Any = shape
+        x, z = drawn.offset, drawn.height
+        colour, label = half_waves_style(shape.half_waves, named)
+        linked = not hasattr(shape, "arc_length")
+        marker = "o" if linked and x.size <= MOST_PINS_AS_DOTS else ""
+        kept = thinned(x) if linked else slice(None)
+        ax.plot(x[kept], z[kept], color=colour, linewidth=1.4, marker=marker, markersize=3.0, label=label)
+        if isinstance(shape.system, Held):
+            origin = "lower end"
+            ax.plot([0.0, 0.0], [0.0, drawn.span], color="black", marker="o", linestyle="none", markersize=6.0)
+        elif not linked:
+            ax.plot(x[0], z[0], color=colour, marker="o", markersize=3.5)
+    if origin == "support":
+        for top in sorted({float(shape.offset[-1]) for shape in shapes} or {0.0}):  # type: ignore[attr-defined]
+            if top:
+                ax.plot([0.0, top], [0.0, 0.0], color="0.3", linewidth=1.0, zorder=1)
+            ax.plot(top, 0.0, marker="v", color="black", markersize=7.0, clip_on=False)
+    ax.set(xlabel="distance from the axis (m)", ylabel=f"height above the {origin} (m)", aspect="equal")
+    keep_room(ax)
+    if named:
+        ax.legend(fontsize="small")
+    return ax
