@@ -232,7 +232,6 @@ CLOSED_FORMS = {
     "conical_pendulum.revolutions_per_second": (two, lambda x, g: within(2.1, mp.sqrt(g / x) / (2 * mp.pi))),
     "conical_pendulum.height": (two, lambda n, g: within(2.1, g / n**2)),
     "conical_pendulum.height_from_period": (two, lambda t, g: within(2.1, g * (t / (2 * mp.pi)) ** 2)),
-    "conical_pendulum.height_from_revolutions_per_second": (two, lambda r, g: within(3, g / (2 * mp.pi * r) ** 2)),
     "conical_pendulum.height_from_seconds_pendulum": (two, lambda x, t: within(2.1, x * t**2 / 4)),
     "conical_pendulum.gravity": (two, lambda x, t: within(2.1, x * (2 * mp.pi / t) ** 2)),
     "hoop.tension": (two, lambda v, g: within(3, v**2 / g)),

@@ -53,12 +53,13 @@ class Incomplete(NamedTuple):
 def _checked(function: str, given: dict[str, Any]) -> list[Floats]:
     """All parameters of a function of this module, nan for the modulus not given, broadcast to one shape."""
     place = f"revchain.elliptic.{function}"
-    if sum(given[name] is None for name in MODULI) != 1:
+    absent = [name for name in MODULI if given[name] is None]
+    if len(absent) != 1:
         raise ValueError(f"{place}: give exactly one of modulus and complementary_modulus")
-    result = {name: floats(place, name, nan if value is None else value) for name, value in given.items()}
+    result = {name: floats(place, name, nan if name in absent else value) for name, value in given.items()}
     for name, array in result.items():
         if name in MODULI:
-            wrong = ~((array >= 0) & (array <= 1)) & (given[name] is not None)
+            wrong = ~((array >= 0) & (array <= 1)) & (name not in absent)
             refuse_where(wrong, array, f"{place}: {name} must lie between 0 and 1")
         elif name == "characteristic":
             refuse_where(~(array < 1), array, f"{place}: characteristic must be less than 1")

@@ -144,11 +144,5 @@ class GovernorMotion(Solved):
         return self.regime
 
     def _table(self) -> dict[str, str]:
-        return {
-            "period": "period (s)",
-            "least_angle": "least angle (°)",
-            "greatest_angle": "greatest angle (°)",
-            "modulus": "modulus",
-            "complementary_modulus": "",
-            "regime": "",
-        }
+        angles = {"least_angle": "least angle (°)", "greatest_angle": "greatest angle (°)"}
+        return {"period": "period (s)", **angles, "modulus": "modulus", "complementary_modulus": "", "regime": ""}
