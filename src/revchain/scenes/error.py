@@ -45,8 +45,10 @@ class SceneError(ValueError):
 
     def _placed(self, place: Callable[[str], tuple[int, int]]) -> SceneError:
         """The same error with the line and column of each key, as `place` tells them."""
-        found = (each if each.line else Problem(*place(each.key), *each[2:]) for each in self.problems)
-        return SceneError(self.source, problems=sorted(found))
+        syntax = {each[:2] for each in self.problems if each.line}
+        found = [each if each.line else Problem(*place(each.key), *each[2:]) for each in self.problems]
+        right = [each for one, each in zip(self.problems, found, strict=True) if one.line or each[:2] not in syntax]
+        return SceneError(self.source, problems=sorted(right))  # without what follows from a mark that is put right
 
     def __reduce__(self) -> tuple[Any, ...]:
         return SceneError, (self.source, "", "", self.problems)

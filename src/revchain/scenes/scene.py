@@ -21,7 +21,7 @@ from ..systems.rig import Rig
 from . import parse
 from .answer import SPEEDS, answered, arguments
 from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
-from .chain import Numbers, chain_of_links, whole, without_place
+from .chain import Links, Numbers, chain_of_links, of_file, whole, without_place
 from .error import Problem, SceneError
 from .rig import is_rigged, rig_of
 from .tables import SYSTEMS, Cord, Held, Link, Positive, Support, Table, TaperedChain, UniformChain, fields_of, says
@@ -30,7 +30,7 @@ from .upgrade import old_keys
 __all__ = ["Scene", "json_schema", "load_scene"]
 
 System = Chain | Rig | CordSystem | HeldSystem
-_EXCLUSIVE = (*SPEEDS, "count", "first")
+EXCLUSIVE = (*SPEEDS, "count", "first")
 
 
 def _asking(question: str, what: str, result: str, example: str) -> Callable[..., Any]:
@@ -262,7 +262,10 @@ class Scene(Table, frozen=True):
         table, gravity, system = self._table(question, changed), self.gravity_value(), self.system()
         given = arguments(question, table, system, numbers.of("ask"))
         numbers.done()
-        return answered(question, system, given, gravity, progress)
+        try:
+            return answered(question, system, given, gravity, progress)
+        except ValueError as error:
+            raise of_file(error, "scene", "", self._bodies()) from None
 
     def _table(self, question: str, changed: dict[str, Any]) -> Table:
         """What the scene says of a question, with other values in place of its own."""
@@ -272,8 +275,8 @@ class Scene(Table, frozen=True):
         if not changed and said is not UNSET:
             return said  # type: ignore[no-any-return]
         data = {} if said is UNSET else to_builtins(said)
-        if question != "swing" and any(name in changed for name in _EXCLUSIVE):  # another choice than that of the scene
-            data = {name: value for name, value in data.items() if name not in _EXCLUSIVE}
+        if question != "swing" and any(name in changed for name in EXCLUSIVE):  # another choice than that of the scene
+            data = {name: value for name, value in data.items() if name not in EXCLUSIVE}
         data |= {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in changed.items()}
         problems: list[Problem] = []
         table = parse.convert(data, TABLES[question], "scene", problems)
@@ -281,11 +284,6 @@ class Scene(Table, frozen=True):
             where = f"ask.{question}."
             raise SceneError("scene", problems=[each._replace(key=where + each.key) for each in problems])
         return table
-
-    def _check(self, source: str) -> None:
-        """A SceneError with whatever the other methods would refuse of the scene, and the name of the file."""
-        if found := self._problems(source, []):
-            raise SceneError(source, problems=found)
 
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
         """All that is wrong with the scene, of which some is known."""
@@ -309,14 +307,11 @@ class Scene(Table, frozen=True):
             raise SceneError(source, "", f"give one of {tables}, got {' and '.join(given) or 'none of them'}")
         numbers.gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
         numbers.by_mass = is_by_mass(self)
-        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
         if self.links == []:
             raise SceneError(source, "links", "is an empty list: give at least one link")
-        if self.order == "support first":
-            links.reverse()
         made: Chain | CordSystem | None = None
         try:
-            made = chain_of_links(links, numbers) if links else whole(getattr(self, given[0]), numbers.of(given[0]))
+            made = chain_of_links(links, numbers) if (links := self._links()) else whole(getattr(self, given[0]), numbers.of(given[0]))
         except SceneError as error:
             numbers.problems[:] = error.problems
         if self.is_rigged and (self.held is not UNSET or self.cord is not UNSET):
@@ -324,10 +319,19 @@ class Scene(Table, frozen=True):
             numbers.refuse(name, "does not go with a support, standing links, flywheels or a fluid")
         elif self.is_rigged:
             assert not isinstance(made, CordSystem)
-            return rig_of(made, links, self.support, self.fluid, numbers)
+            return rig_of(made, self._bodies(), self.support, self.fluid, numbers)
         held = None if isinstance(self.held, UnsetType) else _held(self.held, made, numbers.of("held"))
         numbers.done()
         return held or made
+
+    def _links(self) -> Links:
+        """The tables of the links, lowest first, with their numbers in the file."""
+        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
+        return links[::-1] if self.order == "support first" else links
+
+    def _bodies(self) -> Links:
+        """Those that are links of the system: a clamped one is part of the link above."""
+        return [(index, link) for index, link in self._links() if not link.clamped]
 
     @property
     def is_rigged(self) -> bool:
@@ -372,15 +376,16 @@ def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> H
     try:
         return HeldSystem(system, **{name: value}, weightless=table.weightless)
     except ValueError as error:
-        raise SceneError(numbers.source, f"held.{name}", without_place(error).removeprefix(f"{name} ")) from None
+        key, reason = f"held.{name}", without_place(error).removeprefix(f"{name} ")
+        raise SceneError(numbers.source, key, reason) from None
 
 
 def _named(problem: Problem, scene: Scene) -> Problem:
     """With the name of the link in which it is."""
-    index, closed, _ = problem.key.removeprefix("links[").partition("]")
-    if not closed or not index.isdecimal() or isinstance(scene.links, UnsetType) or int(index) >= len(scene.links):
+    found = re.match(r"links\[(\d+)\]\S*$", problem.key)
+    if found is None or isinstance(scene.links, UnsetType) or int(found[1]) >= len(scene.links):
         return problem
-    name = scene.links[int(index)].name
+    name = scene.links[int(found[1])].name
     return problem._replace(key=f'{problem.key} ("{name}")') if name else problem
 
 
@@ -409,9 +414,8 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     >>> rc.load_scene(path).system().size
     120
     """
-    problems: list[Problem] = []
-    with parse.placed(path):
-        return Scene._read(parse.read(path, problems), os.fspath(path), problems, in_doubt=True)
+    with parse.opened(path) as (raw, problems):
+        return Scene._read(raw, os.fspath(path), problems, in_doubt=True)
 
 
 def json_schema() -> dict[str, Any]:

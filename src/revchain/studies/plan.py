@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from .. import _core
 from ..questions.batch import conical_heights
 from ..scenes import parse
-from ..scenes.error import SceneError
 from ..scenes.scene import Scene
 from ..systems.numbers import Floats
 from .axes import Axis, Reader, Values, shape_of, with_value
@@ -37,7 +36,6 @@ _LARGEST, _SMALLEST = 32768, 1024  # chains of a batch: few enough that their nu
 _WORK = 2**20  # links times modes of a batch: and so many that Python's share of the time is small
 _FEW = 3  # points: as fast by the methods of their scenes
 _MOST_PATTERNS = 100  # scenes that are kept
-_NOWHERE = SceneError("study", "vary", "")
 
 
 @dataclass(frozen=True)
@@ -109,7 +107,7 @@ class Plan:
         """The scene with these numbers, as plain data."""
         data = self.base
         for axis, value in zip(self.axes, values, strict=True):
-            data = with_value(data, axis.path, value, _NOWHERE)
+            data = with_value(data, axis.path, value)
         return data
 
     def fingerprint(self) -> str:
