@@ -7,6 +7,7 @@ import json
 import math
 import os
 import random
+import shutil
 import signal
 import sys
 import threading
@@ -564,6 +565,19 @@ def test_a_folder_of_something_else_is_left_alone():
     assert Path("b.csv.partial").read_text() == "mine"
 
 
+def test_other_files_in_the_folder_stay(ended, run):
+    given, folder = ended
+    (folder / "mine.txt").write_text("mine")
+    shutil.copytree(folder, "b.csv.partial")
+    Path("study.json").write_text(json.dumps(given.to_dict()))
+    with pytest.warns(UserWarning, match="a.csv.partial stays: it holds other files, such as mine.txt"):
+        rc.sweep(given, out="a.csv")
+    assert sorted(path.name for path in folder.iterdir()) == ["mine.txt"] and Path("a.csv").exists()
+    code, _, err = run("sweep", "study.json", "--out", "b.csv", "--quiet")
+    assert (code, err) == (0, f"revchain: {Path('b.csv.partial').resolve()} stays: it holds other files, such as mine.txt\n")
+    assert sorted(path.name for path in Path("b.csv.partial").iterdir()) == ["mine.txt"]
+
+
 def test_another_study_and_another_run_are_refused(ended):
     given, folder = ended
 
@@ -784,6 +798,58 @@ def test_errors_of_files():
     Path("a.toml").write_text("x = ")
     with pytest.raises(rc.SceneError, match=r"a.toml: line 1, column 5"):
         rc.load_study("a.toml")
+
+
+WRONG = """samples = 0
+find = ["modes", "all"]
+[scene]
+gravity = 2,5
+[[scene.links]]
+mass = -1
+lenght = 1
+[vary."links[0].mass"]
+values = [1,
+  "2 m"]
+[vary.gravity]
+frm = 3
+to = "3 kg"
+[vary.links[0].length]
+uniform = [2, 1]
+name = "a/b"
+"""
+
+
+def test_all_at_once():
+    """Syntax, the scene, what varies and what is asked, each with its line; quoted keys, too."""
+    Path("a.toml").write_text(WRONG)
+    with pytest.raises(rc.SceneError) as error:
+        rc.load_study("a.toml")
+    assert [each[:3] for each in error.value.problems] == [
+        (1, 1, "samples"),
+        (2, 18, "find[1]"),
+        (4, 1, ""),
+        (5, 1, "scene.links[0].length"),
+        (6, 1, "scene.links[0].mass"),
+        (7, 1, "scene.links[0].lenght"),
+        (10, 3, 'vary."links[0].mass".values[1]'),
+        (11, 1, "vary.gravity.from"),
+        (11, 1, "vary.gravity.steps"),
+        (12, 1, "vary.gravity.frm"),
+        (13, 1, "vary.gravity.to"),
+        (14, 7, ""),
+        (15, 1, 'vary."links[0].length".uniform'),
+        (16, 1, 'vary."links[0].length".name'),
+    ]
+    Path("b.toml").write_text("[[links]]\nmass = 1\nlength = 2,5\nmas = 1\n")
+    Path("a.toml").write_text('scene = "b.toml"\nsampels = 2\n[vary.gravity]\nvalues = 3\n')
+    with pytest.raises(rc.SceneError) as error:
+        rc.load_study("a.toml")
+    assert str(error.value).split("\n") == [
+        "a.toml: line 1, column 1: scene: b.toml: line 3, column 1: the decimal mark is a point: write length = 2.5, not 2,5",
+        "a.toml: line 1, column 1: scene: b.toml: line 4, column 1: links[0].mas: unknown key; did you mean mass?",
+        "a.toml: line 2, column 1: sampels: unknown key; did you mean samples?",
+        "a.toml: line 4, column 1: vary.gravity.values: must be a list of numbers, got 3",
+    ]
 
 
 def test_round_trip():

@@ -117,7 +117,7 @@ def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
     """The option for a key of a table."""
     help_text = next(part.description for part in get_args(field.type) if isinstance(part, Meta)) or ""
     if of_modes and field.name in EXCLUSIVE:
-        help_text += " Without the count, first and windows of the scene."
+        help_text += " The count, first and windows of the scene do not apply."
     help_text = help_text.replace("[", "\\[")
     name = f"--{field.encode_name.replace('_', '-')}"
     if bool in get_args(field.type):

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import sys
 import time
+import warnings
 from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import ExitStack
@@ -74,7 +76,9 @@ def sweep(
         told = _bar(stack, given.points, quiet)
         threads = None if executor is not None else workers
         try:
-            found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
+            with warnings.catch_warnings(record=True) as warned:
+                warnings.simplefilter("always")
+                found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
         except KeyboardInterrupt:
             raise Stop(f"interrupted; the same command goes on from {out}.partial", ExitCode.INTERRUPTED) from None
         except OSError:
@@ -83,6 +87,8 @@ def sweep(
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
         if picture is not None:
             save_picture(found.plot(), given.title or study.stem, picture)
+    for each in warned:
+        print(f"revchain: {each.message}", file=sys.stderr)
     if not quiet:
         there = f", {found.resumed:,} of them from before" if found.resumed else ""
         if len(found) * len(found.found) <= MAX_SHOWN:

@@ -38,6 +38,8 @@ def rig_of(
         own = (0.0, 0.0) if chain is None else (float(chain.centroid[first]), float(chain.radius_of_gyration[first]))
         wheels.append(_flywheel(link.flywheel, place.of("flywheel")))
         fluids.append(_displaced(link.displaced, own, place.of("displaced")))
+        if fluid == "turning" and fluids[-1][1] > 0:
+            place.refuse("displaced", f"must have no added_{numbers.heavy} in a fluid that turns with the chain")
     numbers.done()
     if chain is None:
         return None

@@ -170,7 +170,7 @@ def axis_of(key: str, table: Vary, kind: type, numbers: Numbers) -> Axis | None:
         numbers.refuse("", choice + (f"; got {' and '.join(given)}" if given else ""))
     elif table.log and given[0] != "from":
         numbers.refuse("log", "goes with from, to and steps")
-    if len(numbers.problems) > known:
+    if not path or len(given) != 1:
         return None
     annotation = parse._annotation_at(kind, key.rpartition("[")[0] if key.endswith("]") else key)
     parts, quantity = list(parse._parts_of(annotation)), quantity_of(path)
