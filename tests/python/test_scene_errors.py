@@ -45,6 +45,17 @@ FILES = {
     "[links] twice": ("[links]\nmass = 1\nlength = 1\n[links]\nmass = -2\nlength = 1\n", "4:7 [links] is there twice: write [[links]], with two brackets, above each link\n5:1 links[1].mass: must not be negative, got -2"),
     "links = 5": ("links = 5\n", "1:1 links: must be tables, got 5: write [[links]] above each of them, and below it mass = 1.0 and length = 0.5"),
     "a number among links": ("links = [ {mass = 1, length = 1}, 5, {mass = -1, length = 1} ]\n", "1:35 links[1]: must be a table, got 5\n1:39 links[2].mass: must not be negative, got -1"),
+    "quoted number with a comma": ('[[links]]\nmass = "2,5"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2,5"; write 2.5 without quotes'),
+    "two keys in a line": ("[[links]]\nmass = 1, length = 1\n", "2:9 the line should end here: each key has a line of its own"),
+    "no comma in a list": ("links = [{mass = 1, length = 1}\n{mass = 1, length = 1}]\n", "2:1 a comma or the closing bracket ] is missing"),
+    "JSON in a TOML file": ('{"links": []} # toml', "1:1 is JSON: give the file a name that ends in .json"),
+    "[modes]": (LINK + "[modes]\ncount = 1\n", "4:1 modes: unknown key; write [ask.modes]"),
+    "[[ask.modes]]": (LINK + "[[ask.modes]]\ncount = 1\n", "4:1 ask.modes: is one table: write [ask.modes], with one pair of brackets"),
+    "top keys below the links": (LINK + 'order = "support first"\n', "4:1 links[0].order: unknown key; belongs at the top of the file, above the first table"),
+    "links without a table": ("mass = 1\nlength = 1\n", "1:1 mass: unknown key; belongs in [[links]], to one of the links\n2:1 length: unknown key; belongs in [[links]], to one of the links"),
+    "rpm of a wheel": (LINK + "flywheel = {mass = 1, radius_of_gyration = 1, rpm = 60}\n", '4:1 links[0].flywheel.spin: is missing\n4:47 links[0].flywheel.rpm: unknown key; write spin = "60 rpm"'),
+    "a range in words": (LINK + '[ask.response]\nangular_speed = "1 to 60 rpm"\n', '5:1 ask.response.angular_speed: a range is written {from = "1", to = "60 rpm"}, got "1 to 60 rpm"'),
+    "tension in kilograms": (LINK + '[held]\ntension = "2 kg"\n', '5:1 held.tension: must be a force such as "20 N", got "2 kg"'),
     "a key in quotes": ('"links[0].mass" = 3\n' + LINK, '1:1 "links[0].mass": unknown key; known keys: schema_version, title, description, gravity, order, links, uniform_chain, tapered_chain, cord, support, fluid, held, ask'),
     "[[link]]": ("[[link]]\nmass = 1\nlength = 1\n", "1:1 link: unknown key; did you mean [[links]]?"),
     "[[support]]": (LINK + "[[support]]\nradius = 1\n", "4:1 support: is one table: write [support], with one pair of brackets"),
@@ -62,7 +73,7 @@ FILES = {
     "wrong dimension": ('[[links]]\nmass = 1\nlength = "2 kg"\n', '3:1 links[0].length: must be a length such as "39.1396 inch", got "2 kg"'),
     "kilograms as weight": ('[[links]]\nweight = "2 kg"\nlength = 1\n', '2:1 links[0].weight: must be a force such as "20 N", got "2 kg"; give it as mass'),
     "unknown unit": ('[[links]]\nmass = "2 parsnip"\nlength = 1\n', '2:1 links[0].mass: has a unit that is not known: "2 parsnip"'),
-    "quotes without a unit": ('[[links]]\nmass = "2"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2"'),
+    "quotes without a unit": ('[[links]]\nmass = "2"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2"; write 2 without quotes'),
     "missing length": (LINK + "[[links]]\nmass = 1\n", "4:1 links[1].length: is missing"),
     "empty links": ("links = []\n", "1:1 links: is an empty list: give at least one link"),
     "nothing hangs": ('title = "x"\n', "1:1 give one of [[links]], [uniform_chain], [tapered_chain] or [cord], got none of them"),
@@ -74,8 +85,8 @@ FILES = {
     "perhaps version 1": (LINK + "[ask.response]\nangular_speed = [1, 2]\n", "4:1 ask.response: may be of version 1: write [ask.response] angular_speed = {from = 1, to = 2, steps = 200}, or schema_version = 2 at the top; revchain validate --upgrade rewrites the file"),
     "the name of the link": ('[[links]]\nmass = 1\nlength = 0\nname = "bell"\n', '3:1 links[0].length ("bell"): must be positive, got 0'),
     "key twice": ("[[links]]\nmass = 1\nmass = 2\n", "3:9 is there twice"),
-    "no value": ("[[links]]\nmass =\nlength = 1\n", "2:7 Invalid value"),
-    "the end": ("mass = [1,", "1:11 Invalid value (the file ends)"),
+    "no value": ("[[links]]\nmass =\nlength = 1\n", "2:7 a value is missing here, or is none: write a number, or text in quotes"),
+    "the end": ("mass = [1,", "1:11 a value is missing here, or is none: write a number, or text in quotes (the file ends)"),
     "inside a JSON file": ('{"links": [{"mass": 1,\n  "length": -1, "flywheel": {"mas": 2}}],\n "ask": {"modes": {"angular_speed": ["1 rpm", "3 kg"]}}}', '2:3 links[0].length: must be positive, got -1\n2:17 links[0].flywheel.radius_of_gyration: is missing\n2:17 links[0].flywheel.spin: is missing\n2:30 links[0].flywheel.mas: unknown key; did you mean mass?\n3:47 ask.modes.angular_speed[1]: must be an angular speed such as "30 rpm", got "3 kg"'),
     "JSON": ('{"title": "x",\n "links": [}', "2:12 Expecting value"),
     "no JSON": ("{", "1:2 Expecting property name enclosed in double quotes"),
@@ -86,7 +97,7 @@ PYTHON = re.compile(r"\bdict\b|\bNone\b|\bfloat\b|\bint\b|\bstr\b|Traceback|arra
 @pytest.mark.parametrize(("text", "said"), FILES.values(), ids=FILES.keys())
 def test_mistakes(tmp_path, monkeypatch, capsys, text, said):
     monkeypatch.chdir(tmp_path)
-    name = "a.json" if text.startswith("{") else "a.toml"
+    name = "a.json" if text.startswith("{") and "toml" not in text else "a.toml"
     Path(name).write_text(text)
     lines = [re.sub(r"^(\d+):(\d+) ", rf"{name}: line \1, column \2: ", line) for line in said.split("\n")]
     with pytest.raises(rc.SceneError) as caught:

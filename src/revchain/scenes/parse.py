@@ -21,7 +21,7 @@ from ..systems.numbers import file_path
 from ..systems.units import SI, si_value
 from .error import Problem, SceneError
 from .places import joined, places_in
-from .tables import SYSTEMS, fields_of
+from .tables import BESIDE, QUESTIONS, SYSTEMS, Link, fields_of
 
 Kind = TypeVar("Kind")
 MOST_DIGITS = 400  # more than the largest float has
@@ -107,14 +107,27 @@ def _toml(lines: list[str], source: str, problems: list[Problem]) -> tuple[Any, 
         lines[:] = right
 
 
+_IN_PLAIN_WORDS = {
+    "Invalid value": "a value is missing here, or is none: write a number, or text in quotes",
+    "Invalid statement": "neither key = value nor [table]",
+    "Invalid initial character for a key part": "no key begins here: an inline table {...} has one line",
+    "Expected '=' after a key in a key/value pair": "an equals sign is missing",
+    "Expected newline or end of document after a statement": "the line should end here: each key has a line of its own",
+    "Unclosed array": "a comma or the closing bracket ] is missing",
+    "Unclosed inline table": "a comma or the closing brace } is missing",
+    "Unterminated string": "the closing quotes are missing",
+}
 LINKS_TWICE = "[links] is there twice: write [[links]], with two brackets, above each link"
 
 
 def _place_of_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
     found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", message, re.DOTALL)
+    reason = message if found is None else _IN_PLAIN_WORDS.get(found[1], found[1])
     if found is None or not found[2]:
-        return len(lines), len(lines[-1]) + 1, f"{found[1] if found else message} (the file ends)"
-    reason = re.sub(r"^Cannot (overwrite a value|declare \(.*\) twice|redefine.*)$", "is there twice", found[1])
+        return len(lines), len(lines[-1]) + 1, f"{reason} (the file ends)"
+    if (found[2], found[3], lines[0][:1]) == ("1", "1", "{"):
+        reason = "is JSON: give the file a name that ends in .json"
+    reason = re.sub(r"^Cannot (overwrite a value|declare \(.*\) twice|redefine.*)$", "is there twice", reason)
     if reason == "is there twice" and re.match(r"\s*\[\[?links\]", lines[int(found[2]) - 1]):
         reason = LINKS_TWICE
     return int(found[2]), int(found[3]), reason
@@ -277,14 +290,21 @@ def _set(annotation: Any) -> Any:
     return annotation
 
 
+_GYRATION = "give radius_of_gyration, the square root of inertia / mass, about the centre of gravity"
 INSTEAD = {
-    "inertia": "give radius_of_gyration, the square root of inertia / mass, about the centre of gravity",
-    "moment_of_inertia": "give radius_of_gyration, the square root of inertia / mass, about the centre of gravity",
-    "rpm": 'write angular_speed = "60 rpm"',
-    "frequency": 'write angular_speed = "1 Hz"',
-    "speed": 'write angular_speed = "60 rpm"',
+    "inertia": _GYRATION,
+    "moment_of_inertia": _GYRATION,
+    "rpm": 'write {speed} = "60 rpm"',
+    "frequency": 'write {speed} = "1 Hz"',
+    "speed": 'write {speed} = "60 rpm"',
     "m": "write mass",
     "l": "write length",
+    "g": "write gravity",
+    "n": "write count",
+    "k": "write stiffness",
+    "spring": "write stiffness",
+    "angle": "write offset, a list of lengths",
+    "units": 'numbers are in SI units, or text such as "20 mm"',
     "density": "give the mass",
     "diameter": "give radius_of_gyration",
 }
@@ -295,10 +315,17 @@ EXAMPLES = {"vary": 'say what varies, such as vary."links[0].mass" = {values = [
 def _instead(name: str, kind: type) -> str:
     """What to write for an unknown key."""
     known = _known_keys(kind)
-    near = get_close_matches(name, known, n=1)
-    if not near and name.lower() in INSTEAD:
-        return INSTEAD[name.lower()]
-    return f"did you mean {TABLES.get(near[0], near[0])}?" if near else f"known keys: {', '.join(known)}"
+    if name in QUESTIONS and "ask" in known:
+        return f"write [ask.{name}]"
+    if near := get_close_matches(name, known, n=1):
+        return f"did you mean {TABLES.get(near[0], near[0])}?"
+    if name.lower() in INSTEAD:
+        return INSTEAD[name.lower()].format(speed="spin" if "spin" in known else "angular_speed")
+    if name in BESIDE:
+        return "belongs at the top of the file, above the first table"
+    if name in _known_keys(Link):
+        return "belongs in [[links]], to one of the links"
+    return f"known keys: {', '.join(known)}"
 
 
 def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> str:

@@ -24,7 +24,7 @@ from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
 from .chain import Links, Numbers, chain_of_links, of_file, whole, without_place
 from .error import Problem, SceneError
 from .rig import is_rigged, rig_of
-from .tables import SYSTEMS, Cord, Held, Link, Positive, Support, Table, TaperedChain, UniformChain, fields_of, says
+from .tables import BESIDE, SYSTEMS, Cord, Held, Link, Positive, Support, Table, TaperedChain, UniformChain, fields_of, says
 from .upgrade import old_keys
 
 __all__ = ["Scene", "json_schema", "load_scene"]
@@ -289,7 +289,7 @@ class Scene(Table, frozen=True):
         """All that is wrong with the scene, of which some is known."""
         numbers, system = Numbers(source), None
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
-        if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *_BESIDE) for problem in known):
+        if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *BESIDE) for problem in known):
             try:
                 system = self._system(source)
             except SceneError as error:
@@ -344,9 +344,6 @@ class Scene(Table, frozen=True):
         return self.held is not UNSET
 
 
-_BESIDE = ("schema_version", "title", "description", "gravity", "order", "support", "fluid", "held", "ask")
-
-
 def is_by_mass(scene: Scene) -> bool:
     """Whether masses stay masses: no weight is said, or gravity plays no part."""
     return _is_by_mass(scene) or (isinstance(scene.held, Held) and scene.held.weightless)
@@ -368,8 +365,8 @@ def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> H
     if (table.span is UNSET) == (table.tension is UNSET):
         numbers.refuse("", "give either span or tension")
         return None
-    name, quantity = ("span", "length") if table.tension is UNSET else ("tension", "weight")
-    value = numbers.value(name, getattr(table, name), quantity, "positive")
+    name = "span" if table.tension is UNSET else "tension"
+    value = numbers.value(name, getattr(table, name), name, "positive")
     numbers.done()
     if system is None or math.isnan(value):
         return None
