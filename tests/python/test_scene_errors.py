@@ -45,7 +45,7 @@ FILES = {
     "[links] twice": ("[links]\nmass = 1\nlength = 1\n[links]\nmass = -2\nlength = 1\n", "4:7 [links] is there twice: write [[links]], with two brackets, above each link\n5:1 links[1].mass: must not be negative, got -2"),
     "links = 5": ("links = 5\n", "1:1 links: must be tables, got 5: write [[links]] above each of them, and below it mass = 1.0 and length = 0.5"),
     "a number among links": ("links = [ {mass = 1, length = 1}, 5, {mass = -1, length = 1} ]\n", "1:35 links[1]: must be a table, got 5\n1:39 links[2].mass: must not be negative, got -1"),
-    "quoted number with a comma": ('[[links]]\nmass = "2,5"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2,5"; write 2.5 without quotes'),
+    "quoted number with a comma": ('[[links]]\nmass = "2,5"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2,5"; the decimal mark is a point: write 2.5'),
     "two keys in a line": ("[[links]]\nmass = 1, length = 1\n", "2:9 the line should end here: each key has a line of its own"),
     "no comma in a list": ("links = [{mass = 1, length = 1}\n{mass = 1, length = 1}]\n", "2:1 a comma or the closing bracket ] is missing"),
     "JSON in a TOML file": ('{"links": []} # toml', "1:1 is JSON: give the file a name that ends in .json"),

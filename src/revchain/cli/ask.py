@@ -139,6 +139,10 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
     if not isinstance(given, str):
         return given
     form = _form(field)
+    if form in (Spread, list) and "," in given:
+        option = field.encode_name.replace("_", "-")
+        sentence = f'a list has semicolons, such as "1; 2", and the decimal mark is a point, got {given}'
+        raise Stop(f"--{option}: {sentence}", ExitCode.WRONG_USAGE)
     if form is Pair:
         if " to " not in given:
             return [0, _number(given)]

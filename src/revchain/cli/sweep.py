@@ -14,7 +14,7 @@ from typing import Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import MofNCompleteColumn, TimeRemainingColumn
 
 from ..plots.sweep import why_not_drawn
 from ..results.files import written_aside
@@ -25,7 +25,7 @@ from ..studies.sweep import dask_client
 from ..studies.sweep import sweep as compute
 from .exit_codes import ExitCode
 from .frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
-from .progress import PATIENCE
+from .progress import PATIENCE, bar_of
 
 SENTENCES = 5  # shown of points that are refused
 MAX_SHOWN = 10**7  # numbers of which a summary is made
@@ -133,16 +133,7 @@ def _executor(address: str, workers: int | None, stack: ExitStack) -> Executor:
 
 def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], None]:
     """A bar after a while, where there is a terminal."""
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("points"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("{task.percentage:3.0f} %"),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    )
-    bar = Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal)
+    bar = bar_of("points", Console(stderr=True), quiet, MofNCompleteColumn(), TimeRemainingColumn())
     task = bar.add_task("points", total=points)
     began = time.monotonic()
     started: list[bool] = []

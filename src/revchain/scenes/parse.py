@@ -19,9 +19,10 @@ import msgspec
 
 from ..systems.numbers import file_path
 from ..systems.units import SI, si_value
+from .ask import QUESTIONS
 from .error import Problem, SceneError
 from .places import joined, places_in
-from .tables import BESIDE, QUESTIONS, SYSTEMS, Link, fields_of
+from .tables import BESIDE, SYSTEMS, Link, fields_of
 
 Kind = TypeVar("Kind")
 MOST_DIGITS = 400  # more than the largest float has
@@ -352,16 +353,16 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
         return f"is empty: {EXAMPLES.get(key, 'give at least one')}"
     if isinstance(value, list) and value and structs and not lists:
         return f"is one table: write [{key}], with one pair of brackets"
-    quantity = key.rpartition(".")[2]
+    steps = re.findall(r"[a-z_]+", key)
+    quantity = next((step for step in reversed(steps) if step in SI), "length")
     numbers = any(isinstance(part, msgspec.Meta) and part.pattern for part in parts)
     if numbers and (path or not lists or (isinstance(value, str) and _is_number(annotation))):
         if isinstance(value, str):
             try:
-                si_value(value, quantity if quantity in SI else "length")
+                si_value(value, quantity)
             except ValueError as error:
                 return str(error)
-        example = SI.get(quantity, SI["length"])[2]
-        return f'must be a number, or a number and its unit such as "{example}"{got}'
+        return f'must be a number, or a number and its unit such as "{SI[quantity][2]}"{got}'
     if any(get_origin(part) is tuple for part in parts) and not path:
         return f'must be a pair [low, high]{got}; either end may be 0 or inf'
     if lists and not path:

@@ -24,10 +24,23 @@ from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
 from .chain import Links, Numbers, chain_of_links, of_file, whole, without_place
 from .error import Problem, SceneError
 from .rig import is_rigged, rig_of
-from .tables import BESIDE, SYSTEMS, Cord, Held, Link, Positive, Support, Table, TaperedChain, UniformChain, fields_of, says
+from .tables import (
+    BESIDE,
+    SYSTEMS,
+    Cord,
+    Held,
+    Link,
+    Positive,
+    Support,
+    Table,
+    TaperedChain,
+    UniformChain,
+    fields_of,
+    says,
+)
 from .upgrade import old_keys
 
-__all__ = ["Scene", "json_schema", "load_scene"]
+__all__ = ["Scene", "load_scene"]
 
 System = Chain | Rig | CordSystem | HeldSystem
 EXCLUSIVE = (*SPEEDS, "count", "first")
@@ -415,24 +428,13 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
         return Scene._read(raw, os.fspath(path), problems, in_doubt=True)
 
 
-def json_schema() -> dict[str, Any]:
-    """Return the JSON Schema of scene files, for editors.
-
-    Returns
-    -------
-    dict
-
-    Examples
-    --------
-    >>> from revchain.scenes.scene import json_schema
-    >>> json_schema()["title"]
-    'revchain scene'
-    """
-    schema: dict[str, Any] = json.schema(Scene)
-    for table in schema["$defs"].values():
+def json_schema(kind: type[Table] = Scene, title: str = "revchain scene") -> dict[str, Any]:
+    """The JSON Schema of scene files, or of files of another kind, for editors."""
+    schema: dict[str, Any] = json.schema(kind)
+    weighed = ("Link", "UniformChain", "TaperedChain", "Flywheel", "Displaced")
+    for name, table in schema["$defs"].items():
         if "description" in table:
             table["description"] = table["description"].partition("\n")[0]
-    weighed = ("Link", "UniformChain", "TaperedChain", "Flywheel", "Displaced")
-    for name, pair in (("Scene", SYSTEMS), *((name, ("weight", "mass")) for name in weighed)):
-        schema["$defs"][name]["oneOf"] = [{"required": [key]} for key in pair]
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "revchain scene", **schema}
+        if name == "Scene" or name in weighed:
+            table["oneOf"] = [{"required": [key]} for key in (SYSTEMS if name == "Scene" else ("weight", "mass"))]
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": title, **schema}

@@ -18,7 +18,6 @@ def says(text: str) -> Meta:
 
 
 MOST_LINKS = 10_000_000
-QUESTIONS = ("modes", "shapes", "response", "swing", "branches")
 BESIDE = ("schema_version", "title", "description", "gravity", "order", "support", "fluid", "held", "ask")
 SYSTEMS = ("links", "uniform_chain", "tapered_chain", "cord")  # the tables of which a scene has one
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..scenes import parse
 from ..scenes.chain import Numbers
-from ..scenes.tables import Table
+from ..scenes.tables import Table, says
 from ..systems.units import SI
 
 BLOCK = 65536  # random numbers are drawn in blocks of so many points, each from a stream of its own
@@ -27,6 +27,7 @@ Values = NDArray[Any]
 Path = tuple[str | int, ...]
 NumberOrText = float | str
 Samples = Annotated[int, Meta(ge=1, le=MAX_POINTS)]
+Listed = Annotated[list[bool | float | str], Meta(min_length=1)]
 TwoNumbers = Annotated[list[NumberOrText], Meta(min_length=2, max_length=2)]
 
 _PATH = re.compile(r"[a-z_]+(\[\d{1,9}\])?(\.[a-z_]+(\[\d{1,9}\])?)*")
@@ -37,47 +38,19 @@ LAWS = ("uniform", "normal", "log_uniform")
 
 
 class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):
-    """The values of one number of the scene. Numbers are SI or text with a unit, as in the scene.
+    """The values of one number of the scene. Numbers are SI or text with a unit, as in the scene."""
 
-    Attributes
-    ----------
-    first, last : float or str
-        Keys ``from`` and ``to``: a grid from one to the other, both included.
-    steps : int
-        Number of values of this grid.
-    log : bool
-        Whether the grid has equal ratios instead of equal differences.
-    values : list of float, str or bool
-        Instead: a grid of these values.
-    uniform : [low, high]
-        Instead: random numbers with low <= number < high. ``[middle, "5 %"]`` is middle plus or minus 5 %.
-    normal : [mean, deviation]
-        Instead: random numbers of the normal distribution. ``[mean, "5 %"]``: the deviation is 5 % of the mean.
-    log_uniform : [low, high]
-        Instead: random numbers whose logarithm is uniform. ``[middle, "5 %"]`` is middle / 1.05 to middle * 1.05.
-    name : str, optional
-        Name of the column; the path if left out.
-    """
-
-    first: Annotated[NumberOrText | UnsetType, Meta(description="The first value of a grid.")] = UNSET
-    last: Annotated[NumberOrText | UnsetType, Meta(description="Its last value.")] = UNSET
-    steps: Annotated[Samples | UnsetType, Meta(description="Number of values, both ends included.")] = UNSET
-    log: Annotated[bool, Meta(description="Whether in equal ratios instead of equal differences.")] = False
-    values: Annotated[
-        Annotated[list[bool | float | str], Meta(min_length=1)] | UnsetType,
-        Meta(description="Instead: a grid of these values."),
-    ] = UNSET
-    uniform: Annotated[
-        TwoNumbers | UnsetType, Meta(description='Instead: random, [low, high] or [middle, "5 %"].')
-    ] = UNSET
-    normal: Annotated[
-        TwoNumbers | UnsetType, Meta(description='Instead: random, [mean, deviation] or [mean, "5 %"].')
-    ] = UNSET
+    first: Annotated[NumberOrText | UnsetType, says("The first value of a grid.")] = UNSET
+    last: Annotated[NumberOrText | UnsetType, says("Its last value.")] = UNSET
+    steps: Annotated[Samples | UnsetType, says("Number of values, both ends included.")] = UNSET
+    log: Annotated[bool, says("Whether in equal ratios instead of equal differences.")] = False
+    values: Annotated[Listed | UnsetType, says("Instead: a grid of these values.")] = UNSET
+    uniform: Annotated[TwoNumbers | UnsetType, says('Instead: random, [low, high] or [middle, "5 %"].')] = UNSET
+    normal: Annotated[TwoNumbers | UnsetType, says('Instead: random, [mean, deviation] or [mean, "5 %"].')] = UNSET
     log_uniform: Annotated[
-        TwoNumbers | UnsetType,
-        Meta(description='Instead: random with a uniform logarithm, [low, high] or [middle, "5 %"].'),
+        TwoNumbers | UnsetType, says('Instead: random with a uniform logarithm, [low, high] or [middle, "5 %"].')
     ] = UNSET
-    name: Annotated[str | UnsetType, Meta(description="Name of the column; the path if left out.")] = UNSET
+    name: Annotated[str | UnsetType, says("Name of the column; the path if left out.")] = UNSET
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,14 +8,14 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from msgspec import UNSET, Meta, UnsetType, json, to_builtins
+from msgspec import UNSET, Meta, UnsetType, to_builtins
 
 from ..scenes import parse
 from ..scenes.chain import Numbers
 from ..scenes.error import Problem, SceneError
 from ..scenes.places import joined
-from ..scenes.scene import Scene, load_scene
-from ..scenes.tables import Table
+from ..scenes.scene import Scene, json_schema, load_scene
+from ..scenes.tables import Table, says
 from ..systems.cord import Cord
 from ..systems.numbers import file_path, integer, text
 from ..systems.rig import Rig
@@ -24,9 +24,10 @@ from .axes import Path as Steps
 from .plan import Plan
 from .points import asked_of, blocks_of, derives_speeds, goes_in_batches
 
-__all__ = ["Study", "Vary", "load_study", "study_schema"]
+__all__ = ["Study", "load_study"]
 
-Find = Literal["modes", "shapes", "response"]
+Finds = Annotated[list[Literal["modes", "shapes", "response"]], Meta(min_length=1)]
+MostShapes = Annotated[int, Meta(ge=1, le=1000)]
 
 
 class Study(Table, frozen=True):
@@ -69,24 +70,19 @@ class Study(Table, frozen=True):
     array([1.3777, 1.1249, 0.9742, 3.3902, 2.768 , 2.3972])
     """
 
-    scene: Annotated[Scene | str, Meta(description="The scene, or the name of its file, beside this one.")]
+    scene: Annotated[Scene | str, says("The scene, or the name of its file, beside this one.")]
     vary: Annotated[dict[str, Vary], Meta(description="By path into the scene, such as links[0].mass.", min_length=1)]
-    schema_version: Annotated[Literal[1], Meta(description="Version of this format.")] = 1
-    title: Annotated[str, Meta(description="One line.")] = ""
-    description: Annotated[str, Meta(description="As long as you like.")] = ""
+    schema_version: Annotated[Literal[1], says("Version of this format.")] = 1
+    title: Annotated[str, says("One line.")] = ""
+    description: Annotated[str, says("As long as you like.")] = ""
     samples: Annotated[
-        Samples | UnsetType, Meta(description="How many points with random numbers, at each point of the grids.")
+        Samples | UnsetType, says("How many points with random numbers, at each point of the grids.")
     ] = UNSET
-    seed: Annotated[Annotated[int, Meta(ge=0)], Meta(description="Of the random numbers.")] = 0
-    find: Annotated[
-        Annotated[list[Find], Meta(min_length=1)] | UnsetType,
-        Meta(description="What is computed; what the scene asks if left out."),
-    ] = UNSET
-    max_shapes: Annotated[
-        Annotated[int, Meta(ge=1, le=1000)], Meta(description="How many steady shapes are kept of each point.")
-    ] = 4
+    seed: Annotated[Annotated[int, Meta(ge=0)], says("Of the random numbers.")] = 0
+    find: Annotated[Finds | UnsetType, says("What is computed; what the scene asks if left out.")] = UNSET
+    max_shapes: Annotated[MostShapes, says("How many steady shapes are kept of each point.")] = 4
     error_bounds: Annotated[
-        bool | UnsetType, Meta(description="Whether to give bounds of errors; batches do not if left out.")
+        bool | UnsetType, says("Whether to give bounds of errors; batches do not if left out.")
     ] = UNSET
 
     @classmethod
@@ -271,28 +267,8 @@ def load_study(path: str | os.PathLike[str]) -> Study:
 
 
 def study_schema() -> dict[str, Any]:
-    """Return the JSON Schema of study files, for editors.
-
-    Returns
-    -------
-    dict
-
-    Examples
-    --------
-    >>> from revchain.studies.study import study_schema
-    >>> study_schema()["title"]
-    'revchain study'
-    """
-    from ..scenes.scene import json_schema
-
-    schema: dict[str, Any] = json.schema(Study)
-    scenes = json_schema()["$defs"]
-    for name, table in schema["$defs"].items():
-        if name in scenes:
-            schema["$defs"][name] = scenes[name]
-        elif "description" in table:
-            table["description"] = table["description"].partition("\n")[0]
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "revchain study", **schema}
+    """The JSON Schema of study files, for editors."""
+    return json_schema(Study, "revchain study")
 
 
 def _within_scene(problems: Iterable[Problem]) -> list[Problem]:

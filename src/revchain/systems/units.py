@@ -97,8 +97,10 @@ def si_value(text: str, quantity: str) -> float:
     """The number that `text` means in SI units; a ValueError says what is wrong with it."""
     if len(text) > 100 or re.match(PATTERN, text) is None:
         point = re.sub(r"(?<=\d),(?=\d)", ".", text, count=1)
-        hint = f'; the decimal mark is a point: write "{point}"' if point != text and re.match(PATTERN, point) else ""
-        hint = f"; write {point.strip()} without quotes" if re.fullmatch(_NUMBER, point.strip()) else hint
+        number = re.fullmatch(_NUMBER, point.strip())
+        right = point.strip() if number else f'"{point}"' if re.match(PATTERN, point) else ""
+        hint = f"; write {right} without quotes" if right else ""
+        hint = f"; the decimal mark is a point: write {right}" if right and point != text else hint
         raise ValueError(f'must be a number, or a number and its unit such as "{SI[quantity][2]}", got "{text}"{hint}')
     number = re.match(rf"\s*{_NUMBER}", text)
     assert number is not None
