@@ -306,6 +306,11 @@ INSTEAD = {
     "spring": "write stiffness",
     "angle": "write offset, a list of lengths",
     "units": 'numbers are in SI units, or text such as "20 mm"',
+    "samples": "belongs at the top of the study",
+    "min": "write from",
+    "max": "write to",
+    "num": "write steps",
+    "gaussian": "write normal",
     "density": "give the mass",
     "diameter": "give radius_of_gyration",
 }
@@ -318,12 +323,12 @@ def _instead(name: str, kind: type) -> str:
     known = _known_keys(kind)
     if name in QUESTIONS and "ask" in known:
         return f"write [ask.{name}]"
-    if near := get_close_matches(name, known, n=1):
-        return f"did you mean {TABLES.get(near[0], near[0])}?"
     if name.lower() in INSTEAD:
         return INSTEAD[name.lower()].format(speed="spin" if "spin" in known else "angular_speed")
+    if near := get_close_matches(name, known, n=1):
+        return f"did you mean {TABLES.get(near[0], near[0])}?"
     if name in BESIDE:
-        return "belongs at the top of the file, above the first table"
+        return "belongs in [scene]" if "scene" in known else "belongs at the top of the file, above the first table"
     if name in _known_keys(Link):
         return "belongs in [[links]], to one of the links"
     return f"known keys: {', '.join(known)}"
@@ -339,10 +344,12 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
         return "must " + {"above 0": "be positive", "at least 0": "not be negative"}.get(words, f"be {words}") + got
     parts = list(_parts_of(annotation))
     words_allowed = [str(word) for part in parts if get_origin(part) is Literal for word in get_args(part)]
+    if words_allowed and value in words_allowed:
+        return f"must be a list: write [{written(value)}]"
     if words_allowed:
         return choice(words_allowed, int in parts, value)
     if "array` of length" in sentence:
-        return f"must be a pair [low, high]{got}"
+        return f"must be a pair {'[mean, deviation]' if key.endswith('normal') else '[low, high]'}{got}"
     structs = any(isinstance(part, type) and issubclass(part, msgspec.Struct) for part in parts)
     lists = any(get_origin(part) in (list, tuple) for part in parts)
     if not isinstance(value, list) and lists and structs and not path:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..scenes import parse
 from ..scenes.chain import Numbers
-from ..scenes.tables import Table, says
+from ..scenes.tables import Link, Table, fields_of, says
 from ..systems.units import SI
 
 BLOCK = 65536  # random numbers are drawn in blocks of so many points, each from a stream of its own
@@ -98,9 +98,14 @@ class Axis:
 
 def path_of(text: str, numbers: Numbers) -> Path:
     """The steps of a path; empty where it is none, which is noted."""
+    right = re.sub(r"^link\[", "links[", text.removeprefix("scene."))
+    if (link := re.fullmatch(r"(links\.)?(\w+)", right)) and link[2] in [field.name for field in fields_of(Link)]:
+        right = f"links[0].{link[2]}"
     if _PATH.fullmatch(text) is None:
         numbers.refuse("", "is no path into a scene such as links[0].mass")
-    elif text in ("title", "description", "schema_version", "held"):
+    elif right != text:
+        numbers.refuse("", f'is no path into a scene: write "{right}"')
+    elif text in ("title", "description", "schema_version", "held") or text.endswith(".name"):
         numbers.refuse("", "cannot be varied")
     elif text.startswith("ask") and _ASKED.fullmatch(text) is None:
         numbers.refuse("", "cannot be varied: of [ask] only the speeds of ask.shapes and ask.response can")

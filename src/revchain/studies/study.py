@@ -310,7 +310,7 @@ def _kind(scene: Scene) -> str:
     system = scene.system()
     if isinstance(system, Rig):
         return "a rig with flywheels that spin" if system.has_momentum else "a rig"
-    return f"a {type(system).__name__.lower()}"
+    return "a chain held at both ends" if scene.is_held else f"a {type(system).__name__.lower()}"
 
 
 def _largest(base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> Scene:
