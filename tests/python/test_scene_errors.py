@@ -219,6 +219,7 @@ DATA = {
     "gravity of another kind": ({"links": [ONE], "gravity": "9.81 m"}, "gravity: must be an acceleration"),
     "another version": ({"links": [ONE], "schema_version": 3}, "schema_version: must be 2, got 3"),
     "version 1": ({"links": [ONE], "schema_version": 1}, "schema_version: is of version 1: write schema_version = 2"),
+    "no number below ask": ({"ask": {"modes": 3, "shapes": math.nan}, "links": [ONE]}, "ask.modes: is of version 1"),
     "no table at all": ([], "must be a table"),
     "keys that are no text": ({1: 2}, "every key must be text"),
     "spring 0": ({"links": [ROD], "support": {"stiffness": 0}}, "support.stiffness: must be positive, got 0"),

@@ -26,7 +26,7 @@ from .tables import BESIDE, SYSTEMS, Link, fields_of
 
 Kind = TypeVar("Kind")
 MOST_DIGITS = 400  # more than the largest float has
-MOST_REPAIRS = 50
+MOST_REPAIRS, MOST_COLUMNS = 50, 1000  # of a file, and of a line that is put right
 
 
 def text_of(path: str | os.PathLike[str]) -> str:
@@ -46,18 +46,13 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
 
     Every problem that is found with this file inside the with statement gets its line and column.
     """
-    text, source, problems = text_of(path), os.fspath(path), list[Problem]()
-    if is_json(source):
-        try:
-            lines, raw = [text], json.loads(text, parse_int=_whole)
-        except json.JSONDecodeError as error:
-            raise SceneError(source, problems=[Problem(error.lineno, error.colno, "", error.msg)]) from None
-        except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
-            raise SceneError(source, "", f"cannot be read: {error}") from None
-        moved = list[tuple[int, int, int]]()
-    else:
-        lines = text.split("\n")
-        raw, moved = _toml(lines, source, problems)
+    source, problems = os.fspath(path), list[Problem]()
+    lines = text_of(path).split("\n")
+    try:
+        raw, moved = (_json if is_json(source) else _toml)(lines, problems)
+    except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
+        reason = Problem(0, 0, "", f"cannot be read: {error}")
+        raise SceneError(source, problems=sorted(problems) or [reason]) from None
     try:
         yield raw, problems
     except SceneError as error:
@@ -85,26 +80,35 @@ def _whole(text: str) -> int:
     return int(text)
 
 
-def _toml(lines: list[str], source: str, problems: list[Problem]) -> tuple[Any, list[tuple[int, int, int]]]:
-    """The content of a TOML file, and where its lines, which are put right, have become longer: line, from, by."""
-    moved: list[tuple[int, int, int]] = []
+Moved = list[tuple[int, int, int]]  # lines that are put right: line, from where on it has become longer, and by what
+
+
+def _json(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
+    """The content of a JSON file; none of its errors can be put right."""
+    try:
+        return json.loads("\n".join(lines), parse_int=_whole), []
+    except json.JSONDecodeError as error:
+        problems.append(Problem(error.lineno, error.colno, "", error.msg))
+        raise
+
+
+def _toml(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
+    """The content of a TOML file, whose lines are put right; a ValueError where one cannot be."""
+    moved: Moved = []
     while True:
         try:
             return tomllib.loads("\n".join(lines)), moved
         except tomllib.TOMLDecodeError as error:
             line, column, reason = _place_of_toml_error(str(error), lines)
-        except (RecursionError, ValueError) as error:
-            raise SceneError(source, "", f"cannot be read: {error}") from None
-        right = [re.sub(r"^(\s*)\[\[?links\]+", r"\1[[links]]", each) for each in lines]
-        repaired = None
-        if reason != LINKS_TWICE and (repaired := _repaired(lines[line - 1])):
-            right = lines.copy()
+        right, wrong = lines.copy(), lines[line - 1]
+        if reason == LINKS_TWICE:
+            right = [re.sub(r"^(\s*)\[\[?links\]+", r"\1[[links]]", each) for each in lines]
+        elif len(wrong) <= MOST_COLUMNS and (repaired := _repaired(wrong)):
             right[line - 1], column, reason = repaired
-            start = len(os.path.commonprefix([lines[line - 1], repaired[0]]))
-            moved.append((line, start, len(repaired[0]) - len(lines[line - 1])))
+            moved.append((line, len(os.path.commonprefix([wrong, repaired[0]])), len(repaired[0]) - len(wrong)))
         problems.append(Problem(line, column, "", reason))
-        if len(problems) > MOST_REPAIRS or right == lines or (repaired is None and reason != LINKS_TWICE):
-            raise SceneError(source, problems=sorted(problems)) from None
+        if len(problems) > MOST_REPAIRS or right == lines:
+            raise ValueError(reason)
         lines[:] = right
 
 
@@ -148,7 +152,7 @@ _REPAIRS = tuple(  # what stands before what is wrong, that itself, what to writ
     for before, pattern, instead, sentence in (
         (_KEY, rf"(?P<a>[+-]?\d+),(?P<b>\d+)(?={_LINE}|\s*\}}|\s*,\s*[\w.-]+\s*=)", "{a}.{b}", "the decimal mark is a point"),
         (_KEY, rf"(?P<a>[+-]?\d+),(?P<b>\d+) *(?P<c>{_UNIT}){_END}", '"{a}.{b} {c}"', "the decimal mark is a point"),
-        (_WHOLE, rf"(?P<a>{_NEXT}(?:\s*,\s*{_NEXT})+){_LINE}", "[{a}]", "a list is in brackets"),
+        (_WHOLE, rf"(?P<a>{_NEXT}(?:,\s*{_NEXT})+){_LINE}", "[{a}]", "a list is in brackets"),
         (
             _ITEM,
             rf"(?P<a>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) *(?P<b>{_UNIT}){_END}",

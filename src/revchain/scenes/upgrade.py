@@ -37,7 +37,7 @@ def old_keys(data: dict[str, Any], in_doubt: bool = True) -> list[tuple[str, str
     upgrade(new)
     found = [("schema_version", "is of version 1: write schema_version = 2")] if version == 1 else []
     for name, table in new.get("ask", {}).items():
-        if table != ask.get(name):
+        if isinstance(table, dict) and table != ask.get(name):
             entries = ", ".join(f"{key} = {_toml(value)}" for key, value in table.items())
             sure = version == 1 or old
             found.append((f"ask.{name}", f"{'is' if sure else 'may be'} of version 1: write [ask.{name}] {entries}"))

@@ -55,26 +55,14 @@ class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """One number of the scene, and its values at the points.
+    """One number of the scene, and its values at the points."""
 
-    Attributes
-    ----------
-    key, name : str
-        The path as the study writes it, and the name of the column.
-    path : tuple
-        Its steps.
-    values : ndarray or None
-        Values of a grid; None where the numbers are random.
-    law, law_numbers : str, tuple of float
-        The distribution of random numbers: normal (mean, deviation), uniform or log_uniform (low, high).
-    """
-
-    key: str
-    name: str
+    key: str  # the path as the study writes it
+    name: str  # of the column
     path: Path
-    values: Values | None
-    law: str = ""
-    law_numbers: tuple[float, float] = (0.0, 0.0)
+    values: Values | None  # of a grid; None where the numbers are random
+    law: str = ""  # "normal", "uniform" or "log_uniform"
+    law_numbers: tuple[float, float] = (0.0, 0.0)  # mean and deviation, or low and high end
 
     @property
     def quantity(self) -> str:

@@ -51,33 +51,16 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """All that a worker needs; it can be sent to another process.
+    """All that a worker needs; it can be sent to another process."""
 
-    Attributes
-    ----------
-    base : dict
-        The scene as plain data.
-    axes : tuple of Axis
-    samples, seed : int
-        Of the random numbers.
-    find : tuple of str
-        What is computed: ``modes``, ``shapes``, ``response``.
-    blocks : tuple of Block
-        Its results.
-    batched : bool
-        Whether heights come from `revchain.conical_heights`.
-    derived : bool
-        Whether speeds follow from the heights and are not stored.
-    """
-
-    base: dict[str, Any]
+    base: dict[str, Any]  # the scene as plain data
     axes: tuple[Axis, ...]
-    samples: int
+    samples: int  # random numbers at each point of the grids
     seed: int
-    find: tuple[str, ...]
-    blocks: tuple[Block, ...]
-    batched: bool
-    derived: bool
+    find: tuple[str, ...]  # "modes", "shapes", "response"
+    blocks: tuple[Block, ...]  # the results
+    batched: bool  # whether heights come from `revchain.conical_heights`
+    derived: bool  # whether speeds follow from the heights and are not stored
     _kept: dict[str, Any] = field(default_factory=dict, repr=False)
     _patterns: dict[tuple[Any, ...], Scene] = field(default_factory=dict, repr=False)
 

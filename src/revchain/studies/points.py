@@ -45,23 +45,12 @@ _OF_RESPONSE = ["support_force" if name == "support_force" else f"response_{name
 
 @dataclass(frozen=True)
 class Block:
-    """A result of each point: one number, or one for each mode, shape or speed.
-
-    Attributes
-    ----------
-    name : str
-    kind : str
-        ``"f8"``, ``"i8"`` or ``"?"``; NaN, 0 or False stands where nothing was found.
-    along : str
-        ``"mode"``, ``"shape"``, ``"speed"``, or empty for one number.
-    labels : tuple of int
-        Numbers of the modes, shapes or speeds.
-    """
+    """A result of each point: one number, or one for each mode, shape or speed."""
 
     name: str
-    kind: str
-    along: str = ""
-    labels: tuple[int, ...] = ()
+    kind: str  # "f8", "i8" or "?"; NaN, 0 or False stands where nothing was found
+    along: str = ""  # "mode", "shape", "speed", or empty for one number
+    labels: tuple[int, ...] = ()  # numbers of the modes, shapes or speeds
 
     def memory(self, points: int) -> NDArray[Any]:
         """An array for so many points, with whatever lies there."""
