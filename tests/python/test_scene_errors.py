@@ -4,6 +4,7 @@
 import json
 import math
 import pickle
+import random
 import re
 from pathlib import Path
 
@@ -164,6 +165,27 @@ def test_links_are_those_of_the_file(tmp_path, monkeypatch, capsys):
     Path("a.toml").write_text(TURNED.replace("mass = 1\n", "mass = 0\n").replace("flywheel", "# "))
     with pytest.raises(rc.SceneError, match=r'a.toml: line 6, column 1: links\[1\] \("wheel"\): the lowest link must have'):
         rc.load_scene("a.toml")
+
+
+STUDY = TURNED.replace("[[links]]", "[[scene.links]]").replace("order", "scene.order") + '[vary."links[0].mass"]\nvalues = [1, "2 kg"]\n'
+
+
+@pytest.mark.parametrize(("text", "load"), [(TURNED, rc.load_scene), (STUDY, rc.load_study)], ids=["scene", "study"])
+def test_every_error_has_its_place_whatever_is_typed(tmp_path, text, load):
+    chance, path, wrong = random.Random(1), tmp_path / "a.toml", 0
+    path.write_text(text)
+    load(path)
+    for _ in range(300):
+        at = chance.randrange(len(text))
+        typed = chance.choice([*"[]{}=,.;:'\"#\n /", "", "links", "vary", "2,5", "1 kg", "true", "-", '"""', "“", "["])
+        path.write_text(text[:at] + typed + text[at + chance.choice([0, 1, 2, 8]) :])
+        try:
+            load(path)
+        except rc.SceneError as error:
+            wrong += 1
+            assert all(1 <= each.line <= text.count("\n") + 2 and each.column >= 1 for each in error.problems), typed
+            assert "Expected" not in str(error)
+    assert wrong > 150
 
 
 def test_a_scene_given_to_sweep(tmp_path, monkeypatch, capsys):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is raised for a scene that cannot be read."""
+"""What is raised for a scene that cannot be read or answered."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Problem(NamedTuple):
 
 
 class SceneError(ValueError):
-    """A scene or study that cannot be read: every error found in it, each with its place in the file.
+    """A scene or study that cannot be read or answered: every error found in it, each with its place in the file.
 
     Attributes
     ----------

@@ -121,6 +121,10 @@ _IN_PLAIN_WORDS = {
     "Unclosed array": "a comma or the closing bracket ] is missing",
     "Unclosed inline table": "a comma or the closing brace } is missing",
     "Unterminated string": "the closing quotes are missing",
+    "Expected \"'\"": "the closing quotes are missing",
+    "Expected \"'''\"": "the closing quotes are missing",
+    "Expected ']' at the end of a table declaration": "the closing bracket ] is missing",
+    "Expected ']]' at the end of an array declaration": "the closing brackets ]] are missing",
 }
 LINKS_TWICE = "[links] is there twice: write [[links]], with two brackets, above each link"
 

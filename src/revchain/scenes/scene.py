@@ -67,9 +67,8 @@ def _asking(question: str, what: str, result: str, example: str) -> Callable[...
         Raises
         ------
         SceneError
-            If neither the scene nor `changed` says what the question needs.
-        ValueError
-            As the function of that name, such as for a system that has no answer.
+            (a ValueError) If neither the scene nor `changed` says what the question needs, and for all that the
+            function of that name refuses, such as a system that has no answer. Links are those of the scene's tables.
 
         Examples
         --------
