@@ -214,7 +214,7 @@ def _answer(
 
 
 def _drawn(found: Any) -> Any:
-    """The picture of an answer; of a swing of many times the offsets against time, as so many shapes hide each other."""
+    """The picture of an answer; offsets against time for a swing of many times, whose shapes hide each other."""
     if isinstance(found, Swing) and found.time.size > MANY_TIMES:
         size = found.system.size
         return found.plot(kind="time", pins=sorted({0, size // 3, 2 * size // 3}))

@@ -57,7 +57,8 @@ class Report:
         what = "not proved to be all there is"
         if isinstance(self.found, Explanation):
             best = self.found.chosen
-            what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else "no method applies"
+            kept = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else ""
+            what = kept or "no method applies"
         if missing:
             what = f"no shape was found with {', '.join(map(str, missing))} half waves"
         if isinstance(self.found, Modes):

@@ -148,14 +148,15 @@ _KEY = r"(?P<key>[\w.-]+)\s*=\s*"
 _ITEM = rf"(?:{_KEY}|[\[,]\s*|^\s*)"
 _WHOLE = rf"^\s*{_KEY}"
 _UNIT = r"[a-zA-Zµ°%][\w/^*µ°% -]*?"
+_COMMA = r"(?P<a>[+-]?\d+),(?P<b>\d+)"
 _NEXT = r"[-+.\d\0][^,=\[\]{}#\"']*?"  # of a list
 _WORD = r"(?!true|false|inf|nan)(?P<a>[A-Za-z]"
 _QUOTES = "“”„‟«»‘’"
 _REPAIRS = tuple(  # what stands before what is wrong, that itself, what to write instead, and the sentence
     (re.compile(rf"{before}(?P<wrong>{pattern})"), instead, sentence)
     for before, pattern, instead, sentence in (
-        (_KEY, rf"(?P<a>[+-]?\d+),(?P<b>\d+)(?={_LINE}|\s*\}}|\s*,\s*[\w.-]+\s*=)", "{a}.{b}", "the decimal mark is a point"),
-        (_KEY, rf"(?P<a>[+-]?\d+),(?P<b>\d+) *(?P<c>{_UNIT}){_END}", '"{a}.{b} {c}"', "the decimal mark is a point"),
+        (_KEY, rf"{_COMMA}(?={_LINE}|\s*\}}|\s*,\s*[\w.-]+\s*=)", "{a}.{b}", "the decimal mark is a point"),
+        (_KEY, rf"{_COMMA} *(?P<c>{_UNIT}){_END}", '"{a}.{b} {c}"', "the decimal mark is a point"),
         (_WHOLE, rf"(?P<a>{_NEXT}(?:,\s*{_NEXT})+){_LINE}", "[{a}]", "a list is in brackets"),
         (
             _ITEM,
@@ -272,7 +273,8 @@ def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
         nothing = structs[0](**{field.name: msgspec.UNSET for field in fields_of(structs[0]) if field.required})
         items = [_table(item, structs[0], f"{key}[{k}]", found) for k, item in enumerate(raw)]
         return [nothing if item is msgspec.UNSET else item for item in items]  # so that the numbers of others hold
-    if structs and not lists and isinstance(raw, dict) and not any(get_origin(p) is dict for p in _parts_of(annotation)):
+    named = any(get_origin(part) is dict for part in _parts_of(annotation))
+    if structs and not lists and not named and isinstance(raw, dict):
         return _table(raw, structs[0], key, found)
     if structs and not lists and isinstance(raw, dict) and raw:
         tables = {name: _table(each, structs[0], joined(key, name), found) for name, each in raw.items()}
@@ -453,7 +455,8 @@ def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
         because = any(
             each.reason.startswith("unknown key") or each.key.rpartition(".")[2] in problem.reason for each in inside
         )
-        again = any(each.key == problem.key != "" and ": line " not in each.reason for each in kept)  # of another file: all
+        there = [each for each in kept if ": line " not in each.reason]  # what is wrong with another file has one key
+        again = any(each.key == problem.key != "" for each in there)
         if not because and not again:
             kept.append(problem)
     return kept

@@ -85,9 +85,9 @@ class Scene(Table, frozen=True):
     Notes
     -----
     Its attributes are the tables of the file (`revchain schema` describes every key). Plain numbers are SI; text such
-    as ``"39.1396 inch"`` is converted through pint. `modes`, `steady_shapes`, `response`, `swing` and `branches` ask the
-    function of that name, with the system, the gravity and the arguments of the scene; arguments given to them take the
-    place of the scene's.
+    as ``"39.1396 inch"`` is converted through pint. `modes`, `steady_shapes`, `response`, `swing` and `branches` ask
+    the function of that name, with the system, the gravity and the arguments of the scene; arguments given to them take
+    the place of the scene's.
 
     Examples
     --------
@@ -230,7 +230,7 @@ class Scene(Table, frozen=True):
 
     @property
     def asks(self) -> tuple[str, ...]:
-        """The questions that the scene has a table for: ``modes``, ``shapes``, ``response``, ``swing``, ``branches``."""
+        """The questions that the scene has a table for: modes, shapes, response, swing, branches."""
         return tuple(name for name in QUESTIONS if getattr(self.ask, name) is not UNSET)
 
     modes = _asking("modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])")
@@ -323,7 +323,10 @@ class Scene(Table, frozen=True):
             raise SceneError(source, "links", "is an empty list: give at least one link")
         made: Chain | CordSystem | None = None
         try:
-            made = chain_of_links(links, numbers) if (links := self._links()) else whole(getattr(self, given[0]), numbers.of(given[0]))
+            if links := self._links():
+                made = chain_of_links(links, numbers)
+            else:
+                made = whole(getattr(self, given[0]), numbers.of(given[0]))
         except SceneError as error:
             numbers.problems[:] = error.problems
         if self.is_rigged and (self.held is not UNSET or self.cord is not UNSET):

@@ -123,7 +123,7 @@ def with_value(data: Any, path: Path, value: Any) -> Any:
 
 
 def axis_of(key: str, table: Vary, kind: type, numbers: Numbers) -> Axis | None:
-    """The axis that an entry of [vary] describes; None where it is wrong, which is noted. `kind`: the class of scenes."""
+    """The axis that an entry of [vary] describes; None where it is wrong, which is noted. `kind` is that of scenes."""
     known, path = len(numbers.problems), path_of(key, numbers)
     name = key if isinstance(table.name, UnsetType) else table.name
     if not name.strip() or "/" in name or name == "." or not name.isprintable():
@@ -164,7 +164,8 @@ def _grid(table: Vary, quantity: str, whole: bool, numbers: Numbers) -> Values |
     for key, value in (("from", table.first), ("to", table.last), ("steps", table.steps)):
         if value is UNSET:
             numbers.refuse(key, "is missing")
-    low, high = (_number(key, value, quantity, whole, numbers) for key, value in (("from", table.first), ("to", table.last)))
+    low = _number("from", table.first, quantity, whole, numbers)
+    high = _number("to", table.last, quantity, whole, numbers)
     if isinstance(table.steps, UnsetType) or math.isnan(low + high):
         return None
     if table.steps > MAX_STEPS:
