@@ -77,7 +77,7 @@ def sweep(
         threads = None if executor is not None else workers
         try:
             with warnings.catch_warnings(record=True) as warned:
-                warnings.simplefilter("always")
+                warnings.simplefilter("always", UserWarning)
                 found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
         except KeyboardInterrupt:
             raise Stop(f"interrupted; the same command goes on from {out}.partial", ExitCode.INTERRUPTED) from None

@@ -46,8 +46,8 @@ def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
 
     Every problem that is found with this file inside the with statement gets its line and column.
     """
-    source, problems = os.fspath(path), list[Problem]()
-    lines = text_of(path).split("\n")
+    lines, problems = text_of(path).split("\n"), list[Problem]()
+    source = os.fspath(path)
     try:
         raw, moved = (_json if is_json(source) else _toml)(lines, problems)
     except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
