@@ -7,6 +7,8 @@ import pickle
 
 import numpy as np
 import pytest
+from rigs import agree, pencil, random_chain
+from scipy.linalg import eigh
 
 import revchain as rc
 
@@ -215,3 +217,63 @@ def test_no_numbers(weight):
 
 def test_a_huge_uniform_chain_is_made_at_once():
     assert rc.Chain.uniform_rods(10**15).mode_count == 10**15
+
+
+# ---- weights at pins, threads, clamped links: heights_with_a_weight_at_a_pin is in test_claims.py
+
+
+@pytest.mark.parametrize("pin", [1, 2, 4])
+def test_a_thread_anywhere(pin):
+    longer = random_chain(np.random.default_rng(55), 4).with_thread(0.4, pin=pin)
+    assert longer.weight[pin] == 0 and longer.size == 5
+    agree(rc.Rig(longer), rc.modes(rc.Rig(longer)), digits=80)
+
+
+def test_attached_bodies():
+    chain = rc.Chain.uniform_rods(3, length=3.0, weight=3.0)
+    heavy = chain.with_body(weight=2.0)
+    assert heavy.weight.tolist() == [3.0, 1.0, 1.0]
+    assert heavy.centroid[0] == pytest.approx((0.5 + 2 * 1.0) / 3, rel=1e-15)
+    assert rc.modes(rc.Chain(weight=1.0, length=1.0).with_thread(0.5, pin=1)).conical_height.tolist() == [1.5]
+    # a tip weight many times the chain's: a plummet on a chain without weight
+    assert rc.modes(chain.with_body(weight=1e9)).conical_height[0] == pytest.approx(3.0, rel=1e-8)
+
+
+def test_clamped_pairs():
+    chain = random_chain(np.random.default_rng(66), 4)
+    stiff, _, mass = (np.array(x) for x in pencil(rc.Rig(chain), number=float))
+    for link in (0, 1, 2):
+        # constraint: the pin between lies on the line of its neighbours
+        a = chain.length
+        share = a[link + 1] / (a[link] + a[link + 1])  # of the lower pin's offset
+        part = np.delete(np.eye(4), link + 1, axis=1)
+        part[link + 1, link] = share
+        if link < 2:
+            part[link + 1, link + 1] = 1 - share
+        want = eigh(part.T @ mass @ part, part.T @ stiff @ part, eigvals_only=True)
+        got = rc.modes(chain.clamped(link)).conical_height
+        assert got == pytest.approx(np.sort(want)[::-1], rel=1e-12)
+    free = rc.modes(chain).conical_height
+    assert np.all(got <= free[:3] * (1 + 4 * 2.0**-52))
+    assert np.all(got >= free[1:] * (1 - 4 * 2.0**-52))
+    rods = rc.Chain.uniform_rods(3, length=3.0, weight=3.0).clamped(0).clamped(0)
+    assert rc.modes(rods).conical_height == pytest.approx([2.0], rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("edit", "message"),
+    [
+        (lambda chain: chain.with_body(weight=-1.0), "weight must"),
+        (lambda chain: chain.with_body(weight=1.0, pin=3), "pin must"),
+        (lambda chain: chain.with_body(weight=1.0, radius_of_gyration=-1.0), "radius.of.gyration must"),
+        (lambda chain: chain.with_thread(0.0, pin=1), "length must"),
+        (lambda chain: chain.with_thread(1.0, pin=0), "pin must"),
+        (lambda chain: chain.with_thread(1.0, pin=4), "pin must"),
+        (lambda chain: chain.clamped(-1), "link must"),
+        (lambda chain: chain.clamped(2), "link must"),
+        (lambda chain: chain.clamped(1.5), "link must"),
+    ],
+)
+def test_wrong_edits(edit, message):
+    with pytest.raises(ValueError, match=rf"revchain.*{message}.*, got"):
+        edit(rc.Chain(weight=[1.0, 2.0, 3.0], length=[0.5, 0.4, 0.3]))

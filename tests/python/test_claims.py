@@ -13,7 +13,7 @@ from operator import attrgetter
 import mpmath as mp
 import numpy as np
 import pytest
-from exact import heights_of, jacobi, stored_links
+from exact import carried_tangents, heights_of, jacobi, stored_links
 
 import revchain as rc
 from revchain import elliptic, heavy_chain, plummet, tapered_chain, tip_mass
@@ -309,22 +309,6 @@ def test_a_held_plummet():
     worst.check()
 
 
-def carried(l, x, b):  # noqa: E741
-    """Every root of x tan d = b + l sin d, by bisection of t (x - l cos d) - b between its extremes."""
-    value = lambda t: x * t - b - l * t / mp.sqrt(1 + t * t)  # noqa: E731
-    def root(low, high):
-        rising = value(high) > value(low)
-        for _ in range(330):
-            middle = (low + high) / 2
-            low, high = (middle, high) if (value(middle) < 0) == rising else (low, middle)
-        return low
-
-    far = 2 * (l + b) / x
-    turn = mp.sqrt((l / x) ** (mp.mpf(2) / 3) - 1) if x < l else mp.mpf(0)
-    inner = [root(-far, -turn), root(-turn, mp.mpf(0))] if x < l and value(-turn) >= 0 else []
-    return [*inner, root(turn, far)], turn
-
-
 def test_inclinations_of_a_carried_plummet():
     d, worst = Draw("carried_inclinations"), Worst()
     for _ in range(SAMPLES // 2):
@@ -333,7 +317,7 @@ def test_inclinations_of_a_carried_plummet():
         radius = d.power(-9, 3) if d.rng.random() < 0.5 or not fold else fold * d.near_one()
         given = (scale, scale * share, scale * radius)
         with mp.workdps(90):
-            roots, turn = carried(*exactly(*given))
+            roots, turn = carried_tangents(*exactly(*given))
             found = [d for d in np.ravel(plummet.carried_inclinations(*given)) if not np.isnan(d)]
             meeting = 1 / mp.sqrt(1 + turn**2)
             for number, (f, t) in enumerate(zip(found, roots, strict=True)):

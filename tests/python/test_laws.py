@@ -117,6 +117,16 @@ def test_plummets_converge_with_their_number():
         np.testing.assert_allclose((exact / found - 1) * n, -0.5, rtol=4 / n)  # next term ((j^2 - 2)/48 + 1/4)/N
 
 
+def test_tip_mass_is_the_limit_of_links():
+    want = rc.tip_mass.conical_heights(3, tip=0.4, length=1.0)
+    error = []
+    for count in (50, 100, 200):
+        chain = rc.Chain.uniform_rods(count, length=1.0, weight=2.0).with_body(weight=0.8)
+        error.append(np.abs(rc.modes(chain, count=3).conical_height / want - 1))
+    assert np.all(np.abs(error[0] / error[1] - 4) < 0.2)
+    assert np.all(np.abs(error[1] / error[2] - 4) < 0.2)
+
+
 def test_shapes_tend_to_bessel_functions():
     n = 2000
     result = rc.modes(rc.Chain.uniform_rods(n), count=4)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`revchain.Rig` and what goes into it: what they keep, what they refuse."""
 
-from __future__ import annotations
-
 import copy
 import pickle
 
@@ -122,8 +120,9 @@ def test_wrong_rigs_are_refused(given, says):
 
 
 def test_a_rig_is_of_a_chain():
-    with pytest.raises(TypeError, match=r"revchain\.Rig: chain must be a revchain\.Chain, got 'chain'"):
-        rc.Rig("chain")
+    for wrong in ("chain", None, rc.Rig(CHAIN)):
+        with pytest.raises(TypeError, match=r"revchain\.Rig: chain must be a revchain\.Chain, got"):
+            rc.Rig(wrong)
     with pytest.raises(TypeError, match=r"support must be a revchain\.Support, got 3"):
         rc.Rig(CHAIN, support=3.0)
 
@@ -143,3 +142,66 @@ def test_flywheels():
     for huge in ({"weight": 1e200, "radius_of_gyration": 1e100, "spin": 0.0}, {"spin": 1e300, "weight": 1e20}):
         with pytest.raises(ValueError, match="too large a momentum with radius_of_gyration, got"):
             rc.Rig(CHAIN, flywheels=rc.Flywheel(**{**wheel, **huge}))
+
+
+@pytest.mark.parametrize(
+    ("vary", "speed", "says"),
+    [
+        ("flywheels[0].momentum", 0.0, "angular_speed must"),
+        ("flywheels[3].momentum", 1.0, r"flywheels\[3\]"),
+    ],
+)
+def test_wrong_questions_of_tune(vary, speed, says):
+    with pytest.raises(ValueError, match=rf"revchain.*{says}"):
+        rc.tune(rc.Rig(CHAIN), vary=vary, angular_speed=speed)
+    with pytest.raises(ValueError, match="vary must be"):
+        rc.tune(CHAIN, vary="flywheels[0].momentum", angular_speed=1.0)
+
+
+# ---- in scene files
+
+
+@pytest.mark.parametrize(
+    ("entries", "place"),
+    [
+        ("flywheel = {mass = 1, radius_of_gyration = -0.2, spin = 3}", "flywheel"),
+        ("displaced = {mass = -0.4}", "displaced"),
+        ("displaced = {mass = 0.4, colour = 1}", "colour"),
+        ("[support]\nstiffness = 1\nmass = -0.3", "support"),
+        ("[support]\nstiffness = -1", "stiffness"),
+    ],
+)
+def test_scenes_that_cannot_be_name_the_key(tmp_path, entries, place):
+    path = tmp_path / "bad.toml"
+    path.write_text(f"[[links]]\nmass = 1\nlength = 1\n{entries}\n")
+    with pytest.raises(rc.SceneError, match=rf"bad\.toml.*{place}"):
+        rc.load_scene(path).modes()
+
+
+def test_scene_without_modes_still_answers(python, tmp_path):
+    path = tmp_path / "float.toml"
+    path.write_text("[[links]]\nmass = 1\nlength = 1\ndisplaced = {mass = 3}\n")
+    assert "Traceback" not in python("-m", "revchain", "modes", path).stderr
+    assert len(rc.load_scene(path).modes()) == 0
+
+
+def test_new_scene_names_every_feature(python, tmp_path):
+    path = tmp_path / "scene.toml"
+    assert python("-m", "revchain", "new", path).returncode == 0
+    text = path.read_text()
+    for word in ("stiffness", "radius", "flywheel", "driven", "displaced", "fluid", "standing", "added_mass"):
+        assert word in text
+    # what is said in comments of a rig can be said
+    said = {line[2:].split(" = ")[0]: line[2:] for line in text.splitlines() if line.startswith("# ") and " = " in line}
+    links = "\n".join(said[k] for k in ("standing", "displaced", "flywheel"))
+    support = "\n".join(["[support]", said["stiffness"], said["radius"]])
+    full = text.replace("centroid = 0.1 ", links + "\ncentroid = 0.1 ").replace("\n[ask.modes]", "\n" + support + "\n[ask.modes]")
+    for written in (text, full.replace("# fluid", "fluid")):
+        path.write_text(written)
+        assert python("-m", "revchain", "validate", path).returncode == 0
+    rig = rc.load_scene(path).system()
+    assert rig.inverted.any()
+    assert rig.has_momentum
+    assert np.any(rig.displaced.mass)
+    assert rig.support.stiffness == 200.0
+    assert rig.fluid == "turning"

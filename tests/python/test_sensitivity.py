@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Derivatives, uncertainties, inverse questions and attached bodies from Python, against independent figures."""
+"""Derivatives, uncertainties, and inverse questions, against independent figures."""
 
 import itertools
 import math
@@ -197,17 +197,6 @@ def test_questions_that_are_none_are_refused():
             rc.tune(bodies(), **{"vary": "links[0].weight", **wrong})
     with pytest.raises(TypeError):
         rc.tune("chain", vary="links[0].weight", conical_height=1.0)
-
-
-def test_attached_bodies():
-    chain = Chain.uniform_rods(3, length=3.0, weight=3.0)
-    heavy = chain.with_body(weight=2.0)
-    assert heavy.weight.tolist() == [3.0, 1.0, 1.0]
-    assert heavy.centroid[0] == pytest.approx((0.5 + 2 * 1.0) / 3, rel=1e-15)
-    thread = Chain(weight=1.0, length=1.0).with_thread(0.5, pin=1)
-    assert rc.modes(thread).conical_height.tolist() == [1.5]
-    # a tip weight many times the chain's: a plummet on a chain without weight
-    assert rc.modes(chain.with_body(weight=1e9)).conical_height[0] == pytest.approx(3.0, rel=1e-8)
 
 
 def momentum_for_speed(rig, speed, link, gravity=9.80665):

@@ -3,28 +3,12 @@
 
 import numpy as np
 import pytest
-from mechanics import plummets, scan, turned
+from mechanics import moments, plummets, scan, turned
 
 import revchain as rc
 from revchain import Chain
 
 FOLD = 3.90376215692  # n of three plummets on threads of 1, in units of sqrt(g/a), where two shapes are born
-
-
-def moments(chain: Chain, shape: rc.SteadyShape) -> float:
-    """The largest moment of all that hangs below a pin, about it, over weights times lengths; by its definition."""
-    worst = 0.0
-    whole = chain.weight.sum() * chain.total_length * (1 + chain.total_length / shape.conical_height)
-    angle, h, weight = shape.inclination, chain.centroid, chain.weight
-    y = shape.offset[1:] + h * np.sin(angle)
-    z = shape.height[1:] - h * np.cos(angle)
-    couple = weight * chain.radius_of_gyration**2 * np.sin(angle) * np.cos(angle)
-    for m in range(angle.size):
-        below = slice(0, m + 1)
-        pull = weight[below] * y[below] / shape.conical_height
-        moment = pull * (shape.height[m + 1] - z[below]) - weight[below] * (y[below] - shape.offset[m + 1])
-        worst = max(worst, abs(moment.sum() + couple[below].sum() / shape.conical_height) / whole)
-    return worst
 
 
 @pytest.mark.parametrize(

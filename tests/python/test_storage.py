@@ -70,6 +70,11 @@ def results():
     yield "RigSensitivity", rig.sensitivity
     yield "OtherModes", rc.modes(rc.Rig(three, flywheels=rc.Flywheel(momentum=0.3), displaced=FLOATING)).other
     yield "links without weight in the fluid", rc.modes(rc.Rig(three, displaced=rc.Displaced(weight=1.0)))
+    floats, one = {"displaced": rc.Displaced(weight=[1, 0, 0]), "fluid": "turning"}, rc.Chain(weight=1.0, length=[1.0])
+    yield "in turning fluid", rc.modes(rc.Rig(three, **floats, support=rc.Support(stiffness=3.0)))
+    buoy = {"displaced": rc.Displaced(weight=1.0), "flywheels": rc.Flywheel(momentum=3.0)}
+    yield "an infinite height", rc.modes(rc.Rig(one, **buoy))
+    yield "none, of a rig", rc.modes(rc.Rig(one, displaced=rc.Displaced(weight=3.0)))
     yield "none, of a chain", rc.modes(CHAIN, conical_height=(50.0, 60.0))
     yield "certificate of none", rc.modes(CHAIN, conical_height=(50.0, 60.0), certify=True).certificate
     yield "shapes read", rc.modes(CHAIN, precision="double-double", certify=True)

@@ -80,3 +80,24 @@ def scan(chain, height, hanging, starts=3000, seed=3):
 def turned(a, b):
     """The largest angle by which inclinations differ, whole turns left out."""
     return np.abs(np.angle(np.exp(1j * (a - b)))).max(axis=-1)
+
+
+def moments(chain, shape):
+    """The largest moment of all that hangs below a pin, about it, over weights times lengths, from places alone; with
+    the pull of a lower end that is held. Lengths of links and places of pins have to agree, too."""
+    pin = np.stack([shape.offset, shape.height], axis=1)
+    down = pin[:-1] - pin[1:]
+    assert np.abs(np.hypot(*down.T) - chain.length).max() <= 4e-16 * chain.total_length
+    down /= chain.length[:, None]
+    centre = pin[1:] + chain.centroid[:, None] * down
+    force = np.stack([chain.weight * centre[:, 0] / shape.conical_height, -chain.weight], axis=1)
+    couple = chain.weight * chain.radius_of_gyration**2 * down[:, 0] * down[:, 1] / shape.conical_height
+    held = -np.asarray(getattr(shape, "lower_pull", (0.0, 0.0)))
+    whole = chain.weight.sum() * chain.total_length * (1 + chain.total_length / shape.conical_height)
+    worst = 0.0
+    for m in range(len(chain)):
+        arm = np.vstack([pin[:1], centre[: m + 1]]) - pin[m + 1]
+        pull = np.vstack([held, force[: m + 1]])
+        moment = arm[:, 1] * pull[:, 0] - arm[:, 0] * pull[:, 1]
+        worst = max(worst, abs(moment.sum() + couple[: m + 1].sum()) / whole)
+    return worst
