@@ -22,6 +22,7 @@ CALLS = {
     "shapes of a cord": "rc.steady_shapes(rc.Cord(1.0), conical_height=1e-6)",
     "modes of a cord": "rc.modes(rc.Cord(1.0, density=lambda s: 1 + s), 100_000)",
     "shapes of modes of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 1000).offset(many / 50)",
+    "modes": "rc.modes(rc.Chain.uniform_rods(20_000), 'all')",
     "dense": "rc.modes(large, method='dense')",
     "recurrence": "rc.modes(rc.Chain.uniform_rods(60_000), 29_999)",
     "conical_heights": "rc.conical_heights(weight=np.ones((400_000, 60)), length=1.0)",

@@ -2,6 +2,8 @@
 """Chains to try, and their mechanics written out here with nothing of the library's."""
 
 import numpy as np
+from hypothesis import strategies as st
+
 import revchain as rc
 
 
@@ -21,6 +23,31 @@ def random_chain(kind, count, seed):
         return rc.Chain(weight=w, length=a)
     return rc.Chain(weight=w, length=a, centroid=a * rng.uniform(0.2, 1.5, count),
                     radius_of_gyration=a * rng.uniform(0.2, 1.5, count))
+
+
+@st.composite
+def chains(draw, most=7, wild=True):
+    """Chains of all kinds: plummets, rods, bodies; if wild, also with centres of gravity above or almost in the pin."""
+    n = draw(st.integers(1, most))
+    numbers = lambda low, high: st.lists(st.floats(low, high), min_size=n, max_size=n)  # noqa: E731
+    weight = np.exp2(draw(numbers(-20.0, 20.0)))
+    length = np.exp2(draw(numbers(-5.0, 5.0)))
+    kind = draw(st.sampled_from(["plummets", "radius", "pendulum"]))
+    if kind == "plummets":
+        return rc.Chain(weight=weight, length=length)
+    if not wild:
+        centroid, radius = (length * np.array(draw(numbers(0.01, 1.5))) for _ in range(2))
+        return rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=radius)
+    below = np.concatenate([[0.0], np.cumsum(weight)[:-1]])
+    highest = -0.5 * length * below / weight  # half way to standing
+    share = np.array(draw(numbers(0.001, 1.5)))
+    centroid = highest + share * (length - highest)
+    ratio = np.array(draw(numbers(0.0, 2.0)))
+    ratio[ratio < 1e-6] = 0.0  # smaller lengths than 1e-77 of the largest are refused
+    if kind == "radius":
+        return rc.Chain(weight=weight, length=length, centroid=centroid, radius_of_gyration=ratio * length)
+    centroid = np.where(np.abs(centroid) < 1e-6 * length, 0.1 * length, centroid)
+    return rc.Chain(weight=weight, length=length, centroid=centroid, pendulum_length=centroid * (1 + ratio))
 
 
 def plummets(count):
