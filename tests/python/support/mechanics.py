@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains to try, and their mechanics written out here with nothing of the library's."""
 
+import math
+
+import mpmath as mp
 import numpy as np
 from hypothesis import strategies as st
 
@@ -60,19 +63,35 @@ def rods(count):
     return rc.Chain.uniform_rods(count, length=float(count))
 
 
-def parts(chain):
+def parts(chain, number=float):
     """Weights, lengths, centroids and radii of gyration."""
-    return [np.array(v, float) for v in (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration)]
+    columns = (chain.weight, chain.length, chain.centroid, chain.radius_of_gyration)
+    return [np.array([number(float(x)) for x in column]) for column in columns]
 
 
-def inertia(chain):
+def inertia(chain, number=float):
     """Inertia matrix A over the links' unit vectors, and first moments kappa."""
-    w, a, h, rho = parts(chain)
-    c = np.zeros((w.size, w.size))
+    w, a, h, rho = parts(chain, number)
+    c = np.array([[number(0)] * w.size] * w.size)
     for r in range(w.size):
         c[r, r] = h[r]
         c[r, r + 1 :] = a[r + 1 :]
     return c.T @ (w[:, None] * c) + np.diag(w * rho**2), w @ c
+
+
+def disturbed(chain, shape, number=float):
+    """M, G and K of small disturbances of thin links in the frame that turns (in the plane, then across), times the
+    square of the speed; and the second variation of the energy, with the angular momentum kept (in the plane)."""
+    inert, kappa = inertia(chain, number)
+    b, angle = inert / number(float(shape.conical_height)), [number(float(x)) for x in shape.inclination]
+    functions = (math.sin, math.cos) if number is float else (mp.sin, mp.cos)
+    s, c = (np.array([function(x) for x in angle]) for function in functions)
+    diag, zero, gyro = np.diag(s * (b @ s) + kappa * c), 0 * b, 2 * c[:, None] * b
+    plane, across = diag - b * np.outer(c, c), diag - b
+    mass = np.block([[b * (np.outer(c, c) + np.outer(s, s)), zero], [zero, b]])
+    turn = 2 * c * (b @ s)
+    inside = plane + np.outer(turn, turn) / (s @ b @ s)
+    return mass, np.block([[zero, -gyro], [gyro.T, zero]]), np.block([[plane, zero], [zero, across]]), inside
 
 
 def scan(chain, height, hanging, starts=3000, seed=3):
