@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """revchain.Chain: what it keeps, what it refuses."""
 
-import copy
 import math
-import pickle
 
 import numpy as np
 import pytest
@@ -27,6 +25,7 @@ def test_scalars_serve_all_links_and_stay_scalars():
 def test_a_long_uniform_chain_keeps_no_copies():
     chain = rc.Chain.uniform_rods(10**6)
     assert chain.size == 10**6 and chain.weight.strides == chain.radius_of_gyration.strides == (0,)
+    assert rc.Chain.uniform_rods(10**15).mode_count == 10**15
 
 
 @pytest.mark.parametrize("name", ["weight", "length", "centroid", "pendulum_length", "radius_of_gyration"])
@@ -65,6 +64,7 @@ def test_input_types():
     assert rc.Chain(weight=(1, 2), length=np.array([3, 4], dtype=np.uint8)) == expected
     assert rc.Chain(weight=np.array([1, 2], dtype=np.float32), length=np.array([3, 0, 4, 0])[::2]) == expected
     assert rc.Chain(weight=2, length=np.float64(3)).size == 1
+    assert rc.Chain(weight=[10**30, 1], length=1).weight[0] == 1e30
 
 
 def test_uniform_chains():
@@ -74,15 +74,6 @@ def test_uniform_chains():
     rods = rc.Chain.uniform_rods(4, length=2.0, weight=8.0)
     assert rods.centroid.tolist() == [0.25] * 4
     assert rods.radius_of_gyration[0] == pytest.approx(0.5 / math.sqrt(12), rel=2.0**-52)
-
-
-def test_equality_hash_copy_pickle():
-    chain = rc.Chain(weight=[1, 2.5, 3], length=0.1, centroid=0.04, pendulum_length=[0.07, 0.08, 0.09])
-    other = rc.Chain(weight=[1, 2.5, 4], length=0.1, centroid=0.04, pendulum_length=[0.07, 0.08, 0.09])
-    assert chain != other and chain != "chain"
-    for twin in (pickle.loads(pickle.dumps(chain)), copy.copy(chain), copy.deepcopy(chain)):
-        assert twin == chain and hash(twin) == hash(chain)
-        assert np.array_equal(rc.modes(twin).conical_height, rc.modes(chain).conical_height)
 
 
 def test_states_of_the_first_version_are_read():
@@ -112,15 +103,6 @@ def test_units_at_the_ends_of_the_range():
         chain = rc.Chain(weight=[unit, 1.0, 1 / max(unit, 1e-308)], length=1.0)
         assert rc.modes(chain, count=1).status == "success"
     assert rc.Chain.uniform_rods(3, length=1e300).radius_of_gyration[0] == pytest.approx(1e300 / 3 / math.sqrt(12))
-
-
-def test_it_cannot_be_changed():
-    chain = rc.Chain(weight=1.0, length=1.0)
-    for name in ("weight", "size", "_compiled", "colour"):
-        with pytest.raises(AttributeError):
-            setattr(chain, name, 2.0)
-    with pytest.raises(AttributeError):
-        del chain._compiled
 
 
 def test_repr():
@@ -161,6 +143,9 @@ BAD = {
     "none inside": ({**TWO, "weight": [1.0, None]}, "weight must be a real number"),
     "masked": ({**TWO, "weight": np.ma.masked_array([1.0, 2.0], [0, 1])}, "masked"),
     "a generator": ({"weight": iter([1.0]), "length": 1.0}, "weight must be a real number"),
+    "bytes": ({"weight": b"12", "length": 1.0}, "weight must be a real number"),
+    "an array of bytes": ({"weight": bytearray(b"12"), "length": 1.0}, "weight must be a real number"),
+    "an object": ({"weight": object(), "length": 1.0}, "weight must be a real number"),
     "huge integer": ({"weight": 10**400, "length": 1.0}, "weight must be a real number"),
     "centroid alone": ({**TWO, "centroid": 0.5}, "exactly one of"),
     "centroid with both": ({**TWO, "centroid": 0.5, "pendulum_length": 1.0, "radius_of_gyration": 1.0}, "exactly one of"),
@@ -203,20 +188,6 @@ def test_equal_however_they_are_stored():
     assert one == other
     assert hash(one) == hash(other)
     assert one != rc.Chain(weight=[1, 2, 3], length=[1.0, 1.0, 1.5])
-
-
-def test_whole_numbers_beyond_64_bits():
-    assert rc.Chain(weight=[10**30, 1], length=1).weight[0] == 1e30
-
-
-@pytest.mark.parametrize("weight", [b"12", bytearray(b"12"), [1, None], object()])
-def test_no_numbers(weight):
-    with pytest.raises(ValueError, match="weight must be a real number"):
-        rc.Chain(weight=weight, length=1)
-
-
-def test_a_huge_uniform_chain_is_made_at_once():
-    assert rc.Chain.uniform_rods(10**15).mode_count == 10**15
 
 
 # ---- weights at pins, threads, clamped links: heights_with_a_weight_at_a_pin is in test_claims.py

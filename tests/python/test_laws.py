@@ -92,11 +92,6 @@ def test_equal_plummets_are_laguerre_zeros(count):
             assert mp.sign(below) != mp.sign(above)  # a zero lies within the bound
 
 
-def test_two_plummets_in_closed_form():
-    """Greenhill section 2 (6): equal threads, W2 = 3 W1: 3a/2 and a/2, both exact in binary."""
-    assert rc.modes(rc.Chain(weight=[1.0, 3.0], length=2.0)).conical_height.tolist() == [3.0, 1.0]
-
-
 # Relative error of 1 / height against the continuous chain: coefficient of 1/N (plummets) and 1/N^2
 # (rods: links h = a/2, l = 2a/3), modes 1 to 3; measured coefficients within 0.06 percent at N = 160, 320.
 RODS = (0.0614, 2.065, 8.985)
