@@ -5,8 +5,9 @@ import math
 
 import numpy as np
 import pytest
-import revchain as rc
 from mechanics import plummets, rods
+
+import revchain as rc
 
 
 def test_one_link_is_the_conical_pendulum():
@@ -229,7 +230,7 @@ def test_max_points(points):
 
 
 WRONG = [
-    ({"mode": 1, "conical_height": 0.1, "tip_radius": 1.0}, "tip_radius and top_tension, got conical_height and tip_radius$"),
+    ({"conical_height": 0.1, "tip_radius": 1.0}, "tip_radius and top_tension, got conical_height and tip_radius$"),
     ({"mode": 3, "tip_radius": 2.5}, "not met on the branch of mode 3"),
     *(({"top_tension": x}, "top_tension must be more than the weight.*got") for x in (3.0, 2.0)),
     *(({"tip_radius": x}, "tip.radius.*got") for x in (3.0, 4.0, np.nan)),

@@ -876,7 +876,8 @@ def test_exponents_of_small_disturbances(frame):
                     exact = [sign * mp.sqrt(square) for square in squares for sign in (1, -1)]
                 else:
                     whole, inverse, half = mp.zeros(4 * size), mass**-1, 2 * size
-                    whole[:half, half:], whole[half:, :half], whole[half:, half:] = mp.eye(half), -inverse * rest, -inverse * turn
+                    whole[:half, half:] = mp.eye(half)
+                    whole[half:, :half], whole[half:, half:] = -inverse * rest, -inverse * turn
                     exact = mp.eig(whole, left=False, right=False)
             largest = max(map(abs, exact))
             for value in shape.stability(frame=frame).exponents:

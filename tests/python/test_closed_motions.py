@@ -188,7 +188,7 @@ def test_the_motion_of_the_carriages_is_in_proportion_to_the_speed():
 def test_couplings_stiff_and_soft_and_carriages_too_unlike():
     (blow,) = rc.BufferImpact(front_mass=1, rear_mass=1, buffer_stiffness=1, coupling_stiffness=1e12, speed=1).blows
     assert blow.end == near(math.pi * math.sqrt(2), rel=1e-5) and blow.impulse == near(4, rel=1e-5)  # one carriage
-    # as many blows as it takes to turn a heavy one: on a coupling that is soft next to the buffer it swings half a period
+    # as many blows as it takes to turn a heavy one, which on a coupling soft next to the buffer swings half a period
     chatter = rc.BufferImpact(front_mass=1, rear_mass=1e4, buffer_stiffness=1e3, coupling_stiffness=1, speed=1)
     assert sum(blow.impulse for blow in chatter.blows) == near(2e4, rel=0.1)
     with pytest.raises(ValueError, match="nearer each other"):

@@ -3,9 +3,11 @@
 
 import numpy as np
 import pytest
-import revchain as rc
 from mechanics import KINDS, random_chain
+
+import revchain as rc
 from revchain import two_links
+
 
 def shapes_of(chain, share):
     return rc.steady_shapes(chain, conical_height=share * rc.modes(chain, 1).conical_height[0], budget=20_000)

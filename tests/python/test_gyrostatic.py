@@ -53,16 +53,6 @@ def test_the_plane_turns_by_half_the_difference_of_the_phases():
     assert np.isnan(given.plane_rotation(1e5))
 
 
-def test_speeds_and_phases_are_inverse():
-    given = string()
-    phase = np.linspace(0.01, 3.1, 50)
-    speeds = given.angular_speeds(phase)
-    assert given.phase(speeds.forward) == pytest.approx(phase, rel=1e-13)
-    assert given.phase(speeds.backward) == pytest.approx(phase, rel=1e-13)
-    assert np.all(speeds.forward > -speeds.backward)
-    assert np.all(given.attenuation(speeds.forward) == 0)
-
-
 def test_beyond_the_fastest_wave_it_dies_away():
     given = string(0.0, radius_of_gyration=0.0, centroid=0.1)
     fastest = given.angular_speeds(np.pi).forward

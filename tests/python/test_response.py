@@ -147,7 +147,8 @@ def test_the_joint_above_a_stick_that_swings_alone_is_still():
     length, centroid, gyration = 0.6, 0.25, 0.2
     own = (centroid**2 + gyration**2) / centroid
     for string in (0.1, 0.4, 3.0):
-        chain = rc.Chain(weight=[1, 0], length=[length, string], centroid=[centroid, 0], radius_of_gyration=[gyration, 0])
+        stick = {"centroid": [centroid, 0], "radius_of_gyration": [gyration, 0]}
+        chain = rc.Chain(weight=[1, 0], length=[length, string], **stick)
         end, joint, hand = rc.response(chain, conical_height=own).offset
         assert abs(joint) < 1e-15 and hand == 1
         assert end == pytest.approx(-own / string * length / centroid, rel=1e-14)

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+
 import revchain as rc
 
 CHAIN = rc.Chain(weight=[1.0, 3.0], length=0.5)

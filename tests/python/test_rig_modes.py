@@ -77,7 +77,8 @@ def test_spring_tends_to_a_firm_support_and_a_firm_support_is_the_chain_itself()
 def test_one_gyrostat(data, H):
     """A n^2 - H n - W h = 0, A about the pin."""
     weight, centroid, gyration = data
-    m = rc.modes(rigged(rc.Chain(weight=weight, length=1.0, centroid=centroid, radius_of_gyration=gyration), momentum=H))
+    chain = rc.Chain(weight=weight, length=1.0, centroid=centroid, radius_of_gyration=gyration)
+    m = rc.modes(rigged(chain, momentum=H))
     with mp.workdps(50):
         W, h, k, p = map(mp.mpf, (*data, H))
         A = W * (h**2 + k**2) / mp.mpf(G)

@@ -242,8 +242,9 @@ def test_threads():
 
 
 def test_absurd_speeds_end(python):
-    run = python("-c", "import revchain as rc\nfor height in (5e-324, 1e-308, 1e-300, 1e-100, 1e-20):\n"
-                 "    print(rc.steady_shapes(rc.Chain.uniform_plummets(3, 3.0), conical_height=height))", timeout=10)  # fmt: skip
+    asked = "rc.steady_shapes(rc.Chain.uniform_plummets(3, 3.0), conical_height=height)"
+    program = f"import revchain as rc\nfor height in (5e-324, 1e-308, 1e-300, 1e-100, 1e-20):\n    print({asked})"
+    run = python("-c", program, timeout=10)
     assert run.returncode == 0, run.stderr
     found = rc.steady_shapes(plummets(2), angular_speed=1e-300)
     assert len(found) == 0 and found.complete and "0 shapes" in repr(found)

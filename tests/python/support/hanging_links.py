@@ -133,8 +133,9 @@ def inclined_chain(links: list[Body], mode: int, inclination: float, digits: int
     """Height at which the lowest link leans so, of the shape that grows out of a mode.
 
     Moments of a link about its upper pin, P the sum of W x of all that is lower, x from the axis to a centroid:
-    sin (W h + a S) height = cos (a P + W h x + W r^2 sin). Each inclination follows from those below, by Newton's method
-    of one unknown; started with the lowest link's inclination and a height, the support has to come out on the axis.
+    sin (W h + a S) height = cos (a P + W h x + W r^2 sin). Each inclination follows from those below, by Newton's
+    method of one unknown; started with the lowest link's inclination and a height, the support has to come out on the
+    axis.
     """
     with mp.workdps(digits + 5):
         rows = [tuple(mp.mpf(str(number)) for number in link) for link in links]

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 import revchain as rc
 
-
 KINDS = ("plummets", "rods", "massless", "long pendulums")
 
 

@@ -118,7 +118,8 @@ def agree(rig, found, tolerance=2.0**-50, digits=60):
 
 
 def agree_with_others(rig, found, tolerance=1e-14):
-    """Of a rig without momentum, all conical heights found, and all others with their rates of growth, are the pencil's."""
+    """The conical heights found of a rig without momentum, and the others with their rates of growth, are all of the
+    pencil's."""
     with mp.workdps(60):
         stiff, _, mass = (mp.matrix(x) for x in pencil(rig))
         heights = [z for z in mp.eig(stiff**-1 * mass)[0] if abs(z) > mp.mpf(10) ** -30]
