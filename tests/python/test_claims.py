@@ -487,6 +487,17 @@ def test_speeds_of_a_tolerance():
             assert ulps(speed, mp.sqrt(mp.mpf(solution.gravity) / mp.mpf(float(height)))) <= 1
 
 
+def note_shapes(worst, d, functions, mode, length, given, exact, height, allowed):
+    """Shape and slope, over their largest; `exact` gives the offset and the slope times the height."""
+    at = lambda f, share: f(np.asarray(share) * length, mode, **given, length=length)  # noqa: E731
+    largest, steepest = (mp.mpf(np.abs(at(f, np.linspace(0, 1, 400))).max()) for f in (functions.shape, functions.slope))
+    for share in places(d):
+        offset, slope = exact(mp.mpf(share * length) / mp.mpf(length))
+        where = (mode, length, given, share)
+        worst.note("shape", off(at(functions.shape, share), offset) / largest / allowed, where)
+        worst.note("slope", off(at(functions.slope, share), slope / height) / steepest / allowed, where)
+
+
 def test_heights_of_the_heavy_chain():
     d, worst = Draw("heavy_chain"), Worst()
 
@@ -507,13 +518,19 @@ def test_heights_of_the_heavy_chain():
             worst.note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(0, node) / zero) ** 2) / 5)
             there = heavy_chain.vertical_points(mode, length)[node - 1]
             worst.note("vertical_points", ulps(there, mp.mpf(length) * (zero_of_bessel(1, node) / zero) ** 2) / 5)
-        for share in places(d):
-            x = length * share
-            z = zero * mp.sqrt(mp.mpf(x) / mp.mpf(length))
-            worst.note("shape", off(heavy_chain.shape(x, mode, length), mp.besselj(0, z)) / 1e-15 / mode)
-            slope = mp.mpf(float(heavy_chain.slope(x, mode, length))) * mp.mpf(height)
-            worst.note("slope", abs(slope + 2 * mp.besselj(1, z) / z) / 1e-15 / mode)
+        height, allowed = 4 * mp.mpf(length) / zero**2, mp.mpf(1e-15) * mode
+        note_shapes(worst, d, heavy_chain, mode, length, {}, tapered_shape(mp.mpf(0), zero), height, allowed)
     worst.check()
+
+
+def tapered_shape(p, zero):
+    """Offset and slope (times the height) at a distance over the length, 1 at the free end."""
+
+    def at(x):
+        z2 = zero**2 * x
+        return mp.hyp0f1(p + 1, -z2 / 4), -mp.hyp0f1(p + 2, -z2 / 4)
+
+    return at
 
 
 def test_chains_that_taper():
@@ -529,29 +546,20 @@ def test_chains_that_taper():
             node = int(d.rng.integers(1, mode))
             there = tapered_chain.nodes(mode, exponent=p, length=length)[node - 1]
             worst.note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(p, node) / zero) ** 2) / 3)
-        at = lambda f, share: f(np.asarray(share) * length, mode, exponent=p, length=length)  # noqa: E731, B023
-        largest = max(1.0, np.abs(at(tapered_chain.shape, np.linspace(0, 1, 400))).max())
-        steepest = np.abs(at(tapered_chain.slope, np.linspace(0, 1, 400))).max()
-        for share in places(d):
-            z = zero * mp.sqrt(mp.mpf(share * length) / mp.mpf(length))
-            allowed = mp.mpf(1e-15) * (1 + zero)
-            exact = mp.hyp0f1(order + 1, -(z**2) / 4)
-            worst.note("shape", off(at(tapered_chain.shape, share), exact) / largest / allowed)
-            exact = -mp.hyp0f1(order + 2, -(z**2) / 4) * zero**2 / (4 * (order + 1) * mp.mpf(length))
-            worst.note("slope", off(at(tapered_chain.slope, share), exact) / mp.mpf(steepest) / allowed)
+        height, allowed = 4 * (order + 1) * mp.mpf(length) / zero**2, mp.mpf(1e-15) * (1 + zero)
+        note_shapes(worst, d, tapered_chain, mode, length, {"exponent": p}, tapered_shape(order, zero), height, allowed)
     worst.check()
 
 
 def tip_shape(m, height):
-    """Offset and slope (times the height) at a distance over the length, 1 at the free end."""
+    """The same of a uniform chain with a weight of m lengths at its free end."""
     a = 2 * mp.sqrt(m / height)
-    A, B = (mp.pi * a**2 / 4 * v for v in (-mp.bessely(2, a), mp.besselj(2, a))) if m else (mp.mpf(1), mp.mpf(0))
+    A, B = (mp.pi * a**2 / 4 * v for v in (-mp.bessely(2, a), mp.besselj(2, a)))
 
     def at(x):
         z = 2 * mp.sqrt((m + x) / height)
-        offset = A * mp.besselj(0, z) + (B * mp.bessely(0, z) if m else 0)
-        slope = -(A * mp.besselj(1, z) + (B * mp.bessely(1, z) if m else 0)) * 2 / z if z else -mp.mpf(1)
-        return offset, slope
+        offset = A * mp.besselj(0, z) + B * mp.bessely(0, z)
+        return offset, -(A * mp.besselj(1, z) + B * mp.bessely(1, z)) * 2 / z
 
     return at
 
@@ -570,14 +578,7 @@ def test_chains_with_a_tip():
             root = root_next_to(cross, mp.mpf(float(found)) / L)
             worst.note("conical_heights", ulps(found, root * L) / 2, where)
             exact = tip_shape(m, root)
-            at = lambda f, share: f(np.asarray(share) * length, mode, tip=tip, length=length)  # noqa: E731, B023
-            largest, steepest = (np.abs(at(f, np.linspace(0, 1, 400))).max() for f in (tip_mass.shape, tip_mass.slope))
-            for share in places(d):
-                offset, slope = exact(mp.mpf(share * length) / L)
-                allowed = mp.mpf(2e-15) * mode
-                worst.note("shape", off(at(tip_mass.shape, share), offset) / mp.mpf(float(largest)) / allowed, where)
-                error = off(at(tip_mass.slope, share), slope / (root * L)) / mp.mpf(float(steepest))
-                worst.note("slope", error / allowed, where)
+            note_shapes(worst, d, tip_mass, mode, length, {"tip": tip}, exact, root * L, mp.mpf(2e-15) * mode)
             if mode > 1:
                 nodes = tip_mass.nodes(mode, tip=tip, length=length)
                 node = mp.mpf(float(nodes[d.rng.integers(0, mode - 1)])) / L

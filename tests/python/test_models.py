@@ -253,7 +253,8 @@ def test_methods_by_name_are_those_models_or_refuse():
     with pytest.raises(ValueError, match="method 'coarse chain' goes with count, first and rtol alone"):
         rc.modes(long, conical_height=(0.1, 1.0), method="coarse chain")
     for name in ("dense", "aberth", "Laguerre asymptotics", "continuous chain"):
-        assert rc.modes(chain, 2, method=name).status == "success"
+        found = rc.modes(chain, 2, first=5, method=name)
+        assert found.status == "success" and found.number.tolist() == [5, 6]
 
 
 def test_models_by_name_keep_their_bounds_where_they_apply_and_say_nothing_where_not(promises):
