@@ -13,7 +13,7 @@ from operator import attrgetter
 import mpmath as mp
 import numpy as np
 import pytest
-from exact import carried_tangents, heights_of, jacobi, stored_links
+from exact import carried_tangents, exactly, heights_of, jacobi, stored_links
 from mechanics import disturbed
 
 import revchain as rc
@@ -68,10 +68,6 @@ class Draw:
     def link(self, centroid):
         """A radius of gyration for a centroid: none, any."""
         return 0.0 if self.rng.random() < 0.2 else centroid * self.power(-8, 3)
-
-
-def exactly(*numbers):
-    return [mp.mpf(float(number)) for number in numbers]
 
 
 def ulps(found, exact):

@@ -7,6 +7,7 @@ import math
 import mpmath as mp
 import numpy as np
 import pytest
+from exact import exactly
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -28,10 +29,6 @@ def digits():
 def near(value, rel):
     """Within that of the value, however small."""
     return pytest.approx(value, rel=rel, abs=0)
-
-
-def exactly(*numbers):
-    return [mp.mpf(float(number)) for number in numbers]
 
 
 def random(count, low, high):

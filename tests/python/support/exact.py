@@ -4,6 +4,10 @@
 import mpmath as mp
 
 
+def exactly(*numbers):
+    return [mp.mpf(float(number)) for number in numbers]
+
+
 def stored_links(chain):
     """(W, a, h, rho^2) of each link, from the numbers that a chain stores (rho^2/a^2 in two words)."""
     size, *columns, _ = chain._compiled.__getstate__()
