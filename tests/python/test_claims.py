@@ -13,7 +13,8 @@ from operator import attrgetter
 import mpmath as mp
 import numpy as np
 import pytest
-from exact import heights_of, jacobi, stored_links
+from exact import carried_tangents, exactly, heights_of, jacobi, stored_links
+from mechanics import disturbed
 
 import revchain as rc
 from revchain import elliptic, plummet
@@ -67,10 +68,6 @@ class Draw:
     def link(self, centroid):
         """A radius of gyration for a centroid: none, any."""
         return 0.0 if self.rng.random() < 0.2 else centroid * self.power(-8, 3)
-
-
-def exactly(*numbers):
-    return [mp.mpf(float(number)) for number in numbers]
 
 
 def ulps(found, exact):
@@ -308,22 +305,6 @@ def test_a_held_plummet():
     worst.check()
 
 
-def carried(l, x, b):  # noqa: E741
-    """Every root of x tan d = b + l sin d, by bisection of t (x - l cos d) - b between its extremes."""
-    value = lambda t: x * t - b - l * t / mp.sqrt(1 + t * t)  # noqa: E731
-    def root(low, high):
-        rising = value(high) > value(low)
-        for _ in range(330):
-            middle = (low + high) / 2
-            low, high = (middle, high) if (value(middle) < 0) == rising else (low, middle)
-        return low
-
-    far = 2 * (l + b) / x
-    turn = mp.sqrt((l / x) ** (mp.mpf(2) / 3) - 1) if x < l else mp.mpf(0)
-    inner = [root(-far, -turn), root(-turn, mp.mpf(0))] if x < l and value(-turn) >= 0 else []
-    return [*inner, root(turn, far)], turn
-
-
 def test_inclinations_of_a_carried_plummet():
     d, worst = Draw("carried_inclinations"), Worst()
     for _ in range(SAMPLES // 2):
@@ -332,7 +313,7 @@ def test_inclinations_of_a_carried_plummet():
         radius = d.power(-9, 3) if d.rng.random() < 0.5 or not fold else fold * d.near_one()
         given = (scale, scale * share, scale * radius)
         with mp.workdps(90):
-            roots, turn = carried(*exactly(*given))
+            roots, turn = carried_tangents(*exactly(*given))
             found = [d for d in np.ravel(plummet.carried_inclinations(*given)) if not np.isnan(d)]
             meeting = 1 / mp.sqrt(1 + turn**2)
             for number, (f, t) in enumerate(zip(found, roots, strict=True)):
@@ -566,15 +547,14 @@ def test_modes_of_cords_that_taper():
 
 
 def tip_shape(m, height):
-    """Offset and slope (times the height) at a distance over the length, 1 at the free end."""
+    """The same of a uniform chain with a weight of m lengths at its free end."""
     a = 2 * mp.sqrt(m / height)
-    A, B = (mp.pi * a**2 / 4 * v for v in (-mp.bessely(2, a), mp.besselj(2, a))) if m else (mp.mpf(1), mp.mpf(0))
+    A, B = (mp.pi * a**2 / 4 * v for v in (-mp.bessely(2, a), mp.besselj(2, a)))
 
     def at(x):
         z = 2 * mp.sqrt((m + x) / height)
-        offset = A * mp.besselj(0, z) + (B * mp.bessely(0, z) if m else 0)
-        slope = -(A * mp.besselj(1, z) + (B * mp.bessely(1, z) if m else 0)) * 2 / z if z else -mp.mpf(1)
-        return offset, slope
+        offset = A * mp.besselj(0, z) + B * mp.bessely(0, z)
+        return offset, -(A * mp.besselj(1, z) + B * mp.bessely(1, z)) * 2 / z
 
     return at
 
@@ -883,57 +863,28 @@ def test_folds():
 # Small disturbances of shapes ----------------------------------------------------------------------------------------
 
 
-def exponents_of(weight, length, inclination, driven):
-    """Exponents over the speed, of plummets in the angles of their threads, in the frame that turns with them."""
-    size = len(weight)
-    plane = list(range(size))
-    W, L, angle = exactly(*weight), exactly(*length), inclination
-    s, c = [mp.sin(t) for t in angle], [mp.cos(t) for t in angle]
-    out = [mp.fsum(L[i] * s[i] for i in range(k, size)) for k in range(size)]  # of plummet k, from the axis
-    height = out[0] * c[0] / s[0]
-    above = [mp.fsum(W[: i + 1]) for i in plane]  # what each thread carries
-    pull = [mp.fsum(W[k] * out[k] for k in range(i + 1)) for i in plane]
-    mass, rest, turn = mp.matrix(2 * size), mp.matrix(2 * size), mp.matrix(2 * size)
-    for i in plane:
-        for j in plane:
-            both = mp.fsum(W[: min(i, j) + 1]) * L[i] * L[j]
-            mass[i, j] = both * (c[i] * c[j] + s[i] * s[j])
-            mass[size + i, size + j] = both * s[i] * s[j]
-            rest[i, j] = -both * c[i] * c[j]
-            rest[size + i, size + j] = -both * s[i] * s[j]
-            # 2 z.(d/dj x d/di)
-            turn[size + i, j] = 2 * both * c[j] * s[i]
-            turn[j, size + i] = -2 * both * c[j] * s[i]
-        rest[i, i] += height * above[i] * L[i] * c[i] + pull[i] * L[i] * s[i]
-        rest[size + i, size + i] += pull[i] * L[i] * s[i]
-    if driven:
-        values = mp.eigsy(half_inverse(mass[:size, :size], rest[:size, :size]), eigvals_only=True)
-        return [sign * mp.sqrt(-value) for value in values for sign in (1, -1)]
-    whole, inverse, half = mp.zeros(4 * size), mass**-1, 2 * size
-    whole[:half, half:], whole[half:, :half], whole[half:, half:] = mp.eye(half), -inverse * rest, -inverse * turn
-    return mp.eig(whole, left=False, right=False)
-
-
-def half_inverse(mass, matrix):
-    """The symmetric matrix with the eigenvalues of mass^-1 matrix."""
-    root = mp.cholesky(mass) ** -1
-    return root * matrix * root.T
-
-
 @pytest.mark.parametrize("frame", ["free", "driven"])
 def test_exponents_of_small_disturbances(frame):
-    """`SteadyShape.stability`, where exponents are simple."""
+    """`SteadyShape.stability`, where exponents are simple, of plummets and of rods."""
     d, compared = Draw(frame), 0
-    while compared < 40:
-        size = int(d.rng.integers(1, 4))
-        weight, length = ([d.power(-1, 1) for _ in range(size)] for _ in range(2))
-        chain = rc.Chain(weight=weight, length=length)
+    while compared < 60:
+        size, rods = int(d.rng.integers(1, 4)), bool(d.rng.integers(2))
+        weight, length = (np.array([d.power(-1, 1) for _ in range(size)]) for _ in range(2))
+        body = {"centroid": length / 2, "radius_of_gyration": length / 4} if rods else {}
+        chain = rc.Chain(weight=weight, length=length, **body)
         for shape in rc.steady_shapes(chain, conical_height=rc.modes(chain).conical_height[0] * d.uniform(0.05, 0.95)):
             with mp.workdps(40):
-                exact = exponents_of(weight, length, exactly(*shape.inclination), frame == "driven")
+                mass, turn, rest, _ = (mp.matrix(part.tolist()) for part in disturbed(chain, shape, mp.mpf))
+                if frame == "driven":
+                    squares = mp.eig(-(mass[:size, :size] ** -1) * rest[:size, :size], left=False, right=False)
+                    exact = [sign * mp.sqrt(square) for square in squares for sign in (1, -1)]
+                else:
+                    whole, inverse, half = mp.zeros(4 * size), mass**-1, 2 * size
+                    whole[:half, half:] = mp.eye(half)
+                    whole[half:, :half], whole[half:, half:] = -inverse * rest, -inverse * turn
+                    exact = mp.eig(whole, left=False, right=False)
             largest = max(map(abs, exact))
-            found = shape.stability(frame=frame).exponents
-            for value in found:
+            for value in shape.stability(frame=frame).exponents:
                 near = sorted(abs(mp.mpc(complex(value)) - e) for e in exact)
                 if len(near) > 1 and near[1] < largest / 100:
                     continue

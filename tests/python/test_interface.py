@@ -319,11 +319,6 @@ def test_public_names():
     assert len(words.splitlines()) < 10 * 60
 
 
-def test_ten_modes_by_default():
-    assert len(rc.modes(rc.Chain.uniform_rods(10**6))) == len(rc.modes(CORD)) == 10
-    assert len(rc.modes(POINTS)) == 2 and len(rc.modes(rc.Chain.uniform_rods(30), "all")) == 30
-
-
 def test_what_does_not_scale_with_gravity():
     held = rc.Held(rc.Chain.uniform_rods(5, length=1.0, mass=1.0), tension=30.0)
     with pytest.raises(ValueError, match="tension in newtons.*ask revchain.modes again"):
