@@ -114,13 +114,28 @@ inline Index count_modes(const Cord& cord, const CountOptions<double>& options) 
     return detail::modes_above(cord, detail::height_given("count_modes", options));
 }
 
+namespace detail {
+
+/// f at each place; it can be interrupted.
+template <class F>
+Vector<double> at_places(const Vector<double>& places, const F& f) {
+    Vector<double> found(places.size());
+    for (Index i = 0; i < places.size(); ++i) {
+        if (i % 1024 == 0) look();
+        found[i] = f(places[i]);
+    }
+    return found;
+}
+
+}  // namespace detail
+
 inline double CordModes::offset(Index j, double s) const {
     return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) { return mode.shape(s); });
 }
 
 inline Vector<double> CordModes::offset(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) {
-        return Vector<double>(s.unaryExpr([&](double at) { return mode.shape(at); }));
+        return detail::at_places(s, [&](double at) { return mode.shape(at); });
     });
 }
 
@@ -130,7 +145,7 @@ inline double CordModes::slope(Index j, double s) const {
 
 inline Vector<double> CordModes::slope(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) {
-        return Vector<double>(s.unaryExpr([&](double at) { return mode.slope(at); }));
+        return detail::at_places(s, [&](double at) { return mode.slope(at); });
     });
 }
 
