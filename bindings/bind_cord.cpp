@@ -17,6 +17,7 @@ using revchain::CordShape;
 using revchain::CordShapes;
 using revchain::Index;
 using revchain::LineDensity;
+using revchain::Vector;
 using Density = std::variant<double, std::shared_ptr<LineDensity>>;
 using Pair = std::pair<double, double>;
 
@@ -72,24 +73,34 @@ CordModes modes(const Cord& cord, Index first, std::optional<Index> count, std::
     return revchain::modes(cord, options);
 }
 
-/// Offsets of every mode at places, shape (k, places).
-py::array offsets(const CordModes& found, const Array& arc) {
-    const auto at = Eigen::Map<const revchain::Vector<double>>(arc.data(), arc.size());
+/// Offsets or slopes of every mode at places, shape (k, places).
+template <Vector<double> (CordModes::*value)(Index, const Vector<double>&) const>
+py::array along(const CordModes& found, const Array& arc) {
+    const auto at = Eigen::Map<const Vector<double>>(arc.data(), arc.size());
     revchain::Table<double> table(found.size(), arc.size());
     {
         const py::gil_scoped_release release;
         for (Index j = 0; j < found.size(); ++j) {
             revchain::detail::look();
-            table.row(j) = found.offset(j, revchain::Vector<double>(at)).transpose();
+            table.row(j) = (found.*value)(j, Vector<double>(at)).transpose();
         }
     }
     return to_numpy(table);
 }
 
+/// Places of every mode, a tuple of arrays.
+template <Vector<double> (CordModes::*places)(Index) const>
+py::tuple of_modes(const CordModes& found) {
+    py::tuple lists(static_cast<std::size_t>(found.size()));
+    for (Index j = 0; j < found.size(); ++j)
+        lists[static_cast<std::size_t>(j)] = to_numpy(without_lock([&] { return (found.*places)(j); }));
+    return lists;
+}
+
 }  // namespace
 
 void bind_cord(py::module_& module) {
-    const auto column = [](revchain::Vector<double> CordShape::*member) {
+    const auto column = [](Vector<double> CordShape::*member) {
         return [member](const CordShape& shape) { return to_numpy(shape.*member); };
     };
     py::class_<LineDensity, std::shared_ptr<LineDensity>>(module, "LineDensity", "Weight per length, as polynomials.")
@@ -108,15 +119,10 @@ void bind_cord(py::module_& module) {
         .def_property_readonly("error_bound", [](const CordModes& m) { return to_numpy(m.error_bound); })
         .def_readonly("method", &CordModes::method)
         .def_property_readonly("status", [](const CordModes& m) { return std::string(to_string(m.status)); })
-        .def("offset", &offsets, "arc_length"_a)
-        .def_property_readonly("nodes", [](const CordModes& m) {
-            py::tuple lists(static_cast<std::size_t>(m.size()));
-            for (Index j = 0; j < m.size(); ++j) {
-                const auto places = without_lock([&] { return m.nodes(j); });
-                lists[static_cast<std::size_t>(j)] = to_numpy(places);
-            }
-            return lists;
-        });
+        .def("offset", &along<&CordModes::offset>, "arc_length"_a)
+        .def("slope", &along<&CordModes::slope>, "arc_length"_a)
+        .def_property_readonly("nodes", &of_modes<&CordModes::nodes>)
+        .def_property_readonly("vertical_points", &of_modes<&CordModes::vertical_points>);
     module.def("cord_modes", &modes, "cord"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a, "rtol"_a,
                "progress"_a = py::none());
     module.def(

@@ -70,11 +70,6 @@ void bind_core(py::module_& module) {
                    return pendulum::revolutions_per_second(height, gravity);
                }),
                "height"_a, "gravity"_a);
-    module.def("conical_pendulum_height_from_revolutions_per_second",
-               vectorized([](double revolutions, double gravity) {
-                   return pendulum::height_from_revolutions_per_second(revolutions, gravity);
-               }),
-               "revolutions_per_second"_a, "gravity"_a);
     module.def("conical_pendulum_gravity",
                vectorized([](double length, double period) { return pendulum::gravity(length, period); }), "length"_a,
                "period"_a);

@@ -86,7 +86,6 @@ void bind_two_links(py::module_& module);
 void bind_diagrams(py::module_& module);
 void bind_batch(py::module_& module);
 void bind_points(py::module_& module);
-void bind_analytic(py::module_& module);
 void bind_elliptic(py::module_& module);
 void bind_response(py::module_& module);
 void bind_models(py::module_& module);

@@ -55,7 +55,6 @@ PYBIND11_MODULE(_core, module, py::mod_gil_not_used()) {
     bind_diagrams(module);
     bind_batch(module);
     bind_points(module);
-    bind_analytic(module);
     bind_elliptic(module);
     bind_response(module);
     bind_models(module);

@@ -16,6 +16,7 @@ LINKS = 100
 
 chain = rc.Chain.uniform_rods(LINKS, length=LENGTH)
 carried = rc.Rig(chain, support=rc.Support(radius=HAND))
+eighth = rc.modes(rc.Cord(1.0), 1, first=8)
 
 
 def near_the_vertical(turns):
@@ -25,8 +26,8 @@ def near_the_vertical(turns):
 
 def continuous(turns):
     """The same without links: the lowest part of a longer chain that whirls freely."""
-    longer = rc.conical_pendulum.height(2 * np.pi * turns) / rc.heavy_chain.conical_heights(8)[-1]
-    return 1 / rc.heavy_chain.shape(LENGTH, 8, longer)
+    longer = rc.conical_pendulum.height(2 * np.pi * turns) / eighth.conical_height[0]
+    return 1 / eighth.offset(LENGTH / longer)[0]
 
 
 def at_any_inclination(turns):

@@ -13,11 +13,11 @@ LENGTH = 1.0  # m
 PAIR = dict(lower_weight=1, lower_thread=0.5, upper_weight=1, upper_thread=0.25)  # each in the middle of half a chain
 
 chain, cord = rc.Chain.uniform_rods(200, length=LENGTH), rc.Cord(LENGTH)
-result = rc.modes(chain, count=3)
+result, continuous = rc.modes(chain, count=3), rc.modes(cord, count=3)
 pair_speeds = rc.conical_pendulum.revolutions_per_second(rc.two_links.two_plummets(**PAIR))
 print("turns a second at which another figure leaves the vertical:")
 print("  chain of 200 links ", *result.frequency.round(4))
-print("  continuous chain   ", *rc.heavy_chain.revolutions_per_second(3, LENGTH).round(4))
+print("  continuous chain   ", *continuous.frequency.round(4))
 print("  two weights instead", *pair_speeds.round(4))
 for turns in (0.5, 1, 2, 3):
     below = rc.count_modes(chain, angular_speed=2 * np.pi * turns)
@@ -67,7 +67,7 @@ for half_waves in (1, 2):
     tips = [[shape.offset[0] for shape in figures(n) if shape.half_waves == half_waves] for n in turns]
     axes[2].plot(turns, [max(tip, default=0) for tip in tips], color=COLOURS[half_waves - 1])
 for half_waves in (1, 2, 3):
-    faster = turns[turns > rc.heavy_chain.revolutions_per_second(3, LENGTH)[half_waves - 1]]
+    faster = turns[turns > continuous.frequency[half_waves - 1]]
     shapes = [rc.steady_shapes(cord, angular_speed=2 * np.pi * n)[half_waves - 1] for n in faster]
     axes[2].plot(faster, [s.offset[0] for s in shapes], ":", color=COLOURS[half_waves - 1])
 axes[2].set(xlabel="turns a second", ylabel="lowest point from the axis, m", ylim=(-0.02, 1.02))

@@ -39,7 +39,7 @@ for turns in (5.0, 3.0, 2.0, 1.0, 0.6):
     print("{:14.1f}  {:6.4f}  {:8.4f}  {:26.4f}  {:29.2f}  {:5.2f}".format(*numbers, *pulls))
     upright[turns] = cord.at(places)
 longer = (LENGTH + SPAN) / 2  # of the two parts of a rope that hangs down, the upper hand's
-(folded,) = rc.heavy_chain.revolutions_per_second(1, longer)
+(folded,) = rc.modes(rc.Cord(longer), 1).frequency
 assert not rc.steady_shapes(held, angular_speed=2 * np.pi * folded)
 print(f"it hangs down, folded in the axis, up to {folded:.4f} turns a second, as a chain of {longer} m would")
 

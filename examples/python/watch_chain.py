@@ -10,14 +10,13 @@ import revchain as rc
 
 chain = rc.Chain.uniform_rods(120, length=0.36)  # metres; the weight does not matter
 result = rc.modes(chain, count=5)
-continuous = rc.heavy_chain.conical_heights(5, length=0.36)
+continuous = rc.modes(rc.Cord(0.36), count=5)
 
 print(result)
 print()
 print("mode  rpm  rpm, continuous  relative difference of the height")
-for k, (height, limit) in enumerate(zip(result.conical_height, continuous, strict=True)):
-    speeds = 60 * rc.conical_pendulum.revolutions_per_second([height, limit])
-    print(f"{k + 1:4}  {speeds[0]:7.3f}  {speeds[1]:19.3f}  {height / limit - 1:+33.2e}")
+for k, off in enumerate(result.conical_height / continuous.conical_height - 1):
+    print(f"{k + 1:4}  {result.rpm[k]:7.3f}  {continuous.rpm[k]:19.3f}  {off:+33.2e}")
 
 if len(sys.argv) > 1:
     axes = result.plot()

@@ -15,6 +15,7 @@
 ///     m.angular_speed()[0];                                      // 6.27571 rad/s
 ///     m.offset(1, 0.18);                                         // -0.401734: second mode, 0.18 m from the free end
 ///     m.nodes(2)[0];                                             // 0.0278012 m from the free end: the lower node
+///     m.vertical_points(2)[0];                                   // 0.0705798 m: the lower point that is vertical
 ///     const auto shapes = revchain::steady_shapes(cord, {.angular_speed = 20.0});
 ///     shapes.shapes.size();                                      // 2 shapes at finite amplitude: all there are
 ///     const revchain::Cord line(2.0, {.weight = 0.5, .density = 1.0, .tip_weight = 3.0});   // thicker towards the top
@@ -41,8 +42,14 @@ struct CordModes {
     /// in 0 ... length. Cost: 1 to 15 microseconds, 100 with a density function; for a vector of s much less per place.
     double offset(Index j, double s) const;
     Vector<double> offset(Index j, const Vector<double>& s) const;
+    /// d offset / ds, -1 / lambda at the free end. Throws and costs as `offset`.
+    double slope(Index j, double s) const;
+    Vector<double> slope(Index j, const Vector<double>& s) const;
     /// Arc lengths at which the mode at index j crosses the axis, ascending, without the support.
     Vector<double> nodes(Index j) const;
+    /// Arc lengths at which it is vertical, one above each node, ascending: what hangs below has its centre of gravity
+    /// on the axis.
+    Vector<double> vertical_points(Index j) const;
     /// n = sqrt(g / lambda), rad/s.
     Vector<double> angular_speed(double gravity = conical_pendulum::standard_gravity) const;
     /// Seconds for one revolution.
@@ -56,7 +63,7 @@ struct CordModes {
 /// 4 (p + 1) L / j_{p,k}^2, to 3 ulp; a uniform cord with a tip weight has the zeros of a cross product of Bessel
 /// functions, to 2 ulp. All others are solved by power series, to 4e-15 (tests/cpp/cord.cpp). `error_bound` says the
 /// same; it was measured, for exponents from -0.99 to 100. Offsets are within 1e-15 times the mode number, with series
-/// within 1e-14, of the largest one.
+/// within 1e-14, of the largest one; slopes likewise.
 /// Cost: a closed form takes 0.01 to 15 microseconds a mode. Power series take 1 ms for each mode up to the last one
 /// wanted.
 /// Throws InvalidArgument as `modes` of a chain does, for `all_modes` (there are infinitely many), for `certify`, for

@@ -16,9 +16,9 @@ Results
     Stability, ForceDiagram, Response, Swing, Tuned, Explanation, Sensitivity, Uncertainty; ``load`` reads what their
     method ``save`` wrote
 Closed forms
-    conical_pendulum, plummet, two_links, heavy_chain, tapered_chain, tip_mass, elliptic, hoop, bell_and_clapper,
-    funicular_polygon, transverse_modes, recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion,
-    GyrostaticString, SkippingRope, TortuousRope, FunicularPolygon, TransverseModes
+    conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
+    recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
+    FunicularPolygon, TransverseModes
 Files
     Scene, load_scene, Study, load_study, sweep, SweepResult, SceneError
 
@@ -87,11 +87,8 @@ from .systems.rig import Support as Support
 if _TYPE_CHECKING:
     from .closed_forms import conical_pendulum as conical_pendulum
     from .closed_forms import elliptic as elliptic
-    from .closed_forms import heavy_chain as heavy_chain
     from .closed_forms import hoop as hoop
     from .closed_forms import plummet as plummet
-    from .closed_forms import tapered_chain as tapered_chain
-    from .closed_forms import tip_mass as tip_mass
     from .closed_forms import two_links as two_links
     from .closed_forms.bell import BellAndClapper as BellAndClapper
     from .closed_forms.bell import bell_and_clapper as bell_and_clapper
@@ -114,7 +111,7 @@ if _TYPE_CHECKING:
 
     __version__: str
 
-_CLOSED_FORMS = "conical_pendulum elliptic heavy_chain hoop plummet tapered_chain tip_mass two_links".split()
+_CLOSED_FORMS = "conical_pendulum elliptic hoop plummet two_links".split()
 _LATER = dict.fromkeys(_CLOSED_FORMS, "closed_forms") | {
     "BellAndClapper": "closed_forms.bell",
     "bell_and_clapper": "closed_forms.bell",

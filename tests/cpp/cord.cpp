@@ -34,14 +34,18 @@ TEST_CASE("cord: the closed forms, each where it holds") {
     CHECK(uniform.method == "zeros of J_0");
     CHECK(uniform.conical_height == heavy_chain::conical_heights(40, 2.5));
     CHECK(uniform.offset(6, 1.1) == heavy_chain::shape(1.1, 7, 2.5));
+    CHECK(uniform.slope(6, 1.1) == heavy_chain::slope(1.1, 7, 2.5));
     CHECK(uniform.nodes(6) == heavy_chain::nodes(7, 2.5));
+    CHECK(uniform.vertical_points(6) == heavy_chain::vertical_points(7, 2.5));
 
     const CordModes tapered = revchain::modes(Cord(2.5, {.weight = 9.0, .density = 1.5}), {.first = 3, .count = 5});
     CHECK(tapered.method == "zeros of J_p");
     CHECK(tapered.first == 3);
     CHECK(tapered.conical_height == tapered_chain::conical_heights(7, 2.5, 1.5).tail(5));
     CHECK(tapered.offset(1, 0.7) == tapered_chain::Mode(4, 2.5, 1.5).shape(0.7));
+    CHECK(tapered.slope(1, 0.7) == tapered_chain::Mode(4, 2.5, 1.5).slope(0.7));
     CHECK(tapered.nodes(1) == tapered_chain::Mode(4, 2.5, 1.5).nodes());
+    CHECK(tapered.vertical_points(1) == tapered_chain::Mode(4, 2.5, 1.5).vertical_points());
 
     // the particle weighs as much as 0.5 of cord
     const CordModes tip = revchain::modes(Cord(2.0, {.weight = 8.0, .tip_weight = 2.0}));
@@ -49,13 +53,19 @@ TEST_CASE("cord: the closed forms, each where it holds") {
     CHECK(tip.size() == 10);
     CHECK(tip.conical_height == tip_mass::conical_heights(10, 2.0, 0.5));
     CHECK(tip.offset(2, 1.2) == tip_mass::Mode(3, 2.0, 0.5).shape(1.2));
+    CHECK(tip.slope(2, 1.2) == tip_mass::Mode(3, 2.0, 0.5).slope(1.2));
     CHECK(tip.nodes(2) == tip_mass::Mode(3, 2.0, 0.5).nodes());
+    CHECK(tip.vertical_points(2) == tip_mass::Mode(3, 2.0, 0.5).vertical_points());
 
     CHECK(uniform.angular_speed(9.0)[0] == 3 / std::sqrt(uniform.conical_height[0]));
     CHECK(uniform.angular_speed()[1] == revchain::conical_pendulum::angular_speed(uniform.conical_height[1]));
     CHECK(uniform.period()[1] == revchain::conical_pendulum::period(uniform.conical_height[1]));
-    const Vector<double> places = Vector<double>::LinSpaced(5, 0, 2.0), offsets = tip.offset(2, places);
-    for (Index i = 0; i < 5; ++i) CHECK(offsets[i] == tip.offset(2, places[i]));
+    const Vector<double> places = Vector<double>::LinSpaced(5, 0, 2.0), offsets = tip.offset(2, places),
+                         slopes = tip.slope(2, places);
+    for (Index i = 0; i < 5; ++i) {
+        CHECK(offsets[i] == tip.offset(2, places[i]));
+        CHECK(slopes[i] == tip.slope(2, places[i]));
+    }
     CHECK(offsets[0] == 1);
     CHECK(std::abs(offsets[4]) < 1e-15);
 }
@@ -75,7 +85,18 @@ TEST_CASE("cord: error bounds hold against 40 digits") {
 }
 
 TEST_CASE("cord: power series agree with the closed forms") {
-    double heights = 0, offsets = 0, nodes = 0;
+    double heights = 0, offsets = 0, slopes = 0, nodes = 0, vertical = 0;
+    const auto places_apart = [&](const CordModes& s, const CordModes& c, Index j, double length) {
+        const Vector<double> places = Vector<double>::LinSpaced(60, 0, length);
+        const Vector<double> offset = c.offset(j, places), slope = c.slope(j, places);
+        const auto apart = [](const Vector<double>& x, const Vector<double>& y) {
+            return x.size() > 0 ? (x - y).cwiseAbs().maxCoeff() : 0.0;
+        };
+        offsets = std::max(offsets, apart(s.offset(j, places), offset) / offset.cwiseAbs().maxCoeff());
+        slopes = std::max(slopes, apart(s.slope(j, places), slope) / slope.cwiseAbs().maxCoeff());
+        nodes = std::max(nodes, apart(s.nodes(j), c.nodes(j)) / length);
+        vertical = std::max(vertical, apart(s.vertical_points(j), c.vertical_points(j)) / length);
+    };
     for (const double p : {-0.5, 0.0, 0.5, 1.0, 3.0})
         for (const double length : {0.7, 40.0}) {
             const Cord series = by_series(length, p), closed(length, {.density = p});
@@ -87,12 +108,9 @@ TEST_CASE("cord: power series agree with the closed forms") {
                 const double off = std::abs(s.conical_height[j] / c.conical_height[j] - 1);
                 CHECK(off <= s.error_bound[j] + c.error_bound[j]);
                 heights = std::max(heights, off);
-                const Vector<double> places = Vector<double>::LinSpaced(60, 0, length);
-                const double largest = std::max(1.0, c.offset(j, places).cwiseAbs().maxCoeff());
-                offsets =
-                    std::max(offsets, (s.offset(j, places) - c.offset(j, places)).cwiseAbs().maxCoeff() / largest);
                 REQUIRE(s.nodes(j).size() == j + 1);
-                nodes = std::max(nodes, (s.nodes(j) - c.nodes(j)).cwiseAbs().maxCoeff() / length);
+                REQUIRE(s.vertical_points(j).size() == j + 1);
+                places_apart(s, c, j, length);
             }
             for (const double at : {0.5, 0.02, 0.003})
                 CHECK(revchain::count_modes(series, {.conical_height = at * length}) ==
@@ -106,18 +124,17 @@ TEST_CASE("cord: power series agree with the closed forms") {
         CHECK(s.method == "power series");
         for (Index j = 0; j < 5; ++j) {
             heights = std::max(heights, std::abs(s.conical_height[j] / c.conical_height[j] - 1));
-            const Vector<double> places = Vector<double>::LinSpaced(60, 0, 1.5);
-            const double largest = std::max(1.0, c.offset(j, places).cwiseAbs().maxCoeff());
-            offsets = std::max(offsets, (s.offset(j, places) - c.offset(j, places)).cwiseAbs().maxCoeff() / largest);
-            if (j > 0) nodes = std::max(nodes, (s.nodes(j) - c.nodes(j)).cwiseAbs().maxCoeff() / 1.5);
+            places_apart(s, c, j, 1.5);
         }
         CHECK(revchain::count_modes(series, {.conical_height = 0.01}) ==
               revchain::count_modes(closed, {.conical_height = 0.01}));
     }
-    CAPTURE(heights, offsets, nodes);
+    CAPTURE(heights, offsets, slopes, nodes, vertical);
     CHECK(heights < 2e-15);
     CHECK(offsets < 1e-14);
+    CHECK(slopes < 1e-14);
     CHECK(nodes < 1e-15);
+    CHECK(vertical < 1e-15);
 }
 
 TEST_CASE("cord: a power with a tip weight, against ever more links") {
@@ -163,6 +180,7 @@ TEST_CASE("cord: numbers, windows, counts") {
             CHECK(revchain::count_modes(cord, {.conical_height = height * (1 - 1e-13)}) == j + 1);
             CHECK(ten.nodes(j).size() == j);
             CHECK(ten.offset(j, 0) == 1);
+            CHECK(std::abs(ten.slope(j, 0) * height + 1) < 4e-16);
             CHECK(std::abs(ten.offset(j, 3)) < 1e-13);
         }
         const double low = ten.conical_height[5] * 0.999, high = ten.conical_height[2] * 1.001;
@@ -269,10 +287,13 @@ TEST_CASE("cord: wrong cords, and questions without an answer") {
     for (const CordModes& modes : {revchain::modes(cord, {.count = 2}), revchain::modes(by_series(1, 1), {.count = 2})})
         for (const Index wrong : {-1, 2}) {
             CHECK_THROWS_AS(modes.offset(wrong, 0.5), InvalidArgument);
+            CHECK_THROWS_AS(modes.slope(wrong, 0.5), InvalidArgument);
             CHECK_THROWS_AS(modes.nodes(wrong), InvalidArgument);
-            CHECK_THROWS_AS(modes.offset(0, -0.1), InvalidArgument);
-            CHECK_THROWS_AS(modes.offset(0, 1.1), InvalidArgument);
-            CHECK_THROWS_AS(modes.offset(0, nan), InvalidArgument);
+            CHECK_THROWS_AS(modes.vertical_points(wrong), InvalidArgument);
+            for (const double outside : {-0.1, 1.1, nan}) {
+                CHECK_THROWS_AS(modes.offset(0, outside), InvalidArgument);
+                CHECK_THROWS_AS(modes.slope(0, outside), InvalidArgument);
+            }
         }
 
     CHECK_THROWS_WITH(revchain::swing(cord, {}), ContainsSubstring("cut it into links"));

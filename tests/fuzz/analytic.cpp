@@ -36,7 +36,7 @@ void ropes(fuzz::Random& random) {
 
 template <class Mode>
 void along(const Mode& mode, double x) {
-    (void)mode.shape(x), (void)mode.slope(x), (void)mode.nodes();
+    (void)mode.shape(x), (void)mode.slope(x), (void)mode.nodes(), (void)mode.vertical_points();
 }
 
 }  // namespace

@@ -2,10 +2,6 @@
 """Many chains at once: against exact heights, against numpy's broadcasting, and with wrong numbers."""
 
 import math
-import os
-import signal
-import threading
-import time
 
 import numpy as np
 import pytest
@@ -143,12 +139,3 @@ def test_wrong_numbers_are_named(changes, message):
 def test_wrong_calls(arguments, message):
     with pytest.raises(ValueError, match=message):
         rc.conical_heights(**arguments)
-
-
-def test_ctrl_c():
-    threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
-    start = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        rc.conical_heights(weight=np.ones((100_000, 60)), length=1.0)
-        time.sleep(5)
-    assert time.monotonic() - start < 3

@@ -5,8 +5,9 @@ import math
 
 import numpy as np
 import pytest
-import revchain as rc
 from mechanics import plummets, rods
+
+import revchain as rc
 
 
 def test_one_link_is_the_conical_pendulum():
@@ -186,25 +187,69 @@ def test_branches_next_to_the_vertical(make, less):
             assert np.abs(np.abs(shape.inclination) - want).max() < 1e-6 * want.max()
 
 
+@pytest.mark.parametrize("less", [1e-3, 1e-6, 1e-9, 1e-10, 1e-13, 1e-14, 1e-15])
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_diagrams_just_below_critical(count, less):
+    chain = plummets(count)
+    diagram = rc.branches(chain, min_conical_height=rc.modes(chain).conical_height[0] * (1 - less))
+    assert len(diagram) == 1
+    assert diagram.consistent or less < 1e-9
+
+
+THREE = rc.Chain(weight=1.0, length=[1.0, 1.0, 1.0])
+LARGE = [{"tip_inclination": 1.57}, {"tip_radius": 2.9999999}, {"top_tension": 3.00001}, {"top_tension": 3e3}]
+SMALL = [{f"tip_{name}": x} for name in ("inclination", "radius") for x in (1e-6, 1e-8, 1e-12)]
+
+
+@pytest.mark.parametrize("given", [*LARGE, *SMALL], ids=repr)
+def test_large_and_small_amplitudes_are_met(given):
+    shape = rc.steady_shape(THREE, **given)
+    ((name, value),) = given.items()
+    tip = {"tip_inclination": shape.inclination[0], "tip_radius": shape.offset[0]}
+    got = {**tip, "top_tension": shape.tension[-1]}[name]
+    assert got == pytest.approx(value, rel=1e-12 if value > 1e-3 else 1e-15)
+
+
+@pytest.mark.parametrize(("count", "mode"), [(10, 10), (30, 30), (50, 40), (50, 50), (300, 2), (300, 100), (300, 300)])
+@pytest.mark.parametrize("part", [0.999, 0.5])
+def test_every_mode_has_its_shape(count, mode, part):
+    chain = plummets(count)
+    height = rc.modes(chain, 1, first=mode).conical_height[0] * part
+    if count < 300:
+        assert rc.branch(chain, mode, min_conical_height=height).end == "height"
+    if (count, part) == (300, 0.5) and mode == 300:  # its free end would be 1e-370 from the axis
+        with pytest.raises(ValueError, match="mode 300"):
+            rc.steady_shape(chain, mode=mode, conical_height=height)
+        return
+    assert rc.steady_shape(chain, mode=mode, conical_height=height).half_waves == mode
+
+
+@pytest.mark.parametrize("points", [1, 2, 7])
+def test_max_points(points):
+    assert len(rc.branch(plummets(3), 1, min_conical_height=0.1, max_points=points)) <= points
+
+
+WRONG = [
+    ({"conical_height": 0.1, "tip_radius": 1.0}, "tip_radius and top_tension, got conical_height and tip_radius$"),
+    ({"mode": 3, "tip_radius": 2.5}, "not met on the branch of mode 3"),
+    *(({"top_tension": x}, "top_tension must be more than the weight.*got") for x in (3.0, 2.0)),
+    *(({"tip_radius": x}, "tip.radius.*got") for x in (3.0, 4.0, np.nan)),
+    *(({"tip_inclination": x}, "tip inclination must lie between 0 and pi/2.*got") for x in (np.pi / 2, 2.0)),
+    ({"tip_inclination": 0.0}, "tip_inclination must be positive and finite, got 0"),
+]
+
+
+@pytest.mark.parametrize(("given", "message"), WRONG, ids=repr)
+def test_shapes_that_are_not_there(given, message):
+    with pytest.raises(ValueError, match=message):
+        rc.steady_shape(THREE, **given)
+
+
 def test_wrong_calls():
     chain = plummets(3)
     first = rc.modes(chain).conical_height[0]
-    with pytest.raises(ValueError, match="tip_radius and top_tension, got conical_height and tip_radius$"):
-        rc.steady_shape(chain, mode=1, conical_height=0.1, tip_radius=1.0)
     with pytest.raises(ValueError, match="mode 1 leaves the vertical at the conical height"):
         rc.steady_shape(chain, mode=1, conical_height=first)
-    with pytest.raises(ValueError, match="mode must be from 1 to the number of modes, 3"):
-        rc.steady_shape(chain, mode=4, conical_height=0.1)
-    with pytest.raises(ValueError, match="mode must be at least 1"):
-        rc.branch(chain, 0, min_conical_height=0.1)
-    with pytest.raises(ValueError, match="mode must be a whole number"):
-        rc.branch(chain, 1.5, min_conical_height=0.1)
-    with pytest.raises(ValueError, match="not met on the branch of mode 3"):
-        rc.steady_shape(chain, mode=3, tip_radius=2.5)
-    with pytest.raises(ValueError, match="tip inclination must lie between 0 and pi/2"):
-        rc.steady_shape(chain, mode=1, tip_inclination=1.6)
-    with pytest.raises(ValueError, match="top_tension must be more than the weight"):
-        rc.steady_shape(chain, mode=1, top_tension=0.5)
     with pytest.raises(ValueError, match="frame must be"):
         rc.branch(chain, 1, min_conical_height=0.1).stability_windows(frame="fixed")
     with pytest.raises(ValueError, match="tolerance must be positive"):

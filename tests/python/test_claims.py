@@ -13,10 +13,11 @@ from operator import attrgetter
 import mpmath as mp
 import numpy as np
 import pytest
-from exact import heights_of, jacobi, stored_links
+from exact import carried_tangents, exactly, heights_of, jacobi, stored_links
+from mechanics import disturbed
 
 import revchain as rc
-from revchain import elliptic, heavy_chain, plummet, tapered_chain, tip_mass
+from revchain import elliptic, plummet
 
 ULP = 2.0**-52
 TINY, HUGE = mp.mpf(2) ** -1021, mp.mpf(2) ** 1023
@@ -67,10 +68,6 @@ class Draw:
     def link(self, centroid):
         """A radius of gyration for a centroid: none, any."""
         return 0.0 if self.rng.random() < 0.2 else centroid * self.power(-8, 3)
-
-
-def exactly(*numbers):
-    return [mp.mpf(float(number)) for number in numbers]
 
 
 def ulps(found, exact):
@@ -232,7 +229,6 @@ CLOSED_FORMS = {
     "conical_pendulum.revolutions_per_second": (two, lambda x, g: within(2.1, mp.sqrt(g / x) / (2 * mp.pi))),
     "conical_pendulum.height": (two, lambda n, g: within(2.1, g / n**2)),
     "conical_pendulum.height_from_period": (two, lambda t, g: within(2.1, g * (t / (2 * mp.pi)) ** 2)),
-    "conical_pendulum.height_from_revolutions_per_second": (two, lambda r, g: within(3, g / (2 * mp.pi * r) ** 2)),
     "conical_pendulum.height_from_seconds_pendulum": (two, lambda x, t: within(2.1, x * t**2 / 4)),
     "conical_pendulum.gravity": (two, lambda x, t: within(2.1, x * (2 * mp.pi / t) ** 2)),
     "hoop.tension": (two, lambda v, g: within(3, v**2 / g)),
@@ -309,22 +305,6 @@ def test_a_held_plummet():
     worst.check()
 
 
-def carried(l, x, b):  # noqa: E741
-    """Every root of x tan d = b + l sin d, by bisection of t (x - l cos d) - b between its extremes."""
-    value = lambda t: x * t - b - l * t / mp.sqrt(1 + t * t)  # noqa: E731
-    def root(low, high):
-        rising = value(high) > value(low)
-        for _ in range(330):
-            middle = (low + high) / 2
-            low, high = (middle, high) if (value(middle) < 0) == rising else (low, middle)
-        return low
-
-    far = 2 * (l + b) / x
-    turn = mp.sqrt((l / x) ** (mp.mpf(2) / 3) - 1) if x < l else mp.mpf(0)
-    inner = [root(-far, -turn), root(-turn, mp.mpf(0))] if x < l and value(-turn) >= 0 else []
-    return [*inner, root(turn, far)], turn
-
-
 def test_inclinations_of_a_carried_plummet():
     d, worst = Draw("carried_inclinations"), Worst()
     for _ in range(SAMPLES // 2):
@@ -333,7 +313,7 @@ def test_inclinations_of_a_carried_plummet():
         radius = d.power(-9, 3) if d.rng.random() < 0.5 or not fold else fold * d.near_one()
         given = (scale, scale * share, scale * radius)
         with mp.workdps(90):
-            roots, turn = carried(*exactly(*given))
+            roots, turn = carried_tangents(*exactly(*given))
             found = [d for d in np.ravel(plummet.carried_inclinations(*given)) if not np.isnan(d)]
             meeting = 1 / mp.sqrt(1 + turn**2)
             for number, (f, t) in enumerate(zip(found, roots, strict=True)):
@@ -462,7 +442,7 @@ def test_elliptic(name):
     check_random(name, *ELLIPTIC[name])
 
 
-# Chains without links ------------------------------------------------------------------------------------------------
+# Cords ----------------------------------------------------------------------------------------------------------------
 
 
 def root_next_to(function, guess):
@@ -472,7 +452,7 @@ def root_next_to(function, guess):
 
 def zero_of_bessel(order, number):
     """Zero of J of any order, next to the one that the library's heights give."""
-    height = tapered_chain.conical_heights(number, exponent=float(order))[-1]
+    (height,) = rc.modes(rc.Cord(1.0, density=float(order)), 1, first=number).conical_height
     return root_next_to(lambda z: mp.besselj(mp.mpf(order), z), mp.mpf(2 * math.sqrt((order + 1) / height)))
 
 
@@ -502,76 +482,84 @@ def test_speeds_of_a_tolerance():
             assert ulps(speed, mp.sqrt(mp.mpf(solution.gravity) / mp.mpf(float(height)))) <= 1
 
 
-def test_heights_of_the_heavy_chain():
+def check_places(worst, d, modes, exact, allowed):
+    """Offset and slope of one mode against `exact` at shares of the length, of the largest of either."""
+    length = modes.system.length
+    grid = length * np.linspace(0, 1, 400)
+    largest, steepest = (max(1.0 * first, np.abs(f(grid)).max()) for f, first in ((modes.offset, 1), (modes.slope, 0)))
+    for share in places(d):
+        offset, slope = exact(mp.mpf(share * length) / mp.mpf(length))
+        worst.note("offset", off(modes.offset(share * length)[0], offset) / mp.mpf(largest) / allowed)
+        worst.note("slope", off(modes.slope(share * length)[0], slope) / mp.mpf(steepest) / allowed)
+
+
+def test_modes_of_a_uniform_cord():
     d, worst = Draw("heavy_chain"), Worst()
 
     for _ in range(40):
         length, mode = d.power(-150, 150), modes_up_to(d, 30_000)
         zero = zero_of_bessel(0, mode)
-        height = heavy_chain.conical_heights(mode, length)[-1]
-        worst.note("conical_heights", ulps(height, 4 * mp.mpf(length) / zero**2) / 3)
         gravity = d.power(-100, 100)
-        turns = heavy_chain.revolutions_per_second(mode, length, gravity)[-1]
+        found = rc.modes(rc.Cord(length), 1, first=mode, gravity=gravity)
+        worst.note("conical_height", ulps(found.conical_height[0], 4 * mp.mpf(length) / zero**2) / 3)
         turning = mp.sqrt(mp.mpf(gravity) / mp.mpf(length)) / (2 * mp.pi)
-        worst.note("revolutions_per_second", ulps(turns, turning * zero / 2) / 4)
+        worst.note("frequency", ulps(found.frequency[0], turning * zero / 2) / 4)
         energy = (zero * mp.besselj(1, zero)) ** 2 / 8
-        worst.note("kinetic_energy", ulps(heavy_chain.kinetic_energy(mode), energy) * ULP / 1e-15 / (1 + mode))
+        of_slope = (mp.mpf(length) * mp.mpf(float(found.slope(length)[0]))) ** 2 / 2  # over weight per length
+        worst.note("kinetic energy", ulps(of_slope, energy) * ULP / 1e-15 / (1 + mode))
         if mode > 1:
             node = int(d.rng.integers(1, mode))
-            there = heavy_chain.nodes(mode, length)[node - 1]
+            there = found.nodes[0][node - 1]
             worst.note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(0, node) / zero) ** 2) / 5)
-            there = heavy_chain.vertical_points(mode, length)[node - 1]
+            there = found.vertical_points[0][node - 1]
             worst.note("vertical_points", ulps(there, mp.mpf(length) * (zero_of_bessel(1, node) / zero) ** 2) / 5)
         for share in places(d):
             x = length * share
             z = zero * mp.sqrt(mp.mpf(x) / mp.mpf(length))
-            worst.note("shape", off(heavy_chain.shape(x, mode, length), mp.besselj(0, z)) / 1e-15 / mode)
-            slope = mp.mpf(float(heavy_chain.slope(x, mode, length))) * mp.mpf(height)
+            worst.note("offset", off(found.offset(x)[0], mp.besselj(0, z)) / 1e-15 / mode)
+            slope = mp.mpf(float(found.slope(x)[0])) * mp.mpf(found.conical_height[0])
             worst.note("slope", abs(slope + 2 * mp.besselj(1, z) / z) / 1e-15 / mode)
     worst.check()
 
 
-def test_chains_that_taper():
+def test_modes_of_cords_that_taper():
     d, worst = Draw("tapered_chain"), Worst()
 
     for _ in range(40):
         length, mode = d.power(-150, 150), modes_up_to(d, 3000)
         p = [d.uniform(-0.99, 1), d.power(-1, 2), -0.99 + d.power(-6, -2)][d.rng.integers(3)]
         order, zero = mp.mpf(p), zero_of_bessel(p, mode)
-        height = tapered_chain.conical_heights(mode, exponent=p, length=length)[-1]
-        worst.note("conical_heights", ulps(height, 4 * (order + 1) * mp.mpf(length) / zero**2) / 3)
+        found = rc.modes(rc.Cord(length, density=p), 1, first=mode)
+        worst.note("conical_height", ulps(found.conical_height[0], 4 * (order + 1) * mp.mpf(length) / zero**2) / 3)
         if mode > 1:
             node = int(d.rng.integers(1, mode))
-            there = tapered_chain.nodes(mode, exponent=p, length=length)[node - 1]
-            worst.note("nodes", ulps(there, mp.mpf(length) * (zero_of_bessel(p, node) / zero) ** 2) / 3)
-        at = lambda f, share: f(np.asarray(share) * length, mode, exponent=p, length=length)  # noqa: E731, B023
-        largest = max(1.0, np.abs(at(tapered_chain.shape, np.linspace(0, 1, 400))).max())
-        steepest = np.abs(at(tapered_chain.slope, np.linspace(0, 1, 400))).max()
-        for share in places(d):
-            z = zero * mp.sqrt(mp.mpf(share * length) / mp.mpf(length))
-            allowed = mp.mpf(1e-15) * (1 + zero)
-            exact = mp.hyp0f1(order + 1, -(z**2) / 4)
-            worst.note("shape", off(at(tapered_chain.shape, share), exact) / largest / allowed)
-            exact = -mp.hyp0f1(order + 2, -(z**2) / 4) * zero**2 / (4 * (order + 1) * mp.mpf(length))
-            worst.note("slope", off(at(tapered_chain.slope, share), exact) / mp.mpf(steepest) / allowed)
+            for name, of_node in (("nodes", p), ("vertical_points", p + 1)):
+                there = getattr(found, name)[0][node - 1]
+                worst.note(name, ulps(there, mp.mpf(length) * (zero_of_bessel(of_node, node) / zero) ** 2) / 3)
+
+        def exact(share, order=order, zero=zero, length=length):
+            z = zero * mp.sqrt(share)
+            slope = -mp.hyp0f1(order + 2, -(z**2) / 4) * zero**2 / (4 * (order + 1) * mp.mpf(length))
+            return mp.hyp0f1(order + 1, -(z**2) / 4), slope
+
+        check_places(worst, d, found, exact, mp.mpf(1e-15) * (1 + zero))
     worst.check()
 
 
 def tip_shape(m, height):
-    """Offset and slope (times the height) at a distance over the length, 1 at the free end."""
+    """The same of a uniform chain with a weight of m lengths at its free end."""
     a = 2 * mp.sqrt(m / height)
-    A, B = (mp.pi * a**2 / 4 * v for v in (-mp.bessely(2, a), mp.besselj(2, a))) if m else (mp.mpf(1), mp.mpf(0))
+    A, B = (mp.pi * a**2 / 4 * v for v in (-mp.bessely(2, a), mp.besselj(2, a)))
 
     def at(x):
         z = 2 * mp.sqrt((m + x) / height)
-        offset = A * mp.besselj(0, z) + (B * mp.bessely(0, z) if m else 0)
-        slope = -(A * mp.besselj(1, z) + (B * mp.bessely(1, z) if m else 0)) * 2 / z if z else -mp.mpf(1)
-        return offset, slope
+        offset = A * mp.besselj(0, z) + B * mp.bessely(0, z)
+        return offset, -(A * mp.besselj(1, z) + B * mp.bessely(1, z)) * 2 / z
 
     return at
 
 
-def test_chains_with_a_tip():
+def test_modes_of_cords_with_a_tip():
     d, worst = Draw("tip_mass"), Worst()
 
     for turn in range(16):
@@ -580,43 +568,44 @@ def test_chains_with_a_tip():
         where = (length, mode, tip)
         with mp.workdps(60 if tip < 1e12 * length else 300):
             L, m = mp.mpf(length), mp.mpf(tip) / mp.mpf(length)
-            found = tip_mass.conical_heights(mode, tip=tip, length=length)[-1]
+            found = rc.modes(rc.Cord(length, weight=length, tip_weight=tip), 1, first=mode)
             cross = lambda y, m=m: tip_shape(m, y)(mp.mpf(1))[0]  # noqa: E731
-            root = root_next_to(cross, mp.mpf(float(found)) / L)
-            worst.note("conical_heights", ulps(found, root * L) / 2, where)
+            root = root_next_to(cross, mp.mpf(float(found.conical_height[0])) / L)
+            worst.note("conical_height", ulps(found.conical_height[0], root * L) / 2, where)
             exact = tip_shape(m, root)
-            at = lambda f, share: f(np.asarray(share) * length, mode, tip=tip, length=length)  # noqa: E731, B023
-            largest, steepest = (np.abs(at(f, np.linspace(0, 1, 400))).max() for f in (tip_mass.shape, tip_mass.slope))
-            for share in places(d):
-                offset, slope = exact(mp.mpf(share * length) / L)
-                allowed = mp.mpf(2e-15) * mode
-                worst.note("shape", off(at(tip_mass.shape, share), offset) / mp.mpf(float(largest)) / allowed, where)
-                error = off(at(tip_mass.slope, share), slope / (root * L)) / mp.mpf(float(steepest))
-                worst.note("slope", error / allowed, where)
+            scaled = lambda x, exact=exact, L=L, root=root: (exact(x)[0], exact(x)[1] / (root * L))  # noqa: E731
+            check_places(worst, d, found, scaled, mp.mpf(2e-15) * mode)
             if mode > 1:
-                nodes = tip_mass.nodes(mode, tip=tip, length=length)
-                node = mp.mpf(float(nodes[d.rng.integers(0, mode - 1)])) / L
-                worst.note("nodes", abs(root_next_to(lambda x: exact(x)[0], node) - node) / 1e-15, where)  # noqa: B023
+                index = d.rng.integers(0, mode - 1)
+                for name, which in (("nodes", 0), ("vertical_points", 1)):
+                    at = mp.mpf(float(getattr(found, name)[0][index])) / L
+                    zero = root_next_to(lambda x: exact(x)[which], at)  # noqa: B023
+                    worst.note(name, abs(zero - at) / 1e-15, where)
     worst.check()
 
 
-def test_critical_heights_without_links():
-    """`modes` of a `Cord`, its density a function too, against the closed forms, in any unit; offsets, too."""
+def test_modes_of_cords_by_power_series():
+    """A density given as a function against the same cord in closed form, in any unit."""
     d, worst = Draw("continuous_critical_heights"), Worst()
     for turn in range(40):
-        length = d.power(-100, 100) if turn % 2 else d.power(-3, 3)
-        tip, p, count = length * d.power(-9, 9), d.uniform(-0.9, 5), modes_up_to(d, 60) if turn % 2 else 5
+        length = d.power(-3, 3)
         if turn % 2:
-            cord, other, given, bound = rc.Cord(length, weight=length, tip_weight=tip), tip_mass, {"tip": tip}, 3e-15 * count
+            tip, p = length * d.power(-2, 2), 0.0
+            given = {"weight": length, "tip_weight": tip}
         else:
-            cord = rc.Cord(length, density=lambda s, p=p, length=length: (s / length) ** p if s > 0 else 0.0)
-            other, given, bound = tapered_chain, {"exponent": p}, 1.5e-14
-        found, x = rc.modes(cord, count), length * np.linspace(0, 1, 5)
-        exact = other.conical_heights(count, **given, length=length)
-        worst.note("heights", np.abs(found.conical_height / exact - 1).max() / 4e-15, (length, tip, p))
-        shape = other.shape(x, count, **given, length=length)
-        off_by = np.abs(found.offset(x)[-1] - shape).max() / max(1, np.abs(shape).max())
-        worst.note("offset", off_by / bound, (length, tip, p, count))
+            tip, p, given = 0.0, d.uniform(-0.9, 5), {}
+        function = lambda s, p=p, length=length: (s / length) ** p if s > 0 or p == 0 else 0.0  # noqa: E731
+        found = rc.modes(rc.Cord(length, density=function, **given), 5)
+        closed = rc.modes(rc.Cord(length, density=p, **given), 5)
+        assert found.method == "power series" != closed.method
+        where, x = (length, tip, p), length * np.linspace(0, 1, 101)
+        worst.note("heights", np.abs(found.conical_height / closed.conical_height - 1).max() / 4e-15, where)
+        for name in ("offset", "slope"):
+            values, exact = getattr(found, name)(x), getattr(closed, name)(x)
+            worst.note(name, (np.abs(values - exact).max(axis=1) / np.abs(exact).max(axis=1)).max() / 1e-14, where)
+        for name in ("nodes", "vertical_points"):
+            pairs = list(zip(getattr(found, name)[1:], getattr(closed, name)[1:], strict=True))
+            worst.note(name, max(np.abs(a - b).max() for a, b in pairs) / length / 1e-15, where)
     worst.check()
 
 
@@ -874,57 +863,28 @@ def test_folds():
 # Small disturbances of shapes ----------------------------------------------------------------------------------------
 
 
-def exponents_of(weight, length, inclination, driven):
-    """Exponents over the speed, of plummets in the angles of their threads, in the frame that turns with them."""
-    size = len(weight)
-    plane = list(range(size))
-    W, L, angle = exactly(*weight), exactly(*length), inclination
-    s, c = [mp.sin(t) for t in angle], [mp.cos(t) for t in angle]
-    out = [mp.fsum(L[i] * s[i] for i in range(k, size)) for k in range(size)]  # of plummet k, from the axis
-    height = out[0] * c[0] / s[0]
-    above = [mp.fsum(W[: i + 1]) for i in plane]  # what each thread carries
-    pull = [mp.fsum(W[k] * out[k] for k in range(i + 1)) for i in plane]
-    mass, rest, turn = mp.matrix(2 * size), mp.matrix(2 * size), mp.matrix(2 * size)
-    for i in plane:
-        for j in plane:
-            both = mp.fsum(W[: min(i, j) + 1]) * L[i] * L[j]
-            mass[i, j] = both * (c[i] * c[j] + s[i] * s[j])
-            mass[size + i, size + j] = both * s[i] * s[j]
-            rest[i, j] = -both * c[i] * c[j]
-            rest[size + i, size + j] = -both * s[i] * s[j]
-            # 2 z.(d/dj x d/di)
-            turn[size + i, j] = 2 * both * c[j] * s[i]
-            turn[j, size + i] = -2 * both * c[j] * s[i]
-        rest[i, i] += height * above[i] * L[i] * c[i] + pull[i] * L[i] * s[i]
-        rest[size + i, size + i] += pull[i] * L[i] * s[i]
-    if driven:
-        values = mp.eigsy(half_inverse(mass[:size, :size], rest[:size, :size]), eigvals_only=True)
-        return [sign * mp.sqrt(-value) for value in values for sign in (1, -1)]
-    whole, inverse, half = mp.zeros(4 * size), mass**-1, 2 * size
-    whole[:half, half:], whole[half:, :half], whole[half:, half:] = mp.eye(half), -inverse * rest, -inverse * turn
-    return mp.eig(whole, left=False, right=False)
-
-
-def half_inverse(mass, matrix):
-    """The symmetric matrix with the eigenvalues of mass^-1 matrix."""
-    root = mp.cholesky(mass) ** -1
-    return root * matrix * root.T
-
-
 @pytest.mark.parametrize("frame", ["free", "driven"])
 def test_exponents_of_small_disturbances(frame):
-    """`SteadyShape.stability`, where exponents are simple."""
+    """`SteadyShape.stability`, where exponents are simple, of plummets and of rods."""
     d, compared = Draw(frame), 0
-    while compared < 40:
-        size = int(d.rng.integers(1, 4))
-        weight, length = ([d.power(-1, 1) for _ in range(size)] for _ in range(2))
-        chain = rc.Chain(weight=weight, length=length)
+    while compared < 60:
+        size, rods = int(d.rng.integers(1, 4)), bool(d.rng.integers(2))
+        weight, length = (np.array([d.power(-1, 1) for _ in range(size)]) for _ in range(2))
+        body = {"centroid": length / 2, "radius_of_gyration": length / 4} if rods else {}
+        chain = rc.Chain(weight=weight, length=length, **body)
         for shape in rc.steady_shapes(chain, conical_height=rc.modes(chain).conical_height[0] * d.uniform(0.05, 0.95)):
             with mp.workdps(40):
-                exact = exponents_of(weight, length, exactly(*shape.inclination), frame == "driven")
+                mass, turn, rest, _ = (mp.matrix(part.tolist()) for part in disturbed(chain, shape, mp.mpf))
+                if frame == "driven":
+                    squares = mp.eig(-(mass[:size, :size] ** -1) * rest[:size, :size], left=False, right=False)
+                    exact = [sign * mp.sqrt(square) for square in squares for sign in (1, -1)]
+                else:
+                    whole, inverse, half = mp.zeros(4 * size), mass**-1, 2 * size
+                    whole[:half, half:] = mp.eye(half)
+                    whole[half:, :half], whole[half:, half:] = -inverse * rest, -inverse * turn
+                    exact = mp.eig(whole, left=False, right=False)
             largest = max(map(abs, exact))
-            found = shape.stability(frame=frame).exponents
-            for value in found:
+            for value in shape.stability(frame=frame).exponents:
                 near = sorted(abs(mp.mpc(complex(value)) - e) for e in exact)
                 if len(near) > 1 and near[1] < largest / 100:
                     continue

@@ -160,7 +160,7 @@ def test_what_cannot_be_answered_does_not_stop_the_rest(run):
     assert run("run", "a.toml")[0] == ExitCode.SCENE_INVALID
     code, out, err = run("run", "b.toml")
     assert code == ExitCode.WRONG_USAGE and "carried round" in out
-    assert "b.toml: is not available for a Rig" in err and files_in(Path("out/b")) == ["response" + k for k in (".csv", ".json", ".png", ".txt")]
+    assert "b.toml: branches: no answer for a chain with a support" in err and files_in(Path("out/b")) == ["response" + k for k in (".csv", ".json", ".png", ".txt")]
 
 
 def test_options_go_before_the_scene(run):
@@ -262,6 +262,8 @@ def test_command_lines_that_cannot_be_read(run, command):
         (["frobnicate"], "no such command 'frobnicate'; see revchain --help"),
         (["--colour"], "no such option: --colour; see revchain --help"),
         (["modes", "watch.toml", "--rtol", "much"], "--rtol: must be a number, or a number and its unit"),
+        (["response", "swinging.toml", "--angular-speed", "1,5"], '--angular-speed: a list has semicolons, such as "1; 2", and the'),
+        (["response", "swinging.toml", "--angular-speed", "1 to 2 rpm in 2.5"], 'such as "30 rpm", got "2 rpm in 2.5"'),
         (["response", "swinging.toml", "--angular-speed", "1 to 2 in 0"], "--angular-speed.steps: must be at least 1, got 0"),
         (["shapes", "swinging.toml", "--max-half-waves", "2"], "--max-half-waves: is for a chain held at both ends"),
         (["explain", "watch.toml", "--rtol", "-1"], "--rtol: must not be negative, got -1"),

@@ -619,7 +619,6 @@ EACH = [
     (conical_pendulum.revolutions_per_second, dict(height=1.0, gravity=9.0)),
     (conical_pendulum.height, dict(angular_speed=1.0, gravity=9.0)),
     (conical_pendulum.height_from_period, dict(period=1.0, gravity=9.0)),
-    (conical_pendulum.height_from_revolutions_per_second, dict(revolutions_per_second=1.0, gravity=9.0)),
     (conical_pendulum.height_from_seconds_pendulum, dict(seconds_pendulum=1.0, period=9.0)),
     (conical_pendulum.gravity, dict(length=1.0, period=9.0)),
     (hoop.wave_speeds, dict(speed=1.0)),

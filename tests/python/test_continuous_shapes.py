@@ -14,7 +14,7 @@ def test_counted_by_the_critical_heights():
     for ratio in (1.0, 1.45, 7.61, 7.62, 100.0, 500.0):
         shapes = rc.steady_shapes(Cord(ratio), conical_height=1.0)
         assert shapes.complete
-        assert len(shapes) == np.sum(rc.heavy_chain.conical_heights(20, length=ratio) > 1.0)
+        assert len(shapes) == np.sum(rc.modes(Cord(ratio), 20).conical_height > 1.0)
         assert [shape.half_waves for shape in shapes] == list(range(1, len(shapes) + 1))
     assert repr(shapes).startswith("14 shapes at 3.13156 rad/s (29.90 rpm), proved complete\n")
     assert len(shapes[1:3]) == 2
@@ -44,10 +44,10 @@ def test_speed_and_height_are_one():
 
 
 def test_small_amplitude_is_the_linear_mode():
-    height = float(rc.heavy_chain.conical_heights(2)[1])
-    shape = rc.steady_shapes(Cord(1.0), conical_height=height * (1 - 1e-6))[1]
+    mode = rc.modes(Cord(1.0), 1, first=2)
+    shape = rc.steady_shapes(Cord(1.0), conical_height=mode.conical_height[0] * (1 - 1e-6))[1]
     s = np.linspace(0, 1, 11)
-    np.testing.assert_allclose(shape.at(s).offset / shape.offset[0], rc.heavy_chain.shape(s, 2), atol=1e-5)
+    np.testing.assert_allclose(shape.at(s).offset / shape.offset[0], mode.offset(s)[0], atol=1e-5)
 
 
 def test_many_links_come_near():
@@ -59,15 +59,16 @@ def test_many_links_come_near():
 
 
 @pytest.mark.parametrize("tip", [0.0, 0.3])
-@pytest.mark.parametrize("spread", [{"weight": 2.0}, {"density": lambda s: 1.0}], ids=["closed form", "power series"])
-def test_critical_heights_with_a_tip(tip, spread):
-    heights = rc.modes(Cord(2.0, **spread, tip_weight=tip), 5).conical_height
-    np.testing.assert_allclose(heights, rc.tip_mass.conical_heights(5, tip=tip, length=2.0), rtol=4e-15)
+def test_critical_heights_with_a_tip(tip):
+    series = rc.modes(Cord(2.0, density=lambda s: 1.0, tip_weight=tip), 5)
+    closed = rc.modes(Cord(2.0, weight=2.0, tip_weight=tip), 5)
+    assert series.method == "power series" != closed.method
+    np.testing.assert_allclose(series.conical_height, closed.conical_height, rtol=4e-15)
 
 
 def test_critical_heights_of_a_power():
     heights = rc.modes(Cord(2.0, density=lambda s: 3 * s**1.5), 4).conical_height
-    np.testing.assert_allclose(heights, rc.tapered_chain.conical_heights(4, exponent=1.5, length=2.0), rtol=3e-14)
+    np.testing.assert_allclose(heights, rc.modes(Cord(2.0, density=1.5), 4).conical_height, rtol=4e-15)
 
 
 def test_beads_have_more_shapes_than_critical_heights():

@@ -3,9 +3,11 @@
 
 import numpy as np
 import pytest
-import revchain as rc
 from mechanics import KINDS, random_chain
+
+import revchain as rc
 from revchain import two_links
+
 
 def shapes_of(chain, share):
     return rc.steady_shapes(chain, conical_height=share * rc.modes(chain, 1).conical_height[0], budget=20_000)
@@ -228,10 +230,63 @@ def test_a_silent_bell_is_silent_at_any_inclination():
         assert min(abs(f.inclination - np.arccos(share)).max() for f in figures) < 1e-14
 
 
-def test_a_jointed_rod():
-    np.testing.assert_allclose(two_links.joint_without_bending(2.0, [0.5, 0.8]), [0.5, 0.05], rtol=1e-15)
-    for rod, pin in ((1.0, 0.3), (1.0, 0.45)):  # CG.CD = CA^2, A the end above
-        assert pin * two_links.joint_without_bending(rod, pin) == pytest.approx((rod / 2 - pin) ** 2, rel=1e-14)
+def test_uniform_rod_jointed_where_it_does_not_bend():
+    for pin in (0.2, 0.25, 0.4, 0.45):
+        # rod of length 1, pin `pin` above its middle; joint below the pin
+        joint = float(rc.two_links.joint_without_bending(1.0, pin))
+        low = 0.5 + pin - joint  # length of the part below the joint
+        up = 1 - low
+        chain = rc.Chain(
+            weight=[low, up],
+            length=[low, joint],
+            centroid=[low / 2, joint - up / 2],
+            radius_of_gyration=[low / 12**0.5, up / 12**0.5],
+        )
+        bell = rc.bell_and_clapper(chain)
+        assert min(abs(ratio - 1) for ratio in bell.inclination_ratio) < 1e-12
+        pendulum = pin + 1 / 12 / pin
+        assert min(abs(x / pendulum - 1) for x in bell.conical_height) < 1e-12
+
+
+def test_a_bell_and_its_clapper_one_piece_and_not():
+    data = dict(weight=[18.0, 500.0], length=[0.65, 0.15], centroid=[0.52, 0.2], radius_of_gyration=[0.08, 0.3])
+    bell = rc.bell_and_clapper(rc.Chain(**data))
+    y = rc.modes(rc.Chain(**data)).shape
+    ratio = (y[:, 0] - y[:, 1]) / 0.65 / ((y[:, 1] - y[:, 2]) / 0.15)
+    assert bell.inclination_ratio == pytest.approx(tuple(ratio), rel=1e-13)
+    m = 500 * 0.2 / (18 * 0.15)
+    l1, l2 = 0.52 + 0.08**2 / 0.52, 0.2 + 0.3**2 / 0.2
+    assert bell.mismatch == pytest.approx(0.52 - (m + 1) * l1 - m * (0.15 - l2), rel=1e-12)
+    of = ("weight", "centroid", "radius_of_gyration")
+    names = {f"{body}_{name}": (name, i) for i, body in enumerate(("clapper", "bell")) for name in of}
+    names["joint"] = ("length", 1)
+    assert set(bell.derivative) == set(names) == set(bell.present)
+
+    def changed(name, value):
+        new = {k: list(v) for k, v in data.items()}
+        new[names[name][0]][names[name][1]] = value
+        return rc.bell_and_clapper(rc.Chain(**new))
+
+    for name, value in bell.with_ratio(1.0).items():
+        step = 1e-5 * bell.present[name]
+        sides = [changed(name, bell.present[name] + sign * step).inclination_ratio[0] for sign in (1, -1)]
+        assert bell.derivative[name] == pytest.approx((sides[0] - sides[1]) / (2 * step), rel=1e-7, abs=1e-9)
+        if not np.isnan(value):
+            silent = changed(name, value)
+            assert silent.inclination_ratio[0] == pytest.approx(1, abs=1e-12)
+            assert silent.mismatch == pytest.approx(0, abs=1e-12)
+            assert silent.conical_height[0] == pytest.approx(silent.silent_height, rel=1e-12)
+            clamped = rc.modes(silent.system.clamped(0)).conical_height[0]
+            assert clamped == pytest.approx(silent.conical_height[0], rel=1e-12)
+            # and at any inclination, the pair is straight
+            shape = rc.steady_shapes(silent.system, conical_height=0.8 * silent.silent_height)[0]
+            assert shape.inclination[0] == pytest.approx(shape.inclination[1], abs=1e-9)
+    silent = changed("joint", bell.with_ratio(1.0)["joint"])
+    assert silent.inclination_ratio[0] == pytest.approx(1, abs=4e-16) and abs(silent.mismatch) < 1e-16
+    heights = [rc.modes(chain).conical_height[0] for chain in (silent.system, silent.system.clamped(0))]
+    assert heights[0] == pytest.approx(heights[1], rel=4e-16)
+    given = {name: value for name, value in bell.present.items() if name != "joint"}
+    assert bell.with_ratio(1.0)["joint"] == pytest.approx(float(rc.two_links.pin_of_silent_clapper(**given)), rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -263,3 +318,8 @@ def test_wrong_bells_and_rods():
         for pin in pins:
             with pytest.raises(ValueError, match=message):
                 two_links.joint_without_bending(2.0, pin)
+    for system in (rc.Chain(weight=[1.0, 2.0, 3.0], length=1.0), rc.Rig(rc.Chain(weight=[1.0, 2.0], length=1.0))):
+        with pytest.raises((ValueError, TypeError), match="bell_and_clapper: .*, got"):
+            rc.bell_and_clapper(system)
+    with pytest.raises(ValueError, match="ratio must"):
+        rc.bell_and_clapper(rc.Chain(weight=[1.0, 2.0], length=1.0)).with_ratio(0.0)

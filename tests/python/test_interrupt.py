@@ -21,7 +21,13 @@ CALLS = {
     "branches": "rc.branches(rc.Chain.uniform_plummets(8), min_conical_height=0.01)",
     "shapes of a cord": "rc.steady_shapes(rc.Cord(1.0), conical_height=1e-6)",
     "modes of a cord": "rc.modes(rc.Cord(1.0, density=lambda s: 1 + s), 100_000)",
-    "shapes of modes of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 1000).offset(many / 50)",
+    "modes of a cord with a tip": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 30_000_000)",
+    "modes of a cord that tapers": "rc.modes(rc.Cord(1.0, density=0.7), 30_000_000)",
+    "shapes of modes of a cord": "rc.modes(rc.Cord(1.0), 5).offset(many / 50)",
+    "slopes of modes of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 5).slope(many / 50)",
+    "nodes of a cord": "rc.modes(rc.Cord(1.0), 30_000).nodes",
+    "vertical points of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 30_000).vertical_points",
+    "modes": "rc.modes(rc.Chain.uniform_rods(20_000), 'all')",
     "dense": "rc.modes(large, method='dense')",
     "recurrence": "rc.modes(rc.Chain.uniform_rods(60_000), 29_999)",
     "conical_heights": "rc.conical_heights(weight=np.ones((400_000, 60)), length=1.0)",
@@ -35,11 +41,6 @@ CALLS = {
     "GovernorMotion": "rc.GovernorMotion(angular_speed=5.0, pendulum_length=1.0, angle=1.5).state(many)",
     "elliptic.jacobi": "rc.elliptic.jacobi(many, modulus=0.5)",
     "elliptic.incomplete_pi": "rc.elliptic.incomplete_pi(0.3, many, modulus=0.5)",
-    "heavy_chain.shape": "rc.heavy_chain.shape(many / many[-1], 30)",
-    "heavy_chain.conical_heights": "rc.heavy_chain.conical_heights(5, many)",
-    "tip_mass.conical_heights": "rc.tip_mass.conical_heights(30_000_000, tip=0.1)",
-    "tip_mass.shape": "rc.tip_mass.shape(many / many[-1], 30, tip=0.1)",
-    "tapered_chain.conical_heights": "rc.tapered_chain.conical_heights(30_000_000, exponent=0.7)",
 }
 SCRIPT = """
 import numpy as np

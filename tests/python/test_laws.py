@@ -92,11 +92,6 @@ def test_equal_plummets_are_laguerre_zeros(count):
             assert mp.sign(below) != mp.sign(above)  # a zero lies within the bound
 
 
-def test_two_plummets_in_closed_form():
-    """Greenhill section 2 (6): equal threads, W2 = 3 W1: 3a/2 and a/2, both exact in binary."""
-    assert rc.modes(rc.Chain(weight=[1.0, 3.0], length=2.0)).conical_height.tolist() == [3.0, 1.0]
-
-
 # Relative error of 1 / height against the continuous chain: coefficient of 1/N (plummets) and 1/N^2
 # (rods: links h = a/2, l = 2a/3), modes 1 to 3; measured coefficients within 0.06 percent at N = 160, 320.
 RODS = (0.0614, 2.065, 8.985)
@@ -104,24 +99,33 @@ RODS = (0.0614, 2.065, 8.985)
 
 def test_rods_converge_with_the_square_of_their_number():
     n = 400
-    exact = rc.heavy_chain.conical_heights(3)
+    exact = rc.modes(rc.Cord(1.0), 3).conical_height
     found = rc.modes(rc.Chain.uniform_rods(n), count=3).conical_height
     coefficient = (exact / found - 1) * n**2
     np.testing.assert_allclose(coefficient, RODS, rtol=2e-3)  # next term ~ j^2/N^2 and 3 given digits
 
 
 def test_plummets_converge_with_their_number():
-    exact = rc.heavy_chain.conical_heights(3)
+    exact = rc.modes(rc.Cord(1.0), 3).conical_height
     for n in (1000, 10_000):
         found = rc.modes(rc.Chain.uniform_plummets(n), count=3).conical_height
         np.testing.assert_allclose((exact / found - 1) * n, -0.5, rtol=4 / n)  # next term ((j^2 - 2)/48 + 1/4)/N
 
 
+def test_tip_mass_is_the_limit_of_links():
+    want = rc.modes(rc.Cord(1.0, weight=2.0, tip_weight=0.8), 3).conical_height
+    error = []
+    for count in (50, 100, 200):
+        chain = rc.Chain.uniform_rods(count, length=1.0, weight=2.0).with_body(weight=0.8)
+        error.append(np.abs(rc.modes(chain, count=3).conical_height / want - 1))
+    assert np.all(np.abs(error[0] / error[1] - 4) < 0.2)
+    assert np.all(np.abs(error[1] / error[2] - 4) < 0.2)
+
+
 def test_shapes_tend_to_bessel_functions():
     n = 2000
-    result = rc.modes(rc.Chain.uniform_rods(n), count=4)
+    result, cord = rc.modes(rc.Chain.uniform_rods(n), count=4), rc.modes(rc.Cord(1.0), count=4)
     x = np.arange(n + 1) / n
     for mode in range(1, 5):
-        expected = rc.heavy_chain.shape(x, mode)
-        assert np.abs(result.shape[mode - 1] - expected).max() < 20 * mode**2 / n**2 * np.log(n)
-        np.testing.assert_allclose(result.nodes[mode - 1], rc.heavy_chain.nodes(mode), atol=20 * mode**2 / n**2)
+        assert np.abs(result.shape[mode - 1] - cord.offset(x)[mode - 1]).max() < 20 * mode**2 / n**2 * np.log(n)
+        np.testing.assert_allclose(result.nodes[mode - 1], cord.nodes[mode - 1], atol=20 * mode**2 / n**2)

@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`revchain.Rig` and what goes into it: what they keep, what they refuse."""
 
-from __future__ import annotations
-
-import copy
-import pickle
-
 import numpy as np
 import pytest
+
 import revchain as rc
 
 CHAIN = rc.Chain(weight=[1.0, 3.0], length=0.5)
@@ -49,13 +45,9 @@ def test_what_is_left_out_is_the_chains_own_or_nothing():
     assert np.array_equal(*heights)
 
 
-@pytest.mark.parametrize(
-    "copied", [copy.copy, copy.deepcopy, lambda r: pickle.loads(pickle.dumps(r)), lambda r: r.from_dict(r.to_dict())]
-)
-def test_rigs_are_values(copied):
+def test_rigs_are_values():
+    """Copies and pickles: test_interface.py."""
     rig = full()
-    other = copied(rig)
-    assert other == rig and hash(other) == hash(rig)
     parts = {"support": None, "flywheels": None, "displaced": rc.Displaced(weight=0.1), "inverted": True}
     assert all(rig != full(**{name: value}) for name, value in parts.items())
     assert full(displaced=None) != full(displaced=None, fluid="turning") and rig != CHAIN
@@ -70,9 +62,6 @@ def test_rigs_are_values(copied):
 def test_rigs_of_equal_numbers_are_equal():
     assert rc.Rig(CHAIN) == rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=[0.0, 0.0]), inverted=np.zeros(2, bool))
     assert full() == full(flywheels=rc.Flywheel(momentum=[0.5, 0.0], axial_moment=[0.25, 0.25]))
-
-
-def test_what_is_equal_has_equal_hashes():
     one, other = rc.Flywheel(momentum=0.0), rc.Flywheel(momentum=-0.0)
     assert one != other or hash(one) == hash(other)
 
@@ -122,8 +111,9 @@ def test_wrong_rigs_are_refused(given, says):
 
 
 def test_a_rig_is_of_a_chain():
-    with pytest.raises(TypeError, match=r"revchain\.Rig: chain must be a revchain\.Chain, got 'chain'"):
-        rc.Rig("chain")
+    for wrong in ("chain", None, rc.Rig(CHAIN)):
+        with pytest.raises(TypeError, match=r"revchain\.Rig: chain must be a revchain\.Chain, got"):
+            rc.Rig(wrong)
     with pytest.raises(TypeError, match=r"support must be a revchain\.Support, got 3"):
         rc.Rig(CHAIN, support=3.0)
 
@@ -143,3 +133,66 @@ def test_flywheels():
     for huge in ({"weight": 1e200, "radius_of_gyration": 1e100, "spin": 0.0}, {"spin": 1e300, "weight": 1e20}):
         with pytest.raises(ValueError, match="too large a momentum with radius_of_gyration, got"):
             rc.Rig(CHAIN, flywheels=rc.Flywheel(**{**wheel, **huge}))
+
+
+@pytest.mark.parametrize(
+    ("vary", "speed", "says"),
+    [
+        ("flywheels[0].momentum", 0.0, "angular_speed must"),
+        ("flywheels[3].momentum", 1.0, r"flywheels\[3\]"),
+    ],
+)
+def test_wrong_questions_of_tune(vary, speed, says):
+    with pytest.raises(ValueError, match=rf"revchain.*{says}"):
+        rc.tune(rc.Rig(CHAIN), vary=vary, angular_speed=speed)
+    with pytest.raises(ValueError, match="vary must be"):
+        rc.tune(CHAIN, vary="flywheels[0].momentum", angular_speed=1.0)
+
+
+# ---- in scene files
+
+
+@pytest.mark.parametrize(
+    ("entries", "place"),
+    [
+        ("flywheel = {mass = 1, radius_of_gyration = -0.2, spin = 3}", "flywheel"),
+        ("displaced = {mass = -0.4}", "displaced"),
+        ("displaced = {mass = 0.4, colour = 1}", "colour"),
+        ("[support]\nstiffness = 1\nmass = -0.3", "support"),
+        ("[support]\nstiffness = -1", "stiffness"),
+    ],
+)
+def test_scenes_that_cannot_be_name_the_key(tmp_path, entries, place):
+    path = tmp_path / "bad.toml"
+    path.write_text(f"[[links]]\nmass = 1\nlength = 1\n{entries}\n")
+    with pytest.raises(rc.SceneError, match=rf"bad\.toml.*{place}"):
+        rc.load_scene(path).modes()
+
+
+def test_scene_without_modes_still_answers(python, tmp_path):
+    path = tmp_path / "float.toml"
+    path.write_text("[[links]]\nmass = 1\nlength = 1\ndisplaced = {mass = 3}\n")
+    assert "Traceback" not in python("-m", "revchain", "modes", path).stderr
+    assert len(rc.load_scene(path).modes()) == 0
+
+
+def test_new_scene_names_every_feature(python, tmp_path):
+    path = tmp_path / "scene.toml"
+    assert python("-m", "revchain", "new", path).returncode == 0
+    text = path.read_text()
+    for word in ("stiffness", "radius", "flywheel", "driven", "displaced", "fluid", "standing", "added_mass"):
+        assert word in text
+    # what is said in comments of a rig can be said
+    said = {line[2:].split(" = ")[0]: line[2:] for line in text.splitlines() if line.startswith("# ") and " = " in line}
+    links = "\n".join(said[k] for k in ("standing", "displaced", "flywheel"))
+    support = "\n".join(["[support]", said["stiffness"], said["radius"]])
+    full = text.replace("centroid = 0.1 ", links + "\ncentroid = 0.1 ").replace("\n[ask.modes]", "\n" + support + "\n[ask.modes]")
+    for written in (text, full.replace("# fluid", "fluid")):
+        path.write_text(written)
+        assert python("-m", "revchain", "validate", path).returncode == 0
+    rig = rc.load_scene(path).system()
+    assert rig.inverted.any()
+    assert rig.has_momentum
+    assert np.any(rig.displaced.mass)
+    assert rig.support.stiffness == 200.0
+    assert rig.fluid == "turning"

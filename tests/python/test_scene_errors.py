@@ -4,6 +4,7 @@
 import json
 import math
 import pickle
+import random
 import re
 from pathlib import Path
 
@@ -18,7 +19,7 @@ LINK = "[[links]]\nmass = 1\nlength = 1\n"
 # A file, and what is said of it: line and column, key, sentence. The first two dozen are those of engineers.
 FILES = {
     "decimal comma": ("[[links]]\nmass = 1\nlength = 2,5  # m\n", "3:1 the decimal mark is a point: write length = 2.5, not 2,5"),
-    "decimal comma in text": ('[[links]]\nmass = 1\nlength = "2,5 m"\n', '3:1 links[0].length: must be a number, or a number and its unit such as "39.1396 inch", got "2,5 m"; write a decimal point, not a comma'),
+    "decimal comma in text": ('[[links]]\nmass = 1\nlength = "2,5 m"\n', '3:1 links[0].length: must be a number, or a number and its unit such as "39.1396 inch", got "2,5 m"; the decimal mark is a point: write "2.5 m"'),
     "unit without quotes": ("[[links]]\nmass = 5000 kg\nlength = 1\n", '2:1 a number with a unit is text, in quotes: write mass = "5000 kg", not 5000 kg'),
     "unit inside a line": ("[[links]]\nmass = 1\nlength = 1\nflywheel = {spin = 30 rpm, mass = 1, radius_of_gyration = 1}\n", '4:13 a number with a unit is text, in quotes: write spin = "30 rpm", not 30 rpm'),
     "text without quotes": ("[[links]]\nmass = 1\nlength = 1\nkind = rod\n", '4:1 text is in quotes: write kind = "rod", not rod'),
@@ -27,7 +28,36 @@ FILES = {
     "no digit behind the point": ("[[links]]\nmass = 5.\nlength = 1\n", "2:1 a number has a digit after its point: write mass = 5.0, not 5."),
     "colon": ("[[links]]\nmass = 1\nlength: 2\n", "3:1 an equals sign is missing: write length = 2"),
     "[links]": ("[links]\nmass = 1\nlength = 1\n", "1:1 links: is a list of tables: write [[links]], with two brackets, above each of them"),
-    "[links] twice": ("[links]\nmass = 1\n[links]\nmass = 2\n", "3:7 [links] is there twice: write [[links]], with two brackets, above each link"),
+    "decimal comma and unit": ("[[links]]\nmass = 1\nlength = 2,5 m\nname = 3\n", '3:1 the decimal mark is a point: write length = "2.5 m", not 2,5 m\n4:1 links[0].name: must be text, got 3'),
+    "decimal comma inside a line": (LINK + "flywheel = {spin = 2,5, mass = 1, radius_of_gyration = -1}\n", "4:13 the decimal mark is a point: write spin = 2.5, not 2,5\n4:35 links[0].flywheel.radius_of_gyration: must not be negative, got -1"),
+    "list without brackets": ("[[links]]\nmass = 1\nlength = 1, 2, 3 # m\nname = 3\n", "3:1 a list is in brackets: write length = [1, 2, 3], not 1, 2, 3\n4:1 links[0].name: must be text, got 3"),
+    "unit in a list": (LINK + "[ask.swing]\noffset = [\n  2 cm]\ncount = 0", '6:3 a number with a unit is text, in quotes: write "2 cm", not 2 cm\n7:1 ask.swing.count: must be at least 1, got 0'),
+    "unclosed quote": ('[[links]]\nmass = -1\nlength = "2 m  # long\nname = 3\n', '2:1 links[0].mass: must not be negative, got -1\n3:1 a quote is missing: write length = "2 m", not "2 m\n4:1 links[0].name: must be text, got 3'),
+    "unclosed quote inside a line": (LINK + 'flywheel = {spin = "30 rpm, mass = -1, radius_of_gyration = 1}\n', '4:13 a quote is missing: write spin = "30 rpm", not "30 rpm\n4:29 links[0].flywheel.mass: must not be negative, got -1'),
+    "unopened quote": ('[[links]]\nmass = -1\nlength = 2 m"\n', '2:1 links[0].mass: must not be negative, got -1\n3:1 a quote is missing: write length = "2 m", not 2 m"'),
+    "two kinds of quotes": (LINK + "name = \"bell'\n", "4:1 a quote is missing: write name = \"bell\", not \"bell'"),
+    "curly quotes": (LINK + "name = “bell”\n", '4:1 quotes are straight: write name = "bell", not “bell”'),
+    "text with a comma": ("title = Two, nuts\n" + LINK, '1:1 text is in quotes: write title = "Two, nuts", not Two, nuts'),
+    "comma at the end": ("[[links]]\nmass = 1,\nlength = 1;\n", "2:1 a line ends without comma and semicolon: write mass = 1, not 1,\n3:1 a line ends without comma and semicolon: write length = 1, not 1;"),
+    "no equals sign": ('[[links]]\nmass 1\nlength == "2 m"\n', '2:1 an equals sign is missing: write mass = 1\n3:1 an equals sign is missing: write length = "2 m"'),
+    "grouped digits": ("[[links]]\nmass = 5 000\nlength = 1\n", "2:1 digits are not grouped: write mass = 5000, not 5 000"),
+    "comments of C": ("// nuts\n[[links]]\nmass = 1 // kg\nlength = 1\n", "1:1 a comment begins with #: write # nuts, not // nuts\n3:1 a comment begins with #: write mass = 1 # kg, not 1 // kg"),
+    "brackets": ("[[links]\nmass = -1\nlength = 1\n", "1:8 brackets go in pairs: write [[links]], not [[links]\n2:1 links[0].mass: must not be negative, got -1"),
+    "[links] twice": ("[links]\nmass = 1\nlength = 1\n[links]\nmass = -2\nlength = 1\n", "4:7 [links] is there twice: write [[links]], with two brackets, above each link\n5:1 links[1].mass: must not be negative, got -2"),
+    "links = 5": ("links = 5\n", "1:1 links: must be tables, got 5: write [[links]] above each of them, and below it mass = 1.0 and length = 0.5"),
+    "a number among links": ("links = [ {mass = 1, length = 1}, 5, {mass = -1, length = 1} ]\n", "1:35 links[1]: must be a table, got 5\n1:39 links[2].mass: must not be negative, got -1"),
+    "quoted number with a comma": ('[[links]]\nmass = "2,5"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2,5"; the decimal mark is a point: write 2.5'),
+    "two keys in a line": ("[[links]]\nmass = 1, length = 1\n", "2:9 the line should end here: each key has a line of its own"),
+    "no comma in a list": ("links = [{mass = 1, length = 1}\n{mass = 1, length = 1}]\n", "2:1 a comma or the closing bracket ] is missing"),
+    "JSON in a TOML file": ('{"links": []} # toml', "1:1 is JSON: give the file a name that ends in .json"),
+    "[modes]": (LINK + "[modes]\ncount = 1\n", "4:1 modes: unknown key; write [ask.modes]"),
+    "[[ask.modes]]": (LINK + "[[ask.modes]]\ncount = 1\n", "4:1 ask.modes: is one table: write [ask.modes], with one pair of brackets"),
+    "top keys below the links": (LINK + 'order = "support first"\n', "4:1 links[0].order: unknown key; belongs at the top of the file, above the first table"),
+    "links without a table": ("mass = 1\nlength = 1\n", "1:1 mass: unknown key; belongs in [[links]], to one of the links\n2:1 length: unknown key; belongs in [[links]], to one of the links"),
+    "rpm of a wheel": (LINK + "flywheel = {mass = 1, radius_of_gyration = 1, rpm = 60}\n", '4:1 links[0].flywheel.spin: is missing\n4:47 links[0].flywheel.rpm: unknown key; write spin = "60 rpm"'),
+    "a range in words": (LINK + '[ask.response]\nangular_speed = "1 to 60 rpm"\n', '5:1 ask.response.angular_speed: a range is written {from = "1", to = "60 rpm"}, got "1 to 60 rpm"'),
+    "tension in kilograms": (LINK + '[held]\ntension = "2 kg"\n', '5:1 held.tension: must be a force such as "20 N", got "2 kg"'),
+    "a key in quotes": ('"links[0].mass" = 3\n' + LINK, '1:1 "links[0].mass": unknown key; known keys: schema_version, title, description, gravity, order, links, uniform_chain, tapered_chain, cord, support, fluid, held, ask'),
     "[[link]]": ("[[link]]\nmass = 1\nlength = 1\n", "1:1 link: unknown key; did you mean [[links]]?"),
     "[[support]]": (LINK + "[[support]]\nradius = 1\n", "4:1 support: is one table: write [support], with one pair of brackets"),
     "lenght": ("[[links]]\nmass = 1\nlenght = 1\n", "1:1 links[0].length: is missing\n3:1 links[0].lenght: unknown key; did you mean length?"),
@@ -44,7 +74,7 @@ FILES = {
     "wrong dimension": ('[[links]]\nmass = 1\nlength = "2 kg"\n', '3:1 links[0].length: must be a length such as "39.1396 inch", got "2 kg"'),
     "kilograms as weight": ('[[links]]\nweight = "2 kg"\nlength = 1\n', '2:1 links[0].weight: must be a force such as "20 N", got "2 kg"; give it as mass'),
     "unknown unit": ('[[links]]\nmass = "2 parsnip"\nlength = 1\n', '2:1 links[0].mass: has a unit that is not known: "2 parsnip"'),
-    "quotes without a unit": ('[[links]]\nmass = "2"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2"'),
+    "quotes without a unit": ('[[links]]\nmass = "2"\nlength = 1\n', '2:1 links[0].mass: must be a number, or a number and its unit such as "2 kg", got "2"; write 2 without quotes'),
     "missing length": (LINK + "[[links]]\nmass = 1\n", "4:1 links[1].length: is missing"),
     "empty links": ("links = []\n", "1:1 links: is an empty list: give at least one link"),
     "nothing hangs": ('title = "x"\n', "1:1 give one of [[links]], [uniform_chain], [tapered_chain] or [cord], got none of them"),
@@ -56,8 +86,8 @@ FILES = {
     "perhaps version 1": (LINK + "[ask.response]\nangular_speed = [1, 2]\n", "4:1 ask.response: may be of version 1: write [ask.response] angular_speed = {from = 1, to = 2, steps = 200}, or schema_version = 2 at the top; revchain validate --upgrade rewrites the file"),
     "the name of the link": ('[[links]]\nmass = 1\nlength = 0\nname = "bell"\n', '3:1 links[0].length ("bell"): must be positive, got 0'),
     "key twice": ("[[links]]\nmass = 1\nmass = 2\n", "3:9 is there twice"),
-    "no value": ("[[links]]\nmass =\nlength = 1\n", "2:7 Invalid value"),
-    "the end": ("mass = [1,", "1:11 Invalid value (the file ends)"),
+    "no value": ("[[links]]\nmass =\nlength = 1\n", "2:7 a value is missing here, or is none: write a number, or text in quotes"),
+    "the end": ("mass = [1,", "1:11 a value is missing here, or is none: write a number, or text in quotes (the file ends)"),
     "inside a JSON file": ('{"links": [{"mass": 1,\n  "length": -1, "flywheel": {"mas": 2}}],\n "ask": {"modes": {"angular_speed": ["1 rpm", "3 kg"]}}}', '2:3 links[0].length: must be positive, got -1\n2:17 links[0].flywheel.radius_of_gyration: is missing\n2:17 links[0].flywheel.spin: is missing\n2:30 links[0].flywheel.mas: unknown key; did you mean mass?\n3:47 ask.modes.angular_speed[1]: must be an angular speed such as "30 rpm", got "3 kg"'),
     "JSON": ('{"title": "x",\n "links": [}', "2:12 Expecting value"),
     "no JSON": ("{", "1:2 Expecting property name enclosed in double quotes"),
@@ -68,7 +98,7 @@ PYTHON = re.compile(r"\bdict\b|\bNone\b|\bfloat\b|\bint\b|\bstr\b|Traceback|arra
 @pytest.mark.parametrize(("text", "said"), FILES.values(), ids=FILES.keys())
 def test_mistakes(tmp_path, monkeypatch, capsys, text, said):
     monkeypatch.chdir(tmp_path)
-    name = "a.json" if text.startswith("{") else "a.toml"
+    name = "a.json" if text.startswith("{") and "toml" not in text else "a.toml"
     Path(name).write_text(text)
     lines = [re.sub(r"^(\d+):(\d+) ", rf"{name}: line \1, column \2: ", line) for line in said.split("\n")]
     with pytest.raises(rc.SceneError) as caught:
@@ -106,6 +136,56 @@ def test_what_follows_from_another_error_is_not_said(tmp_path):
         with pytest.raises(rc.SceneError) as caught:
             rc.load_scene(tmp_path / "a.toml")
         assert [problem.key for problem in caught.value.problems] == keys
+
+
+TURNED = """order = "support first"
+[[links]]
+mass = 1
+length = 1
+repeat = 2
+[[links]]
+name = "wheel"
+mass = 1
+length = 1
+kind = "rod"
+flywheel = {mass = 1, radius_of_gyration = 1, spin = -9.80665}
+"""
+
+
+def test_links_are_those_of_the_file(tmp_path, monkeypatch, capsys):
+    """The solver counts links from the free end with their repeats; messages and notes have the index of the file."""
+    monkeypatch.chdir(tmp_path)
+    Path("a.toml").write_text(TURNED)
+    vanishes = 'links[1] ("wheel"): the effective tension (tension and n times momentum over length) must not vanish'
+    assert _cli.run(["shapes", "a.toml", "--angular-speed", "0.5"]) == 2
+    assert capsys.readouterr().err.startswith(f"revchain: a.toml: line 6, column 1: {vanishes}")
+    with pytest.raises(rc.SceneError, match=re.escape(vanishes)):
+        rc.load_scene("a.toml").steady_shapes(angular_speed=0.5)
+    assert _cli.run(["modes", "a.toml"]) == 0 and 'links[1] ("wheel") goes slack at 0.5' in capsys.readouterr().out
+    Path("a.toml").write_text(TURNED.replace("mass = 1\n", "mass = 0\n").replace("flywheel", "# "))
+    with pytest.raises(rc.SceneError, match=r'a.toml: line 6, column 1: links\[1\] \("wheel"\): the lowest link must have'):
+        rc.load_scene("a.toml")
+
+
+STUDY = TURNED.replace("[[links]]", "[[scene.links]]").replace("order", "scene.order") + '[vary."links[0].mass"]\nvalues = [1, "2 kg"]\n'
+
+
+@pytest.mark.parametrize(("text", "load"), [(TURNED, rc.load_scene), (STUDY, rc.load_study)], ids=["scene", "study"])
+def test_every_error_has_its_place_whatever_is_typed(tmp_path, text, load):
+    chance, path, wrong = random.Random(1), tmp_path / "a.toml", 0
+    path.write_text(text)
+    load(path)
+    for _ in range(300):
+        at = chance.randrange(len(text))
+        typed = chance.choice([*"[]{}=,.;:'\"#\n /", "", "links", "vary", "2,5", "1 kg", "true", "-", '"""', "“", "["])
+        path.write_text(text[:at] + typed + text[at + chance.choice([0, 1, 2, 8]) :])
+        try:
+            load(path)
+        except rc.SceneError as error:
+            wrong += 1
+            assert all(1 <= each.line <= text.count("\n") + 2 and each.column >= 1 for each in error.problems), typed
+            assert "Expected" not in str(error)
+    assert wrong > 150
 
 
 def test_a_scene_given_to_sweep(tmp_path, monkeypatch, capsys):
@@ -161,6 +241,7 @@ DATA = {
     "gravity of another kind": ({"links": [ONE], "gravity": "9.81 m"}, "gravity: must be an acceleration"),
     "another version": ({"links": [ONE], "schema_version": 3}, "schema_version: must be 2, got 3"),
     "version 1": ({"links": [ONE], "schema_version": 1}, "schema_version: is of version 1: write schema_version = 2"),
+    "no number below ask": ({"ask": {"modes": 3, "shapes": math.nan}, "links": [ONE]}, "ask.modes: is of version 1"),
     "no table at all": ([], "must be a table"),
     "keys that are no text": ({1: 2}, "every key must be text"),
     "spring 0": ({"links": [ROD], "support": {"stiffness": 0}}, "support.stiffness: must be positive, got 0"),
@@ -210,6 +291,7 @@ DATA = {
     "supported cord": ({"cord": {"length": 1, "mass": 1}, "support": {"radius": 1}}, "cord: does not go with a support"),
     "held cord with a tip": ({"cord": {"length": 1, "mass": 1, "tip_mass": 1}, "held": {"span": 0.5}}, "held.span: a held cord must be uniform"),
     "direction of held": (of(BLADE, shapes={"angular_speed": 1, "direction": -1}), "ask.shapes.direction: is for a chain that hangs, got -1"),
+    "added mass in a fluid that turns": ({"fluid": "turning", "links": [ROD, {**ROD, "displaced": {"mass": 1, "added_mass": 2}}]}, "links[1].displaced: must have no added_mass"),
     "text that is not Unicode": ({"links": [ONE], "title": "\ud800"}, "has text that is not Unicode"),
 }  # fmt: skip
 

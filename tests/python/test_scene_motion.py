@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import re
 
 import numpy as np
 import pytest
@@ -122,6 +123,38 @@ def test_systems_that_have_no_answer():
             getattr(scene(base), method)(**changed)
 
 
+LINK = "[[links]]\nmass = 1\nlength = 0.5\nrepeat = 3\n"
+CORD = "[cord]\nlength = 1\nmass = 1\n"
+KINDS = {  # what hangs, and the questions it has no answer for
+    "chain": (LINK, ""),
+    "rig": (LINK + "[support]\nstiffness = 50\n", "swing branches"),
+    "cord": (CORD, "response swing branches"),
+    "bent chain": (LINK + "[held]\nspan = 1\n", "run modes explain response swing branches"),
+    "bent cord": (CORD + "[held]\nspan = 0.8\n", "run modes explain response swing branches"),
+    "taut chain": (LINK + "[held]\ntension = 100\n", "response swing branches"),
+    "taut chain without gravity": (LINK + "[held]\ntension = 100\nweightless = true\n", "run modes explain response swing branches"),
+    "taut cord": (CORD + "[held]\ntension = 100\n", "run modes explain response swing branches"),
+}
+OPTIONS = {"run": (), "modes": (), "explain": (), "shapes": ("--angular-speed", 9), "response": ("--angular-speed", 5)}
+OPTIONS |= {"swing": ("--offset", "1 cm; 0; 0"), "branches": ("--max-angular-speed", 5)}
+
+
+@pytest.mark.parametrize(("text", "unanswered"), KINDS.values(), ids=KINDS.keys())
+def test_questions_without_an_answer_say_what_to_run(run, tmp_path, text, unanswered):
+    path = write(tmp_path, text)
+    for command, options in OPTIONS.items():
+        out = ("--out", tmp_path / "out") if command == "run" else ("--quiet",)
+        code, _, err = run(command, path, *options, *out)
+        if command not in unanswered.split():
+            assert code in (0, 1) and "no answer" not in err  # 1: not proved
+            continue
+        question = command.replace("run", "modes")
+        assert code == 2 and err.startswith(f"revchain: {path}: {question}: no answer for a c")
+        assert "; ask for its " in err and ": revchain " in err or "; cut it into links: [tapered_chain]" in err
+        assert not re.search(r"rc\.|Held|Rig|Cord|steady_shapes|\.chain\(|None", err.replace(str(path), ""))
+    assert run("validate", path)[1].count("no answer") == ("run" in unanswered)
+
+
 def test_the_commands(run, tmp_path):
     path = write(tmp_path, TOML)
     code, out, err = run("shapes", path, "--plot", tmp_path / "shapes.png")
@@ -181,7 +214,7 @@ def test_held_scenes_by_command(run, tmp_path):
     code, out, _ = run("shapes", path, "--angular-speed", 12.5, "--max-half-waves", 2, "--plot", tmp_path / "blade.png")
     assert code == 0 and "both ends held on the axis, 2.4 m apart" in out
     code, _, err = run("run", path, "--out", tmp_path / "out")
-    assert code == 2 and "whose ends are a span apart is bent" in err
+    assert code == 2 and "modes: no answer for a chain whose ends are held a span apart; ask for its shapes: revchain shapes" in err
     code, _, err = run("shapes", path, "--angular-speed", 2.0)  # too slow: it folds along the axis
     assert code == 1 and "no shape was found with 1 half waves" in err
     path = write(tmp_path, blade + 'tension = "617.6798 N"\n')
@@ -197,11 +230,11 @@ def test_held_scenes_by_command(run, tmp_path):
         (("shapes", "--angular-speed", 1, "--conical-height", 1), "ask.shapes: give angular_speed or conical_height, not both"),
         (("shapes", "--direction", 3), "--direction: must be one of 1, -1, got 3"),
         (("shapes", "--angular-speed", "3 kg"), '--angular-speed: must be an angular speed such as "30 rpm", got "3 kg"'),
-        (("shapes", "--angular-speed", "2,5 rpm"), "write a decimal point, not a comma"),
+        (("shapes", "--angular-speed", "2,5 rpm"), 'the decimal mark is a point: write "2.5 rpm"'),
         (("shapes", "--max-half-waves", 2), "--max-half-waves: is for a chain held at both ends, got 2"),
         (("shapes", "--gravity", "-1"), "--gravity: must be positive, got -1"),
         (("response", "--angular-speed", "-1 to 2"), "--angular-speed.from: must be positive, got -1"),
-        (("swing", "--offset", "1; 2"), "is not available for a Rig; ask its modes, or swing of its chain"),
+        (("swing", "--offset", "1; 2"), "swing: no answer for a chain with a support, standing links, flywheels or a fluid; ask for its modes: revchain modes"),
         (("shapes", "--plot", "x.txt"), "--plot: x.txt must end in .png, .svg, .pdf"),
     ],
 )
@@ -210,6 +243,14 @@ def test_wrong_options(run, tmp_path, arguments, words):
     code, out, err = run(command, write(tmp_path, TOML), *options)
     assert (code, out) == (2, "") and words in err
     assert sorted(p.name for p in tmp_path.iterdir()) == ["scene.toml"]
+
+
+def test_count_and_first_take_the_place_of_the_scenes(run, tmp_path):
+    path = write(tmp_path, LINK + "[ask.modes]\ncount = 2\n")
+    assert len(json.loads(run("modes", path, "--json", "-")[1])["modes"]) == 2
+    assert [mode["mode"] for mode in json.loads(run("modes", path, "--first", 2, "--json", "-")[1])["modes"]] == [2, 3]
+    for command, named in (("modes", 4), ("explain", 2)):
+        assert " ".join(run(command, "--help")[1].replace("│", "").split()).count("of the scene do not apply") == named
 
 
 def test_the_new_scene_with_everything_said(run, tmp_path):

@@ -1,63 +1,106 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steady shapes, their lists and their stability: figures known from elsewhere, what is refused, pictures."""
+"""Steady shapes, their lists and their stability, against mechanics written out in support/mechanics.py; figures known
+from elsewhere, what is refused, pictures."""
 
+from concurrent.futures import ThreadPoolExecutor
+
+import mpmath as mp
 import numpy as np
 import pytest
-from mechanics import plummets, scan, turned
+from mechanics import KINDS, disturbed, inertia, moments, plummets, random_chain, scan, turned
 
 import revchain as rc
-from revchain import Chain
 
 FOLD = 3.90376215692  # n of three plummets on threads of 1, in units of sqrt(g/a), where two shapes are born
 
 
-def moments(chain: Chain, shape: rc.SteadyShape) -> float:
-    """The largest moment of all that hangs below a pin, about it, over weights times lengths; by its definition."""
-    worst = 0.0
-    whole = chain.weight.sum() * chain.total_length * (1 + chain.total_length / shape.conical_height)
-    angle, h, weight = shape.inclination, chain.centroid, chain.weight
-    y = shape.offset[1:] + h * np.sin(angle)
-    z = shape.height[1:] - h * np.cos(angle)
-    couple = weight * chain.radius_of_gyration**2 * np.sin(angle) * np.cos(angle)
-    for m in range(angle.size):
-        below = slice(0, m + 1)
-        pull = weight[below] * y[below] / shape.conical_height
-        moment = pull * (shape.height[m + 1] - z[below]) - weight[below] * (y[below] - shape.offset[m + 1])
-        worst = max(worst, abs(moment.sum() + couple[below].sum() / shape.conical_height) / whole)
-    return worst
+def error_of(chain, height, shape):
+    """The largest of an inclination: Newton's method in 40 digits on the gradient of the effective potential."""
+    with mp.workdps(40):
+        inert, kappa = inertia(chain, mp.mpf)
+        inert, given = inert / mp.mpf(float(height)), np.array([mp.mpf(float(x)) for x in shape.inclination])
+        d = given
+        for _ in range(5):
+            s, c = (np.array([f(x) for x in d]) for f in (mp.sin, mp.cos))
+            force = inert @ s
+            slope = np.diag(kappa * c + s * force) - inert * np.outer(c, c)
+            d = d - np.array(list(mp.lu_solve(mp.matrix(slope.tolist()), mp.matrix(list(kappa * s - c * force)))))
+        return float(max(abs(d - given)))
+
+
+CHAINS = [(kind, count, seed) for kind in KINDS for count in (1, 2, 3, 4) for seed in (1, 2)]
+
+
+# ---- lists
+
+
+@pytest.mark.parametrize("hanging", [True, False])
+@pytest.mark.parametrize(("kind", "count", "seed"), CHAINS)
+def test_list_is_complete_exact_and_in_order(kind, count, seed, hanging):
+    chain = random_chain(kind, count, seed)
+    for over in (1.3, 12.0):
+        height = rc.modes(chain).conical_height[0] / over
+        shapes = rc.steady_shapes(chain, conical_height=height, hanging_only=hanging)
+        assert shapes.complete
+        assert shapes.undecided.shape == (0, 2)
+        listed = np.array([s.inclination for s in shapes]).reshape(-1, count)
+        for found in scan(chain, height, hanging, 1500):
+            assert min(turned(listed, found).min(), turned(listed, -found).min()) < 1e-4
+        keys = [(s.half_waves, s.inclination[0]) for s in shapes]
+        assert keys == sorted(keys)
+        for shape in shapes[:4]:
+            assert error_of(chain, height, shape) <= shape.error_bound < 1e-14
+            assert moments(chain, shape) < 1e-15
+            assert shape.offset[0] >= 0
+            assert shape.offset.shape == shape.height.shape == (count + 1,)
+            assert shape.offset[-1] == 0
+            signs = np.sign(shape.offset[:-1])
+            signs = signs[signs != 0]
+            assert shape.half_waves == 1 + np.count_nonzero(np.diff(signs))
+
+
+BODY = {"centroid": [0.8, 0.6, 0.6], "pendulum_length": [0.8, 4.0, 0.8]}
+THREE = rc.Chain(weight=[0.5, 1.0, 1.5], length=[0.8, 1.0, 1.2], **BODY)  # a plummet, a link with l = 4 a, a rod
+PAIR = rc.Chain(weight=[1.0, 1.0], length=[1.0, 0.2], centroid=[0.5, 0.5], radius_of_gyration=[0.3, 0.9])
+
+
+@pytest.mark.parametrize(("chain", "height"), [(PAIR, 0.02), (THREE, 0.02), (THREE, 0.1), (THREE, 0.5), (THREE, 1.5)])
+@pytest.mark.parametrize("only", [False, True])
+def test_links_with_three_inclinations_under_one_load(chain, height, only):
+    found = rc.steady_shapes(chain, conical_height=height, hanging_only=only)
+    assert found.complete
+    listed = np.array([shape.inclination for shape in found])
+    fallen_upon = scan(chain, height, only, 4000)
+    assert all(turned(listed, angles).min() < 1e-6 for angles in fallen_upon)
+    assert len(fallen_upon) == len(found) > 0
+    assert all(moments(chain, shape) < 1e-15 for shape in found)
 
 
 @pytest.mark.parametrize(
     ("count", "ratio", "shapes"),
     [(1, 2.0, 1), (2, 166.0, 2), (3, 166.0, 5), (4, 166.0, 10), (6, 187.5, 56), (8, 16.0, 19), (8, 35.4025, 84),
      (10, 50.0, 412)],
-)
-def test_counts_known_from_elsewhere(count: int, ratio: float, shapes: int) -> None:
+)  # fmt: skip
+def test_counts_known_from_elsewhere(count, ratio, shapes):
     found = rc.steady_shapes(plummets(count), conical_height=1 / ratio)
     assert found.complete
     assert len(found) == shapes
-    assert found.undecided.shape == (0, 2)
     assert found.cells > 0
     assert repr(found).startswith(f"{shapes} shape") and "proved complete" in repr(found)
 
 
-def test_two_shapes_are_born_at_the_fold() -> None:
+def test_two_shapes_are_born_at_the_fold():
     for speed, count in ((FOLD * (1 - 1e-9), 3), (FOLD * (1 + 1e-9), 5)):
         found = rc.steady_shapes(plummets(3), angular_speed=speed, gravity=1.0)
-        assert found.complete
-        assert len(found) == count
-
-
-def test_two_unequal_plummets_have_four_shapes() -> None:
-    chain = Chain(weight=[1.0, 3.0], length=[2.0, 1.0], centroid=[2.0, 1.0], radius_of_gyration=0.0)
-    found = rc.steady_shapes(chain, conical_height=1 / 64)
-    assert found.complete
-    assert len(found) == 4
+        assert found.complete and len(found) == count
+    unequal = rc.Chain(weight=[1.0, 3.0], length=[2.0, 1.0], centroid=[2.0, 1.0], radius_of_gyration=0.0)
+    found = rc.steady_shapes(unequal, conical_height=1 / 64)
+    assert found.complete and len(found) == 4
 
 
 @pytest.mark.parametrize(("ratio", "hanging", "every"), [(0.7, 1, 2), (9.0, 2, 13), (16.0, 3, 14), (50.0, 7, 20)])
-def test_three_rods_hanging_and_standing(ratio: float, hanging: int, every: int) -> None:
-    rods = Chain.uniform_rods(3, length=3.0)
+def test_three_rods_hanging_and_standing(ratio, hanging, every):
+    rods = rc.Chain.uniform_rods(3, length=3.0)
     assert len(rc.steady_shapes(rods, conical_height=1 / ratio)) == hanging
     found = rc.steady_shapes(rods, conical_height=1 / ratio, hanging_only=False)
     assert found.complete
@@ -70,131 +113,265 @@ def test_three_rods_hanging_and_standing(ratio: float, hanging: int, every: int)
         assert shape.error_bound < 4.5e-16
 
 
-THREE = Chain(  # a plummet, a link with l = 4 a, a rod
-    weight=[0.5, 1.0, 1.5],
-    length=[0.8, 1.0, 1.2],
-    centroid=[0.8, 0.6, 0.6],
-    pendulum_length=[0.8, 4.0, 0.8],
-)
-PAIR = Chain(weight=[1.0, 1.0], length=[1.0, 0.2], centroid=[0.5, 0.5], radius_of_gyration=[0.3, 0.9])
+@pytest.mark.parametrize("less", [1e-3, 1e-9, 1e-12, 1e-15])
+def test_just_below_the_critical_height(less):
+    chain = plummets(3)
+    height = rc.modes(chain).conical_height[0] * (1 - less)
+    shapes = rc.steady_shapes(chain, conical_height=height)
+    assert len(shapes) == 1 and shapes.complete
+    one = rc.steady_shape(chain, conical_height=height)
+    assert np.abs(one.inclination - shapes[0].inclination).max() <= 1e-14 * max(1, one.condition)
 
 
-@pytest.mark.parametrize(("chain", "height"), [(PAIR, 0.02), (THREE, 0.02), (THREE, 0.1), (THREE, 0.5), (THREE, 1.5)])
-def test_links_with_three_inclinations_under_one_load(chain: Chain, height: float) -> None:
-    for only in (False, True):
-        found = rc.steady_shapes(chain, conical_height=height, hanging_only=only)
-        assert found.complete
-        listed = np.array([shape.inclination for shape in found])
-        fallen_upon = scan(chain, height, only, 4000)
-        for angles in fallen_upon:
-            assert turned(listed, angles).min() < 1e-6
-        assert len(fallen_upon) == len(found) > 0
-        for shape in found:
-            assert moments(chain, shape) < 1e-15
+def test_above_the_first_height_nothing_leaves_the_vertical():
+    for chain in (rc.Chain.uniform_rods(4, length=1.0), plummets(3)):
+        first = rc.modes(chain, count=1).conical_height[0]
+        for only in (True, False):
+            found = rc.steady_shapes(chain, conical_height=first * 1.001, hanging_only=only)
+            assert found.complete
+            assert len(found) == 0
+    assert len(rc.steady_shapes(chain, conical_height=first * 0.999)) == 1
 
 
-def test_above_the_first_height_nothing_leaves_the_vertical() -> None:
-    chain = Chain.uniform_rods(4, length=1.0)
-    first = rc.modes(chain, count=1).conical_height[0]
-    for only in (True, False):
-        found = rc.steady_shapes(chain, conical_height=first * 1.001, hanging_only=only)
-        assert found.complete
-        assert len(found) == 0
-        assert len(rc.steady_shapes(chain, conical_height=first * 0.999, hanging_only=only)) == 1
+@pytest.mark.parametrize("weight", [1e-100, 1.0, 1e100])
+@pytest.mark.parametrize("length", [1e-150, 1e-100, 1e100, 1e150])
+def test_scale_invariance(length, weight):
+    def pair(u, v):
+        a = np.array([0.7, 1.0, 0.4]) * u
+        return rc.Chain(weight=np.array([1.0, 3.0, 2.0]) * v, length=a, centroid=a * 0.5, radius_of_gyration=a * 0.6)
+
+    base = rc.steady_shapes(pair(1, 1), conical_height=0.03)
+    other = rc.steady_shapes(pair(length, weight), conical_height=0.03 * length)
+    assert other.complete
+    for p, q in zip(base, other, strict=True):
+        assert np.abs(p.inclination - q.inclination).max() < 1e-12
+        assert np.allclose(q.tension / weight, p.tension, rtol=1e-12)
+        assert p.stability().verdict == q.stability().verdict
 
 
-def test_one_plummet_is_the_conical_pendulum() -> None:
-    shape = rc.steady_shapes(Chain.uniform_plummets(1, length=2.0), conical_height=1.0, gravity=4.0)[0]
-    assert shape.inclination == pytest.approx([np.pi / 3], rel=3e-16)
-    assert shape.offset == pytest.approx([np.sqrt(3), 0.0], rel=3e-16)
-    assert shape.height == pytest.approx([-1.0, 0.0], rel=3e-16)
-    assert shape.tension == pytest.approx([2.0], rel=3e-16)
-    assert shape.reaction_inclination == pytest.approx([np.pi / 3], rel=3e-16)
-    assert shape.moment_of_inertia == pytest.approx(3.0, rel=3e-16)
-    assert shape.effective_energy == pytest.approx(-2.5, rel=3e-16)
+@pytest.mark.parametrize("weight", [[1, 1e12, 1], [1e12, 1, 1e-12], [1e-12, 1, 1e12], [1, 0, 1], [1, 0, 0], [1, 1, 0]])
+def test_extreme_weights(weight):
+    chain = rc.Chain(weight=weight, length=[1.0, 1.0, 1.0])
+    height = rc.modes(chain).conical_height[0] * 0.4
+    shapes = rc.steady_shapes(chain, conical_height=height)
+    assert shapes.complete
+    assert all(error_of(chain, height, s) <= s.error_bound for s in shapes)
+
+
+@pytest.mark.parametrize("budget", [0, -1, 1, 10, np.int64(100), 2**31])
+def test_small_budget_is_owned_up_to(budget):
+    shapes = rc.steady_shapes(plummets(3), conical_height=0.03, budget=budget)
+    full = rc.steady_shapes(plummets(3), conical_height=0.03)
+    assert shapes.complete == (budget == 2**31)
+    if shapes.complete:
+        assert len(shapes) == len(full)
+        return
+    assert shapes.undecided.shape[0] > 0 and np.all(shapes.undecided[:, 0] <= shapes.undecided[:, 1])
+    assert "there may be more" in repr(shapes)
+    for tip in (s.inclination[0] for s in full):
+        assert any(abs(tip - q.inclination[0]) < 1e-12 for q in shapes) or any(
+            lo <= abs(tip) <= hi or lo <= tip <= hi for lo, hi in shapes.undecided
+        )
+    assert not rc.steady_shapes(plummets(8), conical_height=0.01, budget=50, hanging_only=False).complete
+
+
+def test_one_plummet_is_the_conical_pendulum():
+    shape = rc.steady_shapes(rc.Chain.uniform_plummets(1, length=2.0), conical_height=1.0, gravity=4.0)[0]
+    values = {
+        "inclination": [np.pi / 3],
+        "offset": [np.sqrt(3), 0.0],
+        "height": [-1.0, 0.0],
+        "tension": [2.0],
+        "reaction_inclination": [np.pi / 3],
+        "moment_of_inertia": 3.0,
+        "effective_energy": -2.5,
+        "angular_momentum": 1.5,
+    }
+    for name, value in values.items():
+        assert getattr(shape, name) == pytest.approx(value, rel=3e-16), name
     assert shape.half_waves == 1
     assert shape.conical_height == 1.0
-    assert shape.angular_momentum == pytest.approx(1.5, rel=3e-16)
     assert shape.residual < 1e-20
     assert shape.condition > 0
     assert "60.0000" in repr(shape)
 
 
-def test_a_list_is_a_sequence() -> None:
+def test_a_list_is_a_sequence():
     found = rc.steady_shapes(plummets(4), conical_height=0.02)
     assert found[-1] is list(found)[-1]
     assert found[1:3] == (found[1], found[2])
-    order = [(shape.half_waves, shape.inclination[0]) for shape in found]
-    assert order == sorted(order)
-    assert found[0] in found
     assert list(reversed(found)) == list(found)[::-1]
     with pytest.raises(IndexError):
         found[len(found)]
-    with pytest.raises(ValueError, match="read-only"):
-        found[0].inclination[0] = 1.0
+    found = rc.steady_shapes(plummets(4), conical_height=0.0625)
+    by_speed = rc.steady_shapes(plummets(4), angular_speed=4.0, gravity=1.0)
+    assert all(np.array_equal(x.inclination, y.inclination) for x, y in zip(found, by_speed, strict=True))
 
 
-def test_a_budget_that_ends_is_told() -> None:
-    for only in (True, False):
-        found = rc.steady_shapes(plummets(8), conical_height=0.01, budget=50, hanging_only=only)
-        assert not found.complete
-        assert found.undecided.shape[0] > 0
-        assert np.all(found.undecided[:, 0] <= found.undecided[:, 1])
-        assert "there may be more" in repr(found)
+def test_many_links():
+    chain = plummets(300)
+    height = 0.9 * rc.modes(chain, 1).conical_height[0]
+    (shape,) = shapes = rc.steady_shapes(chain, conical_height=height)
+    assert shapes.complete
+    assert np.abs(shape.inclination - rc.steady_shape(chain, conical_height=height).inclination).max() < 1e-13
 
 
-def test_speed_and_height_are_one() -> None:
-    chain = plummets(3)
-    by_height = rc.steady_shapes(chain, conical_height=0.25)
-    by_speed = rc.steady_shapes(chain, angular_speed=2.0, gravity=1.0)
-    for x, y in zip(by_height, by_speed, strict=True):
-        assert np.array_equal(x.inclination, y.inclination)
+def test_threads():
+    def asked(_):
+        shapes = rc.steady_shapes(plummets(8), conical_height=1 / 35.4025)
+        shapes[3].stability()
+        return np.array([s.inclination for s in shapes])
+
+    with ThreadPoolExecutor(6) as pool:
+        assert all(np.array_equal(asked(0), found) for found in pool.map(asked, range(6)))
 
 
-def test_stability_of_known_shapes() -> None:
-    pendulum = rc.steady_shapes(Chain.uniform_plummets(1, length=1.0), conical_height=0.5)[0]
-    free = pendulum.stability()
-    assert free.verdict == "minimum"
-    assert free.frame == "free"
+def test_absurd_speeds_end(python):
+    asked = "rc.steady_shapes(rc.Chain.uniform_plummets(3, 3.0), conical_height=height)"
+    program = f"import revchain as rc\nfor height in (5e-324, 1e-308, 1e-300, 1e-100, 1e-20):\n    print({asked})"
+    run = python("-c", program, timeout=10)
+    assert run.returncode == 0, run.stderr
+    found = rc.steady_shapes(plummets(2), angular_speed=1e-300)
+    assert len(found) == 0 and found.complete and "0 shapes" in repr(found)
+
+
+# ---- stability
+
+
+@pytest.mark.parametrize("frame", ["free", "driven"])
+@pytest.mark.parametrize(("kind", "count", "seed"), [c for c in CHAINS if c[0] != "massless"])
+def test_stability_against_own_linearisation(kind, count, seed, frame):
+    chain = random_chain(kind, count, seed)
+    height = rc.modes(chain).conical_height[0] / 9
+    for hanging in (True, False):
+        for shape in rc.steady_shapes(chain, conical_height=height, hanging_only=hanging)[:6]:
+            mass, turn, rest, inside = disturbed(chain, shape)
+            zero, one = np.zeros_like(mass), np.eye(2 * count)
+            if frame == "driven":
+                root = np.sqrt(np.linalg.eigvals(-np.linalg.solve(mass[:count, :count], rest[:count, :count])) + 0j)
+                mine, second = np.concatenate([root, -root]), np.linalg.eigvalsh(rest[:count, :count])
+            else:
+                whole = np.block([[zero, one], [-np.linalg.solve(mass, rest), -np.linalg.solve(mass, turn)]])
+                mine = np.linalg.eigvals(whole)
+                second = np.concatenate([np.linalg.eigvalsh(inside), np.linalg.eigvalsh(rest[count:, count:])])
+            got = shape.stability(frame=frame)
+            negative = int((second < -1e-9 * np.abs(second).max()).sum())
+            assert got.negative_directions == negative
+            assert got.frame == frame
+            assert got.exponents.size == (4 * count - 2 if frame == "free" else 2 * count)
+            assert (np.diff(got.exponents.imag) >= -1e-12).all()
+            assert abs(got.growth_rate - mine.real.max()) < 1e-5 * np.abs(mine).max()
+            for e in got.exponents:
+                assert np.abs(mine - e).min() < 1e-5 * np.abs(mine).max()
+            if negative == 0:
+                assert got.verdict == "minimum"
+            elif mine.real.max() > 1e-4:
+                assert got.verdict == "unstable"
+
+
+def test_stability_of_known_shapes():
+    pendulum = rc.steady_shapes(rc.Chain.uniform_plummets(1, length=1.0), conical_height=0.5)[0]
+    free, driven = pendulum.stability(), pendulum.stability(frame="driven")
+    assert (free.verdict, free.frame) == ("minimum", "free") and repr(free).startswith("Stability (free): minimum")
     assert np.abs(free.exponents.imag).max() == pytest.approx(np.sqrt(1 + 3 / 4), rel=1e-14)
-    driven = pendulum.stability(frame="driven")
     assert np.abs(driven.exponents.imag).max() == pytest.approx(np.sqrt(3) / 2, rel=1e-14)
-    assert driven.negative_directions == 0
-    assert driven.growth_rate <= driven.margin
+    assert driven.negative_directions == 0 and driven.growth_rate <= driven.margin
     pair = plummets(2)
     second = rc.modes(pair).conical_height[1]
     for share, verdict in ((0.47, "spectrally stable"), (0.45, "unstable")):
         shapes = rc.steady_shapes(pair, conical_height=share * second)
         assert [shape.stability().verdict for shape in shapes] == ["minimum", verdict]
-    assert repr(free).startswith("Stability (free): minimum")
-
-
-def test_standing_shapes_have_a_stability() -> None:
-    pair = plummets(2)
     shapes = rc.steady_shapes(pair, conical_height=0.2, hanging_only=False)
-    standing = [shape for shape in shapes if np.any(np.cos(shape.inclination) < 0)]
+    standing = [shape.stability() for shape in shapes if np.any(np.cos(shape.inclination) < 0)]
     assert len(standing) == 2
-    for shape in standing:
-        assert shape.stability().verdict != "minimum"
-        assert shape.stability().negative_directions > 0
+    assert all(found.verdict != "minimum" and found.negative_directions > 0 for found in standing)
 
 
-def test_wrong_calls_are_refused() -> None:
-    chain = plummets(2)
-    for bad in (0.0, -1.0, float("nan"), float("inf")):
+@pytest.mark.parametrize("frame", ["free", "driven"])
+def test_a_massless_joint_does_not_change_stability(frame):
+    jointed = rc.steady_shapes(rc.Chain(weight=[1, 0, 1], length=[1.0, 1.0, 1.0]), conical_height=0.13)
+    plain = rc.steady_shapes(rc.Chain(weight=[1, 1], length=[2.0, 1.0]), conical_height=0.13)
+    assert len(jointed) == len(plain) == 2
+    for p, q in zip(jointed, plain, strict=True):
+        a, b = p.stability(frame=frame), q.stability(frame=frame)
+        assert not np.isnan(a.exponents).any()
+        assert a.growth_rate == pytest.approx(b.growth_rate, abs=1e-6)
+        assert a.verdict == b.verdict
+
+
+# ---- what is refused, pictures
+
+
+def questions(chain):
+    """All that is asked at a speed."""
+    ends = {"conical_height": "min_conical_height", "angular_speed": "max_angular_speed"}
+    return (
+        lambda **k: rc.steady_shapes(chain, **k),
+        lambda **k: rc.steady_shape(chain, **k),
+        lambda **k: rc.branch(chain, 1, **{ends.get(name, name): k[name] for name in k}),
+    )
+
+
+@pytest.mark.parametrize("value", [0, -1, float("nan"), float("inf"), "x", [0.1], True, 1j])
+@pytest.mark.parametrize("name", ["conical_height", "angular_speed"])
+def test_bad_speeds(name, value):
+    for call in questions(plummets(2)):
+        with pytest.raises(ValueError, match=r"revchain.*" + name + r".*got"):
+            call(**{name: value})
+    if name == "angular_speed":
         with pytest.raises(ValueError, match="gravity"):
-            rc.steady_shapes(chain, angular_speed=1.0, gravity=bad)
+            rc.steady_shapes(plummets(2), angular_speed=1.0, gravity=value)
+
+
+def test_both_or_no_speed():
+    chain = plummets(2)
+    for call in (*questions(chain), rc.branch(chain, 1, min_conical_height=0.1).at, lambda **k: rc.branches(
+            chain, **{f"{'min' if 'height' in name else 'max'}_{name}": k[name] for name in k})):  # fmt: skip
+        both = "(min_)?conical_height and (max_)?angular_speed"
+        for given, got in (({}, "none"), ({"conical_height": 0.1, "angular_speed": 1.0}, both)):
+            with pytest.raises(ValueError, match=rf"exactly one of \w*conical_height.* and \w+, got {got}$"):
+                call(**given)
+    for call in questions(chain)[1:]:
+        with pytest.raises(ValueError, match=r"must be positive and finite, got inf"):
+            call(angular_speed=1e-300)
+
+
+@pytest.mark.parametrize("mode", [0, -1, 4, 1.0, 1.5, "x", None, True, 10**30])
+def test_bad_modes(mode):
+    message = {"mode must be from 1 to the number of modes, 3": [4], "mode must be at least 1": [0, -1]}
+    said = next((text for text, values in message.items() if type(mode) is int and mode in values), "mode must|mode is")
+    with pytest.raises(ValueError, match=said):
+        rc.steady_shape(plummets(3), mode=mode, conical_height=0.1)
+    with pytest.raises(ValueError, match=said):
+        rc.branch(plummets(3), mode, min_conical_height=0.1)
+
+
+@pytest.mark.parametrize("budget", [1.5, "x", None, True, 10**30, 2**63, np.uint64(2**64 - 1)])
+def test_budgets_that_are_none_or_beyond_all_bounds(budget):
+    for call in (
+        lambda: rc.steady_shapes(plummets(2), conical_height=0.1, budget=budget).complete,
+        lambda: rc.branches(plummets(2), min_conical_height=0.1, budget=budget).consistent,
+    ):
+        if type(budget) in (int, np.uint64):
+            assert call()
+        else:
+            with pytest.raises(ValueError, match="budget"):
+                call()
+
+
+def test_wrong_calls_are_refused():
+    chain = plummets(2)
     with pytest.raises(TypeError, match="hanging_only"):
-        rc.steady_shapes(chain, conical_height=1.0, hanging_only="no")  # type: ignore[arg-type]
+        rc.steady_shapes(chain, conical_height=1.0, hanging_only="no")
     shape = rc.steady_shapes(chain, conical_height=0.2)[0]
     for frame in ("moving", ["free"], np.array(["free", "driven"]), None):
         with pytest.raises(ValueError, match="frame must be 'free' or 'driven', got"):
-            shape.stability(frame=frame)  # type: ignore[arg-type]
+            shape.stability(frame=frame)
 
 
-def test_plots() -> None:
+def test_plots():
     pytest.importorskip("matplotlib")
-    found = rc.steady_shapes(Chain.uniform_rods(3, length=3.0), conical_height=0.0625, hanging_only=False)
+    found = rc.steady_shapes(rc.Chain.uniform_rods(3, length=3.0), conical_height=0.0625, hanging_only=False)
     axes = found.plot()
     assert axes.get_title() == "14 shapes, proved complete"
     assert axes.get_xlabel() == "distance from the axis (m)"

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import random
+import shutil
 import signal
 import sys
 import threading
@@ -564,6 +565,19 @@ def test_a_folder_of_something_else_is_left_alone():
     assert Path("b.csv.partial").read_text() == "mine"
 
 
+def test_other_files_in_the_folder_stay(ended, run):
+    given, folder = ended
+    (folder / "mine.txt").write_text("mine")
+    shutil.copytree(folder, "b.csv.partial")
+    Path("study.json").write_text(json.dumps(given.to_dict()))
+    with pytest.warns(UserWarning, match="a.csv.partial stays: it holds other files, such as mine.txt"):
+        rc.sweep(given, out="a.csv")
+    assert sorted(path.name for path in folder.iterdir()) == ["mine.txt"] and Path("a.csv").exists()
+    code, _, err = run("sweep", "study.json", "--out", "b.csv", "--quiet")
+    assert (code, err) == (0, f"revchain: {Path('b.csv.partial').resolve()} stays: it holds other files, such as mine.txt\n")
+    assert sorted(path.name for path in Path("b.csv.partial").iterdir()) == ["mine.txt"]
+
+
 def test_another_study_and_another_run_are_refused(ended):
     given, folder = ended
 
@@ -702,30 +716,38 @@ BAD = {
     "scene a number": ({"scene": 3, "vary": GOOD}, "scene: "),
     "scene wrong": ({"scene": {"links": [{"mass": 1}]}, "vary": GOOD}, "scene.links[0].length: is missing"),
     "unknown key": ({"scene": ONE, "vary": GOOD, "sample": 3}, "sample: unknown key; did you mean samples?"),
-    "unknown law": (varied("gravity", unifrm=[1, 2]), 'vary."gravity".unifrm: unknown key; did you mean uniform?'),
-    "no law": (varied("gravity"), 'vary."gravity": give from, to and steps, or one of values'),
-    "two laws": (varied("gravity", values=[1], uniform=[1, 2]), 'vary."gravity": give from, to and steps, or one of'),
-    "no steps": (varied("gravity", **{"from": 1, "to": 2}), 'vary."gravity".steps: is missing'),
-    "no from": (varied("gravity", to=2, steps=3), 'vary."gravity".from: is missing'),
-    "no steps at all": (varied("gravity", **{"from": 1, "to": 2, "steps": 0}), 'vary."gravity".steps: must be at least 1, got 0'),
-    "log of values": (varied("gravity", values=[1], log=True), 'vary."gravity".log: goes with from, to and steps'),
-    "log of 0": (varied("gravity", **{"from": 0, "to": 2, "steps": 3, "log": True}), 'vary."gravity".log: needs from and to'),
-    "no values": (varied("gravity", values=[]), 'vary."gravity".values: '),
-    "nan": (varied("gravity", values=[math.nan]), 'vary."gravity".values[0]: must be finite, got nan'),
+    "unknown law": (varied("gravity", unifrm=[1, 2]), 'vary.gravity.unifrm: unknown key; did you mean uniform?'),
+    "no law": (varied("gravity"), 'vary.gravity: give from, to and steps, or one of values'),
+    "two laws": (varied("gravity", values=[1], uniform=[1, 2]), 'vary.gravity: give from, to and steps, or one of'),
+    "no steps": (varied("gravity", **{"from": 1, "to": 2}), 'vary.gravity.steps: is missing'),
+    "no from": (varied("gravity", to=2, steps=3), 'vary.gravity.from: is missing'),
+    "no steps at all": (varied("gravity", **{"from": 1, "to": 2, "steps": 0}), 'vary.gravity.steps: must be at least 1, got 0'),
+    "log of values": (varied("gravity", values=[1], log=True), 'vary.gravity.log: goes with from, to and steps'),
+    "log of 0": (varied("gravity", **{"from": 0, "to": 2, "steps": 3, "log": True}), 'vary.gravity.log: needs from and to'),
+    "no values": (varied("gravity", values=[]), 'vary.gravity.values: '),
+    "nan": (varied("gravity", values=[math.nan]), 'vary.gravity.values[0]: must be finite, got nan'),
     "unit of another kind": (varied("links[0].mass", values=[1, "2 m"]), 'vary."links[0].mass".values[1]: must be a mass such as "2 kg", got "2 m"'),
-    "truth for a number": (varied("gravity", values=[True]), 'vary."gravity".values[0]: must be a number, got True'),
-    "a word for a number": (varied("gravity", values=["much"]), 'vary."gravity".values[0]: must be a number, or a number and its unit'),
-    "ends the wrong way": ({**varied("gravity", uniform=[2, 1]), "samples": 3}, 'vary."gravity".uniform: its low end'),
-    "three ends": ({**varied("gravity", uniform=[1, 2, 3]), "samples": 3}, 'vary."gravity".uniform: '),
-    "negative deviation": ({**varied("gravity", normal=[2, -1]), "samples": 3}, 'vary."gravity".normal: its deviation'),
-    "log of a negative number": ({**varied("gravity", log_uniform=[-2, 1]), "samples": 3}, 'vary."gravity".log_uniform: must be positive'),
-    "percentage of no number": ({**varied("gravity", normal=[2, "much %"]), "samples": 3}, 'vary."gravity".normal[1]: must be a number'),
-    "negative percentage": ({**varied("gravity", uniform=[2, "-5 %"]), "samples": 3}, 'vary."gravity".uniform[1]: a percentage must be positive, got "-5 %"'),
+    "truth for a number": (varied("gravity", values=[True]), 'vary.gravity.values[0]: must be a number, got true'),
+    "a word for a number": (varied("gravity", values=["much"]), 'vary.gravity.values[0]: must be a number, or a number and its unit'),
+    "ends the wrong way": ({**varied("gravity", uniform=[2, 1]), "samples": 3}, 'vary.gravity.uniform: its low end'),
+    "three ends": ({**varied("gravity", uniform=[1, 2, 3]), "samples": 3}, 'vary.gravity.uniform: '),
+    "negative deviation": ({**varied("gravity", normal=[2, -1]), "samples": 3}, 'vary.gravity.normal: its deviation'),
+    "log of a negative number": ({**varied("gravity", log_uniform=[-2, 1]), "samples": 3}, 'vary.gravity.log_uniform: must be positive'),
+    "percentage of no number": ({**varied("gravity", normal=[2, "much %"]), "samples": 3}, 'vary.gravity.normal[1]: must be a number'),
+    "negative percentage": ({**varied("gravity", uniform=[2, "-5 %"]), "samples": 3}, 'vary.gravity.uniform[1]: must be positive, got "-5 %"'),
     "random without samples": (varied("gravity", uniform=[1, 2]), "samples: is missing: say how many points"),
     "samples without random": ({"scene": ONE, "vary": GOOD, "samples": 3}, "samples: is for random numbers, and none are"),
     "samples 0": ({**varied("gravity", uniform=[1, 2]), "samples": 0}, "samples: must be at least 1, got 0"),
     "negative seed": ({"scene": ONE, "vary": GOOD, "seed": -1}, "seed: must not be negative, got -1"),
     "no path": (varied("links 0", values=[1]), 'vary."links 0": is no path into a scene such as links[0].mass'),
+    "path from the study": (varied("scene.gravity", values=[1]), 'vary."scene.gravity": is no path into a scene: write "gravity"'),
+    "path of no link": (varied("mass", values=[1]), 'vary.mass: is no path into a scene: write "links[0].mass"'),
+    "a name": (varied("links[0].name", values=["a"]), 'vary."links[0].name": cannot be varied'),
+    "samples in vary": (varied("gravity", normal=[1, 2], samples=3), "vary.gravity.samples: unknown key; belongs at the top of the study"),
+    "normal of one number": (varied("gravity", normal=[1]), "vary.gravity.normal: must be a pair [mean, deviation], got [1]"),
+    "ask beside the scene": ({**varied("gravity", values=[1]), "ask": {}}, "ask: unknown key; belongs in [scene]"),
+    "find without brackets": ({**varied("gravity", values=[1]), "find": "modes"}, 'find: must be a list: write ["modes"]'),
+    "held at some points": ({"scene": {"links": [{"mass": 1, "length": 1}] * 3}, "vary": {"held.span": {"values": [2]}}}, 'vary."held.span": makes a chain held at both ends of a chain at 2.0'),
     "no such link": (varied("links[1].mass", values=[1]), 'vary."links[1].mass": the scene has nothing at [1]: there are 1'),
     "no such key": (varied("links[0].mas", values=[1]), 'vary."links[0].mas": unknown key; did you mean mass?'),
     "no such table": (varied("suport.mass", values=[1]), 'vary."suport.mass": suport: unknown key; did you mean support?'),
@@ -733,15 +755,15 @@ BAD = {
     "other kind of chain": (varied("uniform_chain.length", values=[1]), 'vary."uniform_chain.length": '),
     "a value refused": (varied("links[0].length", values=[1, -1]), 'vary."links[0].length": must be positive, got -1'),
     "a table": (varied("links[0]", values=[1]), 'vary."links[0]": '),
-    "the title": (varied("title", values=["a"]), 'vary."title": cannot be varied'),
+    "the title": (varied("title", values=["a"]), 'vary.title: cannot be varied'),
     "what is asked": (varied("ask.modes", values=[1]), 'vary."ask.modes": cannot be varied: of [ask] only the speeds'),
     "not whole": (varied("links[0].repeat", values=[1.5]), 'vary."links[0].repeat".values[0]: must be a whole number, got 1.5'),
     "steps not whole": (varied("links[0].repeat", **{"from": 1, "to": 2, "steps": 3}), 'vary."links[0].repeat".steps: makes numbers that are not whole'),
     "random count": ({**varied("links[0].repeat", uniform=[1, 2]), "samples": 3}, 'vary."links[0].repeat": takes no random numbers'),
     "an unknown word": (varied("links[0].kind", values=["rod", "bod"]), 'vary."links[0].kind": must be one of plummet, rod, got'),
     "the same twice": ({"scene": ONE, "vary": {"gravity": {"values": [1]}, "links[0].mass": {"values": [1], "name": "gravity"}}}, 'vary."links[0].mass".name: gravity is the name of another, too'),
-    "name of a result": (varied("gravity", values=[1], name="conical_height"), 'vary."gravity".name: conical_height is the name of a result'),
-    "name with a slash": (varied("gravity", values=[1], name="m/s"), 'vary."gravity".name: must be a printable name'),
+    "name of a result": (varied("gravity", values=[1], name="conical_height"), 'vary.gravity.name: conical_height is the name of a result'),
+    "name with a slash": (varied("gravity", values=[1], name="m/s"), 'vary.gravity.name: must be a printable name'),
     "find nothing": ({"scene": ONE, "vary": GOOD, "find": []}, "find: "),
     "find what is not there": ({"scene": ONE, "vary": GOOD, "find": ["all"]}, "find[0]: must be one of modes, shapes, response"),
     "shapes at no speed": ({"scene": ONE, "vary": GOOD, "find": ["shapes"]}, "find[0]: the scene does not say at which speed"),
@@ -784,6 +806,58 @@ def test_errors_of_files():
     Path("a.toml").write_text("x = ")
     with pytest.raises(rc.SceneError, match=r"a.toml: line 1, column 5"):
         rc.load_study("a.toml")
+
+
+WRONG = """samples = 0
+find = ["modes", "all"]
+[scene]
+gravity = 2,5
+[[scene.links]]
+mass = -1
+lenght = 1
+[vary."links[0].mass"]
+values = [1,
+  "2 m"]
+[vary.gravity]
+frm = 3
+to = "3 kg"
+[vary.links[0].length]
+uniform = [2, 1]
+name = "a/b"
+"""
+
+
+def test_all_at_once():
+    """Syntax, the scene, what varies and what is asked, each with its line; quoted keys, too."""
+    Path("a.toml").write_text(WRONG)
+    with pytest.raises(rc.SceneError) as error:
+        rc.load_study("a.toml")
+    assert [each[:3] for each in error.value.problems] == [
+        (1, 1, "samples"),
+        (2, 18, "find[1]"),
+        (4, 1, ""),
+        (5, 1, "scene.links[0].length"),
+        (6, 1, "scene.links[0].mass"),
+        (7, 1, "scene.links[0].lenght"),
+        (10, 3, 'vary."links[0].mass".values[1]'),
+        (11, 1, "vary.gravity.from"),
+        (11, 1, "vary.gravity.steps"),
+        (12, 1, "vary.gravity.frm"),
+        (13, 1, "vary.gravity.to"),
+        (14, 7, ""),
+        (15, 1, 'vary."links[0].length".uniform'),
+        (16, 1, 'vary."links[0].length".name'),
+    ]
+    Path("b.toml").write_text("[[links]]\nmass = 1\nlength = 2,5\nmas = 1\n")
+    Path("a.toml").write_text('scene = "b.toml"\nsampels = 2\n[vary.gravity]\nvalues = 3\n')
+    with pytest.raises(rc.SceneError) as error:
+        rc.load_study("a.toml")
+    assert str(error.value).split("\n") == [
+        "a.toml: line 1, column 1: scene: b.toml: line 3, column 1: the decimal mark is a point: write length = 2.5, not 2,5",
+        "a.toml: line 1, column 1: scene: b.toml: line 4, column 1: links[0].mas: unknown key; did you mean mass?",
+        "a.toml: line 2, column 1: sampels: unknown key; did you mean samples?",
+        "a.toml: line 4, column 1: vary.gravity.values: must be a list of numbers, got 3",
+    ]
 
 
 def test_round_trip():

@@ -48,7 +48,7 @@ def test_heights_from_bessel_zeros(exponent):
         found = rc.modes(chain, count // 2, rtol=1.0, method="tapered chain")
         assert found.status == "success" or found.error_bound.max() > 1
         assert np.all(np.abs(found.conical_height / exact - 1) <= found.error_bound + ULP / 2)
-        cord = rc.tapered_chain.conical_heights(count // 2, exponent=exponent, length=3.0)
+        cord = rc.modes(rc.Cord(3.0, density=exponent), count // 2).conical_height
         assert np.all(exact < cord)  # links held straight
     row = next(row for row in rc.explain(chain, 3, rtol=1e-3).rows if row.name == "tapered chain")
     assert row.applies and row.error_bound >= found.error_bound[:3].max()

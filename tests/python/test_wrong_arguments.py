@@ -237,10 +237,11 @@ def test_the_calls_without_a_wrong_argument_are_right(tmp_path, monkeypatch):
 def test_what_does_not_fit_in_the_memory_says_how_much_it_would_take(count):
     words = rf"too large, got {count}: it would take \d.*e\+\d+ GiB of memory, and this machine has \d+.* GiB"
     for call in (
-        lambda: rc.heavy_chain.conical_heights(count),
-        lambda: rc.heavy_chain.nodes(count),
-        lambda: rc.tip_mass.conical_heights(count, tip=0.5),
-        lambda: rc.tapered_chain.conical_heights(count, exponent=0.5),
+        lambda: rc.modes(rc.Cord(1.0), count),
+        lambda: rc.modes(rc.Cord(1.0), 1, first=count).nodes,
+        lambda: rc.modes(rc.Cord(1.0), 1, first=count).vertical_points,
+        lambda: rc.modes(rc.Cord(1.0, tip_mass=0.5), count),
+        lambda: rc.modes(rc.Cord(1.0, density=0.5), count),
         lambda: rc.Chain.tapered(count, exponent=0.5),
         lambda: rc.modes(rc.Chain.uniform_rods(count), count=1),
         lambda: rc.count_modes(rc.Chain.uniform_rods(count), conical_height=0.1),

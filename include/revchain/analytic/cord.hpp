@@ -18,7 +18,9 @@ struct HeavyChainMode {
 
     double conical_height() const { return analytic::heavy_chain::detail::height(mode, length); }
     double shape(double s) const { return analytic::heavy_chain::shape(s, mode, length); }
+    double slope(double s) const { return analytic::heavy_chain::slope(s, mode, length); }
     Vector<double> nodes() const { return analytic::heavy_chain::nodes(mode, length); }
+    Vector<double> vertical_points() const { return analytic::heavy_chain::vertical_points(mode, length); }
 };
 
 /// The method that finds the modes of a cord, and its accuracy.
@@ -112,18 +114,48 @@ inline Index count_modes(const Cord& cord, const CountOptions<double>& options) 
     return detail::modes_above(cord, detail::height_given("count_modes", options));
 }
 
+namespace detail {
+
+/// f at each place; it can be interrupted.
+template <class F>
+Vector<double> at_places(const Vector<double>& places, const F& f) {
+    Vector<double> found(places.size());
+    for (Index i = 0; i < places.size(); ++i) {
+        if (i % 1024 == 0) look();
+        found[i] = f(places[i]);
+    }
+    return found;
+}
+
+}  // namespace detail
+
 inline double CordModes::offset(Index j, double s) const {
     return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) { return mode.shape(s); });
 }
 
 inline Vector<double> CordModes::offset(Index j, const Vector<double>& s) const {
     return detail::with_mode("CordModes::offset", *this, j, [&](const auto& mode) {
-        return Vector<double>(s.unaryExpr([&](double at) { return mode.shape(at); }));
+        return detail::at_places(s, [&](double at) { return mode.shape(at); });
+    });
+}
+
+inline double CordModes::slope(Index j, double s) const {
+    return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) { return mode.slope(s); });
+}
+
+inline Vector<double> CordModes::slope(Index j, const Vector<double>& s) const {
+    return detail::with_mode("CordModes::slope", *this, j, [&](const auto& mode) {
+        return detail::at_places(s, [&](double at) { return mode.slope(at); });
     });
 }
 
 inline Vector<double> CordModes::nodes(Index j) const {
     return detail::with_mode("CordModes::nodes", *this, j, [](const auto& mode) { return mode.nodes(); });
+}
+
+inline Vector<double> CordModes::vertical_points(Index j) const {
+    return detail::with_mode("CordModes::vertical_points", *this, j,
+                             [](const auto& mode) { return mode.vertical_points(); });
 }
 
 inline Vector<double> CordModes::angular_speed(double gravity) const {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/scalar.hpp"
 
 namespace revchain::detail {
@@ -28,6 +29,22 @@ T zero_between(T low, T high, const F& value_and_slope) {
         x = next;
     }
     return x;
+}
+
+/// The zeros of a function that grows through one above the first, third, ... of `places` and falls through one above
+/// the others, each below the next place or `end`.
+template <class F>
+Vector<double> zeros_between(const Vector<double>& places, double end, const F& value_and_slope) {
+    Vector<double> zeros(places.size());
+    for (Index i = 0; i < places.size(); ++i) {
+        look();
+        const double sign = i % 2 == 0 ? 1 : -1;
+        zeros[i] = zero_between(places[i], i + 1 < places.size() ? places[i + 1] : end, [&](double x) {
+            const auto [value, slope] = value_and_slope(x);
+            return std::pair(sign * value, sign * slope);
+        });
+    }
+    return zeros;
 }
 
 }  // namespace revchain::detail

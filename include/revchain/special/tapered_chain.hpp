@@ -58,6 +58,12 @@ class Mode {
     /// j_{p,mode})^2, i < mode. Accuracy: 3 ulp.
     Vector<double> nodes() const { return analytic::detail::places_of_zeros(mode_, length_, end_, zeros_); }
 
+    /// Distances x above the free end at which the chain is vertical, ascending: length (j_{p+1,i} / j_{p,mode})^2,
+    /// i < mode. Accuracy: 3 ulp.
+    Vector<double> vertical_points() const {
+        return analytic::detail::places_of_zeros(mode_, length_, end_, ZerosOfJ(exponent_ + 1));
+    }
+
    private:
     double place(double x, std::string_view where) const {
         analytic::detail::check_place(where, x, length_);

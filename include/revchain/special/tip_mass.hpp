@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/zero_between.hpp"
 #include "revchain/special/bessel_zero.hpp"
 #include "revchain/special/chain_arguments.hpp"
 
@@ -163,6 +164,7 @@ class Mode {
     Mode(Index mode, double length, double tip)
         : mode_((detail::check("analytic::tip_mass::Mode", "mode", mode, length, tip), mode)),
           length_(length),
+          tip_(tip),
           ends_(length, tip),
           apart_(ends_.apart(mode)),
           place_(apart_ / ends_.gap * ends_.ratio),
@@ -216,6 +218,14 @@ class Mode {
         return points;
     }
 
+    /// Distances x at which the chain is vertical, one above each node. Accuracy: 1e-15 length. Cost: ten slopes each.
+    Vector<double> vertical_points() const {
+        return revchain::detail::zeros_between(nodes(), length_, [&](double x) {
+            const double steep = slope(x);
+            return std::pair(steep, -(shape(x) / height_ + steep) / (tip_ + x));
+        });
+    }
+
    private:
     static double lag(int order, double z) { return detail::series(order).lag(z); }
     static double density(int order, double z) { return detail::series(order).density(z); }
@@ -242,7 +252,7 @@ class Mode {
     }
 
     Index mode_;
-    double length_, height_ = 0;
+    double length_, tip_, height_ = 0;
     detail::Ends ends_;
     detail::TwoDoubles apart_, place_;  // z_L - z_0, z_0
     detail::TwoDoubles a_, b_;          // the offset is a J_0 + b Y_0

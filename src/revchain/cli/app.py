@@ -52,8 +52,10 @@ def validate(
             if upgrade:
                 _upgrade(path)
             read = load_scene(path)
-            asks = ", ".join(read.asks) or "nothing, so its modes"
-            print(f"{path}: valid: {read.system().describe()}; asks {asks}")
+            system, asks = read.system(), ", ".join(read.asks) or "nothing, so its modes"
+            print(f"{path}: valid: {system.describe()}; asks {asks}")
+            sentences = [ask.without_answer(question, system, path) for question in read.asks or ("modes",)]
+            print("".join(f"{path}: {sentence}\n" for sentence in sentences if sentence), end="")
         except SceneError as error:
             bad += 1
             print(f"revchain: {error}".replace("\n", "\nrevchain: "), file=sys.stderr)

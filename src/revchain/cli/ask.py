@@ -16,11 +16,15 @@ from rich.console import Console
 from ..results.files import written_aside
 from ..results.motions import Swing
 from ..scenes.ask import QUESTIONS, AskExplain, Pair, Spread
-from ..scenes.chain import without_place
 from ..scenes.error import SceneError
-from ..scenes.scene import Scene, load_scene
+from ..scenes.parse import is_json, text_of
+from ..scenes.places import places_in
+from ..scenes.scene import EXCLUSIVE, Scene, System, load_scene
 from ..scenes.tables import Table, fields_of
+from ..systems.cord import Cord
 from ..systems.extras import require
+from ..systems.held import Held
+from ..systems.rig import Rig
 from .exit_codes import ExitCode
 from .frame import EXIT_CODES, PICTURES, STDOUT, Stop, app, guarded, outputs_of, save_picture
 from .progress import watched
@@ -97,7 +101,7 @@ def _command(question: str, table: type[Table], summary: str) -> None:
         report.check(scene)
 
     fields = {field.name: field for field in fields_of(table)}
-    options = {name: (_option(field), None) for name, field in fields.items()} | COMMON
+    options = {name: (_option(field, "first" in fields), None) for name, field in fields.items()} | COMMON
     if question == "explain":
         del options["plot"]
     kind = inspect.Parameter.KEYWORD_ONLY
@@ -109,9 +113,11 @@ def _command(question: str, table: type[Table], summary: str) -> None:
     app.command(name=question, epilog=EXIT_CODES)(guarded(command))
 
 
-def _option(field: structs.FieldInfo) -> Any:
+def _option(field: structs.FieldInfo, of_modes: bool) -> Any:
     """The option for a key of a table."""
     help_text = next(part.description for part in get_args(field.type) if isinstance(part, Meta)) or ""
+    if of_modes and field.name in EXCLUSIVE:
+        help_text += " The count, first and windows of the scene do not apply."
     help_text = help_text.replace("[", "\\[")
     name = f"--{field.encode_name.replace('_', '-')}"
     if bool in get_args(field.type):
@@ -133,6 +139,10 @@ def _meant(field: structs.FieldInfo, given: Any) -> Any:
     if not isinstance(given, str):
         return given
     form = _form(field)
+    if form in (Spread, list) and "," in given:
+        option = field.encode_name.replace("_", "-")
+        sentence = f'a list has semicolons, such as "1; 2", and the decimal mark is a point, got {given}'
+        raise Stop(f"--{option}: {sentence}", ExitCode.WRONG_USAGE)
     if form is Pair:
         if " to " not in given:
             return [0, _number(given)]
@@ -179,6 +189,8 @@ def _answer(
     quiet: bool,
 ) -> Report:
     """Answer one question and write the files. Places to write are tried first."""
+    if sentence := without_answer(question, scene.system(), path):
+        raise Stop(f"{path}: {sentence}", ExitCode.WRONG_USAGE)
     with written_aside(*(place for place, _ in outputs)) as asides:
         try:
             if question == "modes":
@@ -187,10 +199,8 @@ def _answer(
             else:
                 found = scene._answer(question, changed)
         except SceneError as error:
-            said = [f"{path}: {_said(each.key, each.reason, question, changed)}" for each in error.problems]
+            said = [f"{path}: {_said(each.key, each.reason, question, changed, path)}" for each in error.problems]
             raise Stop("\nrevchain: ".join(said), ExitCode.WRONG_USAGE) from None
-        except (ValueError, TypeError) as error:
-            raise Stop(f"{path}: {without_place(error)}", ExitCode.WRONG_USAGE) from None
         report = Report(scene, path.stem, question, found, units)
         for aside, (place, kind) in zip(asides, outputs, strict=True):
             try:
@@ -204,7 +214,7 @@ def _answer(
 
 
 def _drawn(found: Any) -> Any:
-    """The picture of an answer; of a swing of many times the offsets against time, as so many shapes hide each other."""
+    """The picture of an answer; offsets against time for a swing of many times, whose shapes hide each other."""
     if isinstance(found, Swing) and found.time.size > MANY_TIMES:
         size = found.system.size
         return found.plot(kind="time", pins=sorted({0, size // 3, 2 * size // 3}))
@@ -217,12 +227,49 @@ def _show(report: Report, outputs: list[tuple[Path, str]], heading: bool = True)
     print(f"wrote {', '.join(str(place) for place, _ in outputs)}\n" if outputs else "", end="")
 
 
-def _said(key: str, reason: str, question: str, changed: dict[str, Any]) -> str:
+def _said(key: str, reason: str, question: str, changed: dict[str, Any], path: Path) -> str:
     """A problem of an option, or of the scene."""
-    name = key.removeprefix(f"ask.{question}.")
-    option = re.split(r"[.\[]", name)[0]
-    where = f"--{name.replace('_', '-')}" if option in changed else key
-    return f"{where}: {reason}" if where else reason
+    option = re.split(r"[.\[]", name := key.removeprefix(f"ask.{question}."))[0]
+    if option in changed:
+        return f"--{name.replace('_', '-')}: {reason}"
+    if key.startswith("links["):
+        line, column = places_in(text_of(path), is_json(str(path)))(key)
+        key = f"line {line}, column {column}: {key}"
+    return f"{key}: {reason}" if key else reason
+
+
+_SHAPES = (
+    'ask for its shapes: revchain shapes {path} --angular-speed "60 rpm", '
+    'or write [ask.shapes] and angular_speed = "60 rpm" in the scene'
+)
+_MODES = "ask for its modes: revchain modes {path}"
+_CUT = "cut it into links: [tapered_chain] with count = 100 and exponent = density, instead of [cord]"
+_NO_ANSWER = {  # by question, and what hangs
+    "modes": {"bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES},
+    "explain": {"bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES},
+    "shapes": {},
+    "response": {"cord": _CUT, "bent": _SHAPES, "held cord": _SHAPES, "weightless": _SHAPES, "held": _MODES},
+    "swing": {"rig": _MODES, "cord": _CUT, "bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES, "held": _MODES},
+    "branches": dict.fromkeys(("rig", "bent", "held cord", "weightless", "held"), _SHAPES) | {"cord": _CUT},
+}
+_NAMES = {
+    "rig": "a chain with a support, standing links, flywheels or a fluid",
+    "bent": "a chain whose ends are held a span apart",
+    "held cord": "a cord held at both ends",
+    "weightless": "a chain held at both ends without gravity",
+    "held": "a chain held at both ends",
+    "cord": "a cord",
+}
+
+
+def without_answer(question: str, system: System, path: Path) -> str:
+    """Why a question has no answer for what hangs, and what to ask instead; empty if it has."""
+    kind = {Rig: "rig", Cord: "cord", Held: "held"}.get(type(system), "")
+    if isinstance(system, Held):
+        cord, bent = isinstance(system.system, Cord), system.span is not None
+        kind = "bent" if bent else "held cord" if cord else "weightless" if system.weightless else kind
+    instead = _NO_ANSWER[question].get(kind, "").format(path=path)
+    return f"{question}: no answer for {_NAMES[kind]}; {instead}" if instead else ""
 
 
 _SUMMARIES = {

@@ -8,13 +8,19 @@ from threading import Event, Thread
 from typing import TypeVar
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn
 
 from .. import _core
 
 PATIENCE = 2.0  # seconds before a bar is shown
 TICK = 0.1  # seconds between looks
 Result = TypeVar("Result")
+
+
+def bar_of(what: str, console: Console, quiet: bool, *columns: ProgressColumn) -> Progress:
+    """A bar, where there is a terminal."""
+    shown = (TextColumn(what), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn(), *columns)
+    return Progress(*shown, console=console, transient=True, disable=quiet or not console.is_terminal)
 
 
 def watched(work: Callable[[_core.Progress], Result], console: Console, quiet: bool = False) -> Result:
@@ -35,9 +41,7 @@ def watched(work: Callable[[_core.Progress], Result], console: Console, quiet: b
     Thread(target=run, daemon=True).start()
     try:
         if not done.wait(PATIENCE):
-            columns = (TextColumn("solving"), BarColumn(), TextColumn("{task.percentage:3.0f} %"), TimeElapsedColumn())
-            silent = quiet or not console.is_terminal
-            with Progress(*columns, console=console, transient=True, disable=silent) as bar:
+            with bar_of("solving", console, quiet) as bar:
                 task = bar.add_task("solving", total=1.0)
                 while not done.wait(TICK):
                     bar.update(task, completed=progress.fraction)

@@ -21,6 +21,7 @@ from ..results.explanation import Explanation
 from ..results.modes import Modes
 from ..results.motions import Response
 from ..results.sheet import Column, Sheet, as_csv, as_dict, cells, finite, plain
+from ..scenes.chain import in_file
 from ..scenes.scene import Scene
 from .exit_codes import ExitCode
 from .frame import Stop
@@ -56,7 +57,8 @@ class Report:
         what = "not proved to be all there is"
         if isinstance(self.found, Explanation):
             best = self.found.chosen
-            what = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else "no method applies"
+            kept = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else ""
+            what = kept or "no method applies"
         if missing:
             what = f"no shape was found with {', '.join(map(str, missing))} half waves"
         if isinstance(self.found, Modes):
@@ -96,6 +98,8 @@ class Report:
             if id(each) in grids:
                 console.print(grids[id(each)])
         for note in sheet.notes:
+            if self.scene.order == "support first":
+                note = in_file(note, self.scene._bodies())
             console.print(Text(note, style="dim"))
 
     def _sheet(self, brief: bool = False) -> Sheet:

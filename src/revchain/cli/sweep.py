@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import sys
 import time
+import warnings
 from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import ExitStack
@@ -12,7 +14,7 @@ from typing import Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import MofNCompleteColumn, TimeRemainingColumn
 
 from ..plots.sweep import why_not_drawn
 from ..results.files import written_aside
@@ -23,7 +25,7 @@ from ..studies.sweep import dask_client
 from ..studies.sweep import sweep as compute
 from .exit_codes import ExitCode
 from .frame import EXIT_CODES, Stop, app, checked_picture, guarded, save_picture
-from .progress import PATIENCE
+from .progress import PATIENCE, bar_of
 
 SENTENCES = 5  # shown of points that are refused
 MAX_SHOWN = 10**7  # numbers of which a summary is made
@@ -74,7 +76,9 @@ def sweep(
         told = _bar(stack, given.points, quiet)
         threads = None if executor is not None else workers
         try:
-            found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
+            with warnings.catch_warnings(record=True) as warned:
+                warnings.simplefilter("always", UserWarning)
+                found = compute(given, out=out, executor=executor, threads=threads, chunk=chunk, progress=told)
         except KeyboardInterrupt:
             raise Stop(f"interrupted; the same command goes on from {out}.partial", ExitCode.INTERRUPTED) from None
         except OSError:
@@ -83,6 +87,8 @@ def sweep(
             raise Stop(str(error), ExitCode.WRONG_USAGE) from None
         if picture is not None:
             save_picture(found.plot(), given.title or study.stem, picture)
+    for each in warned:
+        print(f"revchain: {each.message}", file=sys.stderr)
     if not quiet:
         there = f", {found.resumed:,} of them from before" if found.resumed else ""
         if len(found) * len(found.found) <= MAX_SHOWN:
@@ -127,16 +133,7 @@ def _executor(address: str, workers: int | None, stack: ExitStack) -> Executor:
 
 def _bar(stack: ExitStack, points: int, quiet: bool) -> Callable[[int, int], None]:
     """A bar after a while, where there is a terminal."""
-    console = Console(stderr=True)
-    columns = (
-        TextColumn("points"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("{task.percentage:3.0f} %"),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    )
-    bar = Progress(*columns, console=console, transient=True, disable=quiet or not console.is_terminal)
+    bar = bar_of("points", Console(stderr=True), quiet, MofNCompleteColumn(), TimeRemainingColumn())
     task = bar.add_task("points", total=points)
     began = time.monotonic()
     started: list[bool] = []

@@ -143,14 +143,7 @@ def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> Bell
     """
     place = "revchain.bell_and_clapper"
     height, ratio, silent, mismatch, present, derivative = _core.bell_and_clapper(compiled(place, chain))
-    return BellAndClapper._made(
-        None,
-        system=chain,
-        gravity=one_positive(place, "gravity", gravity),
-        conical_height=np.asarray(height),
-        inclination_ratio=np.asarray(ratio),
-        silent_height=silent,
-        mismatch=mismatch,
-        present=dict(zip(_core.BELL_DATA, present, strict=True)),
-        derivative=dict(zip(_core.BELL_DATA, derivative, strict=True)),
-    )
+    found = {"conical_height": np.asarray(height), "inclination_ratio": np.asarray(ratio), "silent_height": silent}
+    found |= {"mismatch": mismatch, "present": dict(zip(_core.BELL_DATA, present, strict=True))}
+    found["derivative"] = dict(zip(_core.BELL_DATA, derivative, strict=True))
+    return BellAndClapper._made(None, system=chain, gravity=one_positive(place, "gravity", gravity), **found)

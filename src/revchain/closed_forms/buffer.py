@@ -75,13 +75,7 @@ class BufferImpact(Solved):
     _solver = _core.BufferImpact
 
     def __init__(
-        self,
-        *,
-        front_mass: float,
-        rear_mass: float,
-        buffer_stiffness: float,
-        coupling_stiffness: float,
-        speed: float,
+        self, *, front_mass: float, rear_mass: float, buffer_stiffness: float, coupling_stiffness: float, speed: float
     ) -> None:
         masses = {"front_mass": front_mass, "rear_mass": rear_mass}
         springs = {"buffer_stiffness": buffer_stiffness, "coupling_stiffness": coupling_stiffness}

@@ -17,8 +17,8 @@ from .. import _core
 from ..systems.numbers import STANDARD_GRAVITY, positives
 
 __all__ = [
-    "angular_speed", "gravity", "height", "height_from_period", "height_from_revolutions_per_second",
-    "height_from_seconds_pendulum", "period", "revolutions_per_second",
+    "angular_speed", "gravity", "height", "height_from_period", "height_from_seconds_pendulum", "period",
+    "revolutions_per_second",
 ]
 
 
@@ -41,8 +41,7 @@ def angular_speed(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     >>> float(rc.conical_pendulum.angular_speed(2.4525, gravity=9.81))
     2.0
     """
-    place = "revchain.conical_pendulum.angular_speed"
-    return _core.conical_pendulum_angular_speed(*positives(place, height=height, gravity=gravity))
+    return _core.conical_pendulum_angular_speed(*positives("revchain.conical_pendulum.angular_speed", **locals()))
 
 
 def period(height: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -98,7 +97,7 @@ def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     Parameters
     ----------
     angular_speed, gravity : array_like
-        Positive; the speed in rad/s.
+        Positive; the speed in rad/s, or a text such as "30 rpm" or "0.5 Hz".
 
     Returns
     -------
@@ -111,8 +110,7 @@ def height(angular_speed: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> A
     >>> float(rc.conical_pendulum.height(2.0, gravity=9.81))
     2.4525
     """
-    place = "revchain.conical_pendulum.height"
-    return _core.conical_pendulum_height(*positives(place, angular_speed=angular_speed, gravity=gravity))
+    return _core.conical_pendulum_height(*positives("revchain.conical_pendulum.height", **locals()))
 
 
 def height_from_period(period: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY) -> Any:
@@ -160,32 +158,6 @@ def height_from_seconds_pendulum(seconds_pendulum: ArrayLike, period: ArrayLike)
     place = "revchain.conical_pendulum.height_from_seconds_pendulum"
     given = positives(place, seconds_pendulum=seconds_pendulum, period=period)
     return _core.conical_pendulum_height_from_seconds_pendulum(*given)
-
-
-def height_from_revolutions_per_second(
-    revolutions_per_second: ArrayLike, gravity: ArrayLike = STANDARD_GRAVITY
-) -> Any:
-    """Return the conical height of so many turns per second, ``gravity / (2 pi revolutions_per_second)**2`` (1).
-
-    Parameters
-    ----------
-    revolutions_per_second, gravity : array_like
-        Positive; the turns in 1/s.
-
-    Returns
-    -------
-    float or ndarray
-        In the unit of length of `gravity`, broadcast shape, within 3 ulp.
-
-    Examples
-    --------
-    >>> import revchain as rc
-    >>> round(float(rc.conical_pendulum.height_from_revolutions_per_second(1.0)), 6)
-    0.248405
-    """
-    place = "revchain.conical_pendulum.height_from_revolutions_per_second"
-    given = positives(place, revolutions_per_second=revolutions_per_second, gravity=gravity)
-    return _core.conical_pendulum_height_from_revolutions_per_second(*given)
 
 
 def gravity(length: ArrayLike, period: ArrayLike = 2.0) -> Any:

@@ -50,21 +50,21 @@ class Incomplete(NamedTuple):
     D: Any
 
 
-def _arrays(place: str, modulus: Any, complementary_modulus: Any, **others: ArrayLike) -> list[Floats]:
-    """The others, then both moduli, nan for the one not given, broadcast to one shape."""
-    moduli = dict(zip(MODULI, (modulus, complementary_modulus), strict=True))
-    if sum(value is None for value in moduli.values()) != 1:
+def _checked(function: str, given: dict[str, Any]) -> list[Floats]:
+    """All parameters of a function of this module, nan for the modulus not given, broadcast to one shape."""
+    place = f"revchain.elliptic.{function}"
+    absent = [name for name in MODULI if given[name] is None]
+    if len(absent) != 1:
         raise ValueError(f"{place}: give exactly one of modulus and complementary_modulus")
-    result = {name: floats(place, name, value) for name, value in others.items()}
+    result = {name: floats(place, name, nan if name in absent else value) for name, value in given.items()}
     for name, array in result.items():
-        if name == "characteristic":
+        if name in MODULI:
+            wrong = ~((array >= 0) & (array <= 1)) & (name not in absent)
+            refuse_where(wrong, array, f"{place}: {name} must lie between 0 and 1")
+        elif name == "characteristic":
             refuse_where(~(array < 1), array, f"{place}: characteristic must be less than 1")
         else:
             refuse_where(~np.isfinite(array), array, f"{place}: {name} must be finite")
-    for name, value in moduli.items():
-        array = result[name] = floats(place, name, nan if value is None else value)
-        wrong = ~((array >= 0) & (array <= 1)) & (value is not None)
-        refuse_where(wrong, array, f"{place}: {name} must lie between 0 and 1")
     return beside(place, **result)
 
 
@@ -92,10 +92,9 @@ def jacobi(u: ArrayLike, *, modulus: float | None = None, complementary_modulus:
     >>> round(float(f.sn), 12), round(float(f.cn**2 + f.sn**2), 12)
     (0.81409141238, 1.0)
     """
-    place = "revchain.elliptic.jacobi"
-    moduli = zip(MODULI, (modulus, complementary_modulus), strict=True)
-    single = [None if value is None else real(place, name, value) for name, value in moduli]
-    argument, *both = _arrays(place, *single, u=u)
+    for name, value in (("modulus", modulus), ("complementary_modulus", complementary_modulus)):
+        real("revchain.elliptic.jacobi", name, 0 if value is None else value)
+    argument, *both = _checked("jacobi", {"u": u, "modulus": modulus, "complementary_modulus": complementary_modulus})
     return Jacobi(*numbers(_core.elliptic_jacobi(argument, *map(float, both))))
 
 
@@ -120,8 +119,7 @@ def complete(*, modulus: ArrayLike | None = None, complementary_modulus: ArrayLi
     >>> round(float(rc.elliptic.complete(complementary_modulus=1e-100).K), 10)
     231.6448036605
     """
-    place = "revchain.elliptic.complete"
-    return Complete(*numbers(_core.elliptic_complete(*_arrays(place, modulus, complementary_modulus))))
+    return Complete(*numbers(_core.elliptic_complete(*_checked("complete", locals()))))
 
 
 def incomplete(
@@ -148,9 +146,7 @@ def incomplete(
     >>> round(float(rc.elliptic.incomplete(1.0, modulus=0.6).F), 12)
     1.056273109822
     """
-    place = "revchain.elliptic.incomplete"
-    given = _arrays(place, modulus, complementary_modulus, amplitude=amplitude)
-    return Incomplete(*numbers(_core.elliptic_incomplete(*given)))
+    return Incomplete(*numbers(_core.elliptic_incomplete(*_checked("incomplete", locals()))))
 
 
 def complete_pi(
@@ -176,16 +172,11 @@ def complete_pi(
     >>> round(float(rc.elliptic.complete_pi(-2.0, modulus=0.0)), 12)
     0.906899682117
     """
-    place = "revchain.elliptic.complete_pi"
-    given = _arrays(place, modulus, complementary_modulus, characteristic=characteristic)
-    return _core.elliptic_complete_pi(*given)
+    return _core.elliptic_complete_pi(*_checked("complete_pi", locals()))
 
 
 def incomplete_pi(
-    characteristic: ArrayLike,
-    amplitude: ArrayLike,
-    *,
-    modulus: ArrayLike | None = None,
+    characteristic: ArrayLike, amplitude: ArrayLike, *, modulus: ArrayLike | None = None,
     complementary_modulus: ArrayLike | None = None,
 ) -> Any:
     """Return the integral of the third kind up to an amplitude.
@@ -208,6 +199,4 @@ def incomplete_pi(
     >>> round(float(rc.elliptic.incomplete_pi(0.5, 1.0, modulus=0.6)), 12)
     1.253085614008
     """
-    place = "revchain.elliptic.incomplete_pi"
-    given = _arrays(place, modulus, complementary_modulus, characteristic=characteristic, amplitude=amplitude)
-    return _core.elliptic_incomplete_pi(*given)
+    return _core.elliptic_incomplete_pi(*_checked("incomplete_pi", locals()))

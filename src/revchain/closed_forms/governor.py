@@ -81,14 +81,8 @@ class GovernorMotion(Solved):
     _row = "motion"
 
     def __init__(
-        self,
-        *,
-        angular_speed: float,
-        pendulum_length: float,
-        angle: float,
-        angle_rate: float = 0.0,
-        gravity: float = STANDARD_GRAVITY,
-        axial_inertia: float = 0.0,
+        self, *, angular_speed: float, pendulum_length: float, angle: float, angle_rate: float = 0.0,
+        gravity: float = STANDARD_GRAVITY, axial_inertia: float = 0.0,
     ) -> None:
         link = {"pendulum_length": pendulum_length, "gravity": gravity, "axial_inertia": axial_inertia}
         start = {"angle": angle, "angle_rate": angle_rate}
@@ -150,11 +144,5 @@ class GovernorMotion(Solved):
         return self.regime
 
     def _table(self) -> dict[str, str]:
-        return {
-            "period": "period (s)",
-            "least_angle": "least angle (°)",
-            "greatest_angle": "greatest angle (°)",
-            "modulus": "modulus",
-            "complementary_modulus": "",
-            "regime": "",
-        }
+        angles = {"least_angle": "least angle (°)", "greatest_angle": "greatest angle (°)"}
+        return {"period": "period (s)", **angles, "modulus": "modulus", "complementary_modulus": "", "regime": ""}

@@ -150,8 +150,7 @@ def whirling_thread(arm: ArrayLike, height: ArrayLike, radius: ArrayLike) -> Any
     >>> float(rc.plummet.whirling_thread(arm=1.0, height=2.0, radius=2.0))
     3.0
     """
-    place = "revchain.plummet.whirling_thread"
-    return _core.whirling_thread(*positives(place, arm=arm, height=height, radius=radius))
+    return _core.whirling_thread(*positives("revchain.plummet.whirling_thread", **locals()))
 
 
 def carried_response(length: ArrayLike, height: ArrayLike) -> Any:

@@ -118,16 +118,9 @@ class SkippingRope(Solved):
     _row = "rope"
 
     def __init__(
-        self,
-        *,
-        span: float | None = None,
-        length: float | None = None,
-        slack: float | None = None,
-        sag: float | None = None,
-        angular_speed: float | None = None,
-        tension: float | None = None,
-        half_waves: int = 1,
-        gravity: float = STANDARD_GRAVITY,
+        self, *, span: float | None = None, length: float | None = None, slack: float | None = None,
+        sag: float | None = None, angular_speed: float | None = None, tension: float | None = None,
+        half_waves: int = 1, gravity: float = STANDARD_GRAVITY,
     ) -> None:
         place = "revchain.SkippingRope"
         lengths = {"span": span, "length": length, "slack": slack, "sag": sag}
@@ -287,12 +280,7 @@ class TortuousRope(Solved):
     _row = "rope"
 
     def __init__(
-        self,
-        *,
-        least_radius: float,
-        greatest_radius: float,
-        angular_speed: float,
-        tension: float,
+        self, *, least_radius: float, greatest_radius: float, angular_speed: float, tension: float,
         gravity: float = STANDARD_GRAVITY,
     ) -> None:
         radii = {"least_radius": least_radius, "greatest_radius": greatest_radius}
@@ -335,7 +323,6 @@ class TortuousRope(Solved):
         Returns
         -------
         matplotlib.axes.Axes
-
 
         Examples
         --------

@@ -162,11 +162,7 @@ class FunicularPolygon(Result):
 
 
 def funicular_polygon(
-    weight: ArrayLike,
-    place: ArrayLike,
-    horizontal_tension: float,
-    *,
-    first_height: float = 0.0,
+    weight: ArrayLike, place: ArrayLike, horizontal_tension: float, *, first_height: float = 0.0,
     last_height: float = 0.0,
 ) -> FunicularPolygon:
     """Return the polygon in which weights hang on a thread between two supports.

@@ -490,14 +490,8 @@ def standing_link_shape(thread: float, centroid: float, radius_of_gyration: floa
 
 
 def jointed_links(
-    *,
-    lower_weight: ArrayLike,
-    lower_centroid: ArrayLike,
-    lower_radius_of_gyration: ArrayLike,
-    upper_weight: ArrayLike,
-    upper_length: ArrayLike,
-    upper_centroid: ArrayLike,
-    upper_radius_of_gyration: ArrayLike,
+    *, lower_weight: ArrayLike, lower_centroid: ArrayLike, lower_radius_of_gyration: ArrayLike,
+    upper_weight: ArrayLike, upper_length: ArrayLike, upper_centroid: ArrayLike, upper_radius_of_gyration: ArrayLike,
 ) -> Floats:
     """Return both conical heights of any two links jointed together, such as a bell and its clapper.
 
@@ -531,15 +525,8 @@ def jointed_links(
 
 
 def jointed_links_shapes(
-    *,
-    lower_weight: float,
-    lower_centroid: float,
-    lower_radius_of_gyration: float,
-    upper_weight: float,
-    upper_length: float,
-    upper_centroid: float,
-    upper_radius_of_gyration: float,
-    height: float,
+    *, lower_weight: float, lower_centroid: float, lower_radius_of_gyration: float, upper_weight: float,
+    upper_length: float, upper_centroid: float, upper_radius_of_gyration: float, height: float,
 ) -> list[PairShape]:
     """Return all hanging steady shapes of two jointed links at a speed, at any inclination.
 
@@ -547,10 +534,8 @@ def jointed_links_shapes(
     ----------
     lower_weight, lower_centroid, lower_radius_of_gyration : float
         As in `jointed_links`.
-    upper_weight, upper_length, upper_centroid, upper_radius_of_gyration : float
-        As in `jointed_links`.
-    height : float
-        Conical height, positive.
+    upper_weight, upper_length, upper_centroid, upper_radius_of_gyration, height : float
+        As in `jointed_links`; conical height, positive.
 
     Returns
     -------
@@ -570,13 +555,8 @@ def jointed_links_shapes(
 
 
 def pin_of_silent_clapper(
-    *,
-    bell_weight: ArrayLike,
-    bell_centroid: ArrayLike,
-    bell_radius_of_gyration: ArrayLike,
-    clapper_weight: ArrayLike,
-    clapper_centroid: ArrayLike,
-    clapper_radius_of_gyration: ArrayLike,
+    *, bell_weight: ArrayLike, bell_centroid: ArrayLike, bell_radius_of_gyration: ArrayLike,
+    clapper_weight: ArrayLike, clapper_centroid: ArrayLike, clapper_radius_of_gyration: ArrayLike,
 ) -> Any:
     """Return how far below its support a bell must carry the pin of its clapper to stay silent.
 

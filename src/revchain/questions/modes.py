@@ -278,7 +278,7 @@ def _of_cord_or_held(
         _refuse(place, asked, "is for a Chain; the heights of a Cord have closed forms or power series")
         if count == "all":
             raise ValueError(f"{place}: a cord has infinitely many modes; give count, or a window that ends")
-        wanted = None if heights or speeds else count_of(place, count, 10)
+        wanted = None if heights or speeds else count_of(place, count, 10, each=24)
         of_cord = _core.cord_modes(system._under(gravity), first, wanted, heights, speeds, rtol, progress)
         return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
     if not isinstance(system, Held):
@@ -315,15 +315,15 @@ def straight(place: str, held: Held, gravity: float) -> _core.Held:
     return held._under(gravity)
 
 
-def count_of(place: str, count: int | str | None, default: int) -> int | None:
-    """How many; None for all."""
+def count_of(place: str, count: int | str | None, default: int, each: int = 0) -> int | None:
+    """How many, of so many bytes each; None for all."""
     if count is None:
         return default
     if isinstance(count, str):
         if count != "all":
             raise ValueError(f'{place}: count must be a number or "all", got {shown(count)}')
         return None
-    return checked_count(place, "count", count)
+    return checked_count(place, "count", count, each)
 
 
 def _refuse(place: str, given: dict[str, Any], reason: str) -> None:

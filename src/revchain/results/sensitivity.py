@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from .. import _core
 from ..systems.chain import checked, like
 from ..systems.numbers import Floats, Whole, floats, shown
+from ..systems.units import unpacked
 from .base import Field, Result
 from .sheet import Column, Sheet
 
@@ -224,7 +225,7 @@ def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty
         given["mass"] = like(place, modes.system, given["mass"], given["weight"])
     deviations: list[Any] = []
     for name in DATA:
-        value = given[name]
+        value = unpacked(given[name])
         if isinstance(value, str):
             value = [value] * size
         if isinstance(value, np.ndarray) and value.dtype.kind == "U":

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import numpy as np
@@ -134,6 +135,9 @@ def _response(table: AskResponse, system: System | None, numbers: Numbers) -> Gi
 
 def _spread(name: str, given: Any, sign: str, numbers: Numbers) -> Any:
     """One number or an array of them."""
+    if isinstance(given, str) and (ends := re.fullmatch(r"(\S.*?)\s+to\s+(.+)", given)):
+        numbers.refuse(name, f'a range is written {{from = "{ends[1]}", to = "{ends[2]}"}}, got "{given}"')
+        return np.nan
     if isinstance(given, Spread):
         first = numbers.value(f"{name}.from", given.first, name, sign)
         last = numbers.value(f"{name}.to", given.last, name, sign)

@@ -20,6 +20,7 @@ from .tables import MOST_LINKS, Displaced, Flywheel, Link, Support, TaperedChain
 from .tables import Cord as CordTable
 
 Weighed = Link | Whole | Flywheel | Displaced | Support
+Links = list[tuple[int, Link]]  # lowest first, each with its number in the file
 
 
 class Numbers:
@@ -116,10 +117,10 @@ def whole(table: UniformChain | TaperedChain | CordTable, numbers: Numbers) -> C
         fixed: dict[str, Any] = {numbers.heavy: tip}
         return chain.with_body(**fixed) if tip else chain
     except ValueError as error:
-        raise SceneError(numbers.source, numbers.table, without_place(error)) from None
+        raise of_file(error, numbers.source, numbers.table) from None
 
 
-def chain_of_links(links: list[tuple[int, Link]], numbers: Numbers) -> Chain | None:
+def chain_of_links(links: Links, numbers: Numbers) -> Chain | None:
     """The chain of the links, lowest first, each with its number in the file; None as of `whole`."""
     if sum(link.repeat for _, link in links) > MOST_LINKS:
         raise SceneError(numbers.source, "links", f"must be at most {MOST_LINKS:,} together with their repeats")
@@ -153,11 +154,7 @@ def chain_of_links(links: list[tuple[int, Link]], numbers: Numbers) -> Chain | N
                 chain = chain.clamped(int(firsts[nth]))
         return chain
     except ValueError as error:
-        reason = without_place(error)
-        if (found := re.match(r"links\[(\d+)\]: ", reason)) is None:
-            raise SceneError(numbers.source, "links", reason) from None
-        nth = int(np.searchsorted(np.cumsum(repeats), int(found[1]), side="right"))
-        raise SceneError(numbers.source, f"links[{links[nth][0]}]", reason[found.end() :]) from None
+        raise of_file(error, numbers.source, "links", links) from None
 
 
 def _check_joints(link: Link, tip: float, above: list[Link], numbers: Numbers) -> None:
@@ -206,3 +203,22 @@ def _body(link: Link, numbers: Numbers) -> tuple[float, float, float, float]:
 def without_place(error: object) -> str:
     """The sentence of an error, without the name of a function."""
     return re.sub(r"^revchain(::|\.)[\w:.]+?: ", "", str(error))
+
+
+def in_file(sentence: str, links: Links) -> str:
+    """A sentence of the core, which counts links from the free end with their repeats, with the links of the file."""
+    ends = np.cumsum([link.repeat for _, link in links])
+
+    def there(found: re.Match[str]) -> str:
+        index, link = links[int(np.searchsorted(ends, int(found[1]), side="right"))]
+        return f"links[{index}]" + (f' ("{link.name}")' if link.name else "")
+
+    return re.sub(r"links\[(\d+)\]", there, sentence) if links else sentence
+
+
+def of_file(error: ValueError, source: str, key: str, links: Links | None = None) -> SceneError:
+    """An error of the core as one of the file, with the key of the link that it names; `key` if it names none."""
+    sentence = in_file(without_place(error), links or [])
+    if links and sentence.startswith("links[") and ": " in sentence:
+        key, _, sentence = sentence.partition(": ")
+    return SceneError(source, key, sentence)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is raised for a scene that cannot be read."""
+"""What is raised for a scene that cannot be read or answered."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Problem(NamedTuple):
 
 
 class SceneError(ValueError):
-    """A scene or study that cannot be read: every error found in it, each with its place in the file.
+    """A scene or study that cannot be read or answered: every error found in it, each with its place in the file.
 
     Attributes
     ----------
@@ -45,8 +45,10 @@ class SceneError(ValueError):
 
     def _placed(self, place: Callable[[str], tuple[int, int]]) -> SceneError:
         """The same error with the line and column of each key, as `place` tells them."""
-        found = (each if each.line else Problem(*place(each.key), *each[2:]) for each in self.problems)
-        return SceneError(self.source, problems=sorted(found))
+        syntax = {each[:2] for each in self.problems if each.line}
+        found = [each if each.line else Problem(*place(each.key), *each[2:]) for each in self.problems]
+        right = [each for one, each in zip(self.problems, found, strict=True) if one.line or each[:2] not in syntax]
+        return SceneError(self.source, problems=sorted(right))  # without what follows from a mark that is put right
 
     def __reduce__(self) -> tuple[Any, ...]:
         return SceneError, (self.source, "", "", self.problems)

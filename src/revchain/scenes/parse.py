@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From the text of a scene file to checked data; everything that is wrong with it is found at once."""
+"""From the text of a scene or study file to checked data; everything that is wrong with it is found at once."""
 
 from __future__ import annotations
 
@@ -19,13 +19,14 @@ import msgspec
 
 from ..systems.numbers import file_path
 from ..systems.units import SI, si_value
+from .ask import QUESTIONS
 from .error import Problem, SceneError
-from .places import places_in
-from .tables import SYSTEMS, fields_of
+from .places import joined, places_in
+from .tables import BESIDE, SYSTEMS, Link, fields_of
 
 Kind = TypeVar("Kind")
 MOST_DIGITS = 400  # more than the largest float has
-MOST_REPAIRS = 50
+MOST_REPAIRS, MOST_COLUMNS = 50, 1000  # of a file, and of a line that is put right
 
 
 def text_of(path: str | os.PathLike[str]) -> str:
@@ -39,39 +40,37 @@ def text_of(path: str | os.PathLike[str]) -> str:
         raise SceneError(source, "", f"is not UTF-8 text (byte {error.start + 1})") from None
 
 
-def read(path: str | os.PathLike[str], problems: list[Problem] | None = None) -> Any:
-    """The raw content of a .toml or .json file.
+@contextmanager
+def opened(path: str | os.PathLike[str]) -> Iterator[tuple[Any, list[Problem]]]:
+    """The raw content of a .toml or .json file, and the commonest errors of its syntax, which are put right.
 
-    With `problems` the commonest errors of syntax are noted there and put right, so that what follows is read, too.
+    Every problem that is found with this file inside the with statement gets its line and column.
     """
-    text, source = text_of(path), os.fspath(path)
-    found: list[Problem] = []
+    lines, problems = text_of(path).split("\n"), list[Problem]()
+    source = os.fspath(path)
     try:
-        raw = json.loads(text, parse_int=_whole) if is_json(source) else _toml(text, source, found)
-    except json.JSONDecodeError as error:
-        raise SceneError(source, problems=[Problem(error.lineno, error.colno, "", error.msg)]) from None
+        raw, moved = (_json if is_json(source) else _toml)(lines, problems)
     except (RecursionError, ValueError) as error:  # ValueError: an integer of thousands of digits
-        raise error if isinstance(error, SceneError) else SceneError(source, "", f"cannot be read: {error}") from None
-    if found and problems is None:
-        raise SceneError(source, problems=found)
-    if problems is not None:
-        problems += found
-    return raw
+        reason = Problem(0, 0, "", f"cannot be read: {error}")
+        raise SceneError(source, problems=sorted(problems) or [reason]) from None
+    try:
+        yield raw, problems
+    except SceneError as error:
+        if error.source != source:
+            raise
+        place = places_in("\n".join(lines), is_json(source))
+
+        def in_file(key: str) -> tuple[int, int]:
+            line, column = place(key)
+            for at, start, more in reversed(moved):
+                column -= more if at == line and column > start + 1 else 0
+            return line, column
+
+        raise error._placed(in_file) from None
 
 
 def is_json(source: str) -> bool:
     return source.lower().endswith(".json")
-
-
-@contextmanager
-def placed(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Give every problem that is found with this file its line and column."""
-    try:
-        yield
-    except SceneError as error:
-        if error.source != os.fspath(path) or error.reason.startswith(("cannot be read", "is not UTF-8")):
-            raise
-        raise error._placed(places_in(text_of(path), is_json(error.source))) from None
 
 
 def _whole(text: str) -> int:
@@ -81,61 +80,128 @@ def _whole(text: str) -> int:
     return int(text)
 
 
-def _toml(text: str, source: str, problems: list[Problem]) -> Any:
-    """The content of a TOML file, and what had to be put right for it."""
-    lines = text.split("\n")
+Moved = list[tuple[int, int, int]]  # lines that are put right: line, from where on it has become longer, and by what
+
+
+def _json(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
+    """The content of a JSON file; none of its errors can be put right."""
+    try:
+        return json.loads("\n".join(lines), parse_int=_whole), []
+    except json.JSONDecodeError as error:
+        problems.append(Problem(error.lineno, error.colno, "", error.msg))
+        raise
+
+
+def _toml(lines: list[str], problems: list[Problem]) -> tuple[Any, Moved]:
+    """The content of a TOML file, whose lines are put right; a ValueError where one cannot be."""
+    moved: Moved = []
     while True:
         try:
-            return tomllib.loads("\n".join(lines))
+            return tomllib.loads("\n".join(lines)), moved
         except tomllib.TOMLDecodeError as error:
             line, column, reason = _place_of_toml_error(str(error), lines)
-            repaired = _repaired(lines[line - 1])
-            if repaired is None or len(problems) >= MOST_REPAIRS:
-                raise SceneError(source, problems=sorted([*problems, Problem(line, column, "", reason)])) from None
-            lines[line - 1], at, reason = repaired
-            problems.append(Problem(line, at, "", reason))
+        right, wrong = lines.copy(), lines[line - 1]
+        if reason == LINKS_TWICE:
+            right = [re.sub(r"^(\s*)\[\[?links\]+", r"\1[[links]]", each) for each in lines]
+        elif len(wrong) <= MOST_COLUMNS and (repaired := _repaired(wrong)):
+            right[line - 1], column, reason = repaired
+            moved.append((line, len(os.path.commonprefix([wrong, repaired[0]])), len(repaired[0]) - len(wrong)))
+        problems.append(Problem(line, column, "", reason))
+        if len(problems) > MOST_REPAIRS or right == lines:
+            raise ValueError(reason)
+        lines[:] = right
+
+
+_IN_PLAIN_WORDS = {
+    "Invalid value": "a value is missing here, or is none: write a number, or text in quotes",
+    "Invalid statement": "neither key = value nor [table]",
+    "Invalid initial character for a key part": "no key begins here: an inline table {...} has one line",
+    "Expected '=' after a key in a key/value pair": "an equals sign is missing",
+    "Expected newline or end of document after a statement": "the line should end here: each key has a line of its own",
+    "Unclosed array": "a comma or the closing bracket ] is missing",
+    "Unclosed inline table": "a comma or the closing brace } is missing",
+    "Unterminated string": "the closing quotes are missing",
+    "Expected \"'\"": "the closing quotes are missing",
+    "Expected \"'''\"": "the closing quotes are missing",
+    "Expected ']' at the end of a table declaration": "the closing bracket ] is missing",
+    "Expected ']]' at the end of an array declaration": "the closing brackets ]] are missing",
+}
+LINKS_TWICE = "[links] is there twice: write [[links]], with two brackets, above each link"
 
 
 def _place_of_toml_error(message: str, lines: list[str]) -> tuple[int, int, str]:
     found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", message, re.DOTALL)
+    reason = message if found is None else _IN_PLAIN_WORDS.get(found[1], found[1])
     if found is None or not found[2]:
-        return len(lines), len(lines[-1]) + 1, f"{found[1] if found else message} (the file ends)"
-    reason = re.sub(r"^Cannot (overwrite a value|declare \(.*\) twice|redefine.*)$", "is there twice", found[1])
-    double = re.match(r"\s*\[(links|link)\]", lines[int(found[2]) - 1])
-    if reason == "is there twice" and double:
-        reason = "[links] is there twice: write [[links]], with two brackets, above each link"
+        return len(lines), len(lines[-1]) + 1, f"{reason} (the file ends)"
+    if (found[2], found[3], lines[0][:1]) == ("1", "1", "{"):
+        reason = "is JSON: give the file a name that ends in .json"
+    reason = re.sub(r"^Cannot (overwrite a value|declare \(.*\) twice|redefine.*)$", "is there twice", reason)
+    if reason == "is there twice" and re.match(r"\s*\[\[?links\]", lines[int(found[2]) - 1]):
+        reason = LINKS_TWICE
     return int(found[2]), int(found[3]), reason
 
 
-_END = r"(?=\s*(?:#.*|[,}\]].*)?$)"
-_REPAIRS = tuple(  # what is wrong behind "key =", what to write instead, and the sentence
-    (re.compile(rf"(?P<key>[\w.-]+)(?P<sign>\s*=\s*)(?P<wrong>{pattern})"), instead, sentence)
-    for pattern, instead, sentence in (
-        (r"(?P<a>[+-]?\d+),(?P<b>\d+)(?=\s*(?:#.*)?$)", r"\g<a>.\g<b>", "the decimal mark is a point"),
+_LINE = r"(?=\s*(?:#.*)?$)"  # the line ends there
+_END = r"(?=\s*(?:#.*|[,}\]].*)?$)"  # or what is inside brackets
+_KEY = r"(?P<key>[\w.-]+)\s*=\s*"
+_ITEM = rf"(?:{_KEY}|[\[,]\s*|^\s*)"
+_WHOLE = rf"^\s*{_KEY}"
+_UNIT = r"[a-zA-Zµ°%][\w/^*µ°% -]*?"
+_COMMA = r"(?P<a>[+-]?\d+),(?P<b>\d+)"
+_NEXT = r"[-+.\d\0][^,=\[\]{}#\"']*?"  # of a list
+_WORD = r"(?!true|false|inf|nan)(?P<a>[A-Za-z]"
+_QUOTES = "“”„‟«»‘’"
+_REPAIRS = tuple(  # what stands before what is wrong, that itself, what to write instead, and the sentence
+    (re.compile(rf"{before}(?P<wrong>{pattern})"), instead, sentence)
+    for before, pattern, instead, sentence in (
+        (_KEY, rf"{_COMMA}(?={_LINE}|\s*\}}|\s*,\s*[\w.-]+\s*=)", "{a}.{b}", "the decimal mark is a point"),
+        (_KEY, rf"{_COMMA} *(?P<c>{_UNIT}){_END}", '"{a}.{b} {c}"', "the decimal mark is a point"),
+        (_WHOLE, rf"(?P<a>{_NEXT}(?:,\s*{_NEXT})+){_LINE}", "[{a}]", "a list is in brackets"),
         (
-            r"(?P<a>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) *(?P<b>[a-zA-Zµ°%][\w/^*µ°% -]*?)" + _END,
-            r'"\g<a> \g<b>"',
+            _ITEM,
+            rf"(?P<a>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) *(?P<b>{_UNIT}){_END}",
+            '"{a} {b}"',
             "a number with a unit is text, in quotes",
         ),
-        (rf"True{_END}", "true", "true is written small"),
-        (rf"False{_END}", "false", "false is written small"),
-        (rf"(?P<a>\.\d+){_END}", r"0\g<a>", "a number has a digit before its point"),
-        (rf"(?P<a>[+-]?\d+)\.{_END}", r"\g<a>.0", "a number has a digit after its point"),
-        (rf"(?!true|false|inf|nan)(?P<a>[A-Za-z][\w -]*?){_END}", r'"\g<a>"', "text is in quotes"),
+        (_ITEM, rf"True{_END}", "true", "true is written small"),
+        (_ITEM, rf"False{_END}", "false", "false is written small"),
+        (_ITEM, rf"(?P<a>\.\d+){_END}", "0{a}", "a number has a digit before its point"),
+        (_ITEM, rf"(?P<a>[+-]?\d+)\.{_END}", "{a}.0", "a number has a digit after its point"),
+        (_WHOLE, rf"{_WORD}[^\"'\0#=\[\]{{}}]*?){_LINE}", '"{a}"', "text is in quotes"),
+        (_KEY, rf"{_WORD}[\w -]*?){_END}", '"{a}"', "text is in quotes"),
+        (_KEY, rf"[{_QUOTES}](?P<a>[^{_QUOTES}]*)[{_QUOTES}]", '"{a}"', "quotes are straight"),
+        (_WHOLE, rf"(?P<q>[\"'])(?P<a>(?:(?!(?P=q))[^\0#])*?)[\"']?{_LINE}", '"{a}"', "a quote is missing"),
+        (_ITEM, rf"[\"'](?P<a>[^\"'\0#,}}\]]*?){_END}", '"{a}"', "a quote is missing"),
+        (_KEY, rf"(?P<a>[^\"'\0\s=,\[{{][^\"'\0=]*?)[\"']{_END}", '"{a}"', "a quote is missing"),
+        (_WHOLE, rf"(?P<a>[^,;#\[{{]+?)\s*[,;]{_LINE}", "{a}", "a line ends without comma and semicolon"),
+        (_KEY, r"(?P<a>\d{1,3})[ '](?P<b>\d{3})(?:[ '](?P<c>\d{3}))?(?!\d)", "{a}{b}{c}", "digits are not grouped"),
+        (_WHOLE, r"(?P<a>[^#]*?)\s*//(?P<b>.*)", "{a} #{b}", "a comment begins with #"),
+        (r"^\s*", r"//(?P<a>.*)", "#{a}", "a comment begins with #"),
     )
 )
+_PATHS = re.compile(r"(\s*\[?(?:vary\.)?)(\w+\[\d+\](?:\.\w+(?:\[\d+\])?)*)(\s*=.*|\]\s*(?:#.*)?)")
 
 
 def _repaired(line: str) -> tuple[str, int, str] | None:
     """The line without its error, the column of that, and the sentence; None for errors that are not common."""
-    if colon := re.match(r"\s*([A-Za-z_]+)\s*:\s*(?=[\d\"'\[{+-])", line):
-        right = f"{colon[1]} = {line[colon.end() :]}"
-        return right, colon.start(1) + 1, f"an equals sign is missing: write {right}"
+    if sign := re.match(r"\s*\"?([A-Za-z_]+)\"?(?:\s*(?::=?|==)\s*|\s+)(?=[\d\"'\[{+-])", line):
+        right = f"{sign[1]} = {line[sign.end() :]}"
+        return right, sign.start(1) + 1, f"an equals sign is missing: write {right}"
+    if (head := re.match(r"\s*(\[+)([\w.]+)(\]+)", line)) and (len(head[1]), len(head[3])) not in ((1, 1), (2, 2)):
+        right = f"[[{head[2]}]]" if head[2] == "links" else f"[{head[2]}]"
+        return right, head.start(3) + 1, f"brackets go in pairs: write {right}, not {head[0].strip()}"
+    if path := _PATHS.fullmatch(line):
+        right = f'{path[1]}"{path[2]}"{path[3]}'
+        return right, path.start(2) + 1, f'a path is in quotes: write "{path[2]}", not {path[2]}'
+    masked = re.sub(r"\"[^\"]*\"|'[^']*'", lambda text: "\0" * len(text[0]), line)
     for pattern, instead, sentence in _REPAIRS:
-        if found := pattern.search(re.sub(r"\"[^\"]*\"|'[^']*'", lambda text: "\0" * len(text[0]), line)):
-            right = found.expand(instead)
-            reason = f"{sentence}: write {found['key']} = {right}, not {found['wrong']}"
-            return line[: found.end("sign")] + right + line[found.end() :], found.start("key") + 1, reason
+        if found := pattern.search(masked):
+            parts = {name: line[slice(*found.span(name))] for name in found.groupdict()}
+            right, key = instead.format(**parts), parts.get("key", "")
+            reason = f"{sentence}: write {key and f'{key} = '}{right}, not {parts['wrong']}"
+            at = found.start("key" if key else "wrong") + 1
+            return line[: found.start("wrong")] + right + line[found.end("wrong") :], at, reason
     return None
 
 
@@ -173,7 +239,7 @@ def _table(raw: Any, kind: type, key: str, found: list[Problem]) -> Any:
     """A struct with what is right in `raw`; UNSET for what is no table."""
 
     def refuse(name: str, reason: str) -> None:
-        found.append(Problem(0, 0, f"{key}.{name}".strip("."), reason))
+        found.append(Problem(0, 0, joined(key, name) if name else key, reason))
 
     if not isinstance(raw, dict):
         refuse("", f"must be a table, got {written(raw)}")
@@ -184,7 +250,7 @@ def _table(raw: Any, kind: type, key: str, found: list[Problem]) -> Any:
         if not isinstance(name, str):
             refuse("", "every key must be text")
         elif name in names:
-            values[names[name].name] = _value(value, names[name].type, f"{key}.{name}".strip("."), found)
+            values[names[name].name] = _value(value, names[name].type, joined(key, name), found)
         else:
             refuse(name, f"unknown key; {_instead(name, kind)}")
     for name, field in names.items():
@@ -204,12 +270,15 @@ def _value(raw: Any, annotation: Any, key: str, found: list[Problem]) -> Any:
     structs = [part for part in _parts_of(annotation) if isinstance(part, type) and issubclass(part, msgspec.Struct)]
     lists = [part for part in _parts_of(annotation) if get_origin(part) is list and get_args(part)[0] in structs]
     if lists and isinstance(raw, list) and raw:
+        nothing = structs[0](**{field.name: msgspec.UNSET for field in fields_of(structs[0]) if field.required})
         items = [_table(item, structs[0], f"{key}[{k}]", found) for k, item in enumerate(raw)]
-        return [item for item in items if item is not msgspec.UNSET] or msgspec.UNSET
-    if any(get_origin(part) is dict for part in _parts_of(annotation)) and isinstance(raw, dict) and raw:
-        return {name: _table(each, structs[0], f'{key}."{name}"', found) for name, each in raw.items()}
-    if structs and not lists and isinstance(raw, dict):
+        return [nothing if item is msgspec.UNSET else item for item in items]  # so that the numbers of others hold
+    named = any(get_origin(part) is dict for part in _parts_of(annotation))
+    if structs and not lists and not named and isinstance(raw, dict):
         return _table(raw, structs[0], key, found)
+    if structs and not lists and isinstance(raw, dict) and raw:
+        tables = {name: _table(each, structs[0], joined(key, name), found) for name, each in raw.items()}
+        return {name: table for name, table in tables.items() if table is not msgspec.UNSET}
     try:
         return msgspec.convert(raw, _set(annotation))
     except (msgspec.ValidationError, OverflowError) as error:
@@ -232,27 +301,47 @@ def _set(annotation: Any) -> Any:
     return annotation
 
 
+_GYRATION = "give radius_of_gyration, the square root of inertia / mass, about the centre of gravity"
 INSTEAD = {
-    "inertia": "give radius_of_gyration, the square root of inertia / mass, about the centre of gravity",
-    "moment_of_inertia": "give radius_of_gyration, the square root of inertia / mass, about the centre of gravity",
-    "rpm": 'write angular_speed = "60 rpm"',
-    "frequency": 'write angular_speed = "1 Hz"',
-    "speed": 'write angular_speed = "60 rpm"',
+    "inertia": _GYRATION,
+    "moment_of_inertia": _GYRATION,
+    "rpm": 'write {speed} = "60 rpm"',
+    "frequency": 'write {speed} = "1 Hz"',
+    "speed": 'write {speed} = "60 rpm"',
     "m": "write mass",
     "l": "write length",
+    "g": "write gravity",
+    "n": "write count",
+    "k": "write stiffness",
+    "spring": "write stiffness",
+    "angle": "write offset, a list of lengths",
+    "units": 'numbers are in SI units, or text such as "20 mm"',
+    "samples": "belongs at the top of the study",
+    "min": "write from",
+    "max": "write to",
+    "num": "write steps",
+    "gaussian": "write normal",
     "density": "give the mass",
     "diameter": "give radius_of_gyration",
 }
 TABLES = {"links": "[[links]]"}
+EXAMPLES = {"vary": 'say what varies, such as vary."links[0].mass" = {values = [1, 2]}'}
 
 
 def _instead(name: str, kind: type) -> str:
     """What to write for an unknown key."""
     known = _known_keys(kind)
-    near = get_close_matches(name, known, n=1)
-    if not near and name.lower() in INSTEAD:
-        return INSTEAD[name.lower()]
-    return f"did you mean {TABLES.get(near[0], near[0])}?" if near else f"known keys: {', '.join(known)}"
+    if name in QUESTIONS and "ask" in known:
+        return f"write [ask.{name}]"
+    if name.lower() in INSTEAD:
+        return INSTEAD[name.lower()].format(speed="spin" if "spin" in known else "angular_speed")
+    if near := get_close_matches(name, known, n=1):
+        return f"did you mean {TABLES.get(near[0], near[0])}?"
+    if name in BESIDE:
+        return "belongs in [scene]" if "scene" in known else "belongs at the top of the file, above the first table"
+    if name in _known_keys(Link):
+        return "belongs in [[links]], to one of the links"
+    return f"known keys: {', '.join(known)}"
 
 
 def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> str:
@@ -265,26 +354,32 @@ def _reason(sentence: str, key: str, raw: Any, path: str, annotation: Any) -> st
         return "must " + {"above 0": "be positive", "at least 0": "not be negative"}.get(words, f"be {words}") + got
     parts = list(_parts_of(annotation))
     words_allowed = [str(word) for part in parts if get_origin(part) is Literal for word in get_args(part)]
+    if words_allowed and value in words_allowed:
+        return f"must be a list: write [{written(value)}]"
     if words_allowed:
         return choice(words_allowed, int in parts, value)
     if "array` of length" in sentence:
-        return f"must be a pair [low, high]{got}"
+        return f"must be a pair {'[mean, deviation]' if key.endswith('normal') else '[low, high]'}{got}"
     structs = any(isinstance(part, type) and issubclass(part, msgspec.Struct) for part in parts)
     lists = any(get_origin(part) in (list, tuple) for part in parts)
-    if isinstance(value, dict) and lists and structs and not path:
-        return f"is a list of tables: write [[{key}]], with two brackets, above each of them"
+    if not isinstance(value, list) and lists and structs and not path:
+        if isinstance(value, dict):
+            return f"is a list of tables: write [[{key}]], with two brackets, above each of them"
+        return f"must be tables{got}: write [[{key}]] above each of them, and below it mass = 1.0 and length = 0.5"
+    if sentence.endswith(" of length >= 1"):
+        return f"is empty: {EXAMPLES.get(key, 'give at least one')}"
     if isinstance(value, list) and value and structs and not lists:
         return f"is one table: write [{key}], with one pair of brackets"
-    quantity = key.rpartition(".")[2]
+    steps = re.findall(r"[a-z_]+", key)
+    quantity = next((step for step in reversed(steps) if step in SI), "length")
     numbers = any(isinstance(part, msgspec.Meta) and part.pattern for part in parts)
     if numbers and (path or not lists or (isinstance(value, str) and _is_number(annotation))):
         if isinstance(value, str):
             try:
-                si_value(value, quantity if quantity in SI else "length")
+                si_value(value, quantity)
             except ValueError as error:
                 return str(error)
-        example = SI.get(quantity, SI["length"])[2]
-        return f'must be a number, or a number and its unit such as "{example}"{got}'
+        return f'must be a number, or a number and its unit such as "{SI[quantity][2]}"{got}'
     if any(get_origin(part) is tuple for part in parts) and not path:
         return f'must be a pair [low, high]{got}; either end may be 0 or inf'
     if lists and not path:
@@ -360,6 +455,8 @@ def without_consequences(problems: Iterable[Problem]) -> list[Problem]:
         because = any(
             each.reason.startswith("unknown key") or each.key.rpartition(".")[2] in problem.reason for each in inside
         )
-        if not because and not any(each.key == problem.key != "" for each in kept):
+        there = [each for each in kept if ": line " not in each.reason]  # what is wrong with another file has one key
+        again = any(each.key == problem.key != "" for each in there)
+        if not because and not again:
             kept.append(problem)
     return kept

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable
+from json import dumps, loads
 
 _TOKEN = re.compile(
     r'"""(?:\\.|[^\\])*?"""|\'\'\'.*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\'|#[^\n]*|[\[\]{},=:\n]|[^\s\[\]{},=:#"\']+',
@@ -34,7 +35,7 @@ class _Scanner:
         """The parts of a dotted key; the token that ends it is read, too."""
         parts: list[str] = []
         while (word := self.token()[0]) and word not in ends:
-            parts += [word[1:-1]] if word[0] in "\"'" else [part for part in word.split(".") if part]
+            parts += [_unquoted(word)] if word[0] in "\"'" else [part for part in word.split(".") if part]
         return parts
 
     def value(self, path: str, ends: str = ",]}") -> None:
@@ -60,7 +61,7 @@ class _Scanner:
     def entry(self, path: str, at: int, ends: str = ",]}") -> None:
         """A key and its value."""
         for part in self.key("=:"):
-            path = _joined(path, part)
+            path = joined(path, part)
             self.places.setdefault(path, at)
         self.value(path, ends)
 
@@ -77,7 +78,7 @@ class _Scanner:
             table = ""
             parts = self.key("]")
             for nth, part in enumerate(parts, 1):
-                table = _joined(table, part)
+                table = joined(table, part)
                 self.places.setdefault(table, opens[1])
                 if listed and nth == len(parts):
                     counts[table] = counts.get(table, 0) + 1
@@ -87,8 +88,20 @@ class _Scanner:
             self.next += listed
 
 
-def _joined(path: str, part: str) -> str:
+def joined(path: str, part: str) -> str:
+    """A key path with one more key, in quotes unless it is a bare key of TOML."""
+    part = part if re.fullmatch(r"[A-Za-z0-9_-]+", part) else dumps(part, ensure_ascii=False)
     return f"{path}.{part}" if path else part
+
+
+def _unquoted(word: str) -> str:
+    try:
+        return str(loads(word))
+    except ValueError:  # 'text', or an escape that JSON does not have
+        return word[1:-1]
+
+
+_LAST = re.compile(r"""(^|\.)("(\\.|[^"\\])*"|[^."[]*)$|\[\d+\]$""")
 
 
 def places_in(text: str, json: bool) -> Callable[[str], tuple[int, int]]:
@@ -102,9 +115,9 @@ def places_in(text: str, json: bool) -> Callable[[str], tuple[int, int]]:
     starts = [0, *(match.end() for match in re.finditer("\n", text))]
 
     def place(key: str) -> tuple[int, int]:
-        key = re.sub(r' \("[^"]*"\)$', "", key)
+        key = re.sub(r' \(".*"\)$', "", key)
         while key and key not in places:
-            shorter = re.sub(r"(^|\.)[^.\[]*$|\[\d+\]$", "", key)
+            shorter = _LAST.sub("", key)
             key = "" if shorter == key else shorter
         at = places.get(key, 0)
         line = bisect_right(starts, at)

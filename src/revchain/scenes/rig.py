@@ -11,8 +11,7 @@ from msgspec import UNSET, UnsetType
 
 from ..systems import rig as systems
 from ..systems.chain import Chain
-from .chain import Numbers, without_place
-from .error import SceneError
+from .chain import Links, Numbers, of_file
 from .tables import Displaced, Flywheel, Link, Support
 
 
@@ -24,13 +23,12 @@ def is_rigged(links: list[Link], support: Support | UnsetType) -> bool:
 
 
 def rig_of(
-    chain: Chain | None, links: list[tuple[int, Link]], support: Support | UnsetType, fluid: str, numbers: Numbers
+    chain: Chain | None, links: Links, support: Support | UnsetType, fluid: str, numbers: Numbers
 ) -> systems.Rig | None:
-    """The rig; `links` are the tables that `chain` was made of, lowest first, with their numbers in the file, or none.
+    """The rig; `links` are the tables of the links that `chain` has, or none.
 
     Without a chain, where that was refused, what is wrong here is noted, too.
     """
-    links = [(index, link) for index, link in links if not link.clamped]  # those are part of the link above
     repeats = [link.repeat for _, link in links]
     firsts = np.cumsum([0, *repeats])[:-1]
     held = None if support is UNSET else _support(support, numbers.of("support"))
@@ -40,6 +38,8 @@ def rig_of(
         own = (0.0, 0.0) if chain is None else (float(chain.centroid[first]), float(chain.radius_of_gyration[first]))
         wheels.append(_flywheel(link.flywheel, place.of("flywheel")))
         fluids.append(_displaced(link.displaced, own, place.of("displaced")))
+        if fluid == "turning" and fluids[-1][1] > 0:
+            place.refuse("displaced", f"must have no added_{numbers.heavy} in a fluid that turns with the chain")
     numbers.done()
     if chain is None:
         return None
@@ -62,7 +62,7 @@ def rig_of(
             given["displaced"] = systems.Displaced(**displaced)
         return systems.Rig(chain, **given, fluid=fluid)
     except ValueError as error:
-        raise SceneError(numbers.source, "", without_place(error)) from None
+        raise of_file(error, numbers.source, "links" if links else "support", links) from None
 
 
 def _support(table: Support, numbers: Numbers) -> dict[str, float]:

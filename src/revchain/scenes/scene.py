@@ -21,16 +21,29 @@ from ..systems.rig import Rig
 from . import parse
 from .answer import SPEEDS, answered, arguments
 from .ask import QUESTIONS, TABLES, Ask, AskExplain, AskModes
-from .chain import Numbers, chain_of_links, whole, without_place
+from .chain import Links, Numbers, chain_of_links, of_file, whole, without_place
 from .error import Problem, SceneError
 from .rig import is_rigged, rig_of
-from .tables import SYSTEMS, Cord, Held, Link, Positive, Support, Table, TaperedChain, UniformChain, fields_of, says
+from .tables import (
+    BESIDE,
+    SYSTEMS,
+    Cord,
+    Held,
+    Link,
+    Positive,
+    Support,
+    Table,
+    TaperedChain,
+    UniformChain,
+    fields_of,
+    says,
+)
 from .upgrade import old_keys
 
-__all__ = ["Scene", "json_schema", "load_scene"]
+__all__ = ["Scene", "load_scene"]
 
 System = Chain | Rig | CordSystem | HeldSystem
-_EXCLUSIVE = (*SPEEDS, "count", "first")
+EXCLUSIVE = (*SPEEDS, "count", "first")
 
 
 def _asking(question: str, what: str, result: str, example: str) -> Callable[..., Any]:
@@ -54,9 +67,8 @@ def _asking(question: str, what: str, result: str, example: str) -> Callable[...
         Raises
         ------
         SceneError
-            If neither the scene nor `changed` says what the question needs.
-        ValueError
-            As the function of that name, such as for a system that has no answer.
+            (a ValueError) If neither the scene nor `changed` says what the question needs, and for all that the
+            function of that name refuses, such as a system that has no answer. Links are those of the scene's tables.
 
         Examples
         --------
@@ -73,9 +85,9 @@ class Scene(Table, frozen=True):
     Notes
     -----
     Its attributes are the tables of the file (`revchain schema` describes every key). Plain numbers are SI; text such
-    as ``"39.1396 inch"`` is converted through pint. `modes`, `steady_shapes`, `response`, `swing` and `branches` ask the
-    function of that name, with the system, the gravity and the arguments of the scene; arguments given to them take the
-    place of the scene's.
+    as ``"39.1396 inch"`` is converted through pint. `modes`, `steady_shapes`, `response`, `swing` and `branches` ask
+    the function of that name, with the system, the gravity and the arguments of the scene; arguments given to them take
+    the place of the scene's.
 
     Examples
     --------
@@ -218,7 +230,7 @@ class Scene(Table, frozen=True):
 
     @property
     def asks(self) -> tuple[str, ...]:
-        """The questions that the scene has a table for: ``modes``, ``shapes``, ``response``, ``swing``, ``branches``."""
+        """The questions that the scene has a table for: modes, shapes, response, swing, branches."""
         return tuple(name for name in QUESTIONS if getattr(self.ask, name) is not UNSET)
 
     modes = _asking("modes", "modes", "Modes", ">>> scene.modes(first=2).conical_height.round(6)\narray([0.25])")
@@ -262,7 +274,10 @@ class Scene(Table, frozen=True):
         table, gravity, system = self._table(question, changed), self.gravity_value(), self.system()
         given = arguments(question, table, system, numbers.of("ask"))
         numbers.done()
-        return answered(question, system, given, gravity, progress)
+        try:
+            return answered(question, system, given, gravity, progress)
+        except ValueError as error:
+            raise of_file(error, "scene", "", self._bodies()) from None
 
     def _table(self, question: str, changed: dict[str, Any]) -> Table:
         """What the scene says of a question, with other values in place of its own."""
@@ -272,8 +287,8 @@ class Scene(Table, frozen=True):
         if not changed and said is not UNSET:
             return said  # type: ignore[no-any-return]
         data = {} if said is UNSET else to_builtins(said)
-        if question != "swing" and any(name in changed for name in _EXCLUSIVE):  # another choice than that of the scene
-            data = {name: value for name, value in data.items() if name not in _EXCLUSIVE}
+        if question != "swing" and any(name in changed for name in EXCLUSIVE):  # another choice than that of the scene
+            data = {name: value for name, value in data.items() if name not in EXCLUSIVE}
         data |= {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in changed.items()}
         problems: list[Problem] = []
         table = parse.convert(data, TABLES[question], "scene", problems)
@@ -282,16 +297,11 @@ class Scene(Table, frozen=True):
             raise SceneError("scene", problems=[each._replace(key=where + each.key) for each in problems])
         return table
 
-    def _check(self, source: str) -> None:
-        """A SceneError with whatever the other methods would refuse of the scene, and the name of the file."""
-        if found := self._problems(source, []):
-            raise SceneError(source, problems=found)
-
     def _problems(self, source: str, known: list[Problem]) -> list[Problem]:
         """All that is wrong with the scene, of which some is known."""
         numbers, system = Numbers(source), None
         given = [name for name in SYSTEMS if getattr(self, name) is not UNSET]
-        if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *_BESIDE) for problem in known):
+        if given or all(re.split(r"[.\[]", problem.key)[0] in ("", *BESIDE) for problem in known):
             try:
                 system = self._system(source)
             except SceneError as error:
@@ -309,14 +319,14 @@ class Scene(Table, frozen=True):
             raise SceneError(source, "", f"give one of {tables}, got {' and '.join(given) or 'none of them'}")
         numbers.gravity = numbers.value("gravity", self.gravity, "gravity", "positive")
         numbers.by_mass = is_by_mass(self)
-        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
         if self.links == []:
             raise SceneError(source, "links", "is an empty list: give at least one link")
-        if self.order == "support first":
-            links.reverse()
         made: Chain | CordSystem | None = None
         try:
-            made = chain_of_links(links, numbers) if links else whole(getattr(self, given[0]), numbers.of(given[0]))
+            if links := self._links():
+                made = chain_of_links(links, numbers)
+            else:
+                made = whole(getattr(self, given[0]), numbers.of(given[0]))
         except SceneError as error:
             numbers.problems[:] = error.problems
         if self.is_rigged and (self.held is not UNSET or self.cord is not UNSET):
@@ -324,10 +334,19 @@ class Scene(Table, frozen=True):
             numbers.refuse(name, "does not go with a support, standing links, flywheels or a fluid")
         elif self.is_rigged:
             assert not isinstance(made, CordSystem)
-            return rig_of(made, links, self.support, self.fluid, numbers)
+            return rig_of(made, self._bodies(), self.support, self.fluid, numbers)
         held = None if isinstance(self.held, UnsetType) else _held(self.held, made, numbers.of("held"))
         numbers.done()
         return held or made
+
+    def _links(self) -> Links:
+        """The tables of the links, lowest first, with their numbers in the file."""
+        links = [] if isinstance(self.links, UnsetType) else list(enumerate(self.links))
+        return links[::-1] if self.order == "support first" else links
+
+    def _bodies(self) -> Links:
+        """Those that are links of the system: a clamped one is part of the link above."""
+        return [(index, link) for index, link in self._links() if not link.clamped]
 
     @property
     def is_rigged(self) -> bool:
@@ -338,9 +357,6 @@ class Scene(Table, frozen=True):
     def is_held(self) -> bool:
         """Whether the lower end is held on the axis, too."""
         return self.held is not UNSET
-
-
-_BESIDE = ("schema_version", "title", "description", "gravity", "order", "support", "fluid", "held", "ask")
 
 
 def is_by_mass(scene: Scene) -> bool:
@@ -364,23 +380,24 @@ def _held(table: Held, system: Chain | CordSystem | None, numbers: Numbers) -> H
     if (table.span is UNSET) == (table.tension is UNSET):
         numbers.refuse("", "give either span or tension")
         return None
-    name, quantity = ("span", "length") if table.tension is UNSET else ("tension", "weight")
-    value = numbers.value(name, getattr(table, name), quantity, "positive")
+    name = "span" if table.tension is UNSET else "tension"
+    value = numbers.value(name, getattr(table, name), name, "positive")
     numbers.done()
     if system is None or math.isnan(value):
         return None
     try:
         return HeldSystem(system, **{name: value}, weightless=table.weightless)
     except ValueError as error:
-        raise SceneError(numbers.source, f"held.{name}", without_place(error).removeprefix(f"{name} ")) from None
+        key, reason = f"held.{name}", without_place(error).removeprefix(f"{name} ")
+        raise SceneError(numbers.source, key, reason) from None
 
 
 def _named(problem: Problem, scene: Scene) -> Problem:
     """With the name of the link in which it is."""
-    index, closed, _ = problem.key.removeprefix("links[").partition("]")
-    if not closed or not index.isdecimal() or isinstance(scene.links, UnsetType) or int(index) >= len(scene.links):
+    found = re.match(r"links\[(\d+)\]\S*$", problem.key)
+    if found is None or isinstance(scene.links, UnsetType) or int(found[1]) >= len(scene.links):
         return problem
-    name = scene.links[int(index)].name
+    name = scene.links[int(found[1])].name
     return problem._replace(key=f'{problem.key} ("{name}")') if name else problem
 
 
@@ -409,29 +426,17 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     >>> rc.load_scene(path).system().size
     120
     """
-    problems: list[Problem] = []
-    with parse.placed(path):
-        return Scene._read(parse.read(path, problems), os.fspath(path), problems, in_doubt=True)
+    with parse.opened(path) as (raw, problems):
+        return Scene._read(raw, os.fspath(path), problems, in_doubt=True)
 
 
-def json_schema() -> dict[str, Any]:
-    """Return the JSON Schema of scene files, for editors.
-
-    Returns
-    -------
-    dict
-
-    Examples
-    --------
-    >>> from revchain.scenes.scene import json_schema
-    >>> json_schema()["title"]
-    'revchain scene'
-    """
-    schema: dict[str, Any] = json.schema(Scene)
-    for table in schema["$defs"].values():
+def json_schema(kind: type[Table] = Scene, title: str = "revchain scene") -> dict[str, Any]:
+    """The JSON Schema of scene files, or of files of another kind, for editors."""
+    schema: dict[str, Any] = json.schema(kind)
+    weighed = ("Link", "UniformChain", "TaperedChain", "Flywheel", "Displaced")
+    for name, table in schema["$defs"].items():
         if "description" in table:
             table["description"] = table["description"].partition("\n")[0]
-    weighed = ("Link", "UniformChain", "TaperedChain", "Flywheel", "Displaced")
-    for name, pair in (("Scene", SYSTEMS), *((name, ("weight", "mass")) for name in weighed)):
-        schema["$defs"][name]["oneOf"] = [{"required": [key]} for key in pair]
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "revchain scene", **schema}
+        if name == "Scene" or name in weighed:
+            table["oneOf"] = [{"required": [key]} for key in (SYSTEMS if name == "Scene" else ("weight", "mass"))]
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": title, **schema}

@@ -18,6 +18,7 @@ def says(text: str) -> Meta:
 
 
 MOST_LINKS = 10_000_000
+BESIDE = ("schema_version", "title", "description", "gravity", "order", "support", "fluid", "held", "ask")
 SYSTEMS = ("links", "uniform_chain", "tapered_chain", "cord")  # the tables of which a scene has one
 
 WithUnit = Annotated[str, Meta(pattern=PATTERN, description='A number and its unit, such as "39.1396 inch".')]

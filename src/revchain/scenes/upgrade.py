@@ -27,6 +27,7 @@ def old_keys(data: dict[str, Any], in_doubt: bool = True) -> list[tuple[str, str
     ask = ask if isinstance(ask, dict) else {}
     tables = {name: table for name, table in ask.items() if isinstance(table, dict)}
     old = any(name in ask and name not in tables for name in _OF_MODES)
+    old = old and not isinstance(ask.get("modes"), bool | list)  # which no version has
     old = old or any(key in tables.get(name, ()) for name, keys in _OLD.items() for key in keys)
     speeds = [tables.get("response", {}).get(name) for name in ("angular_speed", "conical_height")]
     pair = any(isinstance(each, list) and len(each) == 2 for each in speeds)
@@ -36,7 +37,7 @@ def old_keys(data: dict[str, Any], in_doubt: bool = True) -> list[tuple[str, str
     upgrade(new)
     found = [("schema_version", "is of version 1: write schema_version = 2")] if version == 1 else []
     for name, table in new.get("ask", {}).items():
-        if table != ask.get(name):
+        if isinstance(table, dict) and table != ask.get(name):
             entries = ", ".join(f"{key} = {_toml(value)}" for key, value in table.items())
             sure = version == 1 or old
             found.append((f"ask.{name}", f"{'is' if sure else 'may be'} of version 1: write [ask.{name}] {entries}"))

@@ -15,9 +15,9 @@ from msgspec import UNSET, Meta, UnsetType
 from numpy.typing import NDArray
 
 from ..scenes import parse
-from ..scenes.error import SceneError
-from ..scenes.tables import Table
-from ..systems.units import SI, si_value
+from ..scenes.chain import Numbers
+from ..scenes.tables import Link, Table, fields_of, says
+from ..systems.units import SI
 
 BLOCK = 65536  # random numbers are drawn in blocks of so many points, each from a stream of its own
 MAX_STEPS = 10**7
@@ -27,80 +27,42 @@ Values = NDArray[Any]
 Path = tuple[str | int, ...]
 NumberOrText = float | str
 Samples = Annotated[int, Meta(ge=1, le=MAX_POINTS)]
+Listed = Annotated[list[bool | float | str], Meta(min_length=1)]
 TwoNumbers = Annotated[list[NumberOrText], Meta(min_length=2, max_length=2)]
 
 _PATH = re.compile(r"[a-z_]+(\[\d{1,9}\])?(\.[a-z_]+(\[\d{1,9}\])?)*")
 _SPEED = r"\.(angular_speed|conical_height)"
 _ASKED = re.compile(rf"ask\.(shapes{_SPEED}|response{_SPEED}(\[\d+\]|\.from|\.to)?)")
-_PERCENT = re.compile(r"\s*([0-9.eE+-]+)\s*%\s*")
+_PERCENT = re.compile(r"[^%]*%\s*")
+LAWS = ("uniform", "normal", "log_uniform")
 
 
 class Vary(Table, frozen=True, rename={"first": "from", "last": "to"}):
-    """The values of one number of the scene. Numbers are SI or text with a unit, as in the scene.
+    """The values of one number of the scene. Numbers are SI or text with a unit, as in the scene."""
 
-    Attributes
-    ----------
-    first, last : float or str
-        Keys ``from`` and ``to``: a grid from one to the other, both included.
-    steps : int
-        Number of values of this grid.
-    log : bool
-        Whether the grid has equal ratios instead of equal differences.
-    values : list of float, str or bool
-        Instead: a grid of these values.
-    uniform : [low, high]
-        Instead: random numbers with low <= number < high. ``[middle, "5 %"]`` is middle plus or minus 5 %.
-    normal : [mean, deviation]
-        Instead: random numbers of the normal distribution. ``[mean, "5 %"]``: the deviation is 5 % of the mean.
-    log_uniform : [low, high]
-        Instead: random numbers whose logarithm is uniform. ``[middle, "5 %"]`` is middle / 1.05 to middle * 1.05.
-    name : str, optional
-        Name of the column; the path if left out.
-    """
-
-    first: Annotated[NumberOrText | UnsetType, Meta(description="The first value of a grid.")] = UNSET
-    last: Annotated[NumberOrText | UnsetType, Meta(description="Its last value.")] = UNSET
-    steps: Annotated[Samples | UnsetType, Meta(description="Number of values, both ends included.")] = UNSET
-    log: Annotated[bool, Meta(description="Whether in equal ratios instead of equal differences.")] = False
-    values: Annotated[
-        Annotated[list[bool | float | str], Meta(min_length=1)] | UnsetType,
-        Meta(description="Instead: a grid of these values."),
-    ] = UNSET
-    uniform: Annotated[
-        TwoNumbers | UnsetType, Meta(description='Instead: random, [low, high] or [middle, "5 %"].')
-    ] = UNSET
-    normal: Annotated[
-        TwoNumbers | UnsetType, Meta(description='Instead: random, [mean, deviation] or [mean, "5 %"].')
-    ] = UNSET
+    first: Annotated[NumberOrText | UnsetType, says("The first value of a grid.")] = UNSET
+    last: Annotated[NumberOrText | UnsetType, says("Its last value.")] = UNSET
+    steps: Annotated[Samples | UnsetType, says("Number of values, both ends included.")] = UNSET
+    log: Annotated[bool, says("Whether in equal ratios instead of equal differences.")] = False
+    values: Annotated[Listed | UnsetType, says("Instead: a grid of these values.")] = UNSET
+    uniform: Annotated[TwoNumbers | UnsetType, says('Instead: random, [low, high] or [middle, "5 %"].')] = UNSET
+    normal: Annotated[TwoNumbers | UnsetType, says('Instead: random, [mean, deviation] or [mean, "5 %"].')] = UNSET
     log_uniform: Annotated[
-        TwoNumbers | UnsetType,
-        Meta(description='Instead: random with a uniform logarithm, [low, high] or [middle, "5 %"].'),
+        TwoNumbers | UnsetType, says('Instead: random with a uniform logarithm, [low, high] or [middle, "5 %"].')
     ] = UNSET
-    name: Annotated[str | UnsetType, Meta(description="Name of the column; the path if left out.")] = UNSET
+    name: Annotated[str | UnsetType, says("Name of the column; the path if left out.")] = UNSET
 
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """One number of the scene, and its values at the points.
+    """One number of the scene, and its values at the points."""
 
-    Attributes
-    ----------
-    key, name : str
-        The path as the study writes it, and the name of the column.
-    path : tuple
-        Its steps.
-    values : ndarray or None
-        Values of a grid; None where the numbers are random.
-    law, law_numbers : str, tuple of float
-        The distribution of random numbers: normal (mean, deviation), uniform or log_uniform (low, high).
-    """
-
-    key: str
-    name: str
+    key: str  # the path as the study writes it
+    name: str  # of the column
     path: Path
-    values: Values | None
-    law: str = ""
-    law_numbers: tuple[float, float] = (0.0, 0.0)
+    values: Values | None  # of a grid; None where the numbers are random
+    law: str = ""  # "normal", "uniform" or "log_uniform"
+    law_numbers: tuple[float, float] = (0.0, 0.0)  # mean and deviation, or low and high end
 
     @property
     def quantity(self) -> str:
@@ -122,16 +84,22 @@ class Axis:
         return np.unique(self.values).tolist()  # type: ignore[no-any-return]
 
 
-def path_of(text: str, refuse: SceneError) -> Path:
-    """The steps of a path; `refuse` is raised with a reason where it is none."""
+def path_of(text: str, numbers: Numbers) -> Path:
+    """The steps of a path; empty where it is none, which is noted."""
+    right = re.sub(r"^link\[", "links[", text.removeprefix("scene."))
+    if (link := re.fullmatch(r"(links\.)?(\w+)", right)) and link[2] in [field.name for field in fields_of(Link)]:
+        right = f"links[0].{link[2]}"
     if _PATH.fullmatch(text) is None:
-        raise SceneError(refuse.source, refuse.key, "is no path into a scene such as links[0].mass")
-    if text in ("title", "description", "schema_version", "held"):
-        raise SceneError(refuse.source, refuse.key, "cannot be varied")
-    if text.startswith("ask") and _ASKED.fullmatch(text) is None:
-        reason = "cannot be varied: of [ask] only the speeds of ask.shapes and ask.response can"
-        raise SceneError(refuse.source, refuse.key, reason)
-    return tuple(int(index) if index else name for name, index in re.findall(r"([a-z_]+)|\[(\d+)\]", text))
+        numbers.refuse("", "is no path into a scene such as links[0].mass")
+    elif right != text:
+        numbers.refuse("", f'is no path into a scene: write "{right}"')
+    elif text in ("title", "description", "schema_version", "held") or text.endswith(".name"):
+        numbers.refuse("", "cannot be varied")
+    elif text.startswith("ask") and _ASKED.fullmatch(text) is None:
+        numbers.refuse("", "cannot be varied: of [ask] only the speeds of ask.shapes and ask.response can")
+    else:
+        return tuple(int(index) if index else name for name, index in re.findall(r"([a-z_]+)|\[(\d+)\]", text))
+    return ()
 
 
 def quantity_of(path: Path) -> str:
@@ -139,124 +107,112 @@ def quantity_of(path: Path) -> str:
     return next((step for step in reversed(path) if isinstance(step, str) and step in SI), "length")
 
 
-def with_value(data: Any, path: Path, value: Any, refuse: SceneError) -> Any:
-    """A copy of `data` with the value there; tables that are not on the path are shared."""
+def with_value(data: Any, path: Path, value: Any) -> Any:
+    """A copy of `data` with the value there; tables that are not on the path are shared. A ValueError has no place."""
     if not path:
         return value
     step, rest = path[0], path[1:]
     if isinstance(step, str):
         table = data if isinstance(data, dict) else {}
-        return {**table, step: with_value(table.get(step), rest, value, refuse)}
+        return {**table, step: with_value(table.get(step), rest, value)}
     if not isinstance(data, list) or step >= len(data):
         count = len(data) if isinstance(data, list) else 0
         there = f"there are {count}, counted from 0" if count else "there is no such list"
-        raise SceneError(refuse.source, refuse.key, f"the scene has nothing at [{step}]: {there}")
-    return [*data[:step], with_value(data[step], rest, value, refuse), *data[step + 1 :]]
+        raise ValueError(f"the scene has nothing at [{step}]: {there}")
+    return [*data[:step], with_value(data[step], rest, value), *data[step + 1 :]]
 
 
-def axis_of(key: str, table: Vary, kind: type, source: str) -> Axis:
-    """The axis that an entry of [vary] describes; `kind` is the class of scenes."""
-    refuse = SceneError(source, f'vary."{key}"', "")
-    path = path_of(key, refuse)
-    name = key if table.name is UNSET else str(table.name)
+def axis_of(key: str, table: Vary, kind: type, numbers: Numbers) -> Axis | None:
+    """The axis that an entry of [vary] describes; None where it is wrong, which is noted. `kind` is that of scenes."""
+    known, path = len(numbers.problems), path_of(key, numbers)
+    name = key if isinstance(table.name, UnsetType) else table.name
     if not name.strip() or "/" in name or name == "." or not name.isprintable():
-        raise SceneError(source, f"{refuse.key}.name", f'must be a printable name without "/", got {name!r}')
-    given = [law for law in ("values", "uniform", "normal", "log_uniform") if getattr(table, law) is not UNSET]
+        numbers.refuse("name", f'must be a printable name without "/", got {parse.written(name)}')
+    given = [law for law in ("values", *LAWS) if getattr(table, law) is not UNSET]
     if table.first is not UNSET or table.last is not UNSET or table.steps is not UNSET:
         given.insert(0, "from")
     if len(given) != 1:
         choice = "give from, to and steps, or one of values, uniform, normal, log_uniform"
-        raise SceneError(source, refuse.key, choice + (f"; got {' and '.join(given)}" if given else ""))
-    if table.log and given[0] != "from":
-        raise SceneError(source, f"{refuse.key}.log", "goes with from, to and steps")
+        numbers.refuse("", choice + (f"; got {' and '.join(given)}" if given else ""))
+    elif table.log and given[0] != "from":
+        numbers.refuse("log", "goes with from, to and steps")
+    if not path or len(given) != 1:
+        return None
     annotation = parse._annotation_at(kind, key.rpartition("[")[0] if key.endswith("]") else key)
-    parts = list(parse._parts_of(annotation))
+    parts, quantity = list(parse._parts_of(annotation)), quantity_of(path)
     whole = int in parts and float not in parts
-    numbers = _Numbers(refuse, path, whole)
-    if given[0] in ("from", "values"):
-        return Axis(key, name, path, numbers.grid(table) if given[0] == "from" else numbers.listed(table, parts))
-    if whole or not (annotation is None or float in parts):
-        raise SceneError(source, refuse.key, "takes no random numbers; give values")
-    return Axis(key, name, path, None, given[0], numbers.law(given[0], getattr(table, given[0])))
+    if given[0] in LAWS:
+        if whole or not (annotation is None or float in parts):
+            numbers.refuse("", "takes no random numbers; give values")
+            return None
+        axis = Axis(key, name, path, None, given[0], _law(given[0], getattr(table, given[0]), quantity, numbers))
+    elif given[0] == "from":
+        axis = Axis(key, name, path, _grid(table, quantity, whole, numbers))
+    else:
+        axis = Axis(key, name, path, _listed(table, parts, quantity, whole, numbers))
+    return axis if len(numbers.problems) == known else None
 
 
-class _Numbers:
-    """Numbers of one entry, in SI units, and errors with the key."""
+def _number(key: str, given: Any, quantity: str, whole: bool, numbers: Numbers) -> float:
+    found = numbers.value(key, given, quantity, "any")
+    if whole and math.isfinite(found) and found != round(found):
+        numbers.refuse(key, f"must be a whole number, got {parse.written(given)}")
+    return found
 
-    def __init__(self, refuse: SceneError, path: Path, whole: bool) -> None:
-        self.refuse = refuse
-        self.quantity = quantity_of(path)
-        self.whole = whole
 
-    def error(self, key: str, reason: str) -> SceneError:
-        return SceneError(self.refuse.source, f"{self.refuse.key}.{key}", reason)
+def _grid(table: Vary, quantity: str, whole: bool, numbers: Numbers) -> Values | None:
+    for key, value in (("from", table.first), ("to", table.last), ("steps", table.steps)):
+        if value is UNSET:
+            numbers.refuse(key, "is missing")
+    low = _number("from", table.first, quantity, whole, numbers)
+    high = _number("to", table.last, quantity, whole, numbers)
+    if isinstance(table.steps, UnsetType) or math.isnan(low + high):
+        return None
+    if table.steps > MAX_STEPS:
+        numbers.refuse("steps", f"must be at most {MAX_STEPS:,}, got {table.steps:,}")
+        return None
+    if table.log and not (low > 0 and high > 0):
+        numbers.refuse("log", "needs from and to that are positive")
+        return None
+    values = np.geomspace(low, high, table.steps) if table.log else np.linspace(low, high, table.steps)
+    if whole and np.any(values != np.round(values)):
+        numbers.refuse("steps", f"makes numbers that are not whole, such as {values[1]:g}")
+    return values.astype(np.int64) if whole else values
 
-    def number(self, key: str, given: Any) -> float:
-        try:
-            found = si_value(given, self.quantity) if isinstance(given, str) else float(given)
-        except ValueError as error:
-            raise self.error(key, str(error)) from None
-        if not math.isfinite(found):
-            raise self.error(key, f"must be finite, got {given}")
-        if self.whole and found != round(found):
-            raise self.error(key, f"must be a whole number, got {given}")
-        return found
 
-    def grid(self, table: Vary) -> Values:
-        for key, value in (("from", table.first), ("to", table.last), ("steps", table.steps)):
-            if value is UNSET:
-                raise self.error(key, "is missing")
-        assert isinstance(table.steps, int)
-        low, high = self.number("from", table.first), self.number("to", table.last)
-        if table.steps > MAX_STEPS:
-            raise self.error("steps", f"must be at most {MAX_STEPS:,}, got {table.steps:,}")
-        if table.log and not (low > 0 and high > 0):
-            raise self.error("log", "needs from and to that are positive")
-        values = np.geomspace(low, high, table.steps) if table.log else np.linspace(low, high, table.steps)
-        if self.whole:
-            if np.any(values != np.round(values)):
-                raise self.error("steps", f"makes numbers that are not whole, such as {values[1]:g}")
-            return values.astype(np.int64)
-        return values
+def _listed(table: Vary, parts: list[Any], quantity: str, whole: bool, numbers: Numbers) -> Values:
+    assert isinstance(table.values, list)
+    if any(get_origin(part) is Literal or part is bool for part in parts):
+        if len({type(value) for value in table.values}) != 1:
+            numbers.refuse("values", "must be all of one kind")
+        return np.array(table.values)
+    for k, value in enumerate(table.values):
+        if isinstance(value, bool):
+            numbers.refuse(f"values[{k}]", f"must be a number, got {parse.written(value)}")
+    values = np.array([_number(f"values[{k}]", x, quantity, whole, numbers) for k, x in enumerate(table.values)])
+    return values.astype(np.int64) if whole and np.isfinite(values).all() else values
 
-    def listed(self, table: Vary, parts: list[Any]) -> Values:
-        assert isinstance(table.values, list)
-        if any(get_origin(part) is Literal or part is bool for part in parts):
-            if len({type(value) for value in table.values}) != 1:
-                raise self.error("values", "must be all of one kind")
-            return np.array(table.values)
-        for k, value in enumerate(table.values):
-            if isinstance(value, bool):
-                raise self.error(f"values[{k}]", f"must be a number, got {value}")
-        values = np.array([self.number(f"values[{k}]", value) for k, value in enumerate(table.values)])
-        return values.astype(np.int64) if self.whole else values
 
-    def law(self, law: str, given: Sequence[Any]) -> tuple[float, float]:
-        one = self.number(f"{law}[0]", given[0])
-        percent = _PERCENT.fullmatch(given[1]) if isinstance(given[1], str) else None
-        if percent is None:
-            two = self.number(f"{law}[1]", given[1])
-        else:
-            try:
-                part = float(percent[1]) / 100
-            except ValueError:
-                reason = f'must be a number or a percentage such as "5 %", got "{given[1]}"'
-                raise self.error(f"{law}[1]", reason) from None
-            if not 0 < part < math.inf:
-                raise self.error(f"{law}[1]", f'a percentage must be positive, got "{given[1]}"')
-            spread = abs(one) * part
-            one, two = {
-                "normal": (one, spread),
-                "uniform": (one - spread, one + spread),
-                "log_uniform": (one / (1 + part), one * (1 + part)),
-            }[law]
-        if law == "normal" and not two >= 0:
-            raise self.error(law, f"its deviation must not be negative, got {given[1]}")
-        if law == "log_uniform" and not one > 0:
-            raise self.error(law, f"must be positive, got {given[0]}")
-        if law != "normal" and not one < two:
-            raise self.error(law, f"its low end must lie below its high end, got {list(given)}")
-        return one, two
+def _law(law: str, given: Sequence[Any], quantity: str, numbers: Numbers) -> tuple[float, float]:
+    one = numbers.value(f"{law}[0]", given[0], quantity, "any")
+    percent = _PERCENT.fullmatch(given[1]) if isinstance(given[1], str) else None
+    if percent is None:
+        two = numbers.value(f"{law}[1]", given[1], quantity, "any")
+    else:
+        part = numbers.value(f"{law}[1]", given[1], "rtol", "positive")
+        spread = abs(one) * part
+        one, two = {
+            "normal": (one, spread),
+            "uniform": (one - spread, one + spread),
+            "log_uniform": (one / (1 + part), one * (1 + part)),
+        }[law]
+    if law == "normal" and two < 0:
+        numbers.refuse(law, f"its deviation must not be negative, got {given[1]}")
+    elif law == "log_uniform" and one <= 0:
+        numbers.refuse(law, f"must be positive, got {given[0]}")
+    elif law != "normal" and one >= two:
+        numbers.refuse(law, f"its low end must lie below its high end, got {parse.written(given)}")
+    return one, two
 
 
 def shape_of(axes: Sequence[Axis], samples: int) -> tuple[int, ...]:

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from .. import _core
 from ..questions.batch import conical_heights
 from ..scenes import parse
-from ..scenes.error import SceneError
 from ..scenes.scene import Scene
 from ..systems.numbers import Floats
 from .axes import Axis, Reader, Values, shape_of, with_value
@@ -37,7 +36,6 @@ _LARGEST, _SMALLEST = 32768, 1024  # chains of a batch: few enough that their nu
 _WORK = 2**20  # links times modes of a batch: and so many that Python's share of the time is small
 _FEW = 3  # points: as fast by the methods of their scenes
 _MOST_PATTERNS = 100  # scenes that are kept
-_NOWHERE = SceneError("study", "vary", "")
 
 
 @dataclass(frozen=True)
@@ -53,33 +51,16 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """All that a worker needs; it can be sent to another process.
+    """All that a worker needs; it can be sent to another process."""
 
-    Attributes
-    ----------
-    base : dict
-        The scene as plain data.
-    axes : tuple of Axis
-    samples, seed : int
-        Of the random numbers.
-    find : tuple of str
-        What is computed: ``modes``, ``shapes``, ``response``.
-    blocks : tuple of Block
-        Its results.
-    batched : bool
-        Whether heights come from `revchain.conical_heights`.
-    derived : bool
-        Whether speeds follow from the heights and are not stored.
-    """
-
-    base: dict[str, Any]
+    base: dict[str, Any]  # the scene as plain data
     axes: tuple[Axis, ...]
-    samples: int
+    samples: int  # random numbers at each point of the grids
     seed: int
-    find: tuple[str, ...]
-    blocks: tuple[Block, ...]
-    batched: bool
-    derived: bool
+    find: tuple[str, ...]  # "modes", "shapes", "response"
+    blocks: tuple[Block, ...]  # the results
+    batched: bool  # whether heights come from `revchain.conical_heights`
+    derived: bool  # whether speeds follow from the heights and are not stored
     _kept: dict[str, Any] = field(default_factory=dict, repr=False)
     _patterns: dict[tuple[Any, ...], Scene] = field(default_factory=dict, repr=False)
 
@@ -109,7 +90,7 @@ class Plan:
         """The scene with these numbers, as plain data."""
         data = self.base
         for axis, value in zip(self.axes, values, strict=True):
-            data = with_value(data, axis.path, value, _NOWHERE)
+            data = with_value(data, axis.path, value)
         return data
 
     def fingerprint(self) -> str:

@@ -20,7 +20,6 @@ from .. import _core
 from ..results.modes import RigModes
 from ..scenes.ask import DEFAULT_MODES, AskModes, AskResponse, AskShapes, Spread
 from ..scenes.chain import Numbers
-from ..scenes.error import SceneError
 from ..scenes.scene import Scene, is_by_mass
 from ..scenes.tables import Displaced, Flywheel, Support, TaperedChain, UniformChain
 from ..systems.chain import Chain
@@ -46,23 +45,12 @@ _OF_RESPONSE = ["support_force" if name == "support_force" else f"response_{name
 
 @dataclass(frozen=True)
 class Block:
-    """A result of each point: one number, or one for each mode, shape or speed.
-
-    Attributes
-    ----------
-    name : str
-    kind : str
-        ``"f8"``, ``"i8"`` or ``"?"``; NaN, 0 or False stands where nothing was found.
-    along : str
-        ``"mode"``, ``"shape"``, ``"speed"``, or empty for one number.
-    labels : tuple of int
-        Numbers of the modes, shapes or speeds.
-    """
+    """A result of each point: one number, or one for each mode, shape or speed."""
 
     name: str
-    kind: str
-    along: str = ""
-    labels: tuple[int, ...] = ()
+    kind: str  # "f8", "i8" or "?"; NaN, 0 or False stands where nothing was found
+    along: str = ""  # "mode", "shape", "speed", or empty for one number
+    labels: tuple[int, ...] = ()  # numbers of the modes, shapes or speeds
 
     def memory(self, points: int) -> NDArray[Any]:
         """An array for so many points, with whatever lies there."""
@@ -97,25 +85,24 @@ def _first(scene: Scene) -> int:
     return 1 if isinstance(first, UnsetType) else first
 
 
-def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, source: str) -> tuple[str, ...]:
-    """What is computed, in the order of the columns: `wanted`, or what the scene asks."""
+def asked_of(scene: Scene, wanted: Sequence[str] | UnsetType, numbers: Numbers) -> tuple[str, ...]:
+    """What is computed, in the order of the columns: `wanted`, or what the scene asks. What is wrong is noted."""
     asked: list[str] = [name for name in ("modes", "shapes", "response") if name in scene.asks] or ["modes"]
     if isinstance(wanted, UnsetType):
         for name in set(scene.asks) - {"modes", "shapes", "response"}:
-            raise SceneError(source, f"scene.ask.{name}", 'is not for studies; say what is: find = ["modes"]')
+            numbers.refuse(f"scene.ask.{name}", 'is not for studies; say what is: find = ["modes"]')
     else:
         for k, name in enumerate(wanted):
             if name not in ("modes", *asked):
-                raise SceneError(source, f"find[{k}]", f"the scene does not say at which speed: [ask.{name}]")
+                numbers.refuse(f"find[{k}]", f"the scene does not say at which speed: [ask.{name}]")
         asked = [name for name in ("modes", "shapes", "response") if name in wanted]
     for name in ("conical_height", "angular_speed"):
         if "modes" in asked and getattr(_asked_modes(scene), name) is not UNSET:
-            reason = "gives each point another number of modes; give count and first"
-            raise SceneError(source, f"scene.ask.modes.{name}", reason)
+            numbers.refuse(f"scene.ask.modes.{name}", "gives each point another number of modes; give count and first")
     if "response" in asked and (scene.is_held or scene.cord is not UNSET):
-        raise SceneError(source, "scene.ask.response", f"does not go with {'held' if scene.is_held else 'cord'}")
+        numbers.refuse("scene.ask.response", f"does not go with {'held' if scene.is_held else 'cord'}")
     if "modes" in asked and scene.held is not UNSET and scene.held.span is not UNSET:
-        raise SceneError(source, "scene.held.span", 'leaves the chain slack, without modes: find = ["shapes"]')
+        numbers.refuse("scene.held.span", 'leaves the chain slack, without modes: find = ["shapes"]')
     return tuple(asked)
 
 
@@ -195,8 +182,7 @@ def _is_compiled(scene: Scene) -> bool:
 def _tables(scene: Scene) -> list[tuple[Path, Any]]:
     """The tables of the chain and their places, lowest first."""
     if isinstance(scene.links, list):
-        links: list[tuple[Path, Any]] = [(("links", k), link) for k, link in enumerate(scene.links)]
-        return links[::-1] if scene.order == "support first" else links
+        return [(("links", index), link) for index, link in scene._links()]
     name = "tapered_chain" if isinstance(scene.uniform_chain, UnsetType) else "uniform_chain"
     return [((name,), getattr(scene, name))]
 

@@ -7,7 +7,7 @@ import errno
 import json
 import os
 import re
-import shutil
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from pathlib import Path
@@ -103,7 +103,7 @@ class Store:
             with open(aside, "r+b") as file:
                 os.fsync(file.fileno())  # before the chunks are removed
             os.replace(aside, self.output)
-        shutil.rmtree(self.folder)
+        self._remove()
 
     def _refused(self, number: int, reason: str) -> OutputError:
         return OutputError(number, reason, os.fspath(self.output))
@@ -165,8 +165,20 @@ class Store:
     def _clear(self) -> None:
         """Leave no folder where nothing is kept."""
         if not self.kept and self.folder.exists():
-            with suppress(OSError):
-                shutil.rmtree(self.folder)
+            self._remove()
+
+    def _remove(self) -> None:
+        """Remove what is ours, the chunks before the head, and the folder; other files stay, with a warning."""
+        with suppress(OSError):
+            for path in self.folder.iterdir():
+                if path.name.startswith(_ASIDE) or _CHUNK.fullmatch(path.name):
+                    path.unlink()
+            for name in (_HEAD, _LOCK):
+                (self.folder / name).unlink(missing_ok=True)
+            if others := sorted(path.name for path in self.folder.iterdir()):
+                warnings.warn(f"{self.folder} stays: it holds other files, such as {others[0]}", stacklevel=4)
+            else:
+                self.folder.rmdir()
 
 
 Read = Callable[..., Iterator[Arrays]]

@@ -4,26 +4,30 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal, Self
 
-from msgspec import UNSET, Meta, UnsetType, json, to_builtins
+from msgspec import UNSET, Meta, UnsetType, to_builtins
 
 from ..scenes import parse
-from ..scenes.error import SceneError
-from ..scenes.scene import Scene, load_scene
-from ..scenes.tables import Table
+from ..scenes.chain import Numbers
+from ..scenes.error import Problem, SceneError
+from ..scenes.places import joined
+from ..scenes.scene import Scene, json_schema, load_scene
+from ..scenes.tables import Table, says
 from ..systems.cord import Cord
 from ..systems.numbers import file_path, integer, text
 from ..systems.rig import Rig
-from .axes import MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
+from .axes import LAWS, MAX_POINTS, Axis, Samples, Vary, axis_of, with_value
 from .axes import Path as Steps
 from .plan import Plan
 from .points import asked_of, blocks_of, derives_speeds, goes_in_batches
 
-__all__ = ["Study", "Vary", "load_study", "study_schema"]
+__all__ = ["Study", "load_study"]
 
-Find = Literal["modes", "shapes", "response"]
+Finds = Annotated[list[Literal["modes", "shapes", "response"]], Meta(min_length=1)]
+MostShapes = Annotated[int, Meta(ge=1, le=1000)]
 
 
 class Study(Table, frozen=True):
@@ -66,24 +70,19 @@ class Study(Table, frozen=True):
     array([1.3777, 1.1249, 0.9742, 3.3902, 2.768 , 2.3972])
     """
 
-    scene: Annotated[Scene | str, Meta(description="The scene, or the name of its file, beside this one.")]
+    scene: Annotated[Scene | str, says("The scene, or the name of its file, beside this one.")]
     vary: Annotated[dict[str, Vary], Meta(description="By path into the scene, such as links[0].mass.", min_length=1)]
-    schema_version: Annotated[Literal[1], Meta(description="Version of this format.")] = 1
-    title: Annotated[str, Meta(description="One line.")] = ""
-    description: Annotated[str, Meta(description="As long as you like.")] = ""
+    schema_version: Annotated[Literal[1], says("Version of this format.")] = 1
+    title: Annotated[str, says("One line.")] = ""
+    description: Annotated[str, says("As long as you like.")] = ""
     samples: Annotated[
-        Samples | UnsetType, Meta(description="How many points with random numbers, at each point of the grids.")
+        Samples | UnsetType, says("How many points with random numbers, at each point of the grids.")
     ] = UNSET
-    seed: Annotated[Annotated[int, Meta(ge=0)], Meta(description="Of the random numbers.")] = 0
-    find: Annotated[
-        Annotated[list[Find], Meta(min_length=1)] | UnsetType,
-        Meta(description="What is computed; what the scene asks if left out."),
-    ] = UNSET
-    max_shapes: Annotated[
-        Annotated[int, Meta(ge=1, le=1000)], Meta(description="How many steady shapes are kept of each point.")
-    ] = 4
+    seed: Annotated[Annotated[int, Meta(ge=0)], says("Of the random numbers.")] = 0
+    find: Annotated[Finds | UnsetType, says("What is computed; what the scene asks if left out.")] = UNSET
+    max_shapes: Annotated[MostShapes, says("How many steady shapes are kept of each point.")] = 4
     error_bounds: Annotated[
-        bool | UnsetType, Meta(description="Whether to give bounds of errors; batches do not if left out.")
+        bool | UnsetType, says("Whether to give bounds of errors; batches do not if left out.")
     ] = UNSET
 
     @classmethod
@@ -116,12 +115,26 @@ class Study(Table, frozen=True):
         Traceback (most recent call last):
         revchain.scenes.error.SceneError: study: vary."links[0].mas": unknown key; did you mean mass?
         """
-        source = text("revchain.Study.from_dict", "source", source)
-        if isinstance(data, dict):
-            folder = Path(file_path("revchain.Study.from_dict", "folder", folder))
-            data = {**data, **_tables(data, source, folder)}
-        study = parse.convert(data, cls, source)
-        study._plan(source)
+        place = "revchain.Study.from_dict"
+        return cls._read(data, text(place, "source", source), Path(file_path(place, "folder", folder)), [])
+
+    @classmethod
+    def _read(cls, data: Any, source: str, folder: Path, problems: list[Problem]) -> Self:
+        """The study; one error for all problems, those of its syntax included."""
+        scene = data.get("scene") if isinstance(data, dict) else None
+        try:
+            if isinstance(scene, str):
+                data = {**data, "scene": load_scene(folder / scene).to_dict()}
+            elif isinstance(scene, dict):
+                data = {**data, "scene": Scene._read(scene, source, []).to_dict()}
+        except SceneError as error:
+            data = {**data, "scene": ""}  # so that the rest is read
+            if isinstance(scene, str):
+                problems += [Problem(0, 0, "scene", sentence) for sentence in str(error).split("\n")]
+            else:
+                problems += _within_scene(error.problems)
+        study = parse.convert(data, cls, source, problems)
+        study._plan(source, problems)
         return study
 
     def to_dict(self) -> dict[str, Any]:
@@ -180,22 +193,30 @@ class Study(Table, frozen=True):
         values = [column.tolist()[0] for column in plan.values(point, point + 1)]
         return Scene.from_dict(plan.scene_data(values))
 
-    def _plan(self, source: str) -> Plan:
-        """All of it checked and made ready."""
-        if not isinstance(self.scene, Scene):
-            raise SceneError(source, "scene", "must be a table, or be read by load_study from its file")
-        scene, base = self.scene, self.scene.to_dict()
-        scene._check(source)
-        axes = tuple(axis_of(key, table, Scene, source) for key, table in self.vary.items())
-        random = [axis for axis in axes if axis.law]
-        if bool(random) != (self.samples is not UNSET):
+    def _plan(self, source: str, known: Sequence[Problem] = ()) -> Plan:
+        """All of it checked and made ready; one error for all that is wrong, of which some is known."""
+        numbers = Numbers(source)
+        numbers.problems += known
+        scene, base, find = self.scene, dict[str, Any](), tuple[str, ...]()
+        vary = self.vary if isinstance(self.vary, dict) else {}
+        each = [axis_of(key, table, Scene, numbers.of(joined("vary", key))) for key, table in vary.items()]
+        axes = tuple(axis for axis in each if axis is not None)
+        _refuse_twice(axes, numbers)
+        random = any(getattr(table, law) is not UNSET for table in vary.values() for law in LAWS)
+        if random != (self.samples is not UNSET) and not any(one.key.startswith("vary") for one in known):
             needs = "is missing: say how many points" if random else "is for random numbers, and none are varied"
-            raise SceneError(source, "samples", needs)
-        samples = 1 if isinstance(self.samples, UnsetType) else self.samples
-        find = asked_of(scene, self.find, source)
-        _refuse_twice(axes, source)
-        for axis in axes:
-            _check(base, axis, source)
+            numbers.refuse("samples", needs)
+        if isinstance(scene, Scene):
+            base, wrong = scene.to_dict(), scene._problems(source, [])
+            numbers.problems += _within_scene(wrong)
+            if not wrong:
+                find = asked_of(scene, self.find, numbers)
+                for axis in axes:
+                    _check(base, axis, numbers.of(joined("vary", axis.key)))
+        elif not known:
+            numbers.refuse("scene", "must be a table, or be read by load_study from its file")
+        numbers.done()
+        assert isinstance(scene, Scene)
         batched = find == ("modes",) and goes_in_batches(scene, [axis.path for axis in axes])
         batched = batched and self.error_bounds is not True
         bounds = not batched if isinstance(self.error_bounds, UnsetType) else self.error_bounds
@@ -204,10 +225,12 @@ class Study(Table, frozen=True):
         columns |= {block.name for block in blocks} | {"mode", "shape", "speed", "sample"}
         for axis in axes:
             if axis.name in columns:
-                raise SceneError(source, f'vary."{axis.key}".name', f"{axis.name} is the name of a result")
+                numbers.of(joined("vary", axis.key)).refuse("name", f"{axis.name} is the name of a result")
+        samples = 1 if isinstance(self.samples, UnsetType) else self.samples
         plan = Plan(base, axes, samples, self.seed, find, blocks, batched, derives_speeds(scene))
         if plan.points > MAX_POINTS:
-            raise SceneError(source, "vary", f"makes {plan.points:,} points; at most {MAX_POINTS:,}")
+            numbers.refuse("vary", f"makes {plan.points:,} points; at most {MAX_POINTS:,}")
+        numbers.done()
         return plan
 
 
@@ -239,94 +262,47 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     >>> rc.load_study(path).points
     11
     """
-    with parse.placed(path):
-        return Study.from_dict(parse.read(path), os.fspath(path), Path(path).parent)
+    with parse.opened(path) as (raw, problems):
+        return Study._read(raw, os.fspath(path), Path(path).parent, problems)
 
 
 def study_schema() -> dict[str, Any]:
-    """Return the JSON Schema of study files, for editors.
-
-    Returns
-    -------
-    dict
-
-    Examples
-    --------
-    >>> from revchain.studies.study import study_schema
-    >>> study_schema()["title"]
-    'revchain study'
-    """
-    from ..scenes.scene import json_schema
-
-    schema: dict[str, Any] = json.schema(Study)
-    scenes = json_schema()["$defs"]
-    for name, table in schema["$defs"].items():
-        if name in scenes:
-            schema["$defs"][name] = scenes[name]
-        elif "description" in table:
-            table["description"] = table["description"].partition("\n")[0]
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "revchain study", **schema}
+    """The JSON Schema of study files, for editors."""
+    return json_schema(Study, "revchain study")
 
 
-def _tables(data: dict[str, Any], source: str, folder: Path) -> dict[str, Any]:
-    """The scene and the table [vary], each part checked by itself, so that errors have its key."""
-    found: dict[str, Any] = {}
-    scene = data.get("scene")
-    if isinstance(scene, str):
-        named = folder / scene
-        found["scene"] = load_scene(named).to_dict()
-    elif isinstance(scene, dict):
-        try:
-            found["scene"] = Scene.from_dict(scene, source).to_dict()
-        except SceneError as error:
-            within = [one._replace(key=".".join(part for part in ("scene", one.key) if part)) for one in error.problems]
-            raise SceneError(source, problems=within) from None
-    if isinstance(find := data.get("find"), list):
-        words = list(get_args(Find))
-        for k, name in enumerate(find):
-            if name not in words:
-                raise SceneError(source, f"find[{k}]", parse.choice(words, False, name))
-    if isinstance(vary := data.get("vary"), dict):
-        for key, table in vary.items():
-            try:
-                parse.convert(table, Vary, source)
-            except SceneError as error:
-                place = f'vary."{key}"' + (f".{error.key}" if error.key else "")
-                raise SceneError(source, place, error.reason) from None
-        if not vary:
-            raise SceneError(
-                source, "vary", 'is empty: say what varies, such as vary."links[0].mass" = {values = [1, 2]}'
-            )
-    return found
+def _within_scene(problems: Iterable[Problem]) -> list[Problem]:
+    """With the keys that they have in a study."""
+    return [one._replace(key=f"scene.{one.key}".rstrip(".")) for one in problems]
 
 
-def _refuse_twice(axes: tuple[Axis, ...], source: str) -> None:
+def _refuse_twice(axes: tuple[Axis, ...], numbers: Numbers) -> None:
     """No path twice or inside another, no name twice."""
     for k, axis in enumerate(axes):
+        place = numbers.of(joined("vary", axis.key))
         for other in axes[:k]:
             if axis.name == other.name:
-                raise SceneError(source, f'vary."{axis.key}".name', f"{axis.name} is the name of another, too")
+                place.refuse("name", f"{axis.name} is the name of another, too")
             shorter: Steps = min(axis.path, other.path, key=len)
             if axis.path[: len(shorter)] == other.path[: len(shorter)]:
-                raise SceneError(source, f'vary."{axis.key}"', f'is varied by vary."{other.key}", too')
+                place.refuse("", f"is varied by {joined('vary', other.key)}, too")
 
 
-def _check(base: dict[str, Any], axis: Axis, source: str) -> None:
-    """Refuse what the scene would refuse of its ends, of a grid, or of a number in the middle, of random ones."""
-    refuse = SceneError(source, f'vary."{axis.key}"', "")
-    own = _kind(Scene.from_dict(base, source))
+def _check(base: dict[str, Any], axis: Axis, numbers: Numbers) -> None:
+    """Note what the scene refuses of its ends, of a grid, or of a number in the middle, of random ones."""
+    own = _kind(Scene.from_dict(base))
     for value in axis.examples():
         try:
-            kind = _kind(Scene.from_dict(with_value(base, axis.path, value, refuse), source))
-            if kind != own and not (kind == "a rig" and own.startswith("a rig")):  # wheels at rest have no backward modes
-                raise SceneError(
-                    source, refuse.key, f"makes {kind} of {own} at {value}: let the scene itself be {kind}, all points alike"
-                )
+            kind = _kind(Scene.from_dict(with_value(base, axis.path, value)))
         except SceneError as error:
-            if error.key == refuse.key:
-                raise
             elsewhere = "" if error.key in ("", axis.key) else f"{error.key}: "
-            raise SceneError(source, refuse.key, f"{elsewhere}{error.reason}") from None
+            return numbers.refuse("", f"{elsewhere}{error.reason}")
+        except ValueError as error:
+            return numbers.refuse("", str(error))
+        if kind != own and not (kind == "a rig" and own.startswith("a rig")):  # wheels at rest have no backward modes
+            alike = f"let the scene itself be {kind}, all points alike"
+            return numbers.refuse("", f"makes {kind} of {own} at {value}: {alike}")
+    return None
 
 
 def _kind(scene: Scene) -> str:
@@ -334,18 +310,17 @@ def _kind(scene: Scene) -> str:
     system = scene.system()
     if isinstance(system, Rig):
         return "a rig with flywheels that spin" if system.has_momentum else "a rig"
-    return f"a {type(system).__name__.lower()}"
+    return "a chain held at both ends" if scene.is_held else f"a {type(system).__name__.lower()}"
 
 
 def _largest(base: dict[str, Any], axes: tuple[Axis, ...], source: str) -> Scene:
     """The scene with the largest of all whole numbers, and those words, that has most links."""
     for axis in axes:
         if not axis.is_number:
-            refuse = SceneError(source, "vary", "")
-            words = [with_value(base, axis.path, word, refuse) for word in axis.examples()]
+            words = [with_value(base, axis.path, word) for word in axis.examples()]
             base = max(words, key=lambda data: _links(Scene.from_dict(data, source)))
         elif axis.values is not None and axis.values.dtype.kind == "i":
-            base = with_value(base, axis.path, axis.values.max().item(), SceneError(source, "vary", ""))
+            base = with_value(base, axis.path, axis.values.max().item())
     return Scene.from_dict(base, source)
 
 

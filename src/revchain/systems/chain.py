@@ -191,8 +191,8 @@ class Chain(System):
 
         Notes
         -----
-        Greenhill (1908) section 8 (17). The conical heights tend to those of the continuous chain
-        (`revchain.heavy_chain`) as 1 / count**2. Memory O(1).
+        Greenhill (1908) section 8 (17). The conical heights tend to those of a uniform `Cord` as 1 / count**2. Memory
+        O(1).
 
         Examples
         --------
@@ -236,9 +236,9 @@ class Chain(System):
 
         Notes
         -----
-        Greenhill (1908) section 4. The conical heights tend to those of the cord (`revchain.tapered_chain`) as
-        1 / count**2; `revchain.modes` with `rtol` makes use of it. Weights within 0.51 ulp, and centroids for the
-        length of a link as it is stored. Cost: 0.5 to 2 microseconds a link.
+        Greenhill (1908) section 4. The conical heights tend to those of the `Cord` as 1 / count**2; `revchain.modes`
+        with `rtol` makes use of it. Weights within 0.51 ulp, and centroids for the length of a link as it is stored.
+        Cost: 0.5 to 2 microseconds a link.
 
         Examples
         --------

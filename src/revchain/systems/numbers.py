@@ -33,7 +33,7 @@ def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
     """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers."""
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.flags.c_contiguous:
         return value  # as fast as can be: there is nothing to convert
-    if type(value) is not float and units.are_there(value):
+    if type(value) is not float and units.are_there(value := units.unpacked(value)):
         value = units.in_si(place, name, value)
     array = array_of(value)
     if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
@@ -145,18 +145,6 @@ def boolean(place: str, name: str, value: object) -> bool:
     return bool(value)
 
 
-def counts(place: str, name: str, value: ArrayLike) -> Whole:
-    """`value` as an int64 array of numbers from 1 to 2**53."""
-    whole = array_of(value)
-    if whole.dtype.kind not in "iu":
-        raise ValueError(f"{place}: {name} must be a whole number, got {shown(value)}")
-    if whole.size and whole.min() < 1:
-        raise ValueError(f"{place}: {name} must be at least 1, got {whole.min()}")
-    if whole.size and whole.max() > 2**53:
-        raise ValueError(f"{place}: {name} is too large, got {whole.max()}")
-    return whole.astype(np.int64)
-
-
 def refuse_where(wrong: NDArray[np.bool_], array: Floats, message: str) -> None:
     """A ValueError with the first of the wrong numbers."""
     if wrong.any():
@@ -246,13 +234,6 @@ def as_length(place: str, name: str, value: Any) -> Any:
 def positives(place: str, **given: ArrayLike) -> list[Floats]:
     """Positive finite numbers, broadcast as by `beside`."""
     return beside(place, **{name: positive(place, name, value) for name, value in given.items()})
-
-
-def places(place: str, x: ArrayLike, mode: ArrayLike, **chain: Floats) -> list[NDArray[Any]]:
-    """Places on a chain, numbers of modes and the chain's own numbers, length first, broadcast as by `beside`."""
-    at, *others = beside(place, x=floats(place, "x", x), mode=counts(place, "mode", mode), **chain)
-    refuse_where(~((at >= 0) & (at <= chain["length"])), at, f"{place}: x must lie between 0 and length")
-    return [at, *others]
 
 
 def numbers(arrays: Iterable[NDArray[Any]]) -> Iterator[Any]:

@@ -52,8 +52,24 @@ SI = {name: (_KINDS[kind][0], kind, _KINDS[kind][1]) for kind, names in _NAMES.i
 """Quantity: its SI unit, its kind, an example."""
 
 
+def unpacked(value: Any) -> Any:
+    """A numpy array of text or objects as lists, numbers that numpy has made text as numbers; all else as it is."""
+    kind = getattr(getattr(value, "dtype", None), "kind", "")
+    if kind not in ("U", "T", "O") or isinstance(value, str):
+        return value
+    items = value.tolist()
+    return items if kind == "O" and are_there(items) else value if kind == "O" else _numbers_of(items)
+
+
+def _numbers_of(text: Any) -> Any:
+    if isinstance(text, list):
+        return [_numbers_of(item) for item in text]
+    return float(text) if re.fullmatch(_NUMBER, text) else text
+
+
 def are_there(value: Any) -> bool:
     """Whether a number with a unit is among what was given."""
+    value = unpacked(value)
     if isinstance(value, str) or hasattr(value, "dimensionality"):
         return True
     return isinstance(value, list | tuple) and any(map(are_there, value))
@@ -61,6 +77,7 @@ def are_there(value: Any) -> bool:
 
 def in_si(place: str, name: str, value: Any) -> Any:
     """`value` with all its numbers in SI units; a ValueError where they are of another kind than `name` is."""
+    value = unpacked(value)
     if isinstance(value, list | tuple):
         return [in_si(place, name, item) for item in value]
     if not isinstance(value, str) and not hasattr(value, "dimensionality"):
@@ -79,8 +96,12 @@ def in_si(place: str, name: str, value: Any) -> Any:
 def si_value(text: str, quantity: str) -> float:
     """The number that `text` means in SI units; a ValueError says what is wrong with it."""
     if len(text) > 100 or re.match(PATTERN, text) is None:
-        comma = "; write a decimal point, not a comma" if re.match(r"\s*[+-]?\d+,\d+\s*[a-zA-Z%]*\s*$", text) else ""
-        raise ValueError(f'must be a number, or a number and its unit such as "{SI[quantity][2]}", got "{text}"{comma}')
+        point = re.sub(r"(?<=\d),(?=\d)", ".", text, count=1)
+        number = re.fullmatch(_NUMBER, point.strip())
+        right = point.strip() if number else f'"{point}"' if re.match(PATTERN, point) else ""
+        hint = f"; write {right} without quotes" if right else ""
+        hint = f"; the decimal mark is a point: write {right}" if right and point != text else hint
+        raise ValueError(f'must be a number, or a number and its unit such as "{SI[quantity][2]}", got "{text}"{hint}')
     number = re.match(rf"\s*{_NUMBER}", text)
     assert number is not None
     unit = text[number.end() :].strip()

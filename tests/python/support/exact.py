@@ -4,6 +4,10 @@
 import mpmath as mp
 
 
+def exactly(*numbers):
+    return [mp.mpf(float(number)) for number in numbers]
+
+
 def stored_links(chain):
     """(W, a, h, rho^2) of each link, from the numbers that a chain stores (rho^2/a^2 in two words)."""
     size, *columns, _ = chain._compiled.__getstate__()
@@ -46,3 +50,23 @@ def jacobi(u, complementary):
     s, c_ = mp.sin(phi), mp.cos(phi)
     d = mp.sqrt(c_**2 + (kc * s) ** 2)
     return [(phi, d), (s, c_ * d), (c_, -s * d), (d, -(1 - kc**2) * s * c_), (epsilon, d**2)]
+
+
+def carried_tangents(length, height, radius):
+    """Every root of height tan d = radius + length sin d, as tan d, by bisection between the extremes of
+    t (height - length cos d) - radius; and the tangent at which two of them meet."""
+
+    def short(t):
+        return height * t - radius - length * t / mp.sqrt(1 + t * t)
+
+    def root(low, high):
+        rising = short(high) > short(low)
+        for _ in range(330):
+            middle = (low + high) / 2
+            low, high = (middle, high) if (short(middle) < 0) == rising else (low, middle)
+        return low
+
+    far = 2 * (length + radius) / height
+    turn = mp.sqrt((length / height) ** (mp.mpf(2) / 3) - 1) if height < length else mp.mpf(0)
+    inner = [root(-far, -turn), root(-turn, mp.mpf(0))] if height < length and short(-turn) >= 0 else []
+    return [*inner, root(turn, far)], turn

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from decimal import Context, Decimal, localcontext
-from itertools import accumulate
 from typing import NamedTuple
 
 import mpmath as mp
@@ -130,105 +129,13 @@ class Hanging:
             return (low + high) / 2
 
 
-def dense_heights(links: list[Body]) -> list[mp.mpf]:
-    """All heights, descending, of the same links in other coordinates: their tilts, dense, with 60 digits."""
-    with mp.workdps(60):
-        rows = [tuple(mp.mpf(str(number)) for number in link) for link in links]
-        size = len(rows)
-        below = [mp.mpf(0), *accumulate(row[0] for row in rows)]
-        # A tilt of link j moves its own centroid by h_j and those of all lower links by a_j.
-        moved = mp.matrix(size, size)
-        for body in range(size):
-            moved[body, body] = rows[body][2]
-            for tilt in range(body + 1, size):
-                moved[body, tilt] = rows[tilt][1]
-        scale = [1 / mp.sqrt(rows[j][0] * rows[j][2] + rows[j][1] * below[j]) for j in range(size)]
-        whirl = mp.matrix(size, size)
-        for i in range(size):
-            for j in range(size):
-                total = sum(rows[body][0] * moved[body, i] * moved[body, j] for body in range(min(i, j) + 1))
-                if i == j:
-                    total += rows[i][0] * rows[i][3]
-                whirl[i, j] = total * scale[i] * scale[j]
-        return sorted(mp.eigsy(whirl, eigvals_only=True), reverse=True)
-
-
-def inclined_height(links: list[Body], mode: int, inclination: float, digits: int = 40) -> mp.mpf:
-    """Height at which the lowest link leans so, of the shape that grows out of a mode; a few links.
+def inclined_chain(links: list[Body], mode: int, inclination: float, digits: int = 25, steps: int = 16) -> mp.mpf:
+    """Height at which the lowest link leans so, of the shape that grows out of a mode.
 
     Moments of a link about its upper pin, P the sum of W x of all that is lower, x from the axis to a centroid:
-    sin (W h + a S) height = cos (a P + W h x + W r^2 sin). Unknown are the other inclinations and the height,
-    followed from the straight chain in steps of the lowest link's inclination by Newton's method.
-    """
-    with mp.workdps(digits + 10):
-        rows = [tuple(mp.mpf(str(number)) for number in link) for link in links]
-        size = len(rows)
-        if size == 1:
-            _, _, h, r2 = rows[0]
-            return mp.cos(mp.mpf(inclination)) * (h + r2 / h)
-        straight = mp.mpf(str(Hanging(links).height(mode)))
-
-        def moments(first, unknown):
-            angles, height = [first, *unknown[:-1]], unknown[-1]
-            upper, places = mp.mpf(0), [mp.mpf(0)] * size
-            for j in reversed(range(size)):
-                places[j] = upper + rows[j][2] * mp.sin(angles[j])
-                upper += rows[j][1] * mp.sin(angles[j])
-            outward, below, residuals = mp.mpf(0), mp.mpf(0), []
-            for (w, a, h, r2), x, angle in zip(rows, places, angles, strict=True):
-                pull = a * outward + w * h * x + w * r2 * mp.sin(angle)
-                residuals.append((mp.sin(angle) * (w * h + a * below) * height - mp.cos(angle) * pull))
-                outward += w * x
-                below += w
-            return residuals
-
-        # The mode itself: tilts from the linear moments, link by link upward.
-        tiny, steps = min(mp.mpf("1e-6"), mp.mpf(inclination) / 10), 12
-
-        def linear(height):
-            tilts, places = [mp.mpf(1)], []
-            outward, below = mp.mpf(0), mp.mpf(0)
-            lower = None
-            for j, (w, a, h, r2) in enumerate(rows):
-                if j == 0:
-                    x = height - r2 / h
-                    lower = x + (a - h)
-                    tilt = mp.mpf(1)
-                else:
-                    # x = lower - (a - h) tilt
-                    tilt = (a * outward + w * h * lower) / ((w * h + a * below) * height + w * h * (a - h) - w * r2)
-                    x = lower - (a - h) * tilt
-                    tilts.append(tilt)
-                places.append(x)
-                outward += w * x
-                below += w
-                lower = lower - a * tilt
-            return tilts
-
-        guess = [tilt * tiny for tilt in linear(straight)[1:]] + [straight]
-        first = tiny
-        target = mp.mpf(inclination)
-        previous, step = None, (target - tiny) / steps
-        tight = {"tol": mp.mpf(10) ** (-2 * digits), "maxsteps": 60, "verify": False}
-        solved = list(mp.findroot(lambda *u: moments(first, u), guess, **tight))
-        while first < target:
-            new = min(first + step, target)
-            if previous is None:
-                guess = [value * new / first for value in solved[:-1]] + [solved[-1]]
-            else:
-                ratio = (new - first) / (first - previous[0])
-                guess = [v + (v - p) * ratio for v, p in zip(solved, previous[1], strict=True)]
-            found = list(mp.findroot(lambda *u: moments(new, u), guess, **tight))  # noqa: B023
-            if max(abs(r) for r in moments(new, found)) > mp.mpf(10) ** (-digits) * rows[0][0] * rows[0][1] ** 2:
-                raise AssertionError("the reference itself has not converged")
-            previous, solved, first = (first, solved), found, new
-        return solved[-1]
-
-
-def inclined_chain(links: list[Body], mode: int, inclination: float, digits: int = 25, steps: int = 16) -> mp.mpf:
-    """The same for any number of links: each inclination follows from those below, by Newton's method of one unknown.
-
-    Started with the lowest link's inclination and a height, the support has to come out on the axis.
+    sin (W h + a S) height = cos (a P + W h x + W r^2 sin). Each inclination follows from those below, by Newton's
+    method of one unknown; started with the lowest link's inclination and a height, the support has to come out on the
+    axis.
     """
     with mp.workdps(digits + 5):
         rows = [tuple(mp.mpf(str(number)) for number in link) for link in links]

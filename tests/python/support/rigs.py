@@ -117,6 +117,28 @@ def agree(rig, found, tolerance=2.0**-50, digits=60):
     assert np.all(np.diff(np.abs(found.angular_speed)) >= 0)
 
 
+def agree_with_others(rig, found, tolerance=1e-14):
+    """The conical heights found of a rig without momentum, and the others with their rates of growth, are all of the
+    pencil's."""
+    with mp.workdps(60):
+        stiff, _, mass = (mp.matrix(x) for x in pencil(rig))
+        heights = [z for z in mp.eig(stiff**-1 * mass)[0] if abs(z) > mp.mpf(10) ** -30]
+        whirls = [abs(mp.im(z)) < abs(z) * 1e-25 and mp.re(z) > 0 for z in heights]
+        real = sorted((mp.re(z) for z, whirl in zip(heights, whirls, strict=True) if whirl), reverse=True)
+        rest = [z for z, whirl in zip(heights, whirls, strict=True) if not whirl]
+        rates = [float(abs(mp.im(mp.sqrt(mp.mpf(G) / z)))) for z in rest]
+    assert found.complete
+    assert (len(found), len(found.other)) == (len(real), len(rest))
+    for got, want in zip(found.conical_height, real, strict=True):
+        assert abs(got - want) <= tolerance * want
+    assert np.all(np.diff(found.conical_height) <= 0)
+    for z, rate in zip(rest, rates, strict=True):
+        distance = [abs(complex(got) - complex(z)) / abs(z) for got in found.other.conical_height]
+        i = int(np.argmin(distance))
+        assert distance[i] <= 1e-13
+        assert abs(found.other.growth_rate[i] - rate) <= 1e-12 * rate
+
+
 def pivots(rig, speeds):
     """Negative pivots of K + n P - n^2 M / g, speeds side by side in 80-bit floats, link by link."""
     ld = np.longdouble

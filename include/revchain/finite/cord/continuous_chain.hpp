@@ -195,11 +195,9 @@ class CordModeShape {
         : chain_(chain), height_(height), path_(path_at_rest(chain_, height, {.crossings = static_cast<int>(mode)})) {}
 
     /// Offset at a distance from the free end, where it is 1.
-    double shape(double s) const {
-        if (!(s >= 0 && s <= chain_.length))
-            revchain::detail::throw_invalid("CordModes::offset", "s must lie between 0 (free end) and the length", s);
-        return state_at(path_.kind(), path_.steps(), 1, s / height_).offset;
-    }
+    double shape(double s) const { return state("CordModes::offset", s).offset; }
+    /// d offset / ds, -1 / height at the free end.
+    double slope(double s) const { return slope(state("CordModes::slope", s)); }
     /// Where the cord crosses the axis, ascending, the support left out.
     Vector<double> nodes() const {
         Vector<double> points(static_cast<Index>(path_.crossings().size()) - 1);
@@ -207,8 +205,26 @@ class CordModeShape {
             points[i] = path_.crossings()[static_cast<std::size_t>(i)].arc * height_;
         return points;
     }
+    /// Where it is vertical, one above each node: T y'' = -rho (y / height + y').
+    Vector<double> vertical_points() const {
+        return revchain::detail::zeros_between(nodes(), chain_.length, [&](double s) {
+            const PathState at = state("CordModes::vertical_points", s);
+            const double steep = slope(at), part = path_.kind().density_at(at.arc) / path_.kind().weight_below(at.arc);
+            return std::pair(steep, -part * (at.offset / height_ + steep) / height_);
+        });
+    }
 
    private:
+    PathState state(std::string_view place, double s) const {
+        if (!(s >= 0 && s <= chain_.length))
+            revchain::detail::throw_invalid(place, "s must lie between 0 (free end) and the length", s);
+        return state_at(path_.kind(), path_.steps(), 1, s / height_);
+    }
+    double slope(const PathState& at) const {
+        const double below = path_.kind().weight_below(at.arc);
+        return (below == 0 ? -1 : at.pull / below) / height_;
+    }
+
     ContinuousChain chain_;
     double height_;
     Path path_;
