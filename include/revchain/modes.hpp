@@ -32,7 +32,7 @@ enum class ModesMethod {
     automatic,     ///< the cheapest method that keeps the tolerance (explain.hpp lists them with their costs)
     bisection,     ///< bisection on counts of modes: any chain, any modes, any tolerance
     condensed,     ///< the chain is condensed to blocks first: a few of the slowest modes of a long chain, to 2 ulp
-    aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth), to some 20 ulp
+    aberth,        ///< all modes of a small chain at once (Ehrlich and Aberth)
     interpolated,  ///< the characteristic polynomial is interpolated: many modes
 };
 

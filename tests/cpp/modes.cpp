@@ -203,7 +203,7 @@ TEST_CASE("what was asked is what comes", "[linear]") {
     const auto chain = Chain<double>::uniform_rods(7);
     const auto all = revchain::modes(chain, {.count = revchain::all_modes});
     CHECK(all.size() == 7);
-    CHECK(all.method == "bisection");
+    CHECK(all.method == "aberth");
     const auto some = revchain::modes(chain, {.count = 3});
     CHECK(some.size() == 3);
     CHECK(some.conical_height == all.conical_height.head(3));

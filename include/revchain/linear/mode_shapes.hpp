@@ -7,6 +7,7 @@
 
 #include "revchain/linear/condensed_shapes.hpp"
 #include "revchain/linear/one_mode.hpp"
+#include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/twisted_lanes.hpp"
 
 /// Stage 2 of `modes`: shapes, residuals and nodes of modes whose heights are known.
@@ -77,6 +78,7 @@ class ShapeFinder {
     void in_lanes(ModeShapes<T>& shapes, const Pencils<T>& pencils, const Heights<T>& height,
                   Progress* progress) const {
         constexpr std::size_t lanes = pencil::shape_lanes;
+        const FloatingPointStateGuard quiet;
         const bool lumped = pencil::is_lumped(pencils.wide());
         const std::vector<Wide<T>> places = pin_places(chain_);
         const std::size_t pins = static_cast<std::size_t>(chain_.size()) + 1;

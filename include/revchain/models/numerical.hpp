@@ -140,7 +140,7 @@ struct Condensed {
 struct Aberth {
     static constexpr std::string_view name = "aberth";
     static constexpr bool is_proved = true;
-    static constexpr double bound = 1e-14;
+    static constexpr double loose = 1e-14;
 
     Fit applies(const ChainKind& kind, const Question&) const {
         if (kind.size > 100) return Fit::no("more than 100 links");
@@ -155,17 +155,17 @@ struct Aberth {
         if (far_apart) return Fit::no("links that weigh too little beside what hangs below them");
         return {};
     }
-    double error_bound(const ChainKind&, const Question&) const { return bound; }
-    double cost(const ChainKind& kind, const Question&) const {
-        const double n = detail::real(kind.size);
-        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n;
+    double error_bound(const ChainKind&, const Question& question) const {
+        return question.rtol >= loose ? loose : detail::full_accuracy;
+    }
+    double cost(const ChainKind& kind, const Question& question) const {
+        const double n = detail::real(kind.size), lanes = 8 * std::ceil(detail::real(question.count) / 8);
+        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n + (question.rtol >= loose ? 0 : 5e-7 + 6e-8 * n + 7e-9 * n * lanes);
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
-        Question loose = question;
-        loose.rtol = std::max(question.rtol, bound);
-        return detail::answered(
-            chain, revchain::detail::heights_by_aberth(chain, detail::range_of(question), detail::options_for(loose)));
+        return detail::answered(chain, revchain::detail::heights_by_aberth(chain, detail::range_of(question),
+                                                                           detail::options_for(question)));
     }
 };
 
@@ -186,8 +186,9 @@ struct Interpolated {
         return question.rtol >= loose ? loose : detail::full_accuracy;
     }
     double cost(const ChainKind& kind, const Question& question) const {
-        const double each = question.rtol >= loose ? 2.5e-9 : 5e-9;
-        return 2.5e-5 + detail::real(kind.size) * (5e-7 + each * detail::real(question.count));
+        const double n = detail::real(kind.size), count = detail::real(question.count);
+        if (question.rtol >= loose) return 2.5e-5 + n * (5e-7 + 2.5e-9 * count);
+        return 2.5e-5 + 5e-7 * n + count * (2e-6 + 3.5e-9 * n);
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {

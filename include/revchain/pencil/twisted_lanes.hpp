@@ -30,6 +30,10 @@ struct ShapesInLanes {
     std::vector<T> down, up;                     ///< (n, shape_lanes): ratios of the offsets of neighbours
     std::vector<T> below, above, rest, change;   ///< scratch
 
+    void make_room(std::size_t links) {
+        offset.resize((links + 1) * shape_lanes);
+        for (std::vector<T>* each : {&down, &up, &below, &above, &rest, &change}) each->resize(links * shape_lanes);
+    }
     /// Where the mode in `lane`, whose offsets `row` has, crosses the axis, lowest first, the held pin left out.
     void crossings(std::size_t lane, const T* row, std::vector<Crossing<T>>& crossed) const {
         const std::size_t n = down.size() / shape_lanes;
@@ -62,6 +66,15 @@ struct ShapesInLanes {
             crossed.push_back({static_cast<Index>(m), share});
         }
     }
+};
+
+/// Some heights and how sure they are.
+template <std::floating_point T>
+struct HeightsInLanes {
+    std::array<T, shape_lanes> start;               ///< given: heights nearly right
+    std::array<DoubleWord<T>, shape_lanes> height;  ///< Rayleigh quotients of the shapes at these
+    std::array<T, shape_lanes> reach;               ///< an eigenvalue is proved to be that near to the exact quotient
+    std::array<T, shape_lanes> blur;                ///< how far `height` may be from the exact quotient
 };
 
 namespace detail {
@@ -121,8 +134,9 @@ template <class V>
     return if_less(abs(pivot), least, stiffness * (epsilon<T>() * epsilon<T>()) + least, pivot);
 }
 
-/// Forces left over at the pins but the held one, (lambda K - M) y, from the free end up: `take(m, force, size)` gets
-/// that at pin m, and the sum of the sizes of what meets there if `sized`.
+/// Forces left over at the pins but the held one, (lambda K - M) y, from the free end up: `take(m, force, size, offset,
+/// stretch)` gets that at pin m, the sum of the sizes of what meets there if `sized`, the pin's offset, and by how much it
+/// exceeds the next one's.
 template <bool lumped, bool fused, bool sized, class V, class T, class Offset, class Take>
 [[gnu::always_inline]] inline void forces_left(const std::vector<Element<DoubleWord<T>>>& elements,
                                                const Pair<V>& height, const Offset& offset, const Take& take) {
@@ -134,7 +148,8 @@ template <bool lumped, bool fused, bool sized, class V, class T, class Offset, c
         const V upper = m + 1 < n ? offset(m + 1) : V{};
         const DoubleWord<V> p = two_product<fused>(height.high, V(e.stiffness.high));
         const Pair<V> k{p.high, p.low + (height.high * V(e.stiffness.low) + height.low * V(e.stiffness.high))};
-        const Pair<V> spring = times<fused>(k, two_sum(lower, -upper));
+        const DoubleWord<V> stretch = two_sum(lower, -upper);
+        const Pair<V> spring = times<fused>(k, stretch);
         Pair<V> near = times<fused>(e.lower, -lower), far{};
         V near_size = abs(near.high), far_size{};
         if constexpr (!lumped) {
@@ -147,7 +162,7 @@ template <bool lumped, bool fused, bool sized, class V, class T, class Offset, c
         const Pair<V> left = (from_below + spring) + near;
         V spring_size{};
         if constexpr (sized) spring_size = abs(k.high) * (abs(lower) + abs(upper));
-        take(m, left.high + left.low, size + (spring_size + near_size));
+        take(m, left.high + left.low, size + (spring_size + near_size), lower, stretch.high);
         from_below = {-spring.high, -spring.low};
         if constexpr (!lumped) from_below = from_below + far;
         if constexpr (sized) size = spring_size + far_size;
@@ -155,34 +170,30 @@ template <bool lumped, bool fused, bool sized, class V, class T, class Offset, c
     }
 }
 
-template <bool lumped, class Where, class T>
-[[gnu::always_inline]] inline void shapes_in_lanes(Where, const std::vector<Element<DoubleWord<T>>>& elements,
-                                                   const std::array<DoubleWord<T>, shape_lanes>& heights,
-                                                   const std::array<T, shape_lanes>& rounded, ShapesInLanes<T>& s) {
-    constexpr bool fused = Where::fused;
-    constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
-    using V = Pack<T, width, L / width>;
+/// Offsets at heights in plain arithmetic, 1 at the pin where upper and lower part balance best: those below it are in
+/// `s.offset`, those above follow from `s.up`.
+template <class V>
+struct TwistInLanes {
+    V pin, side;  ///< and on which side of the axis the free end is
+};
+template <bool lumped, class V, class T>
+[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(const std::vector<Element<DoubleWord<T>>>& elements,
+                                                               const V& height, ShapesInLanes<T>& s) {
+    constexpr std::size_t L = shape_lanes;
     const std::size_t n = elements.size();
-    Pair<V> height;
-    V near_height;
-    for (std::size_t i = 0; i < L; ++i) {
-        height.high.set(i, heights[i].high);
-        height.low.set(i, heights[i].low);
-        near_height.set(i, rounded[i]);
-    }
     const V zero{}, one(T(1));
     // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what holds it from above. The
     // two take turns: each waits for its divisions.
     V below{}, above{};
     for (std::size_t m = 0; m < n; ++m) {
         const Element<DoubleWord<T>>& e = elements[m];
-        const V k = height.high * V(e.stiffness.high);
+        const V k = height * V(e.stiffness.high);
         const V coupling = lumped ? k : k + V(e.cross.high);
         const V pivot = not_zero_in_lanes(below + (k - V(e.lower.high)), k);
         const V inverse = one / pivot;
         const std::size_t i = n - 1 - m;
         const Element<DoubleWord<T>>& f = elements[i];
-        const V k_f = height.high * V(f.stiffness.high);
+        const V k_f = height * V(f.stiffness.high);
         if (m == 0) {
             above = k_f - V(f.lower.high);
             zero.store(&s.up[i * L]);
@@ -204,7 +215,7 @@ template <bool lumped, class Where, class T>
     V least(std::numeric_limits<T>::infinity()), least_forces(T(1)), twist{}, from_link{};
     for (std::size_t m = 0; m < n; ++m) {
         const Element<DoubleWord<T>>& e = elements[m];
-        const V k = height.high * V(e.stiffness.high), forces = from_link + (k + V(e.lower.high));
+        const V k = height * V(e.stiffness.high), forces = from_link + (k + V(e.lower.high));
         const V balance = abs(V::load(&s.rest[m * L]) + V::load(&s.change[m * L]));
         const auto better = balance * least_forces < least * forces;
         least = select(better, balance, least);
@@ -221,17 +232,45 @@ template <bool lumped, class Where, class T>
         y.store(&s.offset[m * L]);
     }
     zero.store(&s.offset[n * L]);
+    return {twist, side};
+}
+
+/// Offset of pin m from those of `twisted_in_lanes`, called for one pin after the other; `last`: what it returned last.
+template <class V, class T>
+[[gnu::always_inline]] inline V next_offset(ShapesInLanes<T>& s, std::size_t m, const V& twist, const V& last) {
+    V offset = V::load(&s.offset[m * shape_lanes]);
+    if (m > 0) offset = if_less(twist, V(static_cast<T>(m)), V::load(&s.up[(m - 1) * shape_lanes]) * last, offset);
+    return offset;
+}
+
+template <bool lumped, class Where, class T>
+[[gnu::always_inline]] inline void shapes_in_lanes(Where, const std::vector<Element<DoubleWord<T>>>& elements,
+                                                   const std::array<DoubleWord<T>, shape_lanes>& heights,
+                                                   const std::array<T, shape_lanes>& rounded, ShapesInLanes<T>& s) {
+    constexpr bool fused = Where::fused;
+    constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
+    using V = Pack<T, width, L / width>;
+    const std::size_t n = elements.size();
+    Pair<V> height;
+    V near_height;
+    for (std::size_t i = 0; i < L; ++i) {
+        height.high.set(i, heights[i].high);
+        height.low.set(i, heights[i].low);
+        near_height.set(i, rounded[i]);
+    }
+    const V zero{}, one(T(1));
+    const auto [twist, side] = twisted_in_lanes<lumped>(elements, height.high, s);
+    V y{};
     // What is left over at all other pins is taken away by a correction that is 0 at the twist.
     V load{};
     forces_left<lumped, fused, false, V>(
         elements, height,
         [&](std::size_t m) REVCHAIN_INLINED {
-            V next = V::load(&s.offset[m * L]);
-            if (m > 0) next = if_less(twist, V(static_cast<T>(m)), V::load(&s.up[(m - 1) * L]) * y, next);
-            next.store(&s.offset[m * L]);
-            return y = next;
+            y = next_offset(s, m, twist, y);
+            y.store(&s.offset[m * L]);
+            return y;
         },
-        [&](std::size_t m, const V& force, const V&) REVCHAIN_INLINED {
+        [&](std::size_t m, const V& force, const V&, const V&, const V&) REVCHAIN_INLINED {
             if (m > 0) load = V::load(&s.down[(m - 1) * L]) * load;
             load -= force;
             if_less(V(static_cast<T>(m)), twist, load, -force).store(&s.change[m * L]);
@@ -279,7 +318,7 @@ template <bool lumped, class Where, class T>
             final.store(&s.offset[m * L]);
             return final;
         },
-        [&](std::size_t, const V& force, const V& sizes) REVCHAIN_INLINED {
+        [&](std::size_t, const V& force, const V& sizes, const V&, const V&) REVCHAIN_INLINED {
             worst = max(worst, abs(force));
             meeting = max(meeting, sizes);
         });
@@ -292,24 +331,72 @@ template <bool lumped, class Where, class T>
     }
 }
 
+/// Rayleigh quotients of the shapes at `start`, `reach` and `blur` as said of `HeightsInLanes`.
+template <bool lumped, class Where, class T>
+[[gnu::always_inline]] inline void heights_in_lanes(Where, const std::vector<Element<DoubleWord<T>>>& elements,
+                                                    const T& unit, ShapesInLanes<T>& s, HeightsInLanes<T>& result) {
+    constexpr bool fused = Where::fused;
+    constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
+    const T u = epsilon<T>() / T(2);
+    using V = Pack<T, width, L / width>;
+    const V start = V::load(result.start.data());
+    const V twist = twisted_in_lanes<lumped>(elements, start, s).pin;
+    V y{}, hung{}, hung_error{}, square{}, stiffness{}, work{}, work_size{}, work_error{};
+    forces_left<lumped, fused, true, V>(
+        elements, Pair<V>{start, V{}}, [&](std::size_t m) REVCHAIN_INLINED { return y = next_offset(s, m, twist, y); },
+        [&](std::size_t m, const V& force, const V& sizes, const V& offset, const V& stretch) REVCHAIN_INLINED {
+            const V k(elements[m].stiffness.high), error = V(unit) * sizes + V(T(2) * u) * abs(force);
+            hung += force;
+            hung_error += error + V(T(2) * u) * abs(hung);
+            const V whole = abs(hung) + hung_error;
+            square += whole * (whole / k);
+            stiffness += k * stretch * stretch;
+            work += offset * force;
+            work_size += abs(offset * force);
+            work_error += abs(offset) * error;
+        });
+    // Each sum has lost less than a 2^-20th part of itself, and `work` less than n + 4 roundings of its terms' sizes.
+    const T slack = T(1) + T(0x1p-20), terms = T(elements.size() + 4);
+    const V step = work / stiffness;
+    const DoubleWord<V> height = two_sum(start, -step);
+    for (std::size_t i = 0; i < L; ++i) {
+        using std::sqrt;
+        result.height[i] = {height.high[i], height.low[i]};
+        result.reach[i] = sqrt(square[i] / stiffness[i]) * slack;
+        result.blur[i] = ((work_error[i] + terms * u * work_size[i]) / stiffness[i] + terms * u * abs(step)[i]) * slack;
+    }
+}
+
 }  // namespace detail
 
 /// Shapes of the pencil at some heights, which the last one fills up, and residuals of the heights `rounded`. Accuracy
 /// as `eigenvector` of a pencil in double words; `found` is false in a lane where the correction is not small, which
-/// `eigenvector` can still do. Precondition: the pencil is in one unit.
+/// `eigenvector` can still do. Precondition: the pencil is in one unit. Cost: 10 ns a link and mode (AVX-512).
 template <std::floating_point T>
 void shapes_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped,
                      const std::array<DoubleWord<T>, shape_lanes>& heights, const std::array<T, shape_lanes>& rounded,
                      ShapesInLanes<T>& shapes) {
-    const std::size_t n = pencil.elements.size();
-    shapes.offset.resize((n + 1) * shape_lanes);
-    for (std::vector<T>* each : {&shapes.down, &shapes.up, &shapes.below, &shapes.above, &shapes.rest, &shapes.change})
-        each->resize(n * shape_lanes);
+    shapes.make_room(pencil.elements.size());
     simd([&](auto where) REVCHAIN_INLINED {
         if (lumped)
             detail::shapes_in_lanes<true>(where, pencil.elements, heights, rounded, shapes);
         else
             detail::shapes_in_lanes<false>(where, pencil.elements, heights, rounded, shapes);
+    });
+}
+
+/// Better heights from `heights.start`. NaN or infinite where numbers leave the range of T. Precondition and cost as
+/// those of `shapes_in_lanes`; `shapes` is scratch.
+template <std::floating_point T>
+void heights_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, ShapesInLanes<T>& shapes,
+                      HeightsInLanes<T>& heights) {
+    shapes.make_room(pencil.elements.size());
+    const T unit = T(32) * operation_error<DoubleWord<T>>() + T(4) * pencil.entry_error;
+    simd([&](auto where) REVCHAIN_INLINED {
+        if (lumped)
+            detail::heights_in_lanes<true>(where, pencil.elements, unit, shapes, heights);
+        else
+            detail::heights_in_lanes<false>(where, pencil.elements, unit, shapes, heights);
     });
 }
 

@@ -44,10 +44,11 @@ TEST_CASE("what is taken where", "[linear]") {
     const auto method = [](Index n, Index count, std::optional<double> rtol = {}) {
         return modes(Chain<double>::uniform_rods(n), {.count = count, .rtol = rtol}).method;
     };
-    CHECK(method(11, 11) == "bisection");
-    CHECK(method(12, 12) == "interpolated");
-    CHECK(method(100, 7) == "bisection");
-    CHECK(method(100, 20) == "interpolated");
+    CHECK(method(1, 1) == "aberth");
+    CHECK(method(12, 12) == "aberth");
+    CHECK(method(100, 1) == "bisection");
+    CHECK(method(100, 20) == "aberth");
+    CHECK(method(101, 60) == "interpolated");
     CHECK(method(1000, 4) == "condensed");
     CHECK(method(1000, 200) == "interpolated");
     CHECK(method(1000, 600, 1e-13) == "interpolated");
@@ -98,7 +99,7 @@ TEST_CASE("tolerances between those of double and of two words", "[linear]") {
 }
 
 TEST_CASE("many heights can be watched and stopped", "[linear]") {
-    const auto chain = Chain<double>::uniform_rods(100);
+    const auto chain = Chain<double>::uniform_rods(200);
     revchain::Progress progress;
     REQUIRE(modes(chain, {.count = revchain::all_modes, .progress = &progress}).method == "interpolated");
     CHECK(progress.fraction() == 1.0);

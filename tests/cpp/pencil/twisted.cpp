@@ -52,7 +52,8 @@ TEST_CASE("mode shapes", "[linalg]") {
                 CHECK(m.shapes().offset.row(j).cwiseAbs().maxCoeff() == 1.0);
                 CHECK(m.shapes().offset(j, n) == 0.0);
                 CHECK(m.shapes().offset(j, 0) >= 0.0);
-                CHECK(error <= 3.5e-16);
+                // 2^-54 is half an ulp of what is a little below 1; chains in several units go one by one.
+                CHECK(error <= (assembled.pencil.units.empty() ? 0x1p-54 * 1.001 : 3.5e-16));
                 worst = std::max(worst, error);
                 // The same in double alone, as a loose tolerance has it: the price of the gap to the next mode.
                 if (n < 1000) {
