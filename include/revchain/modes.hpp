@@ -119,13 +119,14 @@ struct Modes {
 /// to 1e5, ten kinds of chain: tests/cpp/modes.cpp), the bound at most 2 ulp and proved by counts. With `rtol` the
 /// bound is at most `rtol`, and proved by counts for the methods of `ModesMethod` and for coarse chains. For closed
 /// forms, continuous chains and asymptotic formulas it is derived and measured to hold; `certify` proves it for all.
-/// Shapes are within 3.5e-16 / gap of the largest offset, with a looser `rtol` within rtol / gap. The gap, at most 1,
-/// is the relative distance to the next height.
+/// Shapes are within 5.6e-17 of the largest offset (3.5e-16 / gap where weights need several units), with a looser
+/// `rtol` within rtol / gap. The gap, at most 1, is the relative distance to the next height.
 /// Where `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
 /// Method: modes are counted in T at eight trial heights in one pass. A twisted factorization then gives a shape, the
 /// shape a Rayleigh quotient in `Wide<T>`, and two counts prove the bound. A chain of floats is solved in double. In
 /// long double and wider scalars, heights come from bisection.
-/// Cost in double per link and mode: 0.3 microseconds, 0.005 for many modes; shapes 0.25. Memory O(N k) with shapes.
+/// Cost in double per link and mode: 0.3 microseconds, 0.005 to 0.02 for many modes; shapes 0.02. Memory O(N k) with
+/// shapes.
 /// Throws InvalidArgument for mode numbers outside 1 ... `chain.mode_count()`, a window that is empty by its ends,
 /// numbers together with a window, and a tolerance that is negative or NaN. If the tolerance is out of reach, the
 /// status is `Status::tolerance_not_met` and the bounds are those reached.

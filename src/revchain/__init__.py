@@ -33,10 +33,10 @@ A double pendulum of 1 kg and 3 kg on threads of 1 m:
 >>> import revchain as rc
 >>> chain = rc.Chain(mass=[1.0, 3.0], length=1.0)
 >>> rc.modes(chain)
-2 of 2 modes of a chain of 2 links, length 2, mass 4: by bisection, success
+2 of 2 modes of a chain of 2 links, length 2, mass 4: by aberth, success
 mode  speed (rad/s)  speed (rpm)  period (s)   height (m)  error bound  nodes (m from the free end)
-   1        2.55691      24.4167     2.45734   1.50000000      4.4e-16                            0
-   2        4.42869      42.2909     1.41875  0.500000000      4.4e-16                       1: 0.5
+   1        2.55691      24.4167     2.45734   1.50000000      1.1e-16                            0
+   2        4.42869      42.2909     1.41875  0.500000000      1.1e-16                       1: 0.5
 gravity 9.80665 m/s^2; error bound: relative, of the conical height
 """
 

@@ -102,7 +102,7 @@ def test_fields():
     assert result.system is chain and len(result) == 3 and result.gravity == 9.80665
     assert result.conical_height.shape == result.error_bound.shape == (3,)
     assert (np.diff(result.conical_height) < 0).all()
-    assert isinstance(result.nodes, tuple) and result.method == "bisection"
+    assert isinstance(result.nodes, tuple) and result.method == "aberth"
 
 
 def test_how_many_modes():

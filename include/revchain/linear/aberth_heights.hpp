@@ -6,8 +6,8 @@
 #include "revchain/linear/heights.hpp"
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
+#include "revchain/pencil/quotient_lanes.hpp"
 #include "revchain/pencil/spectrum/aberth.hpp"
-#include "revchain/pencil/twisted_lanes.hpp"
 
 namespace revchain::detail {
 
@@ -69,9 +69,9 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain)
     return fit && worst_cross < 0x1p20;
 }
 
-/// The heights of a range of the modes that `all` holds, to 2 ulp; nothing where that is not proved. Each is the Rayleigh
-/// quotient of its shape, whose exact value is nearer to an eigenvalue than the square of the residual over the room
-/// that the bounds in `all` leave it (Kato and Temple).
+/// The heights of a range of the modes that `all` holds, to 2 ulp; nothing where that is not proved. Each is the
+/// Rayleigh quotient of its shape, whose exact value is nearer to an eigenvalue than the square of the residual over the
+/// room that the bounds in `all` leave it (Kato and Temple).
 inline std::optional<Heights<double>> refined(const Chain<double>& chain, const ModeRange& range, Index modes,
                                               const pencil::AberthSpectrum& all) {
     constexpr std::size_t lanes = pencil::shape_lanes;
@@ -97,7 +97,8 @@ inline std::optional<Heights<double>> refined(const Chain<double>& chain, const 
             const std::size_t i = static_cast<std::size_t>(j - first);
             const double height = found.height[i].high, reach = found.reach[i], blur = found.blur[i];
             const double above = j == 0 ? std::numeric_limits<double>::infinity() : end(j - 1, -1) - height;
-            const double room = std::min(above, height - (j + 1 == modes ? 0.0 : end(j + 1, 1))) - blur;
+            const double below = height - (j + 1 == modes ? 0.0 : end(j + 1, 1));
+            const double room = std::min(above, below) - blur - 0x1p-50 * height;
             const double off = (reach * (reach / room) + blur) / height * slack;
             const double bound = off + epsilon<double>() * 0.5 * slack;
             if (!(room > reach) || !(bound <= full)) return std::nullopt;
@@ -107,12 +108,12 @@ inline std::optional<Heights<double>> refined(const Chain<double>& chain, const 
     return result;
 }
 
-/// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not serve. Bounds are of
-/// some 20 ulp, or where the tolerance leaves no room for them below 2.
+/// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not serve. Bounds are
+/// of some 20 ulp, or with a tolerance below 1e-14 below 2.
 /// Cost: as there, 10 ns a link, and 8 ns a link and mode where they are to be below 2 ulp.
 inline std::optional<Heights<double>> heights_by_aberth(const Chain<double>& chain, const ModeRange& range,
                                                         const HeightsOptions<double>& options) {
-    const double loose = 16 * epsilon<double>();
+    constexpr double loose = 1e-14;
     const double goal = std::min(options.rtol.value_or(0.0), 0.5);
     if (chain.size() > static_cast<Index>(pencil::aberth::most_links) || chain.mode_count() != chain.size() ||
         !chain.has_one_weight_unit())

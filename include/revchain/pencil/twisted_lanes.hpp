@@ -60,21 +60,12 @@ struct ShapesInLanes {
             const T ratio = m < twist[lane] ? down[m * shape_lanes + lane] : up[m * shape_lanes + lane];
             const bool seen = std::min(abs(lower), abs(upper)) > least_offset;
             if (seen ? (lower < T(0)) == (upper < T(0)) : !(ratio < T(0))) continue;
-            const T share = seen                  ? lower / (lower - upper)
+            const T share = seen              ? lower / (lower - upper)
                             : m < twist[lane] ? ratio / (ratio - T(1))
-                                                  : T(1) / (T(1) - ratio);
+                                              : T(1) / (T(1) - ratio);
             crossed.push_back({static_cast<Index>(m), share});
         }
     }
-};
-
-/// Some heights and how sure they are.
-template <std::floating_point T>
-struct HeightsInLanes {
-    std::array<T, shape_lanes> start;               ///< given: heights nearly right
-    std::array<DoubleWord<T>, shape_lanes> height;  ///< Rayleigh quotients of the shapes at these
-    std::array<T, shape_lanes> reach;               ///< an eigenvalue is proved to be that near to the exact quotient
-    std::array<T, shape_lanes> blur;                ///< how far `height` may be from the exact quotient
 };
 
 namespace detail {
@@ -135,8 +126,8 @@ template <class V>
 }
 
 /// Forces left over at the pins but the held one, (lambda K - M) y, from the free end up: `take(m, force, size, offset,
-/// stretch)` gets that at pin m, the sum of the sizes of what meets there if `sized`, the pin's offset, and by how much it
-/// exceeds the next one's.
+/// stretch)` gets that at pin m, the sum of the sizes of what meets there if `sized`, the pin's offset, and by how much
+/// it exceeds the next one's.
 template <bool lumped, bool fused, bool sized, class V, class T, class Offset, class Take>
 [[gnu::always_inline]] inline void forces_left(const std::vector<Element<DoubleWord<T>>>& elements,
                                                const Pair<V>& height, const Offset& offset, const Take& take) {
@@ -182,8 +173,8 @@ template <bool lumped, class V, class T>
     constexpr std::size_t L = shape_lanes;
     const std::size_t n = elements.size();
     const V zero{}, one(T(1));
-    // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what holds it from above. The
-    // two take turns: each waits for its divisions.
+    // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what holds it from above.
+    // The two take turns: each waits for its divisions.
     V below{}, above{};
     for (std::size_t m = 0; m < n; ++m) {
         const Element<DoubleWord<T>>& e = elements[m];
@@ -331,42 +322,6 @@ template <bool lumped, class Where, class T>
     }
 }
 
-/// Rayleigh quotients of the shapes at `start`, `reach` and `blur` as said of `HeightsInLanes`.
-template <bool lumped, class Where, class T>
-[[gnu::always_inline]] inline void heights_in_lanes(Where, const std::vector<Element<DoubleWord<T>>>& elements,
-                                                    const T& unit, ShapesInLanes<T>& s, HeightsInLanes<T>& result) {
-    constexpr bool fused = Where::fused;
-    constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
-    const T u = epsilon<T>() / T(2);
-    using V = Pack<T, width, L / width>;
-    const V start = V::load(result.start.data());
-    const V twist = twisted_in_lanes<lumped>(elements, start, s).pin;
-    V y{}, hung{}, hung_error{}, square{}, stiffness{}, work{}, work_size{}, work_error{};
-    forces_left<lumped, fused, true, V>(
-        elements, Pair<V>{start, V{}}, [&](std::size_t m) REVCHAIN_INLINED { return y = next_offset(s, m, twist, y); },
-        [&](std::size_t m, const V& force, const V& sizes, const V& offset, const V& stretch) REVCHAIN_INLINED {
-            const V k(elements[m].stiffness.high), error = V(unit) * sizes + V(T(2) * u) * abs(force);
-            hung += force;
-            hung_error += error + V(T(2) * u) * abs(hung);
-            const V whole = abs(hung) + hung_error;
-            square += whole * (whole / k);
-            stiffness += k * stretch * stretch;
-            work += offset * force;
-            work_size += abs(offset * force);
-            work_error += abs(offset) * error;
-        });
-    // Each sum has lost less than a 2^-20th part of itself, and `work` less than n + 4 roundings of its terms' sizes.
-    const T slack = T(1) + T(0x1p-20), terms = T(elements.size() + 4);
-    const V step = work / stiffness;
-    const DoubleWord<V> height = two_sum(start, -step);
-    for (std::size_t i = 0; i < L; ++i) {
-        using std::sqrt;
-        result.height[i] = {height.high[i], height.low[i]};
-        result.reach[i] = sqrt(square[i] / stiffness[i]) * slack;
-        result.blur[i] = ((work_error[i] + terms * u * work_size[i]) / stiffness[i] + terms * u * abs(step)[i]) * slack;
-    }
-}
-
 }  // namespace detail
 
 /// Shapes of the pencil at some heights, which the last one fills up, and residuals of the heights `rounded`. Accuracy
@@ -382,21 +337,6 @@ void shapes_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped,
             detail::shapes_in_lanes<true>(where, pencil.elements, heights, rounded, shapes);
         else
             detail::shapes_in_lanes<false>(where, pencil.elements, heights, rounded, shapes);
-    });
-}
-
-/// Better heights from `heights.start`. NaN or infinite where numbers leave the range of T. Precondition and cost as
-/// those of `shapes_in_lanes`; `shapes` is scratch.
-template <std::floating_point T>
-void heights_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, ShapesInLanes<T>& shapes,
-                      HeightsInLanes<T>& heights) {
-    shapes.make_room(pencil.elements.size());
-    const T unit = T(32) * operation_error<DoubleWord<T>>() + T(4) * pencil.entry_error;
-    simd([&](auto where) REVCHAIN_INLINED {
-        if (lumped)
-            detail::heights_in_lanes<true>(where, pencil.elements, unit, shapes, heights);
-        else
-            detail::heights_in_lanes<false>(where, pencil.elements, unit, shapes, heights);
     });
 }
 

@@ -62,7 +62,7 @@ void certify(Modes<T>& modes, Index j, const Pencils<P>& pencils, Index mode_cou
     modes.certificate.above_upper[j] = 0;
     if (!(bound < T(1))) return;
     bool below = false, above = false;
-    T reach = height * std::max(bound, epsilon<T>());
+    T reach = height * std::max(bound, epsilon<T>() / T(2));
     for (int attempt = 0; attempt < 8 && !(below && above); ++attempt, reach = reach + reach) {
         const T lower = height - reach, upper = height + reach;
         if (!(lower > T(0)) || !isfinite(upper)) return;

@@ -105,10 +105,10 @@ class Modes(Result):
     >>> import revchain as rc
     >>> m = rc.modes(rc.Chain.uniform_plummets(2, length=2.0))
     >>> m
-    2 of 2 modes of a chain of 2 links, length 2, weight 1: by bisection, success
+    2 of 2 modes of a chain of 2 links, length 2, weight 1: by aberth, success
     mode  speed (rad/s)  speed (rpm)  period (s)   height (m)  error bound  nodes (m from the free end)
-       1        2.39679      22.8877     2.62150   1.70710678      4.4e-16                            0
-       2        5.78636      55.2557     1.08586  0.292893219      4.4e-16                     1: 0.293
+       1        2.39679      22.8877     2.62150   1.70710678      1.1e-16                            0
+       2        5.78636      55.2557     1.08586  0.292893219      1.1e-16                     1: 0.293
     gravity 9.80665 m/s^2; error bound: relative, of the conical height
     >>> m.shape.round(4)
     array([[ 1.    ,  0.4142,  0.    ],

@@ -130,7 +130,7 @@ TEST_CASE("heights all together to the last digit: random chains", "[linear]") {
         ++served;
         const support::Truth truth(chain);
         const Quad unit = std::ldexp(1.0, chain.units().length_exponent);
-        for (Index j = 0; j < n; j += n > 12 ? 17 : 1) {
+        for (Index j = 0; j<n; j += n> 12 ? 17 : 1) {
             const auto& height = (*found)[static_cast<std::size_t>(j)];
             CAPTURE(i, n, j, height.error_bound);
             REQUIRE(height.error_bound <= 2 * ulp);
