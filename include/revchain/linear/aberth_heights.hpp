@@ -70,8 +70,8 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain)
 }
 
 /// The heights of a range of the modes that `all` holds, to 2 ulp; nothing where that is not proved. Each is the
-/// Rayleigh quotient of its shape, whose exact value is nearer to an eigenvalue than the square of the residual over the
-/// room that the bounds in `all` leave it (Kato and Temple).
+/// Rayleigh quotient of its shape, whose exact value is nearer to an eigenvalue than the square of the residual over
+/// the room that the bounds in `all` leave it (Kato and Temple).
 inline std::optional<Heights<double>> refined(const Chain<double>& chain, const ModeRange& range, Index modes,
                                               const pencil::AberthSpectrum& all) {
     constexpr std::size_t lanes = pencil::shape_lanes;
