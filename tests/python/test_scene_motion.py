@@ -216,7 +216,7 @@ def test_held_scenes_by_command(run, tmp_path):
     code, _, err = run("run", path, "--out", tmp_path / "out")
     assert code == 2 and "modes: no answer for a chain whose ends are held a span apart; ask for its shapes: revchain shapes" in err
     code, _, err = run("shapes", path, "--angular-speed", 2.0)  # too slow: it folds along the axis
-    assert code == 1 and "no shape was found with 1 half waves" in err
+    assert code == 1 and "no shape was found with 1 half wave" in err
     path = write(tmp_path, blade + 'tension = "617.6798 N"\n')
     code, out, _ = run("modes", path, "--plot", tmp_path / "taut.png", "--json", tmp_path / "taut.json")
     assert code == 0 and "12.3620" in out and (tmp_path / "taut.png").exists()

@@ -60,7 +60,7 @@ class Report:
             kept = f"no method keeps the tolerance; the best bound is {best.error_bound:.1e}" if best else ""
             what = kept or "no method applies"
         if missing:
-            what = f"no shape was found with {', '.join(map(str, missing))} half waves"
+            what = f"no shape was found with {', '.join(map(str, missing))} half wave{'s' * (list(missing) != [1])}"
         if isinstance(self.found, Modes):
             what = "the tolerance is not met"
             if self.found.rtol:

@@ -212,7 +212,7 @@ def find_modes(
         of_rig = _core.rig_modes(system._under(g), start, count_of(place, count, 10), g, progress)
         found = RigModes._made(of_rig, system=system, gravity=g)
         if start > max(1, *found.available):
-            raise ValueError(f"{place}: there are {max(found.available)} modes in a direction, got first = {start}")
+            raise ValueError(f"{place}: first must be from 1 to {max(found.available)}, the number of modes in a direction, got {start}")
         return found
     heights = speeds = None
     if conical_height is not None:

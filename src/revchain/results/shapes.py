@@ -412,7 +412,7 @@ class SteadyShapes(Results[Any]):
     def _how_many(self, at: str = "") -> str:
         number = f"{len(self)} shape{'s' * (len(self) != 1)}{at}"
         if self.missing:
-            return f"{number}; none found with {', '.join(map(str, self.missing))} half waves"
+            return f"{number}; none found with {', '.join(map(str, self.missing))} half wave{'s' * (list(self.missing) != [1])}"
         if isinstance(self.system, Held):
             return number
         return f"{number}, proved complete" if self.complete else f"{number}; there may be more"

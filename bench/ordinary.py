@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: MPL-2.0
+"""The ordinary call from Python against what NumPy and SciPy offer: chain or matrices built, heights and shapes.
+
+`bench/run --only ordinary` prints the table. All take turns in every round, on chains that are new in every round; times
+are medians of the CPU time of one thread; the ratio is that of the fastest peer over revchain. Errors are of heights,
+relative, the worst of the first round, against double-double (of rigs: against revchain). A call that takes less time than its results take to be
+written (0.2 ns a number) is reported as BROKEN.
+"""
+
+import argparse
+import csv
+import statistics
+import sys
+import time
+
+import numpy as np
+from scipy import linalg
+
+import revchain as rc
+
+GRAVITY = 9.80665
+SIZES = (2, 5, 8, 12, 20, 50, 100, 300, 1000, 3000)
+TARGETS = {  # of N = 2 ... 12, 20 ... 100, 300 ... 3000
+    "plummets, all modes with shapes": (1, 3, 5),
+    "rods, all modes with shapes": (1.3, 8, 20),
+    "random bodies, all modes with shapes": (1.3, 8, 20),
+    "plummets, heights alone": (1, 5, 8),
+    "plummets, three slowest with shapes": (1.3, 3, 10),
+    "rigs with springs": (2, 10, 30),
+    "rigs with flywheels": (2, 10, 30),
+    "ten slowest of a million plummets": (None, None, 400),
+}
+
+
+class Links:
+    """The arrays that a user has: weights, lengths, and for bodies centroids and radii of gyration."""
+
+    def __init__(self, rng, kind, n):
+        self.weight, self.length = rng.uniform(0.5, 2.0, n), rng.uniform(0.5, 2.0, n)
+        self.more = {}
+        if kind == "rods":
+            self.more = {"centroid": self.length / 2, "radius_of_gyration": self.length / np.sqrt(12)}
+        if kind == "bodies":
+            p = rng.uniform(0.2, 0.8, n)
+            radius = self.length * np.sqrt(p * (1 - p)) * rng.uniform(0.3, 0.95, n)
+            self.more = {"centroid": p * self.length, "radius_of_gyration": radius}
+        self.stiffness = rng.uniform(5.0, 50.0) * self.weight.sum() / self.length.sum()
+        self.momentum = rng.uniform(0.1, 1.0, n) * self.weight * self.length**1.5 / np.sqrt(GRAVITY)
+
+    def chain(self):
+        return rc.Chain(weight=self.weight, length=self.length, **self.more)
+
+    def pencil(self, held=True):
+        """K and M as diagonal and what is beside it; with the support's pin unless it is held."""
+        w, a = self.weight, self.length
+        h, rho = self.more.get("centroid", a), self.more.get("radius_of_gyration", 0.0)
+        p, r = h / a, (rho / a) ** 2
+        hung = np.cumsum(w)
+        k = (w * p + hung - w) / a
+        lower, upper, cross = w * (p**2 + r), w * ((1 - p) ** 2 + r), w * (p * (1 - p) - r)
+        n = len(w)
+        K, M = np.zeros(n + 1), np.zeros(n + 1)
+        K[:-1] += k
+        K[1:] += k
+        M[:-1] += lower
+        M[1:] += upper
+        return (K[:n], -k[:-1], M[:n], cross[:-1]) if held else (K, -k, M, cross)
+
+
+def dense(diagonal, off):
+    n = len(diagonal)
+    full = np.zeros((n, n))
+    full.flat[:: n + 1] = diagonal
+    full.flat[1 :: n + 1] = full.flat[n :: n + 1] = off
+    return full
+
+
+def symmetrised(links):
+    K, off, M, _ = links.pencil()
+    scale = 1 / np.sqrt(M)
+    return K * scale**2, off * scale[:-1] * scale[1:], scale
+
+
+# ---- revchain: heights, shapes
+
+
+def ours(count, shapes=True):
+    def modes(links):
+        found = rc.modes(links.chain(), count)
+        return (found.conical_height, found.shape) if shapes else (found.conical_height, None)
+
+    return modes
+
+
+def our_rig(links):
+    found = rc.modes(rc.Rig(links.chain(), support=rc.Support(stiffness=links.stiffness)), "all")
+    return found.conical_height, found.shape
+
+
+def our_wheels(links):
+    found = rc.modes(rc.Rig(links.chain(), flywheels=rc.Flywheel(momentum=links.momentum)), "all")
+    return np.sort(found.conical_height)[::-1], found.shape
+
+
+# ---- peers
+
+
+def numpy_eigh(links):
+    diagonal, off, scale = symmetrised(links)
+    values, vectors = np.linalg.eigh(dense(diagonal, off))
+    return 1 / values, vectors.T * scale
+
+
+def numpy_eigvalsh(links):
+    diagonal, off, _ = symmetrised(links)
+    return 1 / np.linalg.eigvalsh(dense(diagonal, off)), None
+
+
+def tridiagonal(links, count=None, vectors=True):
+    diagonal, off, scale = symmetrised(links)
+    chosen = {} if count is None else {"select": "i", "select_range": (0, count - 1)}
+    if not vectors:
+        return 1 / linalg.eigvalsh_tridiagonal(diagonal, off, **chosen), None
+    values, found = linalg.eigh_tridiagonal(diagonal, off, **chosen)
+    return 1 / values, found.T * scale
+
+
+def generalised(links, count=None, vectors=True):
+    K, off, M, cross = links.pencil()
+    chosen = {} if count is None else {"subset_by_index": (0, count - 1)}
+    found = linalg.eigh(dense(K, off), dense(M, cross), eigvals_only=not vectors, **chosen)
+    return (1 / found[0], found[1].T) if vectors else (1 / found, None)
+
+
+def inverted(links):
+    """M first, which is what has to be definite for SciPy: K is as well, and the heights are the eigenvalues."""
+    K, off, M, cross = links.pencil()
+    values, vectors = linalg.eigh(dense(M, cross), dense(K, off))
+    return values[::-1], vectors.T[::-1]
+
+
+def on_spring(links):
+    K, off, M, cross = links.pencil(held=False)
+    K[-1] += links.stiffness
+    values, vectors = linalg.eigh(dense(M, cross), dense(K, off))
+    values = values[::-1]
+    return values[values > 1e-14 * values[0]], vectors.T[::-1]
+
+
+def first_order(links):
+    """n^2 M/g - n G - K: wheels resist the difference of the inclinations of neighbours turning."""
+    K, off, M, cross = links.pencil()
+    turned = links.momentum / links.length**2
+    diagonal = turned.copy()
+    diagonal[1:] += turned[:-1]
+    G = dense(diagonal, -turned[:-1])
+    n = len(K)
+    inverse = np.linalg.inv(dense(M, cross) / GRAVITY)
+    block = np.zeros((2 * n, 2 * n))
+    block[:n, n:] = np.eye(n)
+    block[n:, :n] = inverse @ dense(K, off)
+    block[n:, n:] = inverse @ G
+    values, vectors = linalg.eig(block)
+    heights = GRAVITY / values.real**2
+    return np.sort(heights)[::-1], vectors[:n].T
+
+
+JOBS = {
+    "plummets, all modes with shapes": ("plummets", ours("all"), {
+        "numpy eigh": numpy_eigh, "scipy eigh(K, M)": generalised, "scipy eigh_tridiagonal": tridiagonal}),
+    "rods, all modes with shapes": ("rods", ours("all"), {"scipy eigh(K, M)": generalised, "scipy eigh(M, K)": inverted}),
+    "random bodies, all modes with shapes": ("bodies", ours("all"), {
+        "scipy eigh(K, M)": generalised, "scipy eigh(M, K)": inverted}),
+    "plummets, heights alone": ("plummets", ours("all", shapes=False), {
+        "numpy eigvalsh": numpy_eigvalsh, "scipy eigvalsh_tridiagonal": lambda links: tridiagonal(links, vectors=False),
+        "scipy eigh(K, M)": lambda links: generalised(links, vectors=False)}),
+    "plummets, three slowest with shapes": ("plummets", lambda links: ours(min(3, len(links.weight)))(links), {
+        "numpy eigh": numpy_eigh, "scipy eigh(K, M)": lambda links: generalised(links, min(3, len(links.weight))),
+        "scipy eigh_tridiagonal": lambda links: tridiagonal(links, min(3, len(links.weight)))}),
+    "rigs with springs": ("plummets", our_rig, {"scipy eigh(M, K)": on_spring}),
+    "rigs with flywheels": ("plummets", our_wheels, {"scipy eig, first order": first_order}),
+}
+MILLION = ("plummets", ours(10), {"scipy eigh_tridiagonal": lambda links: tridiagonal(links, 10)})
+
+
+def truth(job, links, count):
+    """Heights good to more than double; of rigs revchain's own, which have proved bounds of 2 ulp."""
+    if job == "rigs with springs":
+        return our_rig(links)[0]
+    if job == "rigs with flywheels":
+        return our_wheels(links)[0]
+    found = rc.modes(links.chain(), count, precision="double-double")
+    return found.conical_height.astype(np.longdouble) + found.conical_height_low
+
+
+def error(found, exact):
+    if exact is None:
+        return np.nan
+    number = min(len(found), len(exact))
+    return float(np.abs(np.asarray(found[:number], np.longdouble) / exact[:number] - 1).max())
+
+
+def measure(job, kind, method, peers, n, budget, rounds, seed=1):
+    """A row: the CPU time of one call of each, the errors, the ratio."""
+    calls = {"revchain": method, **peers}
+    times, repeat, errors, states = {}, {}, {}, {}
+    for number in range(rounds):
+        rng = np.random.default_rng([seed, n, number])
+        links = Links(rng, kind, n)
+        for name in rng.permutation(list(calls)):
+            call = calls[name]
+            if sum(times.get(name, ())) * repeat.get(name, 1) > budget:
+                continue
+            try:
+                if number == 0:
+                    start = time.process_time()
+                    heights, shapes = call(links)
+                    once = time.process_time() - start
+                    repeat[name] = max(1, int(0.004 / max(once, 1e-6)))
+                    exact = truth(job, links, len(heights)) if n <= 1000 else None
+                    errors[name], states[name] = error(heights, exact), (heights.size, 0 if shapes is None else shapes.size)
+                start = time.process_time()
+                for _ in range(repeat[name]):
+                    call(links)
+                times.setdefault(name, []).append((time.process_time() - start) / repeat[name])
+            except (ValueError, MemoryError, linalg.LinAlgError) as why:
+                errors[name] = str(why).splitlines()[0]
+    row = {"job": job, "N": n}
+    medians = {name: statistics.median(values) for name, values in times.items()}
+    for name, seconds in medians.items():
+        if seconds < 0.2e-9 * sum(states[name]):
+            row["status"] = f"BROKEN: {name} is faster than its results can be written"
+    best = min((name for name in medians if name != "revchain"), key=medians.get, default=None)
+    row |= {"revchain_us": 1e6 * medians["revchain"], "error": errors["revchain"]}
+    if best:
+        row |= {"peer": best, "peer_us": 1e6 * medians[best], "peer_error": errors[best]}
+        row["ratio"] = medians[best] / medians["revchain"]
+    target = TARGETS[job][0 if n <= 12 else 1 if n <= 100 else 2]
+    return row | {"target": target, "status": row.get("status", "ok")}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="sizes up to 100, few rounds")
+    parser.add_argument("--sizes", type=int, nargs="+", default=None)
+    parser.add_argument("--jobs", nargs="+", default=None, metavar="TEXT", help="those whose names contain one of these")
+    parser.add_argument("--csv", default=None, metavar="FILE")
+    given = parser.parse_args()
+    sizes = given.sizes or [n for n in SIZES if not given.quick or n <= 100]
+    rounds, budget = (5, 0.3) if given.quick else (25, 4.0)
+    wanted = [name for name in TARGETS if given.jobs is None or any(text in name for text in given.jobs)]
+    rows = []
+    head = f"{'job':38} {'N':>8} {'revchain':>11} {'best peer':>11} {'ratio':>7} {'target':>7} {'error':>8} {'its error':>9}  peer"
+    print(head)
+    for job in wanted:
+        million = job not in JOBS
+        if million and (given.quick or given.sizes):
+            continue
+        kind, method, peers = MILLION if million else JOBS[job]
+        for n in [10**6] if million else sizes:
+            if job == "rigs with flywheels" and n > 1000:
+                continue  # a quarter of an hour by the peer
+            row = measure(job, kind, method, peers, n, budget, 5 if million else rounds)
+            rows.append(row)
+            target = "" if row["target"] is None else f"{row['target']:g}"
+            print(f"{job:38} {n:8,} {row['revchain_us']:8.1f} us {row.get('peer_us', np.nan):8.1f} us "
+                  f"{row.get('ratio', np.nan):7.2f} {target:>7} {row['error']:8.1e} {row.get('peer_error', np.nan):9.1e}  "
+                  f"{row.get('peer', '')}{'' if row['status'] == 'ok' else '  ' + row['status']}", flush=True)
+    if given.csv:
+        with open(given.csv, "w", newline="", encoding="utf-8") as file:
+            file.write("# SPDX-License-Identifier: MPL-2.0\n")
+            table = csv.DictWriter(file, list(dict.fromkeys(name for row in rows for name in row)), lineterminator="\n")
+            table.writeheader()
+            table.writerows(rows)
+    sys.exit(any(row["status"] != "ok" for row in rows))
+
+
+if __name__ == "__main__":
+    main()
