@@ -162,7 +162,7 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
     if (fine.size() > 0 && options.certify) pencils.emplace(wide);
     for (Index j = 0; j < fine.size(); ++j) {
         const float height = static_cast<float>(fine.conical_height[j]);
-        const double off = std::abs(static_cast<double>(height) / fine.conical_height[j] - 1);
+        const double off = std::abs(static_cast<double>(height) - fine.conical_height[j]) / fine.conical_height[j];
         const double bound = height > 0 && std::isfinite(height) ? (off + fine.error_bound[j] * (1 + off)) * (1 + 1e-15)
                                                                  : std::numeric_limits<double>::infinity();
         set_height(result, j, height, std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity()),

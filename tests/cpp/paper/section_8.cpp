@@ -156,8 +156,12 @@ TEST_CASE("§8 (21): the modes satisfy it as corrected, not as printed", "[paper
             for (Index k = 0; k < modes.size(); ++k) {
                 const auto y = paper::offsets(modes, k);
                 const Quad lambda = modes.conical_height[k];
-                for (Index m = 3; m <= size; ++m)
-                    worst = std::max(worst, relation_21(link, m, lambda, y, Form::with_y_0).in_ulp());
+                for (Index m = 3; m <= size; ++m) {
+                    const Balance b = relation_21(link, m, lambda, y, Form::with_y_0);
+                    const Balance moved = relation_21(link, m, lambda * (1 + Quad(0x1p-53)), y, Form::with_y_0);
+                    const Quad rounding = b.size * Quad(0x1p-53) + fabsq(moved.sum - b.sum);
+                    worst = std::max(worst, static_cast<double>(fabsq(b.sum) / rounding));
+                }
                 if (fabsq(lambda - link[1].l) < link[1].l / 100) continue;
                 for (Index m = 4; m <= size; ++m) {
                     const Balance b = relation_21(link, m, lambda, y, Form::printed);
@@ -170,7 +174,7 @@ TEST_CASE("§8 (21): the modes satisfy it as corrected, not as printed", "[paper
         }
     }
     CAPTURE(worst, least_printed, sum_printed / chains);
-    CHECK(worst <= 0.35);                // ulp of the largest offset; measured 0.32
+    CHECK(worst <= 1);                   // half an ulp of the height and of each offset explain what is left
     CHECK(least_printed > 0.001);        // measured 0.002: a chain whose lengths differ little
     CHECK(sum_printed / chains > 0.35);  // of the terms; measured 0.38
 }

@@ -23,17 +23,12 @@ class Slants {
     std::vector<Quad> own_;
 };
 
-/// A sum that remembers the size of its terms, and of its coefficients.
+/// A sum that remembers the size of its terms.
 struct Balance {
-    Quad sum = 0, size = 0, coefficients = 0;
+    Quad sum = 0, size = 0;
     void add(Quad coefficient, Quad offset) {
         sum += coefficient * offset;
         size += fabsq(coefficient * offset);
-        coefficients += fabsq(coefficient);
-    }
-    /// For offsets of at most 1: what is left, in ulp of the largest offset.
-    double in_ulp() const {
-        return static_cast<double>(fabsq(sum) / coefficients) / std::numeric_limits<double>::epsilon();
     }
 };
 
