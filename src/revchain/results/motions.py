@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 Flags = NDArray[np.bool_]
 TURN = 2 * np.pi
+BENT = 0.3  # of the length of a chain: offsets beyond are not of small amplitude
 MOST_RESONANCES = 60  # marked in a plot: more would blacken it
 
 
@@ -157,8 +158,12 @@ class Response(Result):
         ]
         notes = [
             "negative: against the support; nan: a resonance",
-            "error bound: of every offset, over the largest; pull: of the chain, outwards",
+            "error bound: of every offset, over the largest, by rounding; pull: of the chain, outwards",
+            "steady motion of small amplitude, without damping",
         ]
+        base = getattr(self.system, "chain", self.system)
+        if np.abs(offset).max(initial=0.0, where=np.isfinite(offset)) - abs(self.support_radius) > BENT * base.total_length:
+            notes.append("some offsets are not small beside the chain: there steady_shapes has the real ones")
         heading = f"support carried round a circle of {self.support_radius:g} m, or to and fro as far"
         facts = {"gravity": self.gravity, "support_radius": self.support_radius, "pins": self.pins}
         return Sheet("speed", heading, columns, facts, notes, spread=True)
