@@ -131,7 +131,7 @@ _OF_FILES |= {"SweepResult": "studies.result", "sweep": "studies.sweep"}
 
 
 def __getattr__(name: str) -> _Any:
-    """Import what few calls need at the moment it is asked for."""
+    """Import what few programs use, when it is first used."""
     value: _Any
     if name in _CLOSED_FORMS:
         value = _import_module(f".closed_forms.{name}", __name__)

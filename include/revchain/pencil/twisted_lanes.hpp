@@ -252,7 +252,7 @@ template <bool lumped, class Where, class T>
     const V zero{}, one(T(1));
     const auto [twist, side] = twisted_in_lanes<lumped>(elements, height.high, s);
     V y{};
-    // What is left over at all other pins is taken away by a correction that is 0 at the twist.
+    // A correction, 0 at the twist, balances the forces at all other pins.
     V load{};
     forces_left<lumped, fused, false, V>(
         elements, height,

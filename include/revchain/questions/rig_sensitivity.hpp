@@ -152,7 +152,7 @@ class LinksAtSpeed {
         const S k = (links_[m].tension + speed_ * links_[m].spin) / links_[m].length;
         return rig_.stands(static_cast<Index>(m)) ? -k : k;
     }
-    /// What holds one pin of a link by the stiffness `at`, seen from its other pin.
+    /// Dynamic stiffness at one pin of link m, where that at its other pin is `at`.
     S across(std::size_t m, const S& at, const S& near, const S& far) const {
         const S k = stiffness(m), coupling = k + turning_ * links_[m].cross;
         return (k - turning_ * far) - coupling * coupling / (at + k - turning_ * near);
@@ -163,7 +163,7 @@ class LinksAtSpeed {
         for (std::size_t m = 0; m < end; ++m) found = across(m, found, links_[m].lower, links_[m].upper);
         return found;
     }
-    /// What moves with a support that yields, as a spring.
+    /// Dynamic stiffness of the carriage: its weight times -`turning`.
     S carriage() const {
         return -turning_ * S(std::ldexp(rig_.support().carriage_weight, -rig_.chain().units().weight_exponent));
     }

@@ -135,7 +135,7 @@ def _form(field: structs.FieldInfo) -> Any:
 
 
 def _meant(field: structs.FieldInfo, given: Any) -> Any:
-    """What an option means, as a scene file would say it."""
+    """The value of an option in the form that a scene file has."""
     if not isinstance(given, str):
         return given
     form = _form(field)

@@ -32,7 +32,7 @@ HEADING = 10  # columns of a line of a heading
 
 @dataclass(frozen=True)
 class Report:
-    """What a question found in a scene, in every form in which it can be asked for."""
+    """The answer to one question of a scene: as text, JSON, CSV and picture."""
 
     scene: Scene
     stem: str
@@ -46,7 +46,7 @@ class Report:
 
     @cached_property
     def system(self) -> str:
-        """What hangs, in words."""
+        """The system in words."""
         return self.scene.system().describe()
 
     def check(self, path: Path) -> None:
@@ -107,7 +107,7 @@ class Report:
         return sheet
 
     def _in_units(self, sheet: Sheet) -> Sheet:
-        """With angles in the unit asked for."""
+        """The sheet, its angles in degrees or radians."""
         if self.units == "deg":
             return sheet
         def in_rad(column: Column) -> Column:

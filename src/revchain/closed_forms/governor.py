@@ -35,7 +35,7 @@ class GovernorMotion(Solved):
     Parameters
     ----------
     angular_speed : float
-        Of the axis, rad/s; 0 is the plain pendulum.
+        Speed of the axis, rad/s; 0 for a pendulum whose axis stands still.
     pendulum_length : float
         Length of the equivalent simple pendulum about the hinge, positive.
     angle, angle_rate : float

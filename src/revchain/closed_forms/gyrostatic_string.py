@@ -155,7 +155,7 @@ class GyrostaticString:
         Parameters
         ----------
         angular_speed : array_like
-            Of the vibration, ``2 pi`` times its frequency, rad/s; positive and finite, a ValueError elsewhere.
+            Angular frequency of the vibration, rad/s, positive and finite; a ValueError for others.
 
         Returns
         -------

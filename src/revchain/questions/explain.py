@@ -10,11 +10,12 @@ from ..results.explanation import Explanation
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, real, shown
+from ..systems.numbers import STANDARD_GRAVITY, real
 from ..systems.numbers import count as checked_count
 from ..systems.rig import Rig
 from ..systems.system import System
-from .modes import count_of, modes, straight
+from .modes import count_of, how_many, modes, straight
+from .refuse import no_system
 
 
 def explain(
@@ -72,7 +73,7 @@ def explain(
         )
         return Explanation._made(None, estimates=estimates, meets_tolerance=met, rtol=tolerance)
     if not isinstance(system, System):
-        raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+        raise no_system(place, system)
     if isinstance(system, Rig):
         n = min(count_of(place, count, 10) or 2 * system.size, 2 * system.size)
     else:
@@ -84,11 +85,12 @@ def explain(
 
 def _how_many(place: str, count: Any, first: int, most: int | None) -> int:
     """How many modes are asked for, of `most` or of infinitely many."""
-    if most is None and isinstance(count, str) and count == "all":
-        raise ValueError(f"{place}: a cord has infinitely many modes; give count")
-    there = 10 if most is None else max(most - first + 1, 1)
-    n = count_of(place, count, min(10, there)) or there
-    if most is not None and first - 1 + n > most:
+    if most is None:
+        if isinstance(count, str) and count == "all":
+            raise ValueError(f"{place}: a cord has infinitely many modes; give count")
+        return count_of(place, count, 10) or 10
+    n = how_many(place, count, first, most)
+    if first - 1 + n > most:
         raise ValueError(f"{place}: there {'is 1 mode' if most == 1 else f'are {most} modes'}, got first = {first} and count = {n}")
     return n
 

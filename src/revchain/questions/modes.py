@@ -18,6 +18,7 @@ from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, one_pos
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import word as checked_word
 from ..systems.rig import Rig
+from .refuse import no_system
 
 Pair = tuple[float, float]
 
@@ -227,7 +228,7 @@ def find_modes(
     core = compiled(place, system)
     wanted: int | None = None
     if heights is None and speeds is None:
-        wanted = count_of(place, count, max(min(10, core.mode_count - start + 1), 1)) or max(core.mode_count - start + 1, 1)
+        wanted = how_many(place, count, start, core.mode_count)
     if precision is not _DOUBLE:
         checked_word(place, "precision", precision, _core.PRECISIONS)
     if certify is not False:
@@ -282,7 +283,7 @@ def _of_cord_or_held(
         of_cord = _core.cord_modes(system._under(gravity), first, wanted, heights, speeds, rtol, progress)
         return CordModes._made(of_cord, system=system, gravity=gravity, rtol=rtol)
     if not isinstance(system, Held):
-        raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+        raise no_system(place, system)
     _refuse(place, asked, "is for a Chain that hangs")
     core = straight(place, system, gravity)
     wanted = None if heights or speeds else count_of(place, count, max(min(10, system.mode_count - first + 1), 1))
@@ -313,6 +314,12 @@ def straight(place: str, held: Held, gravity: float) -> _core.Held:
             f"slack, got {held.tension:g}"
         )
     return held._under(gravity)
+
+
+def how_many(place: str, count: int | str | None, first: int, most: int) -> int:
+    """How many modes are asked for where there are `most`: ten unless said, or all that are left."""
+    left = max(most - first + 1, 1)
+    return count_of(place, count, min(10, left)) or left
 
 
 def count_of(place: str, count: int | str | None, default: int, each: int = 0) -> int | None:
@@ -415,7 +422,7 @@ def count_modes(
     if isinstance(system, Rig):
         every = np.sort(modes(system, "all", gravity=g).conical_height)
         return (every.size - np.searchsorted(every, height, side="right"))[()]
-    raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+    raise no_system(place, system)
 
 
 def recurrence_matrices(chain: Chain) -> tuple[Floats, Floats]:

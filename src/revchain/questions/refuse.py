@@ -9,6 +9,11 @@ from ..systems.numbers import shown
 from ..systems.system import System
 
 
+def no_system(place: str, system: Any) -> TypeError:
+    """The error of a question that all systems answer, for what is none."""
+    return TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+
+
 def refuse_other(place: str, system: Any, kinds: tuple[type, ...], instead: dict[type, str]) -> None:
     """A ValueError for a system that has no answer, with what to ask instead; a TypeError for what is no system."""
     if isinstance(system, kinds):

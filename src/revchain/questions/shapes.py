@@ -16,6 +16,7 @@ from ..systems.held import Held
 from ..systems.numbers import STANDARD_GRAVITY, boolean, exactly_one, integer, limit, one_positive, shown
 from ..systems.numbers import count as counted
 from ..systems.rig import Rig
+from .refuse import no_system
 
 LEAST, MOST = 1e-150, 1e150
 """Conical heights, and squared speeds without gravity, whose products with tensions stay in the range of doubles."""
@@ -174,7 +175,7 @@ def steady_shapes(
         else:
             found = _core.steady_shapes_of_rig_at_speed(core, int(direction) * value, most, hanging, g)
     elif not isinstance(system, Chain):
-        raise TypeError(f"{place}: system must be a revchain.Chain, Rig, Cord or Held, got {shown(system)}")
+        raise no_system(place, system)
     elif name == "conical_height":
         found = _core.steady_shapes(compiled(place, system), value, most, hanging)
     else:

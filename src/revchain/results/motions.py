@@ -140,6 +140,7 @@ class Response(Result):
         speed = self.angular_speed.reshape(-1)
         pins = np.atleast_1d(self.pins)
         offset = self.offset.reshape(speed.size, pins.size) if pins.size else np.full((speed.size, 1), np.nan)
+        farthest = np.abs(offset).max(axis=1, initial=0.0)
         pin = int(pins[0]) if pins.size else 0
         name = "free end" if pin == 0 else f"pin {pin}"
         columns = [
@@ -147,7 +148,7 @@ class Response(Result):
             Column("modes_below", self.modes_below.reshape(-1), "modes below"),
             Column(f"{name.replace(' ', '_')}_offset", offset[:, 0], f"{name} off axis (m)", 5),
             Column("first_pin_amplification", offset[:, 0] / self.support_radius, "over support", 4),
-            Column("largest_offset", np.abs(offset).max(axis=1, initial=0.0), "farthest pin (m)", 5),
+            Column("largest_offset", farthest, "farthest pin (m)", 5),
             Column("support_force", self.support_force.reshape(-1), f"pull on support{' (N)' if self.system.by_mass else ''}", 5),
             Column("error_bound", self.error_bound.reshape(-1), "error bound"),
             Column("conical_height", self.conical_height.reshape(-1)),
@@ -162,7 +163,7 @@ class Response(Result):
             "steady motion of small amplitude, without damping",
         ]
         base = getattr(self.system, "chain", self.system)
-        if np.abs(offset).max(initial=0.0, where=np.isfinite(offset)) - abs(self.support_radius) > BENT * base.total_length:
+        if farthest.max(initial=0.0, where=np.isfinite(farthest)) - abs(self.support_radius) > BENT * base.total_length:
             notes.append("some offsets are not small beside the chain: there steady_shapes has the real ones")
         heading = f"support carried round a circle of {self.support_radius:g} m, or to and fro as far"
         facts = {"gravity": self.gravity, "support_radius": self.support_radius, "pins": self.pins}
