@@ -203,7 +203,7 @@ def error(found, exact):
 def measure(job, kind, method, peers, n, budget, rounds, seed=1):
     """A row: the CPU time of one call of each, the errors, the ratio."""
     calls = {"revchain": method, **peers}
-    times, repeat, errors, states = {}, {}, {}, {}
+    times, repeat, errors, written = {}, {}, {}, {}
     for number in range(rounds):
         rng = np.random.default_rng([seed, n, number])
         links = Links(rng, kind, n)
@@ -218,7 +218,9 @@ def measure(job, kind, method, peers, n, budget, rounds, seed=1):
                     once = time.process_time() - start
                     repeat[name] = max(1, int(0.004 / max(once, 1e-6)))
                     exact = truth(job, links, len(heights)) if n <= 1000 else None
-                    errors[name], states[name] = error(heights, exact), (heights.size, 0 if shapes is None else shapes.size)
+                    own = job.startswith("rigs") and name == "revchain"  # what the others are compared with
+                    errors[name] = np.nan if own else error(heights, exact)
+                    written[name] = heights.size, 0 if shapes is None else shapes.size
                 start = time.process_time()
                 for _ in range(repeat[name]):
                     call(links)
@@ -228,7 +230,7 @@ def measure(job, kind, method, peers, n, budget, rounds, seed=1):
     row = {"job": job, "N": n}
     medians = {name: statistics.median(values) for name, values in times.items()}
     for name, seconds in medians.items():
-        if seconds < 0.2e-9 * sum(states[name]):
+        if seconds < 0.2e-9 * sum(written[name]):
             row["status"] = f"BROKEN: {name} is faster than its results can be written"
     best = min((name for name in medians if name != "revchain"), key=medians.get, default=None)
     row |= {"revchain_us": 1e6 * medians["revchain"], "error": errors["revchain"]}
