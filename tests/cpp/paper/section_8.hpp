@@ -23,12 +23,13 @@ class Slants {
     std::vector<Quad> own_;
 };
 
-/// A sum that remembers the size of its terms.
+/// A sum that remembers the size of its terms, and of its coefficients.
 struct Balance {
-    Quad sum = 0, size = 0;
+    Quad sum = 0, size = 0, coefficients = 0;
     void add(Quad coefficient, Quad offset) {
         sum += coefficient * offset;
         size += fabsq(coefficient * offset);
+        coefficients += fabsq(coefficient);
     }
 };
 
