@@ -78,9 +78,7 @@ template <bool fused, Word T>
 [[gnu::always_inline]] inline DoubleWord<T> two_product(const T& x, const T& y) {
     const T p = detail::rounded(T(x * y));
     if constexpr (fused && IsPack<T>) {
-        T rest;
-        for (std::size_t i = 0; i < T::size; ++i) rest.set(i, std::fma(x[i], y[i], -p[i]));
-        return {p, rest};
+        return {p, multiply_subtract(x, y, p)};
     } else if constexpr (fused) {
         return {p, std::fma(x, y, -p)};
     } else {

@@ -250,7 +250,8 @@ template <bool lumped, class Where, class T>
         near_height.set(i, rounded[i]);
     }
     const V zero{}, one(T(1));
-    const auto [twist, side] = twisted_in_lanes<lumped>(elements, height.high, s);
+    const TwistInLanes<V> joined = twisted_in_lanes<lumped>(elements, height.high, s);
+    const V twist = joined.pin, side = joined.side;
     V y{};
     // A correction, 0 at the twist, balances the forces at all other pins.
     V load{};

@@ -108,11 +108,11 @@ struct Pack {
 
     [[gnu::always_inline]] friend Mask operator<(const Pack& x, const Pack& y) {
         return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { RegisterOf::answer(r, x.part[i] < y.part[i]); });
+                              REVCHAIN_INLINED { RegisterOf::less(r, x.part[i], y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask equal(const Pack& x, const Pack& y) {
         return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { RegisterOf::answer(r, x.part[i] == y.part[i]); });
+                              REVCHAIN_INLINED { RegisterOf::equal(r, x.part[i], y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask operator>(const Pack& x, const Pack& y) { return y < x; }
 
@@ -136,11 +136,11 @@ struct Pack {
     }
     [[gnu::always_inline]] friend Mask operator==(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { RegisterOf::answer(r, x.part[i] == y.part[i]); });
+                              REVCHAIN_INLINED { RegisterOf::equal(r, x.part[i], y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask operator>(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { RegisterOf::answer(r, x.part[i] > y.part[i]); });
+                              REVCHAIN_INLINED { RegisterOf::greater(r, x.part[i], y.part[i]); });
     }
     /// Whether some answer is yes; of whole numbers, whether one is negative.
     [[gnu::always_inline]] friend bool any(const Mask& x) {
@@ -157,14 +157,21 @@ struct Pack {
     }
     /// a where x < y, else b (where one is NaN, too).
     [[gnu::always_inline]] friend Pack if_less(const Pack& x, const Pack& y, const Pack& a, const Pack& b) {
-        return select(x < y, a, b);
+        return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
+            RegisterOf::if_less(r, x.part[i], y.part[i], a.part[i], b.part[i]);
+        });
     }
     [[gnu::always_inline]] friend Pack if_equal(const Pack& x, const Pack& y, const Pack& a, const Pack& b) {
         return select(equal(x, y), a, b);
     }
-    [[gnu::always_inline]] friend Pack max(const Pack& x, const Pack& y) { return select(y < x, x, y); }
-    [[gnu::always_inline]] friend Pack min(const Pack& x, const Pack& y) { return select(x < y, x, y); }
+    [[gnu::always_inline]] friend Pack max(const Pack& x, const Pack& y) { return if_less(y, x, x, y); }
+    [[gnu::always_inline]] friend Pack min(const Pack& x, const Pack& y) { return if_less(x, y, x, y); }
 
+    /// x y - p with one rounding; only where the processor has that.
+    [[gnu::always_inline]] friend Pack multiply_subtract(const Pack& x, const Pack& y, const Pack& p) {
+        return each([&](auto& r, std::size_t i)
+                        REVCHAIN_INLINED { RegisterOf::multiply_subtract(r, x.part[i], y.part[i], p.part[i]); });
+    }
     [[gnu::always_inline]] friend Pack abs(const Pack& x) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             r = REVCHAIN_BITS_AS(Register, REVCHAIN_BITS_AS(Integers, x.part[i]) & std::numeric_limits<Integer>::max());
@@ -186,8 +193,7 @@ struct Pack {
             r = REVCHAIN_BITS_AS(Integers, differ >> (8 * sizeof(T) - 1));
         });
     }
-    /// The bits as a whole number: positive numbers are in the same order. Where an answer is no choice but a number of
-    /// its own, whole numbers are the faster way: GCC 12 compares packs of 64 bytes number by number.
+    /// The bits as a whole number: positive numbers are in the same order.
     [[gnu::always_inline]] friend Mask bits(const Pack& x) {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED { r = REVCHAIN_BITS_AS(Integers, x.part[i]); });
     }

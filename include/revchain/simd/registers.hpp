@@ -2,11 +2,15 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
-#include "revchain/numeric/compiler.hpp"
+#include "revchain/numeric/dispatch.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors never leave a translation unit
 
 namespace revchain::detail {
 
@@ -17,6 +21,16 @@ using IntegerLike = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_
 // What a pack consists of: `width` numbers that the operators act on one by one, and what those do not offer. No
 // function returns a vector: GCC warns that how it does so depends on the processor.
 #if !defined(REVCHAIN_NO_VECTOR_EXTENSIONS)
+
+// Of comparisons of 64 bytes, and of fused operations, GCC 12 makes one instruction a number; these are one for all.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#if defined(REVCHAIN_SEVERAL_TARGETS) || defined(__FMA__)
+#define REVCHAIN_FUSED_INSTRUCTIONS
+#endif
+#if defined(REVCHAIN_SEVERAL_TARGETS) || (defined(__AVX512F__) && defined(__AVX512DQ__))
+#define REVCHAIN_MASK_INSTRUCTIONS
+#endif
+#endif
 
 /// x with the same bits, as another type of the same size.
 #define REVCHAIN_BITS_AS(type, x) reinterpret_cast<type>(x)
@@ -37,10 +51,16 @@ struct RegisterOf {
     // NOLINTEND(modernize-use-using)
 
     [[gnu::always_inline]] static void fill(Numbers& to, const T& x) {
+#if defined(REVCHAIN_MASK_INSTRUCTIONS)
+        if constexpr (has_masks) {
+            to = __builtin_ia32_broadcastsd512(Two{x, T(0)}, Numbers{}, all_lanes);
+            return;
+        }
+#endif
 #if defined(__clang__)
         to = x - Numbers{};
 #else
-        to = __builtin_shuffle(Numbers{x}, Integers{});  // one instruction; of anything else GCC 12 makes eight
+        to = __builtin_shuffle(Numbers{x}, Integers{});  // one instruction; of anything else GCC 12 makes several
 #endif
     }
     /// `detail::unfused`
@@ -54,8 +74,80 @@ struct RegisterOf {
     [[gnu::always_inline]] static T get(const Numbers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static Integer get(const Integers& x, std::size_t i) { return x[i]; }
     [[gnu::always_inline]] static void set(Numbers& to, std::size_t i, const T& x) { to[i] = x; }
-    /// What a comparison returns as a mask: all bits set (yes) or none.
-    [[gnu::always_inline]] static void answer(Integers& to, const Integers& yes) { to = yes; }
+    /// x y - p with one rounding, on processors that have it.
+    [[gnu::always_inline]] static void multiply_subtract(Numbers& to, const Numbers& x, const Numbers& y,
+                                                         const Numbers& p) {
+#if defined(REVCHAIN_FUSED_INSTRUCTIONS)
+        if constexpr (is_double && bytes == 64)
+            to = __builtin_ia32_vfmaddpd512_mask(x, y, -p, all_lanes, as_it_is);
+        else if constexpr (is_double && bytes == 32)
+            to = __builtin_ia32_vfmaddpd256(x, y, -p);
+        else
+#endif
+            for (std::size_t i = 0; i < width; ++i) to[i] = std::fma(x[i], y[i], -p[i]);
+    }
+    // Answers have all bits set (yes) or none.
+    [[gnu::always_inline]] static void less(Integers& to, const Numbers& x, const Numbers& y) {
+#if defined(REVCHAIN_MASK_INSTRUCTIONS)
+        if constexpr (has_masks)
+            to = REVCHAIN_BITS_AS(Integers, __builtin_ia32_cvtmask2q512(mask_less(x, y)));
+        else
+#endif
+            to = x < y;
+    }
+    [[gnu::always_inline]] static void equal(Integers& to, const Numbers& x, const Numbers& y) {
+#if defined(REVCHAIN_MASK_INSTRUCTIONS)
+        if constexpr (has_masks)
+            to = REVCHAIN_BITS_AS(Integers,
+                                  __builtin_ia32_cvtmask2q512(__builtin_ia32_cmppd512_mask(x, y, 0, all_lanes, as_it_is)));
+        else
+#endif
+            to = x == y;
+    }
+    [[gnu::always_inline]] static void equal(Integers& to, const Integers& x, const Integers& y) {
+#if defined(REVCHAIN_MASK_INSTRUCTIONS)
+        if constexpr (has_masks)
+            to = REVCHAIN_BITS_AS(Integers, __builtin_ia32_cvtmask2q512(__builtin_ia32_pcmpeqq512_mask(
+                                                REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes)));
+        else
+#endif
+            to = x == y;
+    }
+    [[gnu::always_inline]] static void greater(Integers& to, const Integers& x, const Integers& y) {
+#if defined(REVCHAIN_MASK_INSTRUCTIONS)
+        if constexpr (has_masks)
+            to = REVCHAIN_BITS_AS(Integers, __builtin_ia32_cvtmask2q512(__builtin_ia32_pcmpgtq512_mask(
+                                                REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes)));
+        else
+#endif
+            to = x > y;
+    }
+    /// a where x < y, else b.
+    [[gnu::always_inline]] static void if_less(Numbers& to, const Numbers& x, const Numbers& y, const Numbers& a,
+                                               const Numbers& b) {
+#if defined(REVCHAIN_MASK_INSTRUCTIONS)
+        if constexpr (has_masks)
+            to = __builtin_ia32_blendmpd_512_mask(b, a, mask_less(x, y));
+        else
+#endif
+            to = x < y ? a : b;
+    }
+
+   private:
+    static constexpr std::size_t bytes = Width * sizeof(T);
+    static constexpr bool is_double = std::is_same_v<T, double>, has_masks = is_double && bytes == 64;
+    static constexpr int all_lanes = -1, as_it_is = 4;  // rounding
+#if defined(REVCHAIN_MASK_INSTRUCTIONS)
+    // NOLINTBEGIN(modernize-use-using)
+    typedef long long Longs __attribute__((vector_size(64), aligned(64)));
+    typedef double Two __attribute__((vector_size(16), aligned(16)));
+    // NOLINTEND(modernize-use-using)
+
+    [[gnu::always_inline]] static unsigned char mask_less(const Numbers& x, const Numbers& y) {
+        constexpr int less_ordered = 1;
+        return __builtin_ia32_cmppd512_mask(x, y, less_ordered, all_lanes, as_it_is);
+    }
+#endif
 };
 
 #else
@@ -76,9 +168,18 @@ struct RegisterOf {
     static T get(T x, std::size_t) { return x; }
     static Integers get(Integers x, std::size_t) { return x; }
     static void set(T& to, std::size_t, T x) { to = x; }
-    static void answer(Integers& to, bool yes) { to = -Integers(yes); }
+    static void multiply_subtract(T& to, T x, T y, T p) { to = std::fma(x, y, -p); }
+    static void less(Integers& to, T x, T y) { to = -Integers(x < y); }
+    template <class N>
+    static void equal(Integers& to, N x, N y) {
+        to = -Integers(x == y);
+    }
+    static void greater(Integers& to, Integers x, Integers y) { to = -Integers(x > y); }
+    static void if_less(T& to, T x, T y, T a, T b) { to = x < y ? a : b; }
 };
 
 #endif
 
 }  // namespace revchain::detail
+
+#pragma GCC diagnostic pop
