@@ -120,6 +120,8 @@ class Chain {
         static const std::vector<Wide<T>> none;
         return partial_weights_ ? *partial_weights_ : none;
     }
+    /// Whether no centroid lies above its link's upper pin.
+    bool centroids_below() const { return centroids_below_; }
     /// Whether the ratio of the weights (up to 1e123 in double) lets one unit serve them all.
     bool has_one_weight_unit() const { return one_weight_unit_; }
     /// Straight length from the support to the free end.
@@ -177,6 +179,7 @@ class Chain {
     T total_length_{};
     T largest_length_{};  // a or |h|
     bool one_weight_unit_ = true;
+    bool centroids_below_ = true;
     std::optional<double> taper_;  // stays true, because the numbers cannot change
 };
 
@@ -219,6 +222,7 @@ void Chain<T>::check() {
     if (!partial.empty()) partial_weights_ = std::make_shared<const std::vector<Wide<T>>>(std::move(partial));
     const Summary<T> lengths = summary(length_, size_);
     const Summary<T> centroids = summary(centroid_, size_);
+    centroids_below_ = centroids.least >= T(0);
     bool radii = true, all_turn = true;
     T least_ratio = std::numeric_limits<T>::infinity(), largest_ratio{};
     for (std::size_t m = 0; m < gyration_ratio_.stored(); ++m) {
