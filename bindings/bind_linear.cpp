@@ -87,14 +87,6 @@ struct FoundModes {
     auto read(const Read& function) const {
         return std::visit(function, modes);
     }
-    /// A part of the shapes, as Python has it.
-    template <class Part>
-    auto of_shapes(const Part& part) const {
-        return read([&](const auto& m) {
-            const auto* shapes = without_lock([&] { return &m.shapes(); });
-            return part(*shapes);
-        });
-    }
 };
 
 py::object certificate(const FoundModes& found) {
@@ -114,10 +106,21 @@ py::array numbers(const FoundModes& found) {
     });
 }
 
+py::array shape(const FoundModes& found) {
+    return found.read([](const auto& m) -> py::array {
+        const auto* table = without_lock([&] { return &m.shapes(); });
+        if constexpr (std::is_same_v<decltype(table), const revchain::Table<double>*>)
+            return in_place(*table, m.lazy_shapes.owner());
+        else
+            return leading(*table);
+    });
+}
+
 py::tuple nodes(const FoundModes& found) {
-    return found.of_shapes([](const auto& shapes) {
-        py::tuple lists(shapes.nodes.size());
-        for (std::size_t j = 0; j < shapes.nodes.size(); ++j) lists[j] = leading(shapes.nodes[j]);
+    return found.read([](const auto& m) {
+        const auto* nodes = without_lock([&] { return &m.nodes(); });
+        py::tuple lists(nodes->size());
+        for (std::size_t j = 0; j < nodes->size(); ++j) lists[j] = leading((*nodes)[j]);
         return lists;
     });
 }
@@ -204,14 +207,13 @@ void bind_linear(py::module_& module) {
         .def_property_readonly(
             "error_bound",
             [](const FoundModes& f) { return f.read([](const auto& m) { return bounds(m.error_bound); }); })
-        .def_property_readonly(
-            "shape",
-            [](const FoundModes& f) { return f.of_shapes([](const auto& shapes) { return leading(shapes.offset); }); })
-        .def_property_readonly(
-            "residual",
-            [](const FoundModes& f) {
-                return f.of_shapes([](const auto& shapes) { return leading(shapes.residual); });
-            })
+        .def_property_readonly("shape", &shape)
+        .def_property_readonly("residual",
+                               [](const FoundModes& f) {
+                                   return f.read([](const auto& m) {
+                                       return leading(*without_lock([&] { return &m.residual(); }));
+                                   });
+                               })
         .def_property_readonly("nodes", &nodes)
         .def_property_readonly("certificate", &certificate)
         .def_property_readonly("method",

@@ -62,15 +62,14 @@ py::array shape(const FoundRigModes& found) {
     found.find_shapes();
     Table<double> table(static_cast<Index>(found.order.size()), found.pins);
     for (std::size_t i = 0; i < found.order.size(); ++i)
-        table.row(static_cast<Index>(i)) = found.of(found.order[i]).shapes().offset.row(found.order[i].j);
+        table.row(static_cast<Index>(i)) = found.of(found.order[i]).shapes().row(found.order[i].j);
     return to_numpy(table);
 }
 
 py::tuple nodes(const FoundRigModes& found) {
-    found.find_shapes();
     py::tuple lists(found.order.size());
     for (std::size_t i = 0; i < found.order.size(); ++i)
-        lists[i] = to_numpy(found.of(found.order[i]).shapes().nodes[static_cast<std::size_t>(found.order[i].j)]);
+        lists[i] = to_numpy(found.of(found.order[i]).nodes()[static_cast<std::size_t>(found.order[i].j)]);
     return lists;
 }
 
@@ -115,9 +114,8 @@ void bind_rig_modes(py::module_& module) {
         .def_property_readonly("shape", &shape)
         .def_property_readonly("residual",
                                [](const Found& f) {
-                                   f.find_shapes();
                                    return f.column<double>(
-                                       [](const WhirlModes& m, Index j, bool) { return m.shapes().residual[j]; });
+                                       [](const WhirlModes& m, Index j, bool) { return m.residual()[j]; });
                                })
         .def_property_readonly("nodes", &nodes)
         .def_property_readonly("available",

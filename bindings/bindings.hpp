@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,13 @@ inline py::array to_numpy(const revchain::Vector<double>& values) {
 
 inline py::array to_numpy(const revchain::Table<double>& values) {
     return frozen(py::array_t<double>({values.rows(), values.cols()}, values.data()));
+}
+
+/// The numbers where they are, not copied: the array keeps their owner.
+inline py::array in_place(const revchain::Table<double>& values, std::shared_ptr<const void> owner) {
+    auto* kept = new std::shared_ptr<const void>(std::move(owner));
+    const py::capsule base(kept, [](void* p) { delete static_cast<std::shared_ptr<const void>*>(p); });
+    return frozen(py::array_t<double>({values.rows(), values.cols()}, values.data(), base));
 }
 
 inline py::array to_numpy(const revchain::Matrix<double>& values) { return to_numpy(revchain::Table<double>(values)); }

@@ -63,15 +63,6 @@ struct Certificate {
     Vector<Index> above_upper;
 };
 
-/// Shapes of k modes of a chain of N links.
-template <Real T>
-struct ModeShapes {
-    Table<T> offset;     ///< (k, N+1) of the pins, free end first, support last (0 unless it yields); largest
-                         ///< |offset| = 1, free end positive
-    Vector<T> residual;  ///< (k,) largest force left unbalanced at a pin over the largest sum of forces at a pin
-    std::vector<Vector<T>> nodes;  ///< k lists: distances from the free end where the mode crosses the axis
-};
-
 /// Whirl modes of a chain, slowest first. The k-th slowest mode is at index k - first. A window may hold no mode;
 /// `first` is then the number of the next faster mode.
 template <Real T>
@@ -82,12 +73,17 @@ struct Modes {
     Certificate<T> certificate{};  ///< empty unless asked for
     std::string method{};          ///< that found the heights
     Status status = Status::success;
-    detail::LazyModeShapes<T> lazy_shapes{};  ///< behind `shapes` and `shape`
+    detail::LazyModeShapes<T> lazy_shapes{};  ///< behind the next four
 
     Index size() const { return conical_height.size(); }
     ModeRange range() const { return {first, size()}; }
-    /// All shapes, computed when first asked for and kept. Threads may share the result.
-    const ModeShapes<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes.all(size(), progress); }
+    /// (k, N+1) offsets of the pins, free end first, support last (0); the largest in size of each mode is 1, the free
+    /// end positive. Computed when first asked for and kept, as the next two are. Threads may share the result.
+    const Table<T>& shapes(Progress* progress = nullptr) const { return lazy_shapes.offsets(size(), progress); }
+    /// (k,) largest force left unbalanced at a pin over the largest sum of forces at a pin
+    const Vector<T>& residual() const { return lazy_shapes.details(size(), nullptr).residual; }
+    /// k lists: distances from the free end where the mode crosses the axis
+    const std::vector<Vector<T>>& nodes() const { return lazy_shapes.details(size(), nullptr).nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     Vector<T> shape(Index j) const { return lazy_shapes.one(size(), j); }
     /// n = sqrt(g / lambda), rad/s; relative error: half of `error_bound` and 2.1 ulp.

@@ -27,11 +27,13 @@ struct WhirlModes {
     Vector<double> error_bound{};        ///< (k,) of it, relative to the exact one of the stored numbers; proved
     Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
     Vector<double> speed_error_bound{};  ///< (k,) of it, relative; proved
-    detail::LazyModeShapes<double> lazy_shapes{};  ///< behind `shapes` and `shape`
+    detail::LazyModeShapes<double> lazy_shapes{};  ///< behind the next four
 
     Index size() const { return conical_height.size(); }
-    /// All shapes, computed when first asked for and kept.
-    const ModeShapes<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes.all(size(), progress); }
+    /// As those of `Modes`; the support's offset is not 0 where it yields.
+    const Table<double>& shapes(Progress* progress = nullptr) const { return lazy_shapes.offsets(size(), progress); }
+    const Vector<double>& residual() const { return lazy_shapes.details(size(), nullptr).residual; }
+    const std::vector<Vector<double>>& nodes() const { return lazy_shapes.details(size(), nullptr).nodes; }
     /// (N+1) offsets of the mode at index j, computed alone unless `shapes` has been called.
     Vector<double> shape(Index j) const { return lazy_shapes.one(size(), j); }
 };

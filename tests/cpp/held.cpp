@@ -341,13 +341,13 @@ TEST_CASE("held straight: the tension at the upper end, less the weight in doubl
                   j + 1);
             CHECK(revchain::count_modes(Held(chain, {.tension = tension}), {.conical_height = height * (1 + 1e-14)}) ==
                   j);
-            CHECK(shapes.residual[j] < 1e-15);
+            CHECK(modes.residual()[j] < 1e-15);
             // mode k has k - 1 nodes, each between two pins of different sign
-            const auto& nodes = shapes.nodes[static_cast<std::size_t>(j)];
+            const auto& nodes = modes.nodes()[static_cast<std::size_t>(j)];
             Index changes = 0;
             double below = 0;
             for (Index m = 0; m < 12; ++m) {
-                const double y = shapes.offset(j, m), next = shapes.offset(j, m + 1), length = chain.link(m).length;
+                const double y = shapes(j, m), next = shapes(j, m + 1), length = chain.link(m).length;
                 if (y * next < 0) {
                     REQUIRE(changes < nodes.size());
                     CHECK(std::abs(nodes[changes] - (below + length * y / (y - next))) < 1e-14 * chain.total_length());

@@ -298,7 +298,7 @@ TEST_CASE("a rig without anything is its chain; next to nothing changes nothing"
             const auto same = modes(Rig(chain, {}), {.count = revchain::all_modes});
             CHECK(same.method == "modes");
             CHECK(same.forward.conical_height == plain.conical_height);
-            CHECK(same.forward.shapes().offset == plain.shapes().offset);
+            CHECK(same.forward.shapes() == plain.shapes());
             CHECK(same.forward.angular_speed == plain.angular_speed());
             // The same chain by the rig's own road, with a spring too stiff to matter, and with momenta too small to.
             const double stiff = chain.total_weight() / chain.total_length() * 1e40;
@@ -310,7 +310,7 @@ TEST_CASE("a rig without anything is its chain; next to nothing changes nothing"
             CHECK(held.complete);
             for (Index j = 0; j < plain.size(); ++j) {
                 CHECK(std::abs(held.forward.conical_height[j] / plain.conical_height[j] - 1) <= 2.3e-16);
-                CHECK((held.forward.shapes().offset.row(j) - plain.shapes().offset.row(j)).cwiseAbs().maxCoeff() <=
+                CHECK((held.forward.shapes().row(j) - plain.shapes().row(j)).cwiseAbs().maxCoeff() <=
                       3e-16);
             }
             std::vector<Flywheel> slow(static_cast<std::size_t>(n));
@@ -335,7 +335,7 @@ TEST_CASE("where a link goes slack, and mirror images", "[linear]") {
     REQUIRE(other.slack.size() == 1);
     CHECK(other.slack[0].angular_speed == -2);
     CHECK(m.forward.angular_speed == other.backward.angular_speed);
-    CHECK(m.forward.shapes().offset == other.backward.shapes().offset);
+    CHECK(m.forward.shapes() == other.backward.shapes());
     CHECK(modes(rig, {.count = 1}).slack.size() == (m.forward.angular_speed[0] >= 2 ? 1 : 0));
     CHECK(worst_error(RigTruth(rig), m) <= 0.501);
 }
@@ -363,8 +363,8 @@ TEST_CASE("Thomson's uniform gyrostatic string", "[linear]") {
             const double speed = (sense == &m.backward ? -1 : 1) * sense->angular_speed[j], square = speed * speed / g;
             const double sine2 = square * w / (T / a + speed * p / (a * a) + square * w * h * (a - l) / (a * a)) / 4;
             for (Index i = 3; i + 1 < n; ++i)  // y_{i-1} + y_{i+1} = 2 cos(theta) y_i
-                CHECK(std::abs(sense->shapes().offset(j, i - 1) + sense->shapes().offset(j, i + 1) -
-                               2 * (1 - 2 * sine2) * sense->shapes().offset(j, i)) <=
+                CHECK(std::abs(sense->shapes()(j, i - 1) + sense->shapes()(j, i + 1) -
+                               2 * (1 - 2 * sine2) * sense->shapes()(j, i)) <=
                       4e-15 * (1 + 4 * std::abs(sine2)));
         }
 }
@@ -446,7 +446,7 @@ TEST_CASE("chains stiffer than their spring by many decades", "[linear]") {
             REQUIRE(m.complete);
             REQUIRE(m.forward.size() == 4);
             CHECK(m.forward.error_bound.maxCoeff() <= 2.3e-16);
-            CHECK(m.forward.shapes().residual.maxCoeff() <= 1e-16);
+            CHECK(m.forward.residual().maxCoeff() <= 1e-16);
             if (stiffness < 1) continue;  // what is assembled has not the digits
             CHECK(worst_error(RigTruth(rig), m) <= 0.501);
         }
@@ -470,9 +470,9 @@ TEST_CASE("rigs: shapes when they are asked for, and where they cross the axis",
     REQUIRE(m.size() == 10);
     CHECK(m.available == 13);
     const auto first = m.shape(4);  // alone, before the others
-    CHECK(m.shapes().offset.row(4).transpose() == first);
+    CHECK(m.shapes().row(4).transpose() == first);
     for (Index j = 0; j < m.size(); ++j) {
-        const auto& nodes = m.shapes().nodes[static_cast<std::size_t>(j)];
+        const auto& nodes = m.nodes()[static_cast<std::size_t>(j)];
         const auto offset = m.shape(j);
         Index changes = 0;
         for (Index pin = 0; pin + 1 < offset.size(); ++pin) {

@@ -151,7 +151,7 @@ TEST_CASE("Weights transferred to the axis: the shape is a mode of the straight 
             if (j != k) nearest = std::min(nearest, std::abs(modes.conical_height[j] / shape.conical_height - 1));
         const auto offset = shape.offset / shape.offset.cwiseAbs().maxCoeff();
         for (Index pin = 0; pin <= chain.size(); ++pin)
-            worst_offset = std::max(worst_offset, std::abs(modes.shapes().offset(k, pin) - offset[pin]) /
+            worst_offset = std::max(worst_offset, std::abs(modes.shapes()(k, pin) - offset[pin]) /
                                                       revchain::epsilon<double>() / steep * nearest);
         if (kind == 0) ++plummets, wrong_number += modes.first + k != shape.half_waves;
     });

@@ -6,7 +6,6 @@
 #include "revchain/linear/heights.hpp"
 #include "revchain/numeric/compensated_sum.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
-#include "revchain/pencil/quotient_lanes.hpp"
 #include "revchain/pencil/spectrum/aberth.hpp"
 
 namespace revchain::detail {
@@ -69,43 +68,19 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain)
     return fit && worst_cross < 0x1p20;
 }
 
-/// The heights of a range of the modes that `all` holds, to 2 ulp; nothing where that is not proved. Each is the
-/// Rayleigh quotient of its shape, whose exact value is nearer to an eigenvalue than the square of the residual over
-/// the room that the bounds in `all` leave it (Kato and Temple).
+/// The heights of a range of the modes that `all` holds, to 2 ulp; nothing where that is not proved.
 inline std::optional<Heights<double>> refined(const Chain<double>& chain, const ModeRange& range, Index modes,
                                               const pencil::AberthSpectrum& all) {
-    constexpr std::size_t lanes = pencil::shape_lanes;
-    const double full = 2 * epsilon<double>();
-    constexpr double slack = 1 + 0x1p-30;
     const AssembledChain<double> assembled = assemble(chain);
-    const bool lumped = pencil::is_lumped(assembled.pencil);
     const auto end = [&](Index j, int side) {
         const std::size_t i = static_cast<std::size_t>(j);
-        return all.eigenvalue[i] * (1 + side * all.bound[i] * slack);
+        return all.eigenvalue[i] * (1 + side * all.bound[i] * (1 + 0x1p-30));
     };
-    pencil::ShapesInLanes<double> scratch;
-    pencil::HeightsInLanes<double> found;
-    Heights<double> result;
-    result.reserve(static_cast<std::size_t>(range.count));
-    const Index last = range.first - 1 + range.count;
-    for (Index first = range.first - 1; first < last; first += static_cast<Index>(lanes)) {
-        for (std::size_t i = 0; i < lanes; ++i)
-            found.start[i] =
-                all.eigenvalue[static_cast<std::size_t>(std::min(first + static_cast<Index>(i), last - 1))];
-        pencil::heights_in_lanes(assembled.pencil, lumped, scratch, found);
-        for (Index j = first; j < std::min(first + static_cast<Index>(lanes), last); ++j) {
-            const std::size_t i = static_cast<std::size_t>(j - first);
-            const double height = found.height[i].high, reach = found.reach[i], blur = found.blur[i];
-            const double above = j == 0 ? std::numeric_limits<double>::infinity() : end(j - 1, -1) - height;
-            const double below = height - (j + 1 == modes ? 0.0 : end(j + 1, 1));
-            const double room = std::min(above, below) - blur - 0x1p-50 * height;
-            const double off = (reach * (reach / room) + blur) / height * slack;
-            const double bound = off + epsilon<double>() * 0.5 * slack;
-            if (!(room > reach) || !(bound <= full)) return std::nullopt;
-            result.push_back({height, bound, found.height[i]});
-        }
-    }
-    return result;
+    const Index first = range.first - 1, last = first + range.count;
+    const std::vector<double> starts(all.eigenvalue.begin() + first, all.eigenvalue.begin() + last);
+    return rounded_heights(pencil::proved_roots(
+        assembled.pencil, pencil::is_lumped(assembled.pencil), starts, last == modes ? 0.0 : end(last, 1),
+        first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1), worst_unrounded));
 }
 
 /// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not serve. Bounds are

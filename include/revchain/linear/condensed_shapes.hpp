@@ -2,15 +2,11 @@
 #pragma once
 
 #include "revchain/linear/condensed_heights.hpp"
+#include "revchain/linear/lazy_mode_shapes.hpp"
 #include "revchain/pencil/twisted.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
-
-namespace revchain {
-template <Real T>
-struct ModeShapes;  // revchain/modes.hpp
-}
 
 namespace revchain::detail {
 

@@ -8,7 +8,9 @@
 #include "revchain/count.hpp"
 #include "revchain/linear/plain_pencil.hpp"
 #include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/certificate.hpp"
+#include "revchain/pencil/proved_roots.hpp"
 #include "revchain/pencil/twisted.hpp"
 
 /// Stage 1 of `modes`: the heights of a range of mode numbers, each with its proved bound. Shapes come after.
@@ -73,6 +75,32 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
     return result;
 }
 
+/// How far a height may be from the exact one, relative, before it is rounded, so that it is within 2 ulp then.
+inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::epsilon();
+
+/// Roots as heights given out: rounded.
+inline std::optional<Heights<double>> rounded_heights(const std::optional<std::vector<pencil::ProvedRoot<double>>>& roots) {
+    if (!roots) return std::nullopt;
+    Heights<double> heights;
+    heights.reserve(roots->size());
+    for (const auto& [root, off] : *roots)
+        heights.push_back({root.high, (off / root.high + epsilon<double>() / 2) * (1 + 0x1p-30), root});
+    return heights;
+}
+
+/// To 2 ulp, eight at a time; nothing where that is not proved, and where there is no one unit of weight.
+inline std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils, const ModeRange& range,
+                                                       Index available, double guess,
+                                                       const std::function<void(Index)>& finished) {
+    constexpr Index most = 20000;  // 500 bytes of scratch a link
+    if (!pencils.wide().units.empty() || pencils.wide().size() > most) return std::nullopt;
+    const FloatingPointStateGuard quiet;
+    return rounded_heights(pencil::proved_range(
+        pencils.wide(), pencils.rounded(),
+        [&](double height) { return pencil::certified_count<double, 1>(pencils.rounded(), {height})[0]; },
+        range.first - 1, range.count, available, guess, worst_unrounded, finished));
+}
+
 /// Stage 1 of `modes`: the heights of `range`, which is not empty, to `options.rtol`.
 /// This one serves every valid chain; cost as said there.
 template <Real T>
@@ -86,6 +114,11 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
         if (loose)
             if (auto found = loose_heights<double>(chain, range, goal, half_way)) return std::move(*found);
     const Pencils<T>& pencils = assembled.pencils();
+    if constexpr (std::is_same_v<T, double>)
+        if (!loose)
+            if (auto found = heights_in_lanes(pencils, range, chain.mode_count(),
+                                              pencils.scaled(chain.total_length()), half_way))
+                return std::move(*found);
     const auto brackets =
         pencil::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
                        pencils.scaled(chain.total_length()), half_way);

@@ -3,67 +3,86 @@
 
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
+#include <vector>
 
 #include "revchain/numeric/double_word.hpp"
 #include "revchain/numeric/progress.hpp"
 
-namespace revchain {
+namespace revchain::detail {
 
+/// Shapes of k modes of a chain of N links, with or without what follows from them.
 template <Real T>
-struct ModeShapes;  // revchain/modes.hpp
+struct ModeShapes {
+    Table<T> offset;               ///< (k, N+1)
+    Vector<T> residual;            ///< (k,), or empty
+    std::vector<Vector<T>> nodes;  ///< k lists, or none
+};
 
-namespace detail {
-
-/// The shapes of a result, computed when they are first asked for and kept. Copies share them; threads may, too.
+/// The shapes of a result, and residuals and nodes, each computed when first asked for and kept. Copies share them;
+/// threads may, too.
 template <Real T>
 class LazyModeShapes {
    public:
     LazyModeShapes() = default;
-    /// `find(first, count, progress)` returns the shapes of `count` modes; the first has index `first` in the result.
+    /// `find(first, count, details, progress)` returns the shapes of `count` modes; the first has index `first` in the
+    /// result. Without `details` it may leave residuals and nodes out.
     template <class Find>
     explicit LazyModeShapes(Find find) : state_(std::make_shared<FoundBy<Find>>(std::move(find))) {}
     explicit LazyModeShapes(ModeShapes<T> known) : state_(std::make_shared<State>()) {
         state_->known = std::move(known);
+        state_->has_offsets = state_->has_details = true;
     }
 
-    const ModeShapes<T>& all(Index count, Progress* progress) const {
-        if (!state_ && count == 0) {
-            static const ModeShapes<T> none;
-            return none;
-        }
-        const std::scoped_lock lock(state().mutex);
-        if (!state_->known) state_->known = state_->find(0, count, progress);
-        return *state_->known;
-    }
+    const Table<T>& offsets(Index count, Progress* progress) const { return known(count, false, progress).offset; }
+    /// Shapes with residuals and nodes.
+    const ModeShapes<T>& details(Index count, Progress* progress) const { return known(count, true, progress); }
     Vector<T> one(Index count, Index j) const {
         if (j < 0 || j >= count)
             throw_invalid("Modes::shape", "the index must be from 0 to " + std::to_string(count - 1), j);
         const std::scoped_lock lock(state().mutex);
-        if (state_->known) return state_->known->offset.row(j).transpose();
-        return state_->find(j, 1, nullptr).offset.row(0).transpose();
+        if (state_->has_offsets) return state_->known.offset.row(j).transpose();
+        return state_->find(j, 1, false, nullptr).offset.row(0).transpose();
     }
     /// Returns the shapes of `count` modes, the first at index `first`, and does not keep them.
-    ModeShapes<T> some(Index first, Index count, Progress* progress) const {
-        return state().find(first, count, progress);
+    ModeShapes<T> some(Index first, Index count, bool details, Progress* progress) const {
+        return state().find(first, count, details, progress);
     }
+    /// What keeps the numbers that were returned by reference.
+    std::shared_ptr<const void> owner() const { return state_; }
 
    private:
     struct State {
         virtual ~State() = default;
-        virtual ModeShapes<T> find(Index, Index, Progress*) const { return {}; }  // where they are known already
-        std::optional<ModeShapes<T>> known;
+        virtual ModeShapes<T> find(Index, Index, bool, Progress*) const { return {}; }  // where they are known already
+        ModeShapes<T> known;
+        bool has_offsets = false, has_details = false;
         std::mutex mutex;
     };
     template <class Find>
     struct FoundBy final : State {
         explicit FoundBy(Find by) : found(std::move(by)) {}
-        ModeShapes<T> find(Index first, Index count, Progress* progress) const override {
-            return found(first, count, progress);
+        ModeShapes<T> find(Index first, Index count, bool details, Progress* progress) const override {
+            return found(first, count, details, progress);
         }
         Find found;
     };
+    const ModeShapes<T>& known(Index count, bool details, Progress* progress) const {
+        if (!state_ && count == 0) {
+            static const ModeShapes<T> none;
+            return none;
+        }
+        State& state = this->state();
+        const std::scoped_lock lock(state.mutex);
+        if (!(details ? state.has_details : state.has_offsets)) {
+            ModeShapes<T> found = state.find(0, count, details, progress);
+            state.has_details = details || found.residual.size() == count;
+            if (!state.has_offsets) state.known.offset = std::move(found.offset);  // else somebody may be reading it
+            state.known.residual = std::move(found.residual), state.known.nodes = std::move(found.nodes);
+            state.has_offsets = true;
+        }
+        return state.known;
+    }
     State& state() const {
         if (!state_) throw_invalid("Modes", "shapes need modes that `modes` has found");
         return *state_;
@@ -71,5 +90,4 @@ class LazyModeShapes {
     std::shared_ptr<State> state_;
 };
 
-}  // namespace detail
-}  // namespace revchain
+}  // namespace revchain::detail

@@ -8,24 +8,26 @@
 #include "revchain/linear/condensed_shapes.hpp"
 #include "revchain/linear/one_mode.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
-#include "revchain/pencil/twisted_lanes.hpp"
+#include "revchain/pencil/proved_roots.hpp"
 
 /// Stage 2 of `modes`: shapes, residuals and nodes of modes whose heights are known.
 namespace revchain::detail {
 
 template <Real T>
-ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count) {
-    return {Table<T>(count, chain.size() + 1), Vector<T>(count),
-            std::vector<Vector<T>>(static_cast<std::size_t>(count))};
+ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details = true) {
+    const Index more = details ? count : 0;
+    return {Table<T>(count, chain.size() + 1), Vector<T>(more), std::vector<Vector<T>>(static_cast<std::size_t>(more))};
 }
 
-/// Stores shape and nodes of mode `j`, and its residual in the pencil's scalar; `height` in the pencil's unit.
+/// Stores the shape of mode `j` and, where there is room for them, its nodes and its residual in the pencil's scalar;
+/// `height` in the pencil's unit.
 template <Real T, Real S>
 void set_shape(ModeShapes<T>& shapes, Index j, const Chain<T>& chain, const pencil::ElementPencil<S>& pencil,
                const T& height, const pencil::Eigenvector<T>& vector) {
+    shapes.offset.row(j) = vector.offset.transpose();
+    if (shapes.residual.size() == 0) return;
     shapes.residual[j] = pencil::relative_residual(pencil, height, vector.offset);
     shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, vector.crossings);
-    shapes.offset.row(j) = vector.offset.transpose();
 }
 
 /// Finds shapes of some modes of a chain, from heights in the units of its pencils.
@@ -37,10 +39,9 @@ class ShapeFinder {
     ShapeFinder(const Chain<T>& chain, Index first, Heights<T> height, bool loose, bool condense)
         : chain_(chain), first_(first), height_(std::move(height)), loose_(loose), condense_(condense) {}
 
-    /// Returns the shapes of `count` modes, the first at index `from`.
-    ModeShapes<T> operator()(Index from, Index count, Progress* progress) const {
-        ModeShapes<T> shapes = room_for_shapes(chain_, count);
-        if (count == 0) return shapes;
+    /// Returns the shapes of `count` modes, the first at index `from`, and if asked for residuals and nodes.
+    ModeShapes<T> operator()(Index from, Index count, bool details, Progress* progress) const {
+        if (count == 0) return room_for_shapes(chain_, 0);
         const auto begin = height_.begin() + from;
         const Heights<T> height(begin, begin + count);
         if constexpr (std::is_same_v<T, double>)
@@ -48,8 +49,10 @@ class ShapeFinder {
                 std::abs(chain_.units().weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
                 const T unit = std::ldexp(T(1), chain_.units().length_exponent) / LinkColumns<T>(chain_).unit_length;
                 const auto condensed = condensed_chain(chain_, T(0.95) * height.back().eigenvalue * unit);
+                ModeShapes<T> shapes = room_for_shapes(chain_, count);
                 if (shapes_by_condensation(shapes, chain_, condensed, height, progress)) return shapes;
             }
+        ModeShapes<T> shapes = room_for_shapes(chain_, count, details);
         const Pencils<T> pencils(chain_);
         if constexpr (std::is_same_v<T, double>)
             if (pencils.wide().units.empty() && chain_.size() <= most_in_lanes) {
@@ -80,35 +83,32 @@ class ShapeFinder {
         constexpr std::size_t lanes = pencil::shape_lanes;
         const FloatingPointStateGuard quiet;
         const bool lumped = pencil::is_lumped(pencils.wide());
-        const std::vector<Wide<T>> places = pin_places(chain_);
+        const bool details = shapes.residual.size() > 0;
+        const std::vector<Wide<T>> places = details ? pin_places(chain_) : std::vector<Wide<T>>();
         const std::size_t pins = static_cast<std::size_t>(chain_.size()) + 1;
-        pencil::ShapesInLanes<T> found;
         std::vector<pencil::Crossing<T>> crossed;
-        for (std::size_t first = 0; first < height.size(); first += lanes) {
-            const std::size_t there = std::min(lanes, height.size() - first);
-            std::array<Wide<T>, lanes> unrounded;
-            std::array<T, lanes> rounded;
+        pencil::for_eights<T>(height.size(), pins, [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
+            pencil::RootsInLanes<T> roots;
             for (std::size_t i = 0; i < lanes; ++i) {
                 const Height<T>& at = height[first + std::min(i, there - 1)];
-                unrounded[i] = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;
-                rounded[i] = at.eigenvalue;
+                roots.exact[i] = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;
+                roots.rounded[i] = at.eigenvalue;
             }
-            pencil::shapes_in_lanes(pencils.wide(), lumped, unrounded, rounded, found);
+            pencil::shapes_in_lanes(pencils.wide(), lumped, roots, details, found);
             T* const row = &shapes.offset(static_cast<Index>(first), 0);
-            for (std::size_t m = 0; m < pins; ++m)
-                for (std::size_t i = 0; i < there; ++i) row[i * pins + m] = found.offset[m * lanes + i];
+            found.store_rows(row, pins, there);
             for (std::size_t i = 0; i < there; ++i) {
                 const auto j = static_cast<Index>(first + i);
-                if (found.found[i]) {
+                if (!found.found[i]) {
+                    alone(shapes, j, pencils, height[first + i]);
+                } else if (details) {
                     shapes.residual[j] = found.residual[i];
                     found.crossings(i, row + i * pins, crossed);
                     shapes.nodes[first + i] = nodes(chain_, places, crossed);
-                } else {
-                    alone(shapes, j, pencils, height[first + i]);
                 }
                 advance(progress, 1.0);  // may be cancelled
             }
-        }
+        });
     }
 
     Chain<T> chain_;

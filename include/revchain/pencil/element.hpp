@@ -59,6 +59,12 @@ S not_zero(const S& pivot, const S& stiffness) {
     return abs(pivot) < least ? stiffness * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
+/// x, or x^2 and x: what the stiffness and the spin of each element are multiplied by.
+template <class S>
+struct Factors {
+    S stiffness{}, spin{};
+};
+
 /// A symmetric pencil lambda K - M kept as its elements, lowest first, never assembled: neighbouring stiffnesses, once
 /// added, lose the slowest modes. The last element's upper pin is held. lambda K y = M y has positive eigenvalues.
 template <Real S>
@@ -67,7 +73,10 @@ struct ElementPencil {
     /// Where weights differ too widely for one unit: element m is in units of 2^units[m], exponents that never fall on
     /// the way up and end at 0. Else empty.
     std::vector<int> units;
-    /// Bound on the error of every number in `elements`, relative to it and, of the cross mass, to |X| + 2 c; besides
+    /// With momentum: s of each element, of any sign. Its L is then x^2 k + x s, and the family quadratic in x, with a
+    /// positive root for each mode in one sense of rotation. Else empty.
+    std::vector<S> spin;
+    /// Bound on the error of every number in `elements` and of each spin, relative to it and, of the cross mass, to |X| + 2 c; besides
     /// what underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
     Narrow<S> entry_error{};
     Narrow<S> stiffness_underflow = largest_underflow();

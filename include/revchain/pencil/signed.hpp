@@ -34,12 +34,6 @@ struct SignedElement {
     }
 };
 
-/// x, or x^2 and x: what the stiffness and the spin of each element are multiplied by.
-template <class S>
-struct Factors {
-    S stiffness{}, spin{};
-};
-
 /// A family Q(x) kept as its elements, lowest first, never assembled. The last element's upper pin is held.
 template <Real S>
 struct SignedPencil {

@@ -18,12 +18,18 @@ namespace revchain::pencil {
 /// How many modes are found at once.
 inline constexpr std::size_t shape_lanes = 8;
 
+/// Heights, or with spins x, of some modes: as exact as they are known, and those that belong to what is given out.
+template <std::floating_point T>
+struct RootsInLanes {
+    std::array<DoubleWord<T>, shape_lanes> exact, rounded;
+};
+
 /// Offsets of pins 0 ... n in each lane, pin by pin, and their residuals.
 template <std::floating_point T>
 struct ShapesInLanes {
     static constexpr T least_offset{1e-290};
     std::vector<T> offset;                       ///< (n + 1, shape_lanes); the largest of each lane is 1
-    std::array<T, shape_lanes> residual;         ///< as `relative_residual` of height rounded and offsets
+    std::array<T, shape_lanes> residual;         ///< as `relative_residual` of the rounded root and offsets
     std::array<bool, shape_lanes> found;         ///< whether the correction was small enough to be all there is
     std::array<bool, shape_lanes> underflows;    ///< whether signs of neighbours are to be seen from ratios alone
     std::array<std::size_t, shape_lanes> twist;  ///< below this pin ratios go down, from it on up
@@ -33,6 +39,17 @@ struct ShapesInLanes {
     void make_room(std::size_t links) {
         offset.resize((links + 1) * shape_lanes);
         for (std::vector<T>* each : {&down, &up, &below, &above, &rest, &change}) each->resize(links * shape_lanes);
+    }
+    /// The first `lanes` lanes as rows of `pins` numbers.
+    void store_rows(T* rows, std::size_t pins, std::size_t lanes) const {
+        constexpr std::size_t tile = 8;
+        std::size_t m = 0;
+        if (lanes == shape_lanes)
+            for (; m + tile <= pins; m += tile)
+                for (std::size_t i = 0; i < shape_lanes; ++i)
+                    for (std::size_t k = 0; k < tile; ++k) rows[i * pins + m + k] = offset[(m + k) * shape_lanes + i];
+        for (; m < pins; ++m)
+            for (std::size_t i = 0; i < lanes; ++i) rows[i * pins + m] = offset[m * shape_lanes + i];
     }
     /// Where the mode in `lane`, whose offsets `row` has, crosses the axis, lowest first, the held pin left out.
     void crossings(std::size_t lane, const T* row, std::vector<Crossing<T>>& crossed) const {
@@ -68,6 +85,19 @@ struct ShapesInLanes {
     }
 };
 
+/// f(scratch for so many links). It is kept for the next call on the same thread, up to 2.6 MB: memory that is given
+/// back each time costs more than what is computed in it.
+template <std::floating_point T, class F>
+void with_shapes_in_lanes(std::size_t links, const F& f) {
+    static thread_local ShapesInLanes<T> kept;
+    if (links <= 4096) {
+        f(kept);
+    } else {
+        ShapesInLanes<T> own;
+        f(own);
+    }
+}
+
 namespace detail {
 
 /// high + low, unevaluated: of sums and products whose low parts only need to be right to T's own digits.
@@ -102,17 +132,42 @@ template <class V>
     return if_less(abs(change), V(T(0.5)), V(T(1)) + change, coupling * inverse);
 }
 
+/// What is known of a pencil when its loops are compiled: whether every element is a point mass at its lower pin, and
+/// whether elements have spins.
+template <bool Lumped, bool Spinning>
+struct Terms {
+    static constexpr bool lumped = Lumped, spinning = Spinning;
+};
+
+template <class Terms, class V>
+[[gnu::always_inline]] inline Factors<V> factors_in_lanes(Terms, const V& x) {
+    return {Terms::spinning ? x * x : x, x};
+}
+
+/// L of element m, rounded.
+template <class Terms, class V, class T>
+[[gnu::always_inline]] inline V stiffness_in_lanes(Terms, const ElementPencil<DoubleWord<T>>& pencil, std::size_t m,
+                                                   const Factors<V>& at) {
+    const V k = at.stiffness * V(pencil.elements[m].stiffness.high);
+    if constexpr (Terms::spinning)
+        return k + at.spin * V(pencil.spin[m].high);
+    else
+        return k;
+}
+
 /// The dynamic stiffness carried across an element, as `across` does.
-template <bool lumped, class V, class T>
-[[gnu::always_inline]] inline V carried(const Element<DoubleWord<T>>& e, const V& k, const V& near, const T& near_mass,
-                                        const T& far_mass, const V& coupling, const V& inverse) {
-    if constexpr (lumped) {
+template <class Terms, class V, class T>
+[[gnu::always_inline]] inline V carried(Terms, const Element<DoubleWord<T>>& e, const V& k, const V& near,
+                                        const T& near_mass, const T& far_mass, const V& coupling, const V& inverse) {
+    if constexpr (Terms::lumped) {
         if (near_mass == T(0)) return k * (near * inverse) - V(far_mass);
         return k * ((near - V(near_mass)) * inverse);
     } else {
         const V far(far_mass), weight(e.weight), turning(e.turning.high), size = abs(inverse);
-        const V of_coupling = V(T(2)) * abs(coupling) * ((k + weight + V(near_mass) + far) * size) + (k + far);
-        const V of_weight = (k + far) * (abs(near) * size) + (k + turning) * (weight * size);
+        const V k_size = Terms::spinning ? abs(k) : k;
+        const V of_coupling =
+            V(T(2)) * abs(coupling) * ((k_size + weight + V(near_mass) + far) * size) + (k_size + far);
+        const V of_weight = (k_size + far) * (abs(near) * size) + (k_size + turning) * (weight * size);
         return if_less(of_coupling, of_weight, (k - far) - coupling * (coupling * inverse),
                        (k - far) * (near * inverse) - (k - turning) * (weight * inverse));
     }
@@ -125,25 +180,34 @@ template <class V>
     return if_less(abs(pivot), least, stiffness * (epsilon<T>() * epsilon<T>()) + least, pivot);
 }
 
-/// Forces left over at the pins but the held one, (lambda K - M) y, from the free end up: `take(m, force, size, offset,
+/// Forces left over at the pins but the held one, (L(x) y - M y), from the free end up: `take(m, force, size, offset,
 /// stretch)` gets that at pin m, the sum of the sizes of what meets there if `sized`, the pin's offset, and by how much
 /// it exceeds the next one's.
-template <bool lumped, bool fused, bool sized, class V, class T, class Offset, class Take>
-[[gnu::always_inline]] inline void forces_left(const std::vector<Element<DoubleWord<T>>>& elements,
-                                               const Pair<V>& height, const Offset& offset, const Take& take) {
-    const std::size_t n = elements.size();
+template <bool fused, bool sized, class V, class Terms, class T, class Offset, class Take>
+[[gnu::always_inline]] inline void forces_left(Terms, const ElementPencil<DoubleWord<T>>& pencil,
+                                               const Factors<Pair<V>>& at, const Offset& offset, const Take& take) {
+    const std::size_t n = pencil.elements.size();
+    const auto product = [](const Pair<V>& x, const DoubleWord<T>& y) REVCHAIN_INLINED {
+        const DoubleWord<V> p = two_product<fused>(x.high, V(y.high));
+        return Pair<V>{p.high, p.low + (x.high * V(y.low) + x.low * V(y.high))};
+    };
     Pair<V> from_below{};
     V size{}, lower = offset(0);
     for (std::size_t m = 0; m < n; ++m) {
-        const Element<DoubleWord<T>>& e = elements[m];
+        const Element<DoubleWord<T>>& e = pencil.elements[m];
         const V upper = m + 1 < n ? offset(m + 1) : V{};
-        const DoubleWord<V> p = two_product<fused>(height.high, V(e.stiffness.high));
-        const Pair<V> k{p.high, p.low + (height.high * V(e.stiffness.low) + height.low * V(e.stiffness.high))};
+        Pair<V> k = product(at.stiffness, e.stiffness);
+        V k_size = abs(k.high);
+        if constexpr (Terms::spinning) {
+            const Pair<V> spin = product(at.spin, pencil.spin[m]);
+            k = k + spin;
+            k_size += abs(spin.high);
+        }
         const DoubleWord<V> stretch = two_sum(lower, -upper);
         const Pair<V> spring = times<fused>(k, stretch);
         Pair<V> near = times<fused>(e.lower, -lower), far{};
         V near_size = abs(near.high), far_size{};
-        if constexpr (!lumped) {
+        if constexpr (!Terms::lumped) {
             const Pair<V> by_upper = times<fused>(e.cross, -upper), by_lower = times<fused>(e.cross, -lower);
             far = times<fused>(e.upper, -upper);
             if constexpr (sized) near_size += abs(by_upper.high), far_size = abs(far.high) + abs(by_lower.high);
@@ -152,61 +216,68 @@ template <bool lumped, bool fused, bool sized, class V, class T, class Offset, c
         }
         const Pair<V> left = (from_below + spring) + near;
         V spring_size{};
-        if constexpr (sized) spring_size = abs(k.high) * (abs(lower) + abs(upper));
+        if constexpr (sized) spring_size = k_size * (abs(lower) + abs(upper));
         take(m, left.high + left.low, size + (spring_size + near_size), lower, stretch.high);
         from_below = {-spring.high, -spring.low};
-        if constexpr (!lumped) from_below = from_below + far;
+        if constexpr (!Terms::lumped) from_below = from_below + far;
         if constexpr (sized) size = spring_size + far_size;
         lower = upper;
     }
 }
 
-/// Offsets at heights in plain arithmetic, 1 at the pin where upper and lower part balance best: those below it are in
+/// Vectors at some x in plain arithmetic, 1 at the pin where upper and lower part balance best: offsets below it are in
 /// `s.offset`, those above follow from `s.up`.
 template <class V>
 struct TwistInLanes {
     V pin, side;  ///< and on which side of the axis the free end is
+    V above;      ///< how many eigenvalues exceed x, by rounded arithmetic
 };
-template <bool lumped, class V, class T>
-[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(const std::vector<Element<DoubleWord<T>>>& elements,
-                                                               const V& height, ShapesInLanes<T>& s) {
+template <class Terms, class V, class T>
+[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms terms,
+                                                               const ElementPencil<DoubleWord<T>>& pencil, const V& x,
+                                                               ShapesInLanes<T>& s) {
     constexpr std::size_t L = shape_lanes;
-    const std::size_t n = elements.size();
+    constexpr bool lumped = Terms::lumped;
+    const std::size_t n = pencil.elements.size();
     const V zero{}, one(T(1));
+    const Factors<V> at = factors_in_lanes(terms, x);
+    const auto coupled = [&](const Element<DoubleWord<T>>& e, const V& k)
+                             REVCHAIN_INLINED { return lumped ? k : k + V(e.cross.high); };
+    const auto size = [](const V& k) REVCHAIN_INLINED { return Terms::spinning ? abs(k) : k; };
     // Up: the stiffness of what hangs below each pin, and ratios of offsets; down: that of what holds it from above.
     // The two take turns: each waits for its divisions.
-    V below{}, above{};
+    V below{}, above{}, negative{};
     for (std::size_t m = 0; m < n; ++m) {
-        const Element<DoubleWord<T>>& e = elements[m];
-        const V k = height * V(e.stiffness.high);
-        const V coupling = lumped ? k : k + V(e.cross.high);
-        const V pivot = not_zero_in_lanes(below + (k - V(e.lower.high)), k);
+        const Element<DoubleWord<T>>& e = pencil.elements[m];
+        const V k = stiffness_in_lanes(terms, pencil, m, at), coupling = coupled(e, k);
+        const V pivot = not_zero_in_lanes(below + (k - V(e.lower.high)), size(k));
         const V inverse = one / pivot;
+        negative = if_less(pivot, zero, negative + one, negative);
         const std::size_t i = n - 1 - m;
-        const Element<DoubleWord<T>>& f = elements[i];
-        const V k_f = height * V(f.stiffness.high);
+        const Element<DoubleWord<T>>& f = pencil.elements[i];
+        const V k_f = stiffness_in_lanes(terms, pencil, i, at);
         if (m == 0) {
             above = k_f - V(f.lower.high);
             zero.store(&s.up[i * L]);
         } else {
-            const V coupling_f = lumped ? k_f : k_f + V(f.cross.high);
-            const V pivot_f = not_zero_in_lanes(above + (k_f - V(f.upper.high)), k_f);
+            const V coupling_f = coupled(f, k_f);
+            const V pivot_f = not_zero_in_lanes(above + (k_f - V(f.upper.high)), size(k_f));
             const V inverse_f = one / pivot_f;
             inverse_f.store(&s.above[(i + 1) * L]);
             ratio_in_lanes(coupling_f, pivot_f, inverse_f).store(&s.up[i * L]);
-            above = carried<lumped>(f, k_f, above, f.upper.high, f.lower.high, coupling_f, inverse_f);
+            above = carried(terms, f, k_f, above, f.upper.high, f.lower.high, coupling_f, inverse_f);
         }
         above.store(&s.change[i * L]);
         below.store(&s.rest[m * L]);
         inverse.store(&s.below[m * L]);
         ratio_in_lanes(coupling, pivot, inverse).store(&s.down[m * L]);
-        below = carried<lumped>(e, k, below, e.lower.high, e.upper.high, coupling, inverse);
+        below = carried(terms, e, k, below, e.lower.high, e.upper.high, coupling, inverse);
     }
     // They balance best where the mode is largest.
     V least(std::numeric_limits<T>::infinity()), least_forces(T(1)), twist{}, from_link{};
     for (std::size_t m = 0; m < n; ++m) {
-        const Element<DoubleWord<T>>& e = elements[m];
-        const V k = height * V(e.stiffness.high), forces = from_link + (k + V(e.lower.high));
+        const Element<DoubleWord<T>>& e = pencil.elements[m];
+        const V k = size(stiffness_in_lanes(terms, pencil, m, at)), forces = from_link + (k + V(e.lower.high));
         const V balance = abs(V::load(&s.rest[m * L]) + V::load(&s.change[m * L]));
         const auto better = balance * least_forces < least * forces;
         least = select(better, balance, least);
@@ -217,13 +288,13 @@ template <bool lumped, class V, class T>
     // Offsets, 1 at the twist, outwards by ratios.
     V y = one, side = one;  // of the axis: signs outlast offsets that underflow
     for (std::size_t m = n; m-- > 0;) {
-        const V at(static_cast<T>(m)), ratio = V::load(&s.down[m * L]);
-        y = if_less(at, twist, ratio * y, one);
-        side = if_less(at, twist, if_less(ratio, zero, -side, side), one);
+        const V at_pin(static_cast<T>(m)), ratio = V::load(&s.down[m * L]);
+        y = if_less(at_pin, twist, ratio * y, one);
+        side = if_less(at_pin, twist, if_less(ratio, zero, -side, side), one);
         y.store(&s.offset[m * L]);
     }
     zero.store(&s.offset[n * L]);
-    return {twist, side};
+    return {twist, side, negative};
 }
 
 /// Offset of pin m from those of `twisted_in_lanes`, called for one pin after the other; `last`: what it returned last.
@@ -234,29 +305,40 @@ template <class V, class T>
     return offset;
 }
 
-template <bool lumped, class Where, class T>
-[[gnu::always_inline]] inline void shapes_in_lanes(Where, const std::vector<Element<DoubleWord<T>>>& elements,
-                                                   const std::array<DoubleWord<T>, shape_lanes>& heights,
-                                                   const std::array<T, shape_lanes>& rounded, ShapesInLanes<T>& s) {
+/// x as a pair, or x^2 and x.
+template <bool fused, class Terms, class V>
+[[gnu::always_inline]] inline Factors<Pair<V>> factors_in_pairs(Terms, const V& x, const V& low) {
+    if constexpr (Terms::spinning) {
+        const DoubleWord<V> p = two_product<fused>(x, x), square = fast_two_sum(p.high, p.low + V(Lane<V>(2)) * x * low);
+        return {{square.high, square.low}, {x, low}};
+    } else {
+        return {{x, low}, {}};
+    }
+}
+
+template <class Where, class Terms, class T>
+[[gnu::always_inline]] inline void shapes_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
+                                                   const RootsInLanes<T>& roots, bool residuals,
+                                                   ShapesInLanes<T>& s) {
     constexpr bool fused = Where::fused;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     using V = Pack<T, width, L / width>;
-    const std::size_t n = elements.size();
-    Pair<V> height;
-    V near_height;
+    const std::size_t n = pencil.elements.size();
+    V x, x_low, rounded, rounded_low;
     for (std::size_t i = 0; i < L; ++i) {
-        height.high.set(i, heights[i].high);
-        height.low.set(i, heights[i].low);
-        near_height.set(i, rounded[i]);
+        x.set(i, roots.exact[i].high);
+        x_low.set(i, roots.exact[i].low);
+        rounded.set(i, roots.rounded[i].high);
+        rounded_low.set(i, roots.rounded[i].low);
     }
     const V zero{}, one(T(1));
-    const TwistInLanes<V> joined = twisted_in_lanes<lumped>(elements, height.high, s);
+    const TwistInLanes<V> joined = twisted_in_lanes(terms, pencil, x, s);
     const V twist = joined.pin, side = joined.side;
     V y{};
     // A correction, 0 at the twist, balances the forces at all other pins.
     V load{};
-    forces_left<lumped, fused, false, V>(
-        elements, height,
+    forces_left<fused, false, V>(
+        terms, pencil, factors_in_pairs<fused>(terms, x, x_low),
         [&](std::size_t m) REVCHAIN_INLINED {
             y = next_offset(s, m, twist, y);
             y.store(&s.offset[m * L]);
@@ -299,45 +381,45 @@ template <bool lumped, class Where, class T>
     const V turn = if_less(side * scale, zero, -one, one);
     scale *= turn;
     scale_low *= turn;
+    for (std::size_t m = 0; m < n; ++m) {
+        const V offset = V::load(&s.offset[m * L]);
+        const DoubleWord<V> scaled = two_product<fused>(offset, scale);
+        const V rest = scaled.low + (offset * scale_low + V::load(&s.change[m * L]) * scale);
+        ((scaled.high + rest) + zero).store(&s.offset[m * L]);
+    }
+    for (std::size_t i = 0; i < L; ++i) {
+        s.found[i] = most[i] < T(0x1p-28) * size[i] && size[i] < T(1e200);
+        s.underflows[i] = !(smallest[i] > ShapesInLanes<T>::least_offset * T(4) * size[i]);
+        s.twist[i] = static_cast<std::size_t>(twist[i]);
+    }
+    if (!residuals) return;
     V worst{}, meeting{};
-    forces_left<lumped, fused, true, V>(
-        elements, Pair<V>{near_height, zero},
-        [&](std::size_t m) REVCHAIN_INLINED {
-            const V offset = V::load(&s.offset[m * L]);
-            const DoubleWord<V> scaled = two_product<fused>(offset, scale);
-            const V rest = scaled.low + (offset * scale_low + V::load(&s.change[m * L]) * scale);
-            const V final = (scaled.high + rest) + zero;
-            final.store(&s.offset[m * L]);
-            return final;
-        },
+    forces_left<fused, true, V>(
+        terms, pencil, factors_in_pairs<fused>(terms, rounded, rounded_low),
+        [&](std::size_t m) REVCHAIN_INLINED { return V::load(&s.offset[m * L]); },
         [&](std::size_t, const V& force, const V& sizes, const V&, const V&) REVCHAIN_INLINED {
             worst = max(worst, abs(force));
             meeting = max(meeting, sizes);
         });
     const V residual = worst / meeting;
-    for (std::size_t i = 0; i < L; ++i) {
-        s.residual[i] = residual[i];
-        s.found[i] = most[i] < T(0x1p-28) * size[i] && size[i] < T(1e200);
-        s.underflows[i] = !(smallest[i] > ShapesInLanes<T>::least_offset * T(4) * size[i]);
-        s.twist[i] = static_cast<std::size_t>(twist[i]);
-    }
+    for (std::size_t i = 0; i < L; ++i) s.residual[i] = residual[i];
 }
 
 }  // namespace detail
 
-/// Shapes of the pencil at some heights, which the last one fills up, and residuals of the heights `rounded`. Accuracy
-/// as `eigenvector` of a pencil in double words; `found` is false in a lane where the correction is not small, which
-/// `eigenvector` can still do. Precondition: the pencil is in one unit. Cost: 10 ns a link and mode (AVX-512).
-template <std::floating_point T>
-void shapes_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped,
-                     const std::array<DoubleWord<T>, shape_lanes>& heights, const std::array<T, shape_lanes>& rounded,
-                     ShapesInLanes<T>& shapes) {
+/// Shapes of the pencil at some roots, which the last one fills up, and if asked for their residuals. Accuracy as
+/// `eigenvector` of a pencil in double words; `found` is false in a lane where the correction is not small, which
+/// `eigenvector` can still do. Precondition: the pencil is in one unit, and has spins if `spinning`.
+/// Cost: 5 ns a link and mode (AVX-512), residuals 2.
+template <bool spinning = false, std::floating_point T>
+void shapes_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, const RootsInLanes<T>& roots,
+                     bool residuals, ShapesInLanes<T>& shapes) {
     shapes.make_room(pencil.elements.size());
     simd([&](auto where) REVCHAIN_INLINED {
         if (lumped)
-            detail::shapes_in_lanes<true>(where, pencil.elements, heights, rounded, shapes);
+            detail::shapes_in_lanes(where, detail::Terms<true, spinning>(), pencil, roots, residuals, shapes);
         else
-            detail::shapes_in_lanes<false>(where, pencil.elements, heights, rounded, shapes);
+            detail::shapes_in_lanes(where, detail::Terms<false, spinning>(), pencil, roots, residuals, shapes);
     });
 }
 

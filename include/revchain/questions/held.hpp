@@ -110,8 +110,8 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Modes
     }
     result.lazy_shapes =
         detail::LazyModeShapes<double>([taut, pins = held.system().size() + 1, heights = result.conical_height](
-                                           Index first, Index count, Progress* progress) {
-            ModeShapes<double> shapes{Table<double>(count, pins), Vector<double>(count), {}};
+                                           Index first, Index count, bool, Progress* progress) {
+            detail::ModeShapes<double> shapes{Table<double>(count, pins), Vector<double>(count), {}};
             for (Index j = 0; j < count; ++j) {
                 const double height = heights[first + j];
                 const Vector<double> offset = taut.shape(height);

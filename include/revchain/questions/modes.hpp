@@ -130,8 +130,9 @@ Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) 
     const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
     result.lazy_shapes = LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
                                             condense = options.method != ModesMethod::bisection](
-                                               Index from, Index count, Progress* progress) {
-        return ShapeFinder<T>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count, progress);
+                                               Index from, Index count, bool details, Progress* progress) {
+        return ShapeFinder<T>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count, details,
+                                                                                             progress);
     });
     for (Index j = 0; options.certify && j < range.count; ++j) {
         look();
@@ -170,10 +171,11 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
         if (options.certify) certify(result, j, *pencils, chain.mode_count());
     }
     const Vector<float> heights = result.conical_height;
-    result.lazy_shapes = LazyModeShapes<float>([wide, fine, heights](Index first, Index count, Progress* progress) {
-        const ModeShapes<double> found = fine.lazy_shapes.some(first, count, progress);
-        ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(count), {}};
-        if (count == 0) return shapes;
+    result.lazy_shapes = LazyModeShapes<float>([wide, fine, heights](Index first, Index count, bool details,
+                                                                      Progress* progress) {
+        const ModeShapes<double> found = fine.lazy_shapes.some(first, count, details, progress);
+        ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(details ? count : 0), {}};
+        if (count == 0 || !details) return shapes;
         const Pencils<double> own(wide);
         for (Index j = 0; j < count; ++j) {
             const Vector<double> offset = shapes.offset.row(j).transpose().cast<double>();

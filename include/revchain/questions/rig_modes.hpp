@@ -41,7 +41,7 @@ class RigShapeFinder {
         : chain_(rig.chain()), idle_(idle), sense_(std::move(sense)), roots_(std::move(roots)) {}
 
     /// Returns the shapes of `count` modes, the first at index `first`.
-    ModeShapes<double> operator()(Index first, Index count, Progress* progress) const {
+    ModeShapes<double> operator()(Index first, Index count, bool, Progress* progress) const {
         ModeShapes<double> shapes = room_for_shapes(chain_, count);
         for (Index j = 0; j < count; ++j) {
             const RigWord& root = roots_[static_cast<std::size_t>(first + j)];

@@ -131,7 +131,7 @@ TransverseModes<T> transverse_modes(const Vector<T>& weight, const Vector<T>& pl
     for (Index j = 0; j < n; ++j) links.push_back(plummet<T>(weight[j] * unit, place[j + 2] - place[j + 1]));
     const Modes<T> found = modes(Chain<T>(links), {.first = 2, .count = all_modes});
     const T factor = heavy / (tension * unit);
-    TransverseModes<T> result{found.conical_height, found.error_bound, found.shapes().offset};
+    TransverseModes<T> result{found.conical_height, found.error_bound, found.shapes()};
     for (Index k = 0; k < found.size(); ++k) {
         result.conical_height[k] = found.conical_height[k] * factor;
         if (!isfinite(result.conical_height[k]) || result.conical_height[k] == T(0))

@@ -221,7 +221,7 @@ REVCHAIN_INLINE Swing swing(const Chain<double>& chain, const SwingOptions& opti
         column->resize(count);
     Vector<double> reached = Vector<double>::Zero(pins);
     for (Index k = 0; k < count; ++k) {
-        const Vector<double> rough = found.shapes().offset.row(k).transpose();
+        const Vector<double> rough = found.shapes().row(k).transpose();
         const S height = pencil::rayleigh_quotient<S, double>(system.pencil(), rough);
         const Offsets shape = pencil::eigenvector(system.pencil(), height).offset;
         const S inertia = system.inertia(shape, shape), frequency = sqrt(gravity / height);

@@ -194,7 +194,7 @@ TEST_CASE("modes() takes them all together and falls back", "[linear]") {
         CHECK(best.method == "aberth");
         for (Index j = 0; j < 10; ++j) {
             CHECK(std::abs(fast.conical_height[j] / best.conical_height[j] - 1) <= fast.error_bound[j]);
-            CHECK((fast.shapes().offset.row(j) - best.shapes().offset.row(j)).cwiseAbs().maxCoeff() < 1e-12);
+            CHECK((fast.shapes().row(j) - best.shapes().row(j)).cwiseAbs().maxCoeff() < 1e-12);
         }
     }
     const auto other =

@@ -207,15 +207,15 @@ TEST_CASE("Shapes of condensed chains are as good as their heights", "[condensat
             };
             const double gap = std::min(gap_to(j - 1), gap_to(j + 1));
             INFO(family.name << ", " << size << " links, mode " << j + 1 << ", gap " << gap);
-            CHECK((fast.shapes().offset.row(j) - sure.shapes().offset.row(j)).cwiseAbs().maxCoeff() * gap <= 3e-16);
-            CHECK(std::abs(fast.shapes().offset(j, size - 1) / sure.shapes().offset(j, size - 1) - 1) * gap <= 4e-16);
-            CHECK(fast.shapes().offset.row(j).cwiseAbs().maxCoeff() <= 1 + 0x1p-52);
-            CHECK(fast.shapes().offset.row(j).cwiseAbs().maxCoeff() >= 1 - 0x1p-52);
-            CHECK(fast.shapes().offset(j, 0) > 0);
-            CHECK(fast.shapes().offset(j, size) == 0);
-            CHECK(fast.shapes().residual[j] <= 4e-16);
-            const auto& nodes = fast.shapes().nodes[static_cast<std::size_t>(j)];
-            const auto& sure_nodes = sure.shapes().nodes[static_cast<std::size_t>(j)];
+            CHECK((fast.shapes().row(j) - sure.shapes().row(j)).cwiseAbs().maxCoeff() * gap <= 3e-16);
+            CHECK(std::abs(fast.shapes()(j, size - 1) / sure.shapes()(j, size - 1) - 1) * gap <= 4e-16);
+            CHECK(fast.shapes().row(j).cwiseAbs().maxCoeff() <= 1 + 0x1p-52);
+            CHECK(fast.shapes().row(j).cwiseAbs().maxCoeff() >= 1 - 0x1p-52);
+            CHECK(fast.shapes()(j, 0) > 0);
+            CHECK(fast.shapes()(j, size) == 0);
+            CHECK(fast.residual()[j] <= 4e-16);
+            const auto& nodes = fast.nodes()[static_cast<std::size_t>(j)];
+            const auto& sure_nodes = sure.nodes()[static_cast<std::size_t>(j)];
             REQUIRE(nodes.size() == sure_nodes.size());
             for (Index i = 0; i < nodes.size(); ++i)
                 CHECK(std::abs(nodes[i] - sure_nodes[i]) * gap <= 1e-14 * chain.total_length());

@@ -38,9 +38,9 @@ TEST_CASE("ordinary chains: the dense solvers agree to their accuracy", "[linear
     for (Index j = 0; j < 3; ++j) {
         CHECK(dense.error_bound[j] <= 1e-12);
         CHECK(general.error_bound[j] <= 1e-12);
-        CHECK((dense.shapes().offset.row(j) - fast.shapes().offset.row(j)).cwiseAbs().maxCoeff() <= 1e-11);
-        CHECK((general.shapes().offset.row(j) - fast.shapes().offset.row(j)).cwiseAbs().maxCoeff() <= 1e-11);
-        CHECK(dense.shapes().nodes[static_cast<std::size_t>(j)].size() == j);
+        CHECK((dense.shapes().row(j) - fast.shapes().row(j)).cwiseAbs().maxCoeff() <= 1e-11);
+        CHECK((general.shapes().row(j) - fast.shapes().row(j)).cwiseAbs().maxCoeff() <= 1e-11);
+        CHECK(dense.nodes()[static_cast<std::size_t>(j)].size() == j);
     }
 }
 
@@ -61,9 +61,9 @@ TEST_CASE("any modes by the dense solvers", "[linear]") {
         CHECK(part.first == 3);
         REQUIRE(part.size() == 4);
         CHECK((part.conical_height - all.conical_height.segment(2, 4)).cwiseAbs().maxCoeff() <= 1e-12);
-        CHECK((part.shapes().offset - all.shapes().offset.middleRows(2, 4)).cwiseAbs().maxCoeff() <= 1e-10);
-        CHECK(part.shapes().nodes[3].size() == 5);
-        CHECK(part.shapes().residual.size() == 4);
+        CHECK((part.shapes() - all.shapes().middleRows(2, 4)).cwiseAbs().maxCoeff() <= 1e-10);
+        CHECK(part.nodes()[3].size() == 5);
+        CHECK(part.residual().size() == 4);
         for (Index j = 0; j < 4; ++j) {
             CHECK(part.certificate.lower[j] < part.conical_height[j]);
             CHECK(part.conical_height[j] < part.certificate.upper[j]);

@@ -22,10 +22,10 @@ void require_part(const revchain::Modes<double>& part, const revchain::Modes<dou
         const Index i = part.first - all.first + j;
         REQUIRE(i < all.size());
         REQUIRE(std::abs(part.conical_height[j] / all.conical_height[i] - 1) <= 0x1p-52);
-        if (part.shapes().offset.size() == 0) continue;
-        REQUIRE((part.shapes().offset.row(j) - all.shapes().offset.row(i)).cwiseAbs().maxCoeff() <= 1e-15);
-        REQUIRE(part.shapes().nodes[static_cast<std::size_t>(j)].size() ==
-                all.shapes().nodes[static_cast<std::size_t>(i)].size());
+        if (part.shapes().size() == 0) continue;
+        REQUIRE((part.shapes().row(j) - all.shapes().row(i)).cwiseAbs().maxCoeff() <= 1e-15);
+        REQUIRE(part.nodes()[static_cast<std::size_t>(j)].size() ==
+                all.nodes()[static_cast<std::size_t>(i)].size());
     }
 }
 
@@ -172,9 +172,9 @@ TEST_CASE("an empty window is an empty table", "[linear]") {
     CHECK(none.status == revchain::Status::success);
     CHECK(none.angular_speed().size() == 0);
     CHECK(none.certificate.lower.size() == 0);
-    CHECK(none.shapes().nodes.empty());
-    CHECK(none.shapes().offset.rows() == 0);
-    CHECK(none.shapes().offset.cols() == 6);
+    CHECK(none.nodes().empty());
+    CHECK(none.shapes().rows() == 0);
+    CHECK(none.shapes().cols() == 6);
     CHECK(modes(chain, {.conical_height = HeightWindow<double>{0, 1e-9}}).first == 6);
 }
 

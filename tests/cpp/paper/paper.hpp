@@ -84,7 +84,7 @@ Chain<T> random_chain(Random& random, Index size) {
 template <class T>
 std::vector<Quad> offsets(const revchain::Modes<T>& m, Index k) {
     std::vector<Quad> y;
-    for (Index pin = 0; pin < m.shapes().offset.cols(); ++pin) y.push_back(quad(m.shapes().offset(k, pin)));
+    for (Index pin = 0; pin < m.shapes().cols(); ++pin) y.push_back(quad(m.shapes()(k, pin)));
     return y;
 }
 

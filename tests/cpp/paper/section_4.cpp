@@ -305,10 +305,10 @@ TEST_CASE("§4 with a tip mass: the balance of forces, and many plummets", "[pap
             for (Index k = 0; k < 4; ++k) {
                 worst_height[run] = std::max(worst_height[run], std::abs(m.conical_height[k] / height[k] - 1));
                 const tip_mass::Mode mode(k + 1, 1.0, tip);
-                CHECK(m.shapes().nodes[static_cast<std::size_t>(k)].size() == mode.nodes().size());
-                const double scale = m.shapes().offset(k, 0);
+                CHECK(m.nodes()[static_cast<std::size_t>(k)].size() == mode.nodes().size());
+                const double scale = m.shapes()(k, 0);
                 for (Index pin = 0; pin <= size; pin += 50)
-                    CHECK(std::abs(m.shapes().offset(k, pin) -
+                    CHECK(std::abs(m.shapes()(k, pin) -
                                    scale * mode.shape(std::min(static_cast<double>(pin) * step, 1.0))) < 1e-3);
             }
         }
@@ -371,16 +371,16 @@ TEST_CASE("§4: a chain of many links tends to the continuous chain", "[paper][s
             for (Index pin = 0; pin <= size; ++pin) {
                 const double x = static_cast<double>(pin) / static_cast<double>(size);
                 worst_shape[run] =
-                    std::max(worst_shape[run], std::abs(m.shapes().offset(k, pin) - heavy_chain::shape(x, k + 1, 1.0)));
+                    std::max(worst_shape[run], std::abs(m.shapes()(k, pin) - heavy_chain::shape(x, k + 1, 1.0)));
             }
-            const auto nodes = heavy_chain::nodes(k + 1, 1.0), found = m.shapes().nodes[static_cast<std::size_t>(k)];
+            const auto nodes = heavy_chain::nodes(k + 1, 1.0), found = m.nodes()[static_cast<std::size_t>(k)];
             REQUIRE(found.size() == nodes.size());
             for (Index i = 0; i < k; ++i) worst_node[run] = std::max(worst_node[run], std::abs(found[i] - nodes[i]));
 
             // Vertical points: the slope, linear between the links' middles, changes sign.
             const auto points = heavy_chain::vertical_points(k + 1, 1.0);
             const auto difference = [&](Index link) {
-                return m.shapes().offset(k, link) - m.shapes().offset(k, link + 1);
+                return m.shapes()(k, link) - m.shapes()(k, link + 1);
             };
             Index seen = 0;
             for (Index link = 0; link + 1 < size; ++link) {

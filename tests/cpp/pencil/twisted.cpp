@@ -46,12 +46,12 @@ TEST_CASE("mode shapes", "[linalg]") {
                 const double above = j == 0 ? 1.0 : m.conical_height[j - 1] / h - 1;
                 const double below = j + 1 == m.size() ? 1.0 : 1 - m.conical_height[j + 1] / h;
                 const double gap = std::min({above, below, 1.0});
-                const double error = difference(m.shapes().offset.row(j), truth.shape(exact));
-                const double residual = truth.residual(Quad(h), m.shapes().offset.row(j));
+                const double error = difference(m.shapes().row(j), truth.shape(exact));
+                const double residual = truth.residual(Quad(h), m.shapes().row(j));
                 CAPTURE(family.name, n, j, gap, error, residual);
-                CHECK(m.shapes().offset.row(j).cwiseAbs().maxCoeff() == 1.0);
-                CHECK(m.shapes().offset(j, n) == 0.0);
-                CHECK(m.shapes().offset(j, 0) >= 0.0);
+                CHECK(m.shapes().row(j).cwiseAbs().maxCoeff() == 1.0);
+                CHECK(m.shapes()(j, n) == 0.0);
+                CHECK(m.shapes()(j, 0) >= 0.0);
                 // 2^-54 is half an ulp of what is a little below 1; chains in several units go one by one.
                 CHECK(error <= (assembled.pencil.units.empty() ? 0x1p-54 * 1.001 : 3.5e-16));
                 worst = std::max(worst, error);
@@ -61,7 +61,7 @@ TEST_CASE("mode shapes", "[linalg]") {
                     worst_plain = std::max(worst_plain, difference(plain, truth.shape(exact)) * gap);
                 }
                 worst_residual = std::max(worst_residual, residual);
-                worst_report = std::max(worst_report, std::abs(residual - m.shapes().residual[j]));
+                worst_report = std::max(worst_report, std::abs(residual - m.residual()[j]));
             }
         }
     }
@@ -97,17 +97,17 @@ TEST_CASE("a shape of 1e5 links is smooth to the last pin", "[linalg]") {
         const double h = m.conical_height[j];
         const auto exact =
             truth.shape(truth.height(j, Quad(h) * (1 - Quad(1e-15)), Quad(h) * (1 + Quad(1e-15)), 1e-28));
-        const double error = difference(m.shapes().offset.row(j), exact);
-        CHECK(difference(from_blocks.shapes().offset.row(j), exact) <= 2.2e-16);  // measured 2.14e-16
+        const double error = difference(m.shapes().row(j), exact);
+        CHECK(difference(from_blocks.shapes().row(j), exact) <= 2.2e-16);  // measured 2.14e-16
         const auto assembled = revchain::assemble(chain);
         const auto plain = revchain::pencil::eigenvector(revchain::pencil::rounded<double>(assembled.pencil),
                                                          std::ldexp(h, -assembled.units.length_exponent))
                                .offset;
-        const double plain_error = difference(plain, m.shapes().offset.row(j));
+        const double plain_error = difference(plain, m.shapes().row(j));
         CAPTURE(j, error, plain_error);
         CHECK(plain_error <= 6e-13);
         CHECK(error <= 5.7e-17);  // measured 5.6e-17: half an ulp of the largest offset
-        CHECK(m.shapes().nodes[static_cast<std::size_t>(j)].size() == j);
+        CHECK(m.nodes()[static_cast<std::size_t>(j)].size() == j);
     }
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("two plummets of weight ratio 1e12", "[linalg]") {
             std::vector<Quad> exact{height, away, 0};
             const Quad largest = fmaxq(fabsq(exact[0]), fabsq(exact[1]));
             for (Quad& y : exact) y /= largest;
-            worst = std::max(worst, difference(m.shapes().offset.row(j), exact));
+            worst = std::max(worst, difference(m.shapes().row(j), exact));
         }
     }
     CAPTURE(worst);

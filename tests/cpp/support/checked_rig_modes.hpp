@@ -36,13 +36,13 @@ inline double worst_error(const RigTruth& truth, const RigModes& m, Index step =
             REQUIRE(off <= bound);
             worst = std::max(worst, off);
             const Quad speed = m.has_momentum ? n : sqrtq(Quad(g) / h);
-            REQUIRE(sense->shapes().residual[j] <= 4e-16);
-            if (truth.size == static_cast<std::size_t>(sense->shapes().offset.cols()) - 1) {  // a firm support
-                REQUIRE(sense->shapes().offset(j, sense->shapes().offset.cols() - 1) == 0);
+            REQUIRE(sense->residual()[j] <= 4e-16);
+            if (truth.size == static_cast<std::size_t>(sense->shapes().cols()) - 1) {  // a firm support
+                REQUIRE(sense->shapes()(j, sense->shapes().cols() - 1) == 0);
             }
-            REQUIRE(truth.residual(speed, sense->shapes().offset.row(j)) <= 1e-15);
-            REQUIRE(sense->shapes().offset.row(j).cwiseAbs().maxCoeff() == 1);
-            REQUIRE(sense->shapes().offset(j, 0) >= 0);
+            REQUIRE(truth.residual(speed, sense->shapes().row(j)) <= 1e-15);
+            REQUIRE(sense->shapes().row(j).cwiseAbs().maxCoeff() == 1);
+            REQUIRE(sense->shapes()(j, 0) >= 0);
         }
     return worst;
 }

@@ -76,7 +76,7 @@ TEST_CASE("equal plummets: the offsets are L_j(x)", "[sweep][laguerre]") {
             Quad largest = 0;
             for (const Quad& offset : y) largest = fmaxq(largest, fabsq(offset));
             for (Index j = 0; j <= size; ++j) {
-                const Quad difference = m.shapes().offset(k, j) - y[static_cast<std::size_t>(j)] / largest;
+                const Quad difference = m.shapes()(k, j) - y[static_cast<std::size_t>(j)] / largest;
                 worst = std::max(worst, static_cast<double>(fabsq(difference) / revchain::epsilon<double>()));
             }
         }
