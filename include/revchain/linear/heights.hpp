@@ -78,27 +78,35 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
 /// How far a height may be from the exact one, relative, before it is rounded, so that it is within 2 ulp then.
 inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::epsilon();
 
-/// Roots as heights given out: rounded.
-inline std::optional<Heights<double>> rounded_heights(const std::optional<std::vector<pencil::ProvedRoot<double>>>& roots) {
-    if (!roots) return std::nullopt;
-    Heights<double> heights;
-    heights.reserve(roots->size());
-    for (const auto& [root, off] : *roots)
-        heights.push_back({root.high, (off / root.high + epsilon<double>() / 2) * (1 + 0x1p-30), root});
-    return heights;
+/// A root as a height given out.
+inline Height<double> rounded_height(const pencil::ProvedRoot<double>& proved) {
+    const double height = proved.root.high;
+    return {height, (proved.off / height + epsilon<double>() / 2) * (1 + 0x1p-30), proved.root};
 }
 
-/// To 2 ulp, eight at a time; nothing where that is not proved, and where there is no one unit of weight.
+/// To 2 ulp, eight at a time, and those which that does not prove one by one. Nothing where there is no one unit of
+/// weight, and where counts leave numbers in doubt.
 inline std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils, const ModeRange& range,
                                                        Index available, double guess,
                                                        const std::function<void(Index)>& finished) {
     constexpr Index most = 20000;  // 500 bytes of scratch a link
     if (!pencils.wide().units.empty() || pencils.wide().size() > most) return std::nullopt;
     const FloatingPointStateGuard quiet;
-    return rounded_heights(pencil::proved_range(
+    const auto roots = pencil::proved_range(
         pencils.wide(), pencils.rounded(),
         [&](double height) { return pencil::certified_count<double, 1>(pencils.rounded(), {height})[0]; },
-        range.first - 1, range.count, available, guess, worst_unrounded, finished));
+        range.first - 1, range.count, available, guess, worst_unrounded, finished);
+    if (!roots) return std::nullopt;
+    Heights<double> heights;
+    heights.reserve(roots->size());
+    for (const auto& root : *roots)
+        heights.push_back(std::isfinite(root.off)
+                              ? rounded_height(root)
+                              : pencil::certified_eigenvalue<Wide<double>, double>(
+                                    pencils.wide(), pencils.rounded(),
+                                    range.first - 1 + static_cast<Index>(heights.size()), root.root.high));
+    restore_order<double>(heights);
+    return heights;
 }
 
 /// Stage 1 of `modes`: the heights of `range`, which is not empty, to `options.rtol`.

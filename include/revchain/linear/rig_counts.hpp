@@ -3,7 +3,9 @@
 
 #include "revchain/count.hpp"
 #include "revchain/linear/rig_pencil.hpp"
+#include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/certificate.hpp"
+#include "revchain/pencil/proved_roots.hpp"
 #include "revchain/pencil/signed_twisted.hpp"
 
 /// The part of `rig_modes` that counts: for rigs whose roots are all real and one count numbers.
@@ -22,7 +24,6 @@ class CountedRoots {
    public:
     CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
         : pencil_(std::move(pencil)),
-          counter_(pencil_, base, sign, side),
           pace_(pace),
           base_(base),
           sign_(sign),
@@ -49,7 +50,7 @@ class CountedRoots {
     /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
     std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
                                                   const std::function<void(Index)>& finished) const {
-        return pencil::bisect(counter_, first, count, 2 * epsilon<double>(), start, finished);
+        return pencil::bisect(pencil::SignedCounter<double>(pencil_, base_, sign_, side_), first, count, 2 * epsilon<double>(), start, finished);
     }
 
     /// Root number j from its bracket: a vector in two words, its quotient, and two proved counts.
@@ -67,6 +68,9 @@ class CountedRoots {
         }
         return bisected(j, pencil::between(bracket.lower, bracket.upper));
     }
+
+    /// Whether exactly `above` roots exceed x, as a proof.
+    pencil::CertifiedCount certified(double x) const { return counted<1>({RigWord(x)})[0]; }
 
     /// y with Q y = 0 at a root.
     std::vector<RigWord> vector(const RigWord& x) const {
@@ -99,10 +103,37 @@ class CountedRoots {
     }
 
     pencil::SignedPencil<RigWord> pencil_;
-    pencil::SignedCounter<double> counter_;
     RigWord pace_;
     Index base_, sign_;
     int side_;
 };
+
+/// The roots of a range of numbers, from 1, where every stiffness is positive and no mass negative: eight at a time, to
+/// an ulp of what is given out. Nothing where that is not proved. `elements` is the pencil of `roots`.
+inline std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::ElementPencil<RigWord>& elements,
+                                                            const CountedRoots& roots, const ModeRange& range,
+                                                            Index available, double guess,
+                                                            const std::function<void(Index)>& finished) {
+    constexpr Index most = 20000;  // 500 bytes of scratch an element
+    if (elements.size() > most) return std::nullopt;
+    const FloatingPointStateGuard quiet;
+    constexpr double worst = 0.49 * std::numeric_limits<double>::epsilon();  // before it is rounded
+    const auto counter = pencil::rounded<double>(elements);
+    const auto certified = [&](double x) { return roots.certified(x); };
+    const auto find = [&](auto spinning) {
+        return pencil::proved_range<spinning.value>(elements, counter, certified, range.first - 1, range.count,
+                                                    available, guess, worst, finished);
+    };
+    const auto proved = elements.spin.empty() ? find(std::false_type()) : find(std::true_type());
+    if (!proved) return std::nullopt;
+    std::vector<FoundRoot> found;
+    found.reserve(proved->size());
+    for (const auto& [root, off] : *proved)
+        found.push_back(std::isfinite(off)
+                            ? FoundRoot{root, (off / root.high + epsilon<double>() / 2) * (1 + 0x1p-30)}
+                            : roots.refined(range.first - 1 + static_cast<Index>(found.size()),
+                                            {root.high * (1 - 0x1p-50), root.high * (1 + 0x1p-50), true}));
+    return found;
+}
 
 }  // namespace revchain::detail

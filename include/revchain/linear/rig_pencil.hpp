@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "revchain/linear/assembly.hpp"
 #include "revchain/linear/rig_elements.hpp"
 #include "revchain/numeric/interval.hpp"
 
@@ -79,6 +80,13 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
     };
     I below;           // the form of all pins passed, carried to this one
     bool free = true;  // whether this pin moves unnoticed
+    // Where every pin has inertia, which is nearly always, there is no such motion.
+    bool at_liberty = true, plain = true;
+    for (const Held each : held) {
+        plain = plain && each != Held::one && !(at_liberty && (each == Held::nothing || each == Held::upper));
+        at_liberty = each == Held::nothing || each == Held::lower;
+    }
+    if (plain) return form;
     for (std::size_t m = 0; m < held.size(); ++m) {
         const auto& e = pencil.elements[m];
         const auto& off = e.error;
@@ -115,12 +123,46 @@ inline bool is_not_negative(const RigElement& e) {
 
 }  // namespace detail
 
+/// The elements of a rig's links, lowest first, with the signs of those that stand.
+inline std::vector<RigElement> rig_elements(const Rig& rig) {
+    std::vector<RigElement> elements;
+    elements.reserve(static_cast<std::size_t>(rig.size()));
+    const Rigging& with = rig.rigging();
+    const bool plain = with.posture.empty() && with.displaced.empty() &&
+                       std::all_of(with.flywheels.begin(), with.flywheels.end(),
+                                   [](const Flywheel& wheel) { return wheel.axial_moment == 0; });
+    if (!plain || !rig.chain().has_one_weight_unit()) {
+        const std::vector<RigLink> links = rig_links(rig);
+        for (Index m = 0; m < rig.size(); ++m)
+            elements.push_back(rig_element(links[static_cast<std::size_t>(m)], rig.stands(m)));
+        return elements;
+    }
+    // Links as in a chain, but for momentum.
+    using S = Wide<double>;
+    const AssembledChain<double> assembled = assemble(rig.chain());
+    const double error = assembled.pencil.entry_error;
+    for (const auto& e : assembled.pencil.elements)
+        elements.push_back({e.stiffness, S(0.0), e.lower, e.upper, e.cross,
+                            {error * e.stiffness.high, 0, error * e.lower.high, error * e.upper.high,
+                             error * (std::abs(e.cross.high) + 2 * e.turning.high)}});
+    if (rig.has_momentum())
+        for (Index m = 0; m < rig.size(); ++m) {
+            RigElement& e = elements[static_cast<std::size_t>(m)];
+            const S length(std::ldexp(rig.chain().length()[m], -assembled.units.length_exponent));
+            e.spin = S(std::ldexp(std::ldexp(rig.flywheel(m).momentum, -assembled.units.weight_exponent),
+                                  -assembled.units.length_exponent)) /
+                     (length * length);
+            e.error.spin = RigLink::error_part * std::abs(e.spin.high);
+        }
+    return elements;
+}
+
 /// The pencil of a rig; every number with a bound on its error, from the sizes of the terms that `rig_links` adds.
 /// Cost O(N). Throws InvalidArgument as rig_links does, and unless gravity > 0.
 inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::standard_gravity) {
     using S = RigPencil::S;
     detail::require_positive("rig_pencil", "gravity", gravity);
-    const std::vector<RigLink> links = rig_links(rig);
+    const std::vector<RigElement> links = rig_elements(rig);
     RigPencil result;
     result.units = rig.chain().units();
     result.pencil.quadratic = rig.has_momentum();
@@ -138,7 +180,7 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
         result.mass_not_negative = result.mass_not_negative && mass_not_negative;
     };
     for (Index m = 0; m < rig.size(); ++m) {
-        RigElement e = rig_element(links[static_cast<std::size_t>(m)], rig.stands(m));
+        RigElement e = links[static_cast<std::size_t>(m)];
         if (result.pencil.elements.empty() && detail::is_nothing(e)) {
             ++result.idle;
             continue;

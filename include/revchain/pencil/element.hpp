@@ -105,6 +105,8 @@ ElementPencil<T> rounded(const ElementPencil<S>& wide) {
             pencil.elements.push_back({static_cast<T>(e.stiffness), static_cast<T>(e.lower), static_cast<T>(e.upper),
                                        static_cast<T>(e.cross), static_cast<T>(e.turning), static_cast<T>(e.weight)});
         pencil.units = wide.units;
+        pencil.spin.reserve(wide.spin.size());
+        for (const S& spin : wide.spin) pencil.spin.push_back(static_cast<T>(spin));
         pencil.entry_error = static_cast<T>(wide.entry_error) + epsilon<T>();
         if constexpr (std::numeric_limits<T>::min_exponent == std::numeric_limits<Narrow<S>>::min_exponent)
             pencil.stiffness_underflow = static_cast<T>(wide.stiffness_underflow);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "revchain/pencil/bisection.hpp"
 #include "revchain/pencil/twisted_lanes.hpp"
@@ -13,13 +15,6 @@
 /// Roots of several modes at once from Rayleigh quotients of their twisted vectors. A root is a height or, of a pencil
 /// with spins, x.
 namespace revchain::pencil {
-
-/// A root's number, from 0, descending, and where it lies.
-template <std::floating_point T>
-struct NumberedBracket {
-    Index number;
-    T lower, upper;
-};
 
 /// Roots and how sure they are.
 template <std::floating_point T>
@@ -42,22 +37,31 @@ T positive_root(const T& k, const T& s, const T& m) {
 
 template <class Where, class Terms, class T>
 [[gnu::always_inline]] inline void approach_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
-                                                     std::array<NumberedBracket<T>, shape_lanes> brackets,
-                                                     ShapesInLanes<T>& s, std::array<T, shape_lanes>& roots) {
+                                                     Index first, std::vector<Bracket<T>>& brackets,
+                                                     ShapesInLanes<T>& s, std::vector<T>& roots) {
     using std::abs;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     constexpr T near(0x1p-24);  // the next error is the cube of the last, over the square of the gap
+    constexpr int most_rounds = 100;
     using V = Pack<T, width, L / width>;
-    std::array<bool, L> done{};
-    for (std::size_t i = 0; i < L; ++i) roots[i] = between(brackets[i].lower, brackets[i].upper);
-    for (int round = 0; round < 60; ++round) {
-        const V x = V::load(roots.data());
+    const std::size_t n = pencil.elements.size(), count = brackets.size();
+    for (std::size_t j = 0; j < count; ++j) roots[j] = between(brackets[j].lower, brackets[j].upper);
+    // The root in each lane; one that is done makes room for the next, while there is one.
+    std::array<std::size_t, L> root;
+    std::array<int, L> rounds{};
+    std::array<bool, L> busy{};
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < L; ++i) busy[i] = next < count, root[i] = busy[i] ? next++ : count - 1;
+    while (std::any_of(busy.begin(), busy.end(), [](bool is) { return is; })) {
+        revchain::detail::look();
+        V x;
+        for (std::size_t i = 0; i < L; ++i) x.set(i, roots[root[i]]);
         const TwistInLanes<V> joined = twisted_in_lanes(terms, pencil, x, s);
         V stiffness{}, spin{}, mass{}, lower{};
         lower = next_offset(s, 0, joined.pin, lower);
-        for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+        for (std::size_t m = 0; m < n; ++m) {
             const Element<DoubleWord<T>>& e = pencil.elements[m];
-            const V upper = m + 1 < pencil.elements.size() ? next_offset(s, m + 1, joined.pin, lower) : V{};
+            const V upper = m + 1 < n ? next_offset(s, m + 1, joined.pin, lower) : V{};
             const V stretch = lower - upper, square = stretch * stretch;
             stiffness += V(e.stiffness.high) * square;
             if constexpr (Terms::spinning) spin += V(pencil.spin[m].high) * square;
@@ -66,20 +70,23 @@ template <class Where, class Terms, class T>
                 mass += upper * (V(e.upper.high) * upper + V(T(2) * e.cross.high) * lower);
             lower = upper;
         }
-        bool all = true;
         for (std::size_t i = 0; i < L; ++i) {
-            if (done[i]) continue;
-            const T at = roots[i];
+            const std::size_t j = root[i];
+            if (!busy[i]) continue;
+            Bracket<T>& bracket = brackets[j];
+            const T at = roots[j];
             const T quotient =
                 Terms::spinning ? positive_root(stiffness[i], spin[i], mass[i]) : mass[i] / stiffness[i];
-            (static_cast<Index>(joined.above[i]) > brackets[i].number ? brackets[i].lower : brackets[i].upper) = at;
-            done[i] = abs(quotient - at) <= near * at;
-            const bool inside = quotient > brackets[i].lower && quotient < brackets[i].upper;
-            roots[i] = done[i] || inside ? quotient : between(brackets[i].lower, brackets[i].upper);
-            done[i] = done[i] || !(brackets[i].upper - brackets[i].lower > T(8) * epsilon<T>() * at);
-            all = all && done[i];
+            const bool exceeds = static_cast<Index>(joined.above[i]) > first + static_cast<Index>(j);
+            (exceeds ? bracket.lower : bracket.upper) = at;
+            bool done = abs(quotient - at) <= near * at;
+            const bool inside = quotient > bracket.lower && quotient < bracket.upper;
+            roots[j] = done || inside ? quotient : between(bracket.lower, bracket.upper);
+            done = done || ++rounds[i] == most_rounds || !(bracket.upper - bracket.lower > T(8) * epsilon<T>() * at);
+            if (!done) continue;
+            busy[i] = next < count, rounds[i] = 0;
+            if (busy[i]) root[i] = next++;
         }
-        if (all) return;
     }
 }
 
@@ -146,19 +153,24 @@ template <class Where, class Terms, class T>
 
 }  // namespace detail
 
-/// From brackets that hold one root each to roots of some nine digits or more: inverse iteration with Rayleigh
-/// quotients, whose counts keep it within the bracket. Cost: 2.5 ns a link and root for each of some four rounds.
+/// From brackets of the roots number `first`, `first` + 1, ... (from 0, descending) to roots of some nine digits or
+/// more: inverse iteration with Rayleigh quotients, whose counts keep it within the bracket and narrow that.
+/// Cost: 2.5 ns a link and root for each of some three rounds.
 template <bool spinning = false, std::floating_point T>
-void approach_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped,
-                       const std::array<NumberedBracket<T>, shape_lanes>& brackets, ShapesInLanes<T>& shapes,
-                       std::array<T, shape_lanes>& roots) {
-    shapes.make_room(pencil.elements.size());
-    simd([&](auto where) REVCHAIN_INLINED {
-        if (lumped)
-            detail::approach_in_lanes(where, detail::Terms<true, spinning>(), pencil, brackets, shapes, roots);
-        else
-            detail::approach_in_lanes(where, detail::Terms<false, spinning>(), pencil, brackets, shapes, roots);
+std::vector<T> approached(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, Index first,
+                          std::vector<Bracket<T>> brackets) {
+    std::vector<T> roots(brackets.size());
+    with_shapes_in_lanes<T>(pencil.elements.size(), [&](ShapesInLanes<T>& shapes) {
+        shapes.make_room(pencil.elements.size());
+        simd([&](auto where) REVCHAIN_INLINED {
+            if (lumped)
+                detail::approach_in_lanes(where, detail::Terms<true, spinning>(), pencil, first, brackets, shapes, roots);
+            else
+                detail::approach_in_lanes(where, detail::Terms<false, spinning>(), pencil, first, brackets, shapes,
+                                          roots);
+        });
     });
+    return roots;
 }
 
 /// Better roots from `quotients.start`. NaN or infinite where numbers leave the range of T. Preconditions as those of

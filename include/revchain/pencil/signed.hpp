@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -58,6 +60,32 @@ struct SignedPencil {
         return other;
     }
 };
+
+/// The same family as an `ElementPencil`, where every stiffness is positive and every mass not negative. Nothing where
+/// a number is not sure to some 20 digits relative to its own size.
+template <Real S>
+std::optional<ElementPencil<S>> positive_elements(const SignedPencil<S>& pencil) {
+    using std::abs;
+    using M = Narrow<S>;
+    const S zero(M(0));
+    ElementPencil<S> result;
+    result.elements.reserve(pencil.elements.size());
+    M worst(0);
+    const auto add = [&](const M& error, const M& size) { worst = std::max(worst, error == M(0) ? error : error / size); };
+    for (const SignedElement<S>& e : pencil.elements) {
+        const S weight = e.weight();
+        const S turning = weight > zero ? e.determinant() / weight : zero;
+        result.elements.push_back(
+            {e.stiffness, e.lower, e.upper, e.cross, turning > zero ? turning : zero, static_cast<M>(weight)});
+        if (pencil.quadratic) result.spin.push_back(e.spin);
+        add(e.error.stiffness, static_cast<M>(e.stiffness)), add(e.error.spin, static_cast<M>(abs(e.spin)));
+        add(e.error.lower, static_cast<M>(e.lower)), add(e.error.upper, static_cast<M>(e.upper));
+        add(e.error.cross, static_cast<M>(abs(e.cross) + turning + turning));
+    }
+    result.entry_error = worst;
+    if (!(worst < M(1e-20))) return std::nullopt;
+    return result;
+}
 
 /// Counts in T, up to sign and offset, what `bisect` asks for: the eigenvalues of Q above x.
 template <Real T>

@@ -38,19 +38,22 @@ std::array<Index, L> count_above_in_units(const ElementPencil<T>& pencil, const 
     return negative;
 }
 
-/// `count_above` in packs, whatever the compiler makes of loops: registers of 32 bytes at most, which compare faster.
-template <std::floating_point T, std::size_t L>
+/// `count_above` in packs, whatever the compiler makes of loops.
+template <bool spinning, std::floating_point T, std::size_t L>
 std::array<Index, L> count_above_in_packs(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
     return simd([&](auto registers) REVCHAIN_INLINED {
-        constexpr std::size_t width = std::min<std::size_t>(32, decltype(registers)::bytes) / sizeof(T);
+        constexpr std::size_t width = std::min(L, decltype(registers)::bytes / sizeof(T));
         using Packed = Pack<T, width, L / width>;
         const Packed shift = Packed::load(shifts.data()), least(least_pivot<T>()), square(epsilon<T>() * epsilon<T>());
         Packed below{};
         typename Packed::Mask negative{};
-        for (const Element<T>& e : pencil.elements) {
-            const Packed stiffness = shift * Packed(e.stiffness);
+        const Packed factor = spinning ? shift * shift : shift;
+        for (std::size_t m = 0; m < pencil.elements.size(); ++m) {
+            const Element<T>& e = pencil.elements[m];
+            Packed stiffness = factor * Packed(e.stiffness);
+            if constexpr (spinning) stiffness += shift * Packed(pencil.spin[m]);
             const Packed sum = below + (stiffness - Packed(e.lower));
-            const Packed pivot = select(abs(sum) < least, stiffness * square + least, sum);  // `not_zero`
+            const Packed pivot = if_less(abs(sum), least, abs(stiffness) * square + least, sum);  // `not_zero`
             negative += pivot < Packed{};
             below =
                 ((stiffness - Packed(e.upper)) * below - (stiffness - Packed(e.turning)) * Packed(e.weight)) / pivot;
@@ -68,13 +71,15 @@ std::array<Index, L> count_above_in_packs(const ElementPencil<T>& pencil, const 
 ///
 ///     p = D + lambda k - A,    D' = [ (lambda k - B) D - (lambda k - c) W ] / p,    negative p are counted.
 ///
-/// Preconditions: shifts positive. Cost: one pass, O(N). Accuracy: exact for a pencil whose entries differ by a few
+/// Preconditions: shifts positive; spins, L then being x^2 k + x s, in double and with a multiple of 8 shifts alone.
+/// Cost: one pass, O(N). Accuracy: exact for a pencil whose entries differ by a few
 /// ulp and whose parts below a pin are scaled by a few ulp for each link above; for a proof see `certified_count`.
 template <Real T, std::size_t L>
 std::array<Index, L> count_above(const ElementPencil<T>& pencil, const std::array<T, L>& shifts) {
     if (!pencil.units.empty()) return detail::count_above_in_units(pencil, shifts);
     if constexpr ((std::same_as<T, double> || std::same_as<T, float>)&&L % 8 == 0) {
-        return detail::count_above_in_packs(pencil, shifts);
+        if (pencil.spin.empty()) return detail::count_above_in_packs<false>(pencil, shifts);
+        return detail::count_above_in_packs<true>(pencil, shifts);
     }
     std::array<T, L> below{};
     std::array<Index, L> negative{};

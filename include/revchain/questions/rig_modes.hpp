@@ -37,32 +37,82 @@ inline void make_room(WhirlModes& modes, const ModeRange& range, Index available
 /// Finds shapes of rigged chains from the roots of their modes.
 class RigShapeFinder {
    public:
-    RigShapeFinder(const Rig& rig, Index idle, pencil::SignedPencil<RigWord> sense, std::vector<RigWord> roots)
-        : chain_(rig.chain()), idle_(idle), sense_(std::move(sense)), roots_(std::move(roots)) {}
+    /// `elements`: the pencil once more, where shapes can be found eight at a time; else null.
+    RigShapeFinder(const Rig& rig, Index idle, pencil::SignedPencil<RigWord> sense,
+                   std::shared_ptr<const pencil::ElementPencil<RigWord>> elements, std::vector<RigWord> roots)
+        : chain_(rig.chain()),
+          idle_(idle),
+          sense_(std::move(sense)),
+          elements_(std::move(elements)),
+          roots_(std::move(roots)) {}
 
-    /// Returns the shapes of `count` modes, the first at index `first`.
-    ModeShapes<double> operator()(Index first, Index count, bool, Progress* progress) const {
-        ModeShapes<double> shapes = room_for_shapes(chain_, count);
-        for (Index j = 0; j < count; ++j) {
-            const RigWord& root = roots_[static_cast<std::size_t>(first + j)];
-            const auto vector = pencil::twisted_vector(sense_, root);
-            Vector<double> rounded(sense_.size() + 1);
-            for (Index i = 0; i <= sense_.size(); ++i)
-                rounded[i] = static_cast<double>(vector[static_cast<std::size_t>(i)]);
-            Vector<double> offset(chain_.size() + 1);
-            offset.head(idle_).setConstant(rounded[0]);
-            offset.tail(offset.size() - idle_) = rounded.head(offset.size() - idle_);
-            shapes.residual[j] = pencil::relative_residual(sense_, root, rounded);
-            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, crossings_of(offset));
-            shapes.offset.row(j) = offset.transpose();
-            advance(progress, 1.0);  // may be cancelled
-        }
+    /// Returns the shapes of `count` modes, the first at index `first`, and if asked for residuals and nodes.
+    ModeShapes<double> operator()(Index first, Index count, bool details, Progress* progress) const {
+        ModeShapes<double> shapes = room_for_shapes(chain_, count, details);
+        if (elements_ && elements_->spin.empty())
+            in_lanes<false>(shapes, first, progress);
+        else if (elements_)
+            in_lanes<true>(shapes, first, progress);
+        else
+            for (Index j = 0; j < count; ++j) {
+                alone(shapes, j, root(first + j));
+                advance(progress, 1.0);  // may be cancelled
+            }
         return shapes;
     }
 
    private:
+    const RigWord& root(Index j) const { return roots_[static_cast<std::size_t>(j)]; }
+
+    void alone(ModeShapes<double>& shapes, Index j, const RigWord& at) const {
+        const auto vector = pencil::twisted_vector(sense_, at);
+        Vector<double> rounded(sense_.size() + 1);
+        for (Index i = 0; i <= sense_.size(); ++i)
+            rounded[i] = static_cast<double>(vector[static_cast<std::size_t>(i)]);
+        if (shapes.residual.size() > 0) shapes.residual[j] = pencil::relative_residual(sense_, at, rounded);
+        set_offsets(shapes, j, rounded.data());
+    }
+
+    template <bool spinning>
+    void in_lanes(ModeShapes<double>& shapes, Index from, Progress* progress) const {
+        const FloatingPointStateGuard quiet;
+        const bool lumped = pencil::is_lumped(*elements_), details = shapes.residual.size() > 0;
+        const std::size_t pins = elements_->elements.size() + 1;
+        std::vector<double> rows(pencil::shape_lanes * pins);
+        pencil::for_eights<double>(
+            static_cast<std::size_t>(shapes.offset.rows()), pins,
+            [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<double>& found) {
+                const auto j = static_cast<Index>(first);
+                pencil::RootsInLanes<double> at;
+                for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
+                    at.exact[i] = at.rounded[i] = root(from + j + static_cast<Index>(std::min(i, there - 1)));
+                pencil::shapes_in_lanes<spinning>(*elements_, lumped, at, details, found);
+                found.store_rows(rows.data(), pins, there);
+                for (std::size_t i = 0; i < there; ++i) {
+                    const Index mode = j + static_cast<Index>(i);
+                    if (found.found[i]) {
+                        if (details) shapes.residual[mode] = found.residual[i];
+                        set_offsets(shapes, mode, &rows[i * pins]);
+                    } else {
+                        alone(shapes, mode, root(from + mode));
+                    }
+                    advance(progress, 1.0);  // may be cancelled
+                }
+            });
+    }
+
+    /// Stores the offsets of the pencil's pins, and nodes where there is room for them.
+    void set_offsets(ModeShapes<double>& shapes, Index j, const double* pins) const {
+        double* const offset = &shapes.offset(j, 0);
+        std::fill_n(offset, idle_, pins[0]);
+        std::copy_n(pins, shapes.offset.cols() - idle_, offset + idle_);
+        if (shapes.residual.size() > 0)
+            shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain_, crossings_of(shapes.offset.row(j)));
+    }
+
     /// The links on which offsets change sign, and where.
-    static std::vector<pencil::Crossing<double>> crossings_of(const Vector<double>& offset) {
+    template <class Offsets>
+    static std::vector<pencil::Crossing<double>> crossings_of(const Offsets& offset) {
         std::vector<pencil::Crossing<double>> crossings;
         double last = 0;
         for (Index m = 0; m + 1 < offset.size(); ++m) {
@@ -76,6 +126,7 @@ class RigShapeFinder {
     Chain<double> chain_;
     Index idle_;
     pencil::SignedPencil<RigWord> sense_;
+    std::shared_ptr<const pencil::ElementPencil<RigWord>> elements_;
     std::vector<RigWord> roots_;
 };
 
@@ -105,18 +156,35 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& p
     if (range.count == 0) return true;
     const double all = static_cast<double>(range.count);
     const double height = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
-    const auto brackets = roots.brackets(
-        range.first - 1, range.count, roots.pencil().quadratic ? std::sqrt(height) : height,
-        [&](Index done) { advance(options.progress, from + (to - from) * 0.4 * static_cast<double>(done) / all); });
+    const double guess = roots.pencil().quadratic ? std::sqrt(height) : height;
+    const auto finished = [&](Index done) {
+        advance(options.progress, from + (to - from) * 0.4 * static_cast<double>(done) / all);
+    };
     bool proved = true;
     std::vector<RigWord> found;
+    const auto keep_shapes = [&](std::shared_ptr<const pencil::ElementPencil<RigWord>> elements) {
+        modes.lazy_shapes = LazyModeShapes<double>(
+            RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found)));
+    };
+    if (pencil.stiffness_positive && pencil.mass_not_negative)
+        if (auto elements = pencil::positive_elements(roots.pencil()))
+            if (const auto in_lanes = roots_in_lanes(*elements, roots, range, available, guess, finished)) {
+                for (Index j = 0; j < range.count; ++j) {
+                    const FoundRoot& root = (*in_lanes)[static_cast<std::size_t>(j)];
+                    proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
+                    found.push_back(root.x);
+                }
+                keep_shapes(std::make_shared<const pencil::ElementPencil<RigWord>>(*std::move(elements)));
+                return proved;
+            }
+    const auto brackets = roots.brackets(range.first - 1, range.count, guess, finished);
     for (Index j = 0; j < range.count; ++j) {
         const FoundRoot root = roots.refined(range.first - 1 + j, brackets[static_cast<std::size_t>(j)]);
         proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
         found.push_back(root.x);
         advance(options.progress, from + (to - from) * (0.4 + 0.6 * static_cast<double>(j + 1) / all));
     }
-    modes.lazy_shapes = LazyModeShapes<double>(RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(found)));
+    keep_shapes(nullptr);
     return proved;
 }
 
@@ -277,7 +345,7 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Mo
             roots.push_back(root.x);
         }
         modes.lazy_shapes =
-            LazyModeShapes<double>(RigShapeFinder(rig, pencil.idle, std::move(sense), std::move(roots)));
+            LazyModeShapes<double>(RigShapeFinder(rig, pencil.idle, std::move(sense), nullptr, std::move(roots)));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
