@@ -75,6 +75,8 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
     return result;
 }
 
+/// Links or elements of a pencil whose modes are found eight at a time, at most: 640 bytes of scratch each.
+inline constexpr Index most_in_lanes = 20000;
 /// How far a height may be from the exact one, relative, before it is rounded, so that it is within 2 ulp then.
 inline constexpr double worst_unrounded = 1.49 * std::numeric_limits<double>::epsilon();
 
@@ -89,8 +91,7 @@ inline Height<double> rounded_height(const pencil::ProvedRoot<double>& proved) {
 inline std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pencils, const ModeRange& range,
                                                        Index available, double guess,
                                                        const std::function<void(Index)>& finished) {
-    constexpr Index most = 20000;  // 500 bytes of scratch a link
-    if (!pencils.wide().units.empty() || pencils.wide().size() > most) return std::nullopt;
+    if (!pencils.wide().units.empty() || pencils.wide().size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
     const auto roots = pencil::proved_range(
         pencils.wide(), pencils.rounded(),

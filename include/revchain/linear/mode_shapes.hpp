@@ -67,8 +67,6 @@ class ShapeFinder {
     }
 
    private:
-    static constexpr Index most_in_lanes = 20000;  // 500 bytes of scratch a link
-
     void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
         if (loose_)
             set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,

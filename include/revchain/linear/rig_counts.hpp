@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/count.hpp"
+#include "revchain/linear/heights.hpp"
 #include "revchain/linear/rig_pencil.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/certificate.hpp"
@@ -114,8 +115,7 @@ inline std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::Elemen
                                                             const CountedRoots& roots, const ModeRange& range,
                                                             Index available, double guess,
                                                             const std::function<void(Index)>& finished) {
-    constexpr Index most = 20000;  // 500 bytes of scratch an element
-    if (elements.size() > most) return std::nullopt;
+    if (elements.size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
     constexpr double worst = 0.49 * std::numeric_limits<double>::epsilon();  // before it is rounded
     const auto counter = pencil::rounded<double>(elements);

@@ -72,7 +72,8 @@ struct SinglePrecision {
     }
 };
 
-/// Halving between counts, one mode after the other: any chain, any modes, to the tolerance or 2 ulp.
+/// Counts until every mode has an interval of its own; then to a loose tolerance more counts, or to 2 ulp Rayleigh
+/// quotients of eight shapes at a time: any chain, any modes.
 struct Bisection {
     static constexpr std::string_view name = "bisection";
     static constexpr bool is_proved = true;
@@ -86,7 +87,10 @@ struct Bisection {
         if (is_loose(kind, question))
             return 3e-7 + 2e-7 * count +
                    detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9);
-        return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
+        if (kind.size > most_in_lanes)
+            return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
+        const double beyond_cache = kind.size > 1500 ? 1.35 : 1;
+        return 1.5e-6 + detail::real(kind.size) * (7e-8 + 1.25e-7 * std::ceil(count / 8)) * beyond_cache;
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
@@ -97,6 +101,7 @@ struct Bisection {
     }
 
    private:
+    static constexpr Index most_in_lanes = revchain::detail::most_in_lanes;
     /// Whether counts in double suffice. No more digits than asked for are then computed.
     static bool is_loose(const ChainKind& kind, const Question& question) {
         return detail::goal(question) > 64 * std::numeric_limits<double>::epsilon() * detail::real(kind.size);

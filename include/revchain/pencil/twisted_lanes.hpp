@@ -40,16 +40,16 @@ struct ShapesInLanes {
         offset.resize((links + 1) * shape_lanes);
         for (std::vector<T>* each : {&down, &up, &below, &above, &rest, &change}) each->resize(links * shape_lanes);
     }
-    /// The first `lanes` lanes as rows of `pins` numbers.
-    void store_rows(T* rows, std::size_t pins, std::size_t lanes) const {
+    /// The first `count` lanes as rows of `pins` numbers.
+    void store_rows(T* rows, std::size_t pins, std::size_t count) const {
         constexpr std::size_t tile = 8;
         std::size_t m = 0;
-        if (lanes == shape_lanes)
+        if (count == shape_lanes)
             for (; m + tile <= pins; m += tile)
                 for (std::size_t i = 0; i < shape_lanes; ++i)
                     for (std::size_t k = 0; k < tile; ++k) rows[i * pins + m + k] = offset[(m + k) * shape_lanes + i];
         for (; m < pins; ++m)
-            for (std::size_t i = 0; i < lanes; ++i) rows[i * pins + m] = offset[m * shape_lanes + i];
+            for (std::size_t i = 0; i < count; ++i) rows[i * pins + m] = offset[m * shape_lanes + i];
     }
     /// Where the mode in `lane`, whose offsets `row` has, crosses the axis, lowest first, the held pin left out.
     void crossings(std::size_t lane, const T* row, std::vector<Crossing<T>>& crossed) const {
