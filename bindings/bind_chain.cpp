@@ -4,6 +4,7 @@
 
 #include "bindings.hpp"
 #include "revchain/chain.hpp"
+#include "revchain/numeric/large_memory.hpp"
 
 namespace {
 
@@ -16,7 +17,12 @@ using revchain::detail::throw_invalid;
 Column<double> column(const Array& array, const std::string& name) {
     if (array.ndim() == 0) return *array.data();
     if (array.ndim() > 1) throw_invalid("Chain", name + " must have at most one dimension", array.ndim());
-    return std::vector<double>(array.data(), array.data() + array.size());
+    std::vector<double> numbers;
+    const auto size = static_cast<std::size_t>(array.size());
+    numbers.reserve(size);
+    revchain::detail::will_be_filled(numbers.data(), size * sizeof(double));
+    numbers.assign(array.data(), array.data() + size);
+    return numbers;
 }
 
 /// The number of links: that of the columns that have one number per link, 1 if none has.
@@ -47,9 +53,16 @@ auto combined(Index size, Make make, const Column<V>&... columns) {
     if ((columns.is_scalar() && ...)) return Column<Made>(make("Chain", columns[0]...));
     std::vector<Made> values;
     values.reserve(static_cast<std::size_t>(size));
-    for (Index m = 0; m < size; ++m) {
-        if (m % 1024 == 0) revchain::detail::look();
-        values.push_back(make("Chain: links[" + std::to_string(m) + "]", columns[m]...));
+    try {
+        while (static_cast<Index>(values.size()) < size) {
+            const auto m = static_cast<Index>(values.size());
+            if (m % 1024 == 0) revchain::detail::look();
+            values.push_back(make("Chain", columns[m]...));
+        }
+    } catch (const revchain::InvalidArgument&) {  // once more, with the place
+        const auto m = static_cast<Index>(values.size());
+        make("Chain: links[" + std::to_string(m) + "]", columns[m]...);
+        throw;
     }
     return Column<Made>(std::move(values));
 }

@@ -221,7 +221,8 @@ void Chain<T>::check() {
     const Summary<T> weights = summary(weight_, size_, &partial);
     if (!partial.empty()) partial_weights_ = std::make_shared<const std::vector<Wide<T>>>(std::move(partial));
     const Summary<T> lengths = summary(length_, size_);
-    const Summary<T> centroids = summary(centroid_, size_);
+    const bool pendulums = !centroid_.is_scalar() && centroid_.data() == length_.data();  // the same numbers
+    const Summary<T> centroids = pendulums ? lengths : summary(centroid_, size_);
     centroids_below_ = centroids.least >= T(0);
     bool radii = true, all_turn = true;
     T least_ratio = std::numeric_limits<T>::infinity(), largest_ratio{};
@@ -245,7 +246,7 @@ void Chain<T>::check() {
                        detail::least_size(weight_, weights.least);
     const T least_length = std::min(lengths.least, detail::least_size(centroid_, centroids.least));
     const T span = detail::length_span<T>();
-    largest_length_ = std::max(largest_size(length_), largest_size(centroid_));
+    largest_length_ = std::max(lengths.most, centroids.most);
     if (largest_length_ / span > least_length)
         detail::throw_invalid("Chain", "the lengths span too wide a ratio for this scalar, from " +
                                            detail::in_digits(least_length) + " to " +

@@ -8,6 +8,7 @@
 #include "revchain/linear/condensed_shapes.hpp"
 #include "revchain/linear/one_mode.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
+#include "revchain/numeric/large_memory.hpp"
 #include "revchain/pencil/proved_roots.hpp"
 
 /// Stage 2 of `modes`: shapes, residuals and nodes of modes whose heights are known.
@@ -16,7 +17,10 @@ namespace revchain::detail {
 template <Real T>
 ModeShapes<T> room_for_shapes(const Chain<T>& chain, Index count, bool details = true) {
     const Index more = details ? count : 0;
-    return {Table<T>(count, chain.size() + 1), Vector<T>(more), std::vector<Vector<T>>(static_cast<std::size_t>(more))};
+    ModeShapes<T> shapes{Table<T>(count, chain.size() + 1), Vector<T>(more),
+                         std::vector<Vector<T>>(static_cast<std::size_t>(more))};
+    will_be_filled(shapes.offset.data(), static_cast<std::size_t>(shapes.offset.size()) * sizeof(T));
+    return shapes;
 }
 
 /// Stores the shape of mode `j` and, where there is room for them, its nodes and its residual in the pencil's scalar;
@@ -45,7 +49,8 @@ class ShapeFinder {
         const auto begin = height_.begin() + from;
         const Heights<T> height(begin, begin + count);
         if constexpr (std::is_same_v<T, double>)
-            if (condense_ && condensation_pays(chain_, {first_ + from, count}) && chain_.has_one_weight_unit() &&
+            if (condense_ && chain_.size() > most_kept_links && condensation_pays(chain_, {first_ + from, count}) &&
+                chain_.has_one_weight_unit() &&
                 std::abs(chain_.units().weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
                 const T unit = std::ldexp(T(1), chain_.units().length_exponent) / LinkColumns<T>(chain_).unit_length;
                 const auto condensed = condensed_chain(chain_, T(0.95) * height.back().eigenvalue * unit);
@@ -67,6 +72,8 @@ class ShapeFinder {
     }
 
    private:
+    static constexpr Index most_kept_links = 4096;  // up to which eight at a time are faster than blocks
+
     void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
         if (loose_)
             set_shape(shapes, j, chain_, pencils.rounded(), at.eigenvalue,

@@ -50,11 +50,12 @@ class Column {
 /// The number of links in a segment. Columns are summed by segments.
 inline constexpr Index segment_size = 256;
 
-/// Sum and least of some numbers. The sum is not finite where a number is not.
+/// Sum, least and largest in size of some numbers. The sum is not finite where a number is not.
 template <Real T>
 struct Summary {
     Wide<T> sum{T(0)};
     T least = std::numeric_limits<T>::infinity();
+    T most{};
 };
 
 namespace detail {
@@ -101,7 +102,7 @@ Summary<T> summary(const T* x, Index count) {
     using S = std::conditional_t<compensated, T, Wide<T>>;
     return simd([&](auto) REVCHAIN_INLINED {
         S sum[detail::sum_lanes]{}, error[detail::sum_lanes]{};  // plain arrays and one loop: what compilers vectorise
-        T least[detail::sum_lanes];
+        T least[detail::sum_lanes], most[detail::sum_lanes]{};
         std::fill_n(least, detail::sum_lanes, x[0]);
         const auto take = [&](const T* y, const T* z) REVCHAIN_INLINED {
             for (std::size_t i = 0; i < detail::sum_lanes; ++i) {
@@ -112,6 +113,8 @@ Summary<T> summary(const T* x, Index count) {
                 }
                 sum[i] = s;
                 least[i] = z[i] < least[i] ? z[i] : least[i];
+                const T size = z[i] < T(0) ? -z[i] : z[i];
+                most[i] = size > most[i] ? size : most[i];
             }
         };
         const auto lanes = static_cast<Index>(detail::sum_lanes), whole = count - count % lanes;
@@ -132,7 +135,9 @@ Summary<T> summary(const T* x, Index count) {
                 }
                 sum[i] = s;
             }
-        Summary<T> result{{}, *std::min_element(least, least + detail::sum_lanes)};
+        Summary<T> result{{},
+                          *std::min_element(least, least + detail::sum_lanes),
+                          *std::max_element(most, most + detail::sum_lanes)};
         if constexpr (compensated)
             result.sum = two_sum(sum[0], error[0]);
         else
@@ -156,8 +161,8 @@ Wide<T> times(const T& x, Index count) {
 template <Real T>
 Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* below = nullptr) {
     using S = Wide<T>;
-    if (column.is_scalar()) return {times(column[0], size), column[0]};
-    T least = column[0];
+    if (column.is_scalar()) return {times(column[0], size), column[0], column[0] < T(0) ? -column[0] : column[0]};
+    T least = column[0], most{};
     detail::RunningSum<S> sum;
     if (below != nullptr) below->reserve(static_cast<std::size_t>(size / segment_size + 2));
     for (Index m = 0; m < size; m += segment_size) {
@@ -165,25 +170,10 @@ Summary<T> summary(const Column<T>& column, Index size, std::vector<Wide<T>>* be
         if (below != nullptr) below->push_back(sum.value());
         const Summary<T> segment = summary(column.data() + m, std::min(segment_size, size - m));
         sum.add(segment.sum);
-        least = std::min(least, segment.least);
+        least = std::min(least, segment.least), most = std::max(most, segment.most);
     }
     if (below != nullptr) below->push_back(sum.value());
-    return {sum.value(), least};
-}
-
-/// The largest |x| in a column without NaNs.
-template <Real T>
-T largest_size(const Column<T>& column) {
-    using std::abs;
-    T most[detail::sum_lanes]{};
-    const std::size_t stored = column.stored(), whole = stored - stored % detail::sum_lanes;
-    for (std::size_t m = 0; m < whole; m += detail::sum_lanes)
-        for (std::size_t i = 0; i < detail::sum_lanes; ++i) {
-            const T x = abs(column.data()[m + i]);
-            most[i] = x > most[i] ? x : most[i];
-        }
-    for (std::size_t m = whole; m < stored; ++m) most[0] = std::max(most[0], T(abs(column.data()[m])));
-    return *std::max_element(most, most + detail::sum_lanes);
+    return {sum.value(), least, most};
 }
 
 }  // namespace revchain
