@@ -47,6 +47,7 @@ struct ModesOptions {
     bool certify = false;     ///< also return `Certificate`: intervals that hold the heights, with the counts
     T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed, and for all speeds of rigs
     bool other = true;                                  ///< rigs: also find `RigModes::other`
+    Index threads = 1;                                  ///< for heights and shapes of chains; 0: all processors
     Progress* progress = nullptr;                       ///< read and cancelled from another thread
     /// A method that cannot serve the chain is replaced by bisection; `Modes::method` says which one was used.
     ModesMethod method = ModesMethod::automatic;

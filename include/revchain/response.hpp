@@ -25,6 +25,7 @@ struct ResponseOptions {
     double support_radius = 1;                 ///< of the circle, or the amplitude to and fro
     std::optional<std::vector<Index>> pins{};  ///< only of these, in any order, 0 the free end; absent: of all
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+    Index threads = 1;                                    ///< 0: all processors
     Progress* progress = nullptr;                         ///< read and cancelled from another thread
 };
 

@@ -59,6 +59,7 @@ struct SteadyShapesOptions {
                                ///< with each link in the rig's posture
     int direction = 1;         ///< of rotation, 1 or -1, where `conical_height` is given: it matters to flywheels
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+    Index threads = 1;                                    ///< 0: all processors
 };
 
 /// The shapes found, and whether there are more.
