@@ -8,6 +8,7 @@
 #include <exception>
 #include <future>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -77,7 +78,10 @@ void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
     };
     std::vector<std::future<void>> helpers;  // their destructors wait
     attempt([&] {
-        for (I t = 1; t < threads; ++t) helpers.push_back(std::async(std::launch::async, helper));
+        try {
+            for (I t = 1; t < threads; ++t) helpers.push_back(std::async(std::launch::async, helper));
+        } catch (const std::system_error&) {
+        }  // no more threads: those there are do the work
         ranges();
         for (const auto& each : helpers)
             while (each.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) look();
