@@ -64,9 +64,9 @@ struct BatchOptions {
 /// few numbers for each link of 16 chains a thread.
 ///
 /// Throws InvalidArgument for an empty batch, a count below 1, a negative number of threads, and, before anything
-/// else, for the first chain with a number that `Chain` refuses, naming chain, link and value. Throws it for a count beyond
-/// the modes of some chain: massless links cost modes, and chains with different numbers of modes need a count. Throws
-/// it later only for a chain whose heights cannot be proved to half the digits of T.
+/// else, for the first chain with a number that `Chain` refuses, naming chain, link and value. Throws it for a count
+/// beyond the modes of some chain: massless links cost modes, and chains with different numbers of modes need a count.
+/// Throws it later only for a chain whose heights cannot be proved to half the digits of T.
 template <Real T>
 Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options = {});
 

@@ -22,7 +22,7 @@ namespace revchain::detail {
 
 /// How many threads `parallel_for` uses where the thread that made this object calls it, while the object lives. A
 /// question makes one from its option `threads`; 0 means one for each processor. Without one the number is 1, as it is
-/// on the threads that `parallel_for` starts: nothing is shared out twice. Throws InvalidArgument for a negative number.
+/// on the threads that `parallel_for` starts: work is not shared out twice. Throws InvalidArgument if negative.
 class Threads {
    public:
     Threads(std::string_view place, Index threads) : before_(used_) {
