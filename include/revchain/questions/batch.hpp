@@ -29,8 +29,8 @@ void check(const ChainBatch<T>& batch, const BatchOptions& options) {
                       *options.count);
 }
 
-/// All heights. With `looking`, every chain is looked at just before it is needed, while it is in the
-/// cache, and false returned as soon as one is not ordinary.
+/// All heights. With `looking`, every chain is looked at just before it is needed, while it is in the cache, and false
+/// returned as soon as one is not ordinary.
 template <Real T>
 bool compute(const ChainBatch<T>& batch, const BatchPlan& plan, const BatchOptions& options, bool looking,
              Table<T>& heights) {
