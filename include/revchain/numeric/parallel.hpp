@@ -44,7 +44,7 @@ class Threads {
 /// depend on the number of threads if f treats each chunk by itself.
 /// The exception thrown first reaches the caller, after all threads have ended: the others stop at their next `look`.
 /// The caller calls `look` at least every 50 ms, if f does.
-/// Cost: 20 microseconds for each thread started.
+/// Cost: 50 microseconds for each thread started.
 template <std::integral I, class F>
 void parallel_for(I count, std::type_identity_t<I> chunk, const F& f) {
     const I chunks = (count + chunk - 1) / chunk, threads = std::min(static_cast<I>(Threads::used()), chunks);
