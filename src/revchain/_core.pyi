@@ -216,6 +216,7 @@ def modes(
     precision: str,
     method: str,
     progress: Progress | None = None,
+    threads: int = 1,
 ) -> Modes: ...
 
 class RigModes:

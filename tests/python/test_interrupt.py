@@ -28,6 +28,7 @@ CALLS = {
     "nodes of a cord": "rc.modes(rc.Cord(1.0), 30_000).nodes",
     "vertical points of a cord": "rc.modes(rc.Cord(1.0, tip_mass=0.1), 30_000).vertical_points",
     "modes": "rc.modes(rc.Chain.uniform_rods(20_000), 'all')",
+    "modes in threads": "rc.modes(rc.Chain.uniform_rods(20_000), 'all', threads=2)",
     "dense": "rc.modes(large, method='dense')",
     "recurrence": "rc.modes(rc.Chain.uniform_rods(60_000), 29_999)",
     "conical_heights": "rc.conical_heights(weight=np.ones((400_000, 60)), length=1.0)",

@@ -14,6 +14,9 @@ SPEEDS = np.linspace(0.1, 20, 400)
 WEIGHTS = GENERATOR.uniform(0.5, 2, (1000, 5))
 
 QUESTIONS = {
+    "modes": (rc.modes, {"system": UNLIKE, "count": "all"}),
+    "modes to the last digit of double-double": (rc.modes, {"system": PLUMMETS, "precision": "double-double"}),
+    "modes with a certificate": (rc.modes, {"system": UNLIKE, "count": 11, "method": "bisection", "certify": True}),
     "conical_heights": (rc.conical_heights, {"weight": WEIGHTS, "length": 1.0}),
     "response": (rc.response, {"system": UNLIKE, "angular_speed": SPEEDS, "pins": [0, 7]}),
     "response of a rig": (rc.response, {"system": CAROUSEL, "angular_speed": SPEEDS}),

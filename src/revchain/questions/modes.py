@@ -14,7 +14,7 @@ from ..results.modes import CordModes, Modes, RigModes
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, one_positive, positive, real, shown, together
+from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, integer, one_positive, positive, real, shown, together
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import word as checked_word
 from ..systems.rig import Rig
@@ -36,6 +36,7 @@ def modes(
     method: str | None = ...,
     precision: str = ...,
     certify: bool = ...,
+    threads: int = ...,
 ) -> Modes: ...
 @overload
 def modes(
@@ -75,6 +76,7 @@ def modes(
     method: str | None = None,
     precision: str = "double",
     certify: bool = False,
+    threads: int = 1,
 ) -> Modes | RigModes:
     """Find the modes of a system: whirl speeds (critical speeds), with shapes, nodes and error bounds.
 
@@ -115,6 +117,9 @@ def modes(
         one link, 1e-24 for 2000), and shapes are float64.
     certify : bool
         Whether to return with every height the interval that holds it and the counts that prove it.
+    threads : int, optional
+        Chains: how many threads to use for heights and, when they are read, shapes; 0 for all processors. Results are
+        bitwise the same whatever their number.
 
     Returns
     -------
@@ -177,6 +182,7 @@ def modes(
         method=method,
         precision=precision,
         certify=certify,
+        threads=threads,
     )
 
 
@@ -199,12 +205,14 @@ def find_modes(
     method: str | None = None,
     precision: str = "double",
     certify: bool = False,
+    threads: int = 1,
     progress: _core.Progress | None = None,
 ) -> Modes | RigModes | CordModes:
     """`modes`, watched: `progress` tells how far it is and can cancel it from another thread."""
     place = "revchain.modes"
     g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(place, "gravity", gravity)
     start = first if type(first) is int and first == 1 else checked_count(place, "first", first)
+    shared = threads if type(threads) is int and threads == 1 else integer(place, "threads", threads)
     if conical_height is not None or angular_speed is not None:
         _refuse_two_choices(place, conical_height, angular_speed, count, start)
     if isinstance(system, Rig):
@@ -242,7 +250,8 @@ def find_modes(
         tolerance = FULL / 2 if method == "double-double" and rtol is None else rtol or 0.0
         of_model = _core.solve_by(core, start, wanted, tolerance, 0.0, method)
         return _by_model(of_model, system, g, rtol, start)
-    of_chain = _core.modes(core, start, wanted, heights, speeds, rtol, certify, precision, method or "auto", progress)
+    way = method or "auto"
+    of_chain = _core.modes(core, start, wanted, heights, speeds, rtol, certify, precision, way, progress, shared)
     return Modes._made(of_chain, system=system, gravity=g, precision=precision, rtol=rtol)
 
 
