@@ -13,7 +13,6 @@ unsigned long main_thread = 0;
 
 /// Every 50 ms in the main thread: raises KeyboardInterrupt if Ctrl-C was pressed.
 void interrupt() {
-    if (abandoned != nullptr && *abandoned) throw revchain::Cancelled("revchain: cancelled");
     if (PyThread_get_thread_ident() != main_thread) return;
     using Clock = std::chrono::steady_clock;
     static Clock::time_point last;

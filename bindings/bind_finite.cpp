@@ -84,40 +84,45 @@ void bind_finite(py::module_& module) {
         "chain"_a, "shape"_a, "driven"_a);
     module.def(
         "steady_shapes",
-        [](const Chain& chain, double height, long budget, bool hanging_only) {
-            const py::gil_scoped_release release;
-            return revchain::steady_shapes(chain,
-                                           {.conical_height = height, .budget = budget, .hanging_only = hanging_only});
-        },
-        "chain"_a, "height"_a, "budget"_a, "hanging_only"_a);
-    module.def(
-        "steady_shapes_at_speed",
-        [](const Chain& chain, double angular_speed, double gravity, long budget, bool hanging_only) {
+        [](const Chain& chain, double height, long budget, bool hanging_only, Index threads) {
             const py::gil_scoped_release release;
             return revchain::steady_shapes(
-                chain,
-                {.angular_speed = angular_speed, .budget = budget, .hanging_only = hanging_only, .gravity = gravity});
+                chain, {.conical_height = height, .budget = budget, .hanging_only = hanging_only, .threads = threads});
         },
-        "chain"_a, "angular_speed"_a, "gravity"_a, "budget"_a, "hanging_only"_a);
+        "chain"_a, "height"_a, "budget"_a, "hanging_only"_a, "threads"_a = 1);
+    module.def(
+        "steady_shapes_at_speed",
+        [](const Chain& chain, double angular_speed, double gravity, long budget, bool hanging_only, Index threads) {
+            const py::gil_scoped_release release;
+            return revchain::steady_shapes(chain, {.angular_speed = angular_speed,
+                                                   .budget = budget,
+                                                   .hanging_only = hanging_only,
+                                                   .gravity = gravity,
+                                                   .threads = threads});
+        },
+        "chain"_a, "angular_speed"_a, "gravity"_a, "budget"_a, "hanging_only"_a, "threads"_a = 1);
     using revchain::Rig;
     module.def(
         "steady_shapes_of_rig",
-        [](const Rig& rig, double height, long budget, bool hanging_only, int sense, double gravity) {
+        [](const Rig& rig, double height, long budget, bool hanging_only, int sense, double gravity, Index threads) {
             const py::gil_scoped_release release;
             return revchain::steady_shapes(rig, {.conical_height = height,
                                                  .budget = budget,
                                                  .hanging_only = hanging_only,
                                                  .direction = sense,
-                                                 .gravity = gravity});
+                                                 .gravity = gravity,
+                                                 .threads = threads});
         },
-        "rig"_a, "height"_a, "budget"_a, "hanging_only"_a, "sense"_a, "gravity"_a);
+        "rig"_a, "height"_a, "budget"_a, "hanging_only"_a, "sense"_a, "gravity"_a, "threads"_a = 1);
     module.def(
         "steady_shapes_of_rig_at_speed",
-        [](const Rig& rig, double angular_speed, long budget, bool hanging_only, double gravity) {
+        [](const Rig& rig, double angular_speed, long budget, bool hanging_only, double gravity, Index threads) {
             const py::gil_scoped_release release;
-            return revchain::steady_shapes(
-                rig,
-                {.angular_speed = angular_speed, .budget = budget, .hanging_only = hanging_only, .gravity = gravity});
+            return revchain::steady_shapes(rig, {.angular_speed = angular_speed,
+                                                 .budget = budget,
+                                                 .hanging_only = hanging_only,
+                                                 .gravity = gravity,
+                                                 .threads = threads});
         },
-        "rig"_a, "angular_speed"_a, "budget"_a, "hanging_only"_a, "gravity"_a);
+        "rig"_a, "angular_speed"_a, "budget"_a, "hanging_only"_a, "gravity"_a, "threads"_a = 1);
 }

@@ -44,6 +44,7 @@ struct Asked {
     std::optional<double> rtol;
     bool certify;
     revchain::ModesMethod method;
+    Index threads = 1;
 
     template <class T>
     revchain::ModesOptions<T> options(revchain::Progress* progress) const {
@@ -56,6 +57,7 @@ struct Asked {
             result.gravity = number(std::get<2>(*angular_speed));
         if (rtol) result.rtol = number(*rtol);
         result.certify = certify;
+        result.threads = threads;
         result.progress = progress;
         result.method = method;
         return result;
@@ -143,7 +145,8 @@ FoundModes solved(const Chain& chain, const Asked& asked, const std::string& met
 
 FoundModes modes(const Chain& chain, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
                  std::optional<Triple> angular_speed, std::optional<double> rtol, bool certify,
-                 const std::string& precision, const std::string& method, revchain::Progress* progress) {
+                 const std::string& precision, const std::string& method, revchain::Progress* progress,
+                 Index threads) {
     check_word("method", method, methods);
     check_word("precision", precision, precisions);
     const auto way = method == "bisection"      ? revchain::ModesMethod::bisection
@@ -151,7 +154,7 @@ FoundModes modes(const Chain& chain, Index first, std::optional<Index> count, st
                      : method == "aberth"       ? revchain::ModesMethod::aberth
                      : method == "interpolated" ? revchain::ModesMethod::interpolated
                                                 : revchain::ModesMethod::automatic;
-    const Asked asked{first, count, conical_height, angular_speed, rtol, certify, way};
+    const Asked asked{first, count, conical_height, angular_speed, rtol, certify, way, threads};
     if (precision == "single") return solved<float>(chain, asked, method, progress);
     if (precision == "extended") return solved<long double>(chain, asked, method, progress);
     if (precision == "double-double") return solved<revchain::DoubleDouble>(chain, asked, method, progress);
@@ -222,7 +225,7 @@ void bind_linear(py::module_& module) {
             return f.read([](const auto& m) { return std::string(to_string(m.status)); });
         });
     module.def("modes", &modes, "chain"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a, "rtol"_a,
-               "certify"_a, "precision"_a, "method"_a, "progress"_a = py::none());
+               "certify"_a, "precision"_a, "method"_a, "progress"_a = py::none(), "threads"_a = 1);
 
     module.def(
         "count_modes",

@@ -32,8 +32,8 @@ py::array whole(const revchain::Vector<Index>& values) {
 
 template <class Carried>
 py::tuple response(const Carried& carried, const Array& given, bool speeds, double support_radius,
-                   const std::optional<Numbers>& pins, double gravity) {
-    revchain::ResponseOptions options{.support_radius = support_radius, .gravity = gravity};
+                   const std::optional<Numbers>& pins, double gravity, Index threads) {
+    revchain::ResponseOptions options{.support_radius = support_radius, .gravity = gravity, .threads = threads};
     (speeds ? options.angular_speed : options.conical_height) = as_vector(given);
     if (pins) options.pins = std::vector<Index>(pins->data(), pins->data() + pins->size());
     const auto found = without_lock([&] { return revchain::response(carried, options); });
@@ -63,9 +63,9 @@ py::tuple swing(const Chain<double>& chain, const Array& offsets, const Array& v
 
 void bind_response(py::module_& module) {
     module.def("response", &response<Chain<double>>, "chain"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
-               "gravity"_a);
+               "gravity"_a, "threads"_a = 1);
     module.def("rig_response", &response<Rig>, "rig"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
-               "gravity"_a);
+               "gravity"_a, "threads"_a = 1);
     module.def("swing", &swing, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a,
                "gravity"_a);
 }

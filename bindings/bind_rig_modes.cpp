@@ -158,14 +158,16 @@ void bind_rig_modes(py::module_& module) {
         .def_property_readonly("status", [](const Found& f) { return std::string(to_string(f.modes.status)); });
     module.def(
         "rig_modes",
-        [](const Rig& rig, Index first, std::optional<Index> count, double gravity, revchain::Progress* progress) {
+        [](const Rig& rig, Index first, std::optional<Index> count, double gravity, revchain::Progress* progress,
+           Index threads) {
             return without_lock([&] {
                 return Found(revchain::modes(rig, {.first = first,
                                                    .count = count.value_or(revchain::all_modes),
                                                    .gravity = gravity,
-                                                   .progress = progress}),
+                                                   .progress = progress,
+                                                   .threads = threads}),
                              rig.size() + 1);
             });
         },
-        "rig"_a, "first"_a, "count"_a, "gravity"_a, "progress"_a = nullptr);
+        "rig"_a, "first"_a, "count"_a, "gravity"_a, "progress"_a = nullptr, "threads"_a = 1);
 }

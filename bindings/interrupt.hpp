@@ -12,10 +12,6 @@
 // Python notes Ctrl-C but hears it only when asked. The library calls `interrupt` from all its long loops, whichever
 // function was bound: it asks there. See bind_core.cpp.
 
-/// Becomes true when the caller of `aside` has left; the computation on this thread then stops at its next look. Null
-/// on other threads.
-inline thread_local const std::atomic<bool>* abandoned = nullptr;
-
 /// solve(chain) in a thread of its own, for solvers of Eigen, which cannot be interrupted; on this thread where links
 /// are so few that they take less than 0.1 s, or too many for a dense matrix. After Ctrl-C, or where `progress` is
 /// cancelled, the caller goes on at once. The thread ends at its next look or with the solver's result, which nobody
@@ -25,7 +21,7 @@ auto aside(const revchain::Chain<double>& chain, const revchain::Progress* progr
     if (chain.size() <= 40 || chain.size() > 20'000) return without_lock([&] { return solve(chain); });
     const auto stop = std::make_shared<std::atomic<bool>>(false);
     std::packaged_task<decltype(solve(chain))()> task([stop, chain, solve = std::move(solve)] {
-        abandoned = stop.get();
+        revchain::detail::abandoned = stop.get();
         return solve(chain);
     });
     auto result = task.get_future();

@@ -45,7 +45,7 @@ struct ChainBatch {
 
 struct BatchOptions {
     std::optional<Index> count{};  ///< number of slowest modes of each chain; absent: all
-    Index threads = 1;
+    Index threads = 1;             ///< 0: all processors
     Progress* progress = nullptr;  ///< watched and stopped from another thread
 };
 
@@ -63,10 +63,10 @@ struct BatchOptions {
 /// Cost, all modes, N = 10: 0.24 microseconds for plummets, 0.36 for rods (bench/batch.cpp). Memory: the result, and a
 /// few numbers for each link of 16 chains a thread.
 ///
-/// Throws InvalidArgument for an empty batch, for a count or a number of threads below 1, and, before anything else,
-/// for the first chain with a number that `Chain` refuses, naming chain, link and value. Throws it for a count beyond
-/// the modes of some chain: massless links cost modes, and chains with different numbers of modes need a count. Throws
-/// it later only for a chain whose heights cannot be proved to half the digits of T.
+/// Throws InvalidArgument for an empty batch, a count below 1, a negative number of threads, and, before anything
+/// else, for the first chain with a number that `Chain` refuses, naming chain, link and value. Throws it for a count
+/// beyond the modes of some chain: massless links cost modes, and chains with different numbers of modes need a count.
+/// Throws it later only for a chain whose heights cannot be proved to half the digits of T.
 template <Real T>
 Table<T> conical_heights(const ChainBatch<T>& batch, const BatchOptions& options = {});
 

@@ -47,6 +47,7 @@ struct ModesOptions {
     bool certify = false;     ///< also return `Certificate`: intervals that hold the heights, with the counts
     T gravity = T(conical_pendulum::standard_gravity);  ///< for windows of speed, and for all speeds of rigs
     bool other = true;                                  ///< rigs: also find `RigModes::other`
+    Index threads = 1;                                  ///< for heights and shapes; 0: all processors
     Progress* progress = nullptr;                       ///< read and cancelled from another thread
     /// A method that cannot serve the chain is replaced by bisection; `Modes::method` says which one was used.
     ModesMethod method = ModesMethod::automatic;
@@ -117,6 +118,7 @@ struct Modes {
 /// forms, continuous chains and asymptotic formulas it is derived and measured to hold; `certify` proves it for all.
 /// Shapes are within 5.6e-17 of the largest offset (3.5e-16 / gap where weights need several units), with a looser
 /// `rtol` within rtol / gap. The gap, at most 1, is the relative distance to the next height.
+/// Results are bitwise the same whatever the number of threads.
 /// Where `Wide<T>` is T itself (DoubleDouble, a scalar of your own) errors and bounds grow with N.
 /// Method: modes are counted in T at eight trial heights in one pass. A twisted factorization then gives a shape, the
 /// shape a Rayleigh quotient in `Wide<T>`, and two counts prove the bound. A chain of floats is solved in double. In

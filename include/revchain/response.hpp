@@ -25,6 +25,7 @@ struct ResponseOptions {
     double support_radius = 1;                 ///< of the circle, or the amplitude to and fro
     std::optional<std::vector<Index>> pins{};  ///< only of these, in any order, 0 the free end; absent: of all
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+    Index threads = 1;                                    ///< 0: all processors
     Progress* progress = nullptr;                         ///< read and cancelled from another thread
 };
 
@@ -49,7 +50,7 @@ struct Response {
 /// where a pin is nearly a node, are done once more in interval arithmetic.
 /// Accuracy: half an ulp of each offset until within about 1e-12 of a resonance; `error_bound` is proved for every
 /// chain. Counts of modes are proved with them: below every resonance a chain goes with its support, and each resonance
-/// passed turns it round.
+/// passed turns it round. Results are bitwise the same whatever the number of threads.
 /// Cost: 10 to 40 ns for each link and speed with SIMD registers of eight doubles, twice that with two
 /// (bench/response.cpp); memory that of the result, less where `pins` asks for a few.
 /// Throws InvalidArgument where heights and speeds are both given; for heights, radius or gravity that are not positive

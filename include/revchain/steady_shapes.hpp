@@ -59,6 +59,7 @@ struct SteadyShapesOptions {
                                ///< with each link in the rig's posture
     int direction = 1;         ///< of rotation, 1 or -1, where `conical_height` is given: it matters to flywheels
     double gravity = conical_pendulum::standard_gravity;  ///< with `angular_speed`, and for rigs with flywheels
+    Index threads = 1;                                    ///< 0: all processors
 };
 
 /// The shapes found, and whether there are more.
@@ -90,6 +91,8 @@ struct SteadyShapes {
 /// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
 /// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four
 /// (64 of equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.
+/// Threads share the shapes found, not the search for them, about half of the cost. Results are bitwise the same
+/// whatever their number.
 /// No shape in any posture exists above the first critical height. Proof: let s be the sines of the inclinations d, G
 /// their mass matrix, kappa = W h + a S, D = lambda diag(kappa |sec d|) > G, and E = diag(+-1) the postures. Then
 /// E D s = G s gives, with w = D^1/2 s, |E w| = |D^-1/2 G D^-1/2 w| < |w|: only w = 0 is possible.

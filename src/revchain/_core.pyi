@@ -216,6 +216,7 @@ def modes(
     precision: str,
     method: str,
     progress: Progress | None = None,
+    threads: int = 1,
 ) -> Modes: ...
 
 class RigModes:
@@ -261,7 +262,7 @@ class RigModes:
     def status(self) -> str: ...
 
 def rig_modes(
-    rig: Rig, first: int, count: int | None, gravity: float, progress: Progress | None = None
+    rig: Rig, first: int, count: int | None, gravity: float, progress: Progress | None = None, threads: int = 1
 ) -> RigModes: ...
 def count_modes(chain: Chain, conical_height: _Floats) -> numpy.typing.NDArray[numpy.int64]: ...
 def count_modes_at_speed(
@@ -601,15 +602,15 @@ def pin_of_silent_clapper(
 ) -> _Floats: ...
 def joint_without_bending(length: _Floats, pin: _Floats) -> _Floats: ...
 def stability(chain: Chain, shape: SteadyShape, driven: bool) -> Stability: ...
-def steady_shapes(chain: Chain, height: float, budget: int, hanging_only: bool) -> SteadyShapes: ...
+def steady_shapes(chain: Chain, height: float, budget: int, hanging_only: bool, threads: int = 1) -> SteadyShapes: ...
 def steady_shapes_at_speed(
-    chain: Chain, angular_speed: float, gravity: float, budget: int, hanging_only: bool
+    chain: Chain, angular_speed: float, gravity: float, budget: int, hanging_only: bool, threads: int = 1
 ) -> SteadyShapes: ...
 def steady_shapes_of_rig(
-    rig: Rig, height: float, budget: int, hanging_only: bool, sense: int, gravity: float
+    rig: Rig, height: float, budget: int, hanging_only: bool, sense: int, gravity: float, threads: int = 1
 ) -> SteadyShapes: ...
 def steady_shapes_of_rig_at_speed(
-    rig: Rig, angular_speed: float, budget: int, hanging_only: bool, gravity: float
+    rig: Rig, angular_speed: float, budget: int, hanging_only: bool, gravity: float, threads: int = 1
 ) -> SteadyShapes: ...
 
 class HeldShape:
@@ -747,10 +748,22 @@ def stability_windows(
 _Flags = numpy.typing.NDArray[numpy.bool_]
 
 def response(
-    chain: Chain, given: _Floats, speeds: bool, support_radius: float, pins: _Whole | None, gravity: float
+    chain: Chain,
+    given: _Floats,
+    speeds: bool,
+    support_radius: float,
+    pins: _Whole | None,
+    gravity: float,
+    threads: int = 1,
 ) -> tuple[_Floats, _Floats, _Whole, _Flags, _Flags, _Floats, _Floats]: ...
 def rig_response(
-    rig: Rig, given: _Floats, speeds: bool, support_radius: float, pins: _Whole | None, gravity: float
+    rig: Rig,
+    given: _Floats,
+    speeds: bool,
+    support_radius: float,
+    pins: _Whole | None,
+    gravity: float,
+    threads: int = 1,
 ) -> tuple[_Floats, _Floats, _Whole, _Flags, _Flags, _Floats, _Floats]: ...
 def select(
     chain: Chain, first: int, count: int, rtol: float, inclination: float, time_budget: float | None

@@ -260,7 +260,7 @@ TEST_CASE("batch: wrong numbers are named with their chain and link, before anyt
     CHECK(message() == "nothing");
     CHECK_THAT(message({.count = 5}), ContainsSubstring("count must not exceed the 4 links of a chain, got 5"));
     CHECK_THAT(message({.count = 0}), ContainsSubstring("count must be at least 1, got 0"));
-    CHECK_THAT(message({.threads = 0}), ContainsSubstring("threads must be at least 1, got 0"));
+    CHECK_THAT(message({.threads = -1}), ContainsSubstring("threads must not be negative, got -1"));
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (auto* column : {&links.weight, &links.length, &links.centroid, &links.radius}) {
         for (const double bad : {nan, std::numeric_limits<double>::infinity(), -1.0}) {

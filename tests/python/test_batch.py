@@ -128,7 +128,7 @@ def test_wrong_numbers_are_named(changes, message):
         ({"weight": np.ones((2, 0)), "length": 1}, "a chain needs at least one link, got 0"),
         ({"weight": [1, 2], "length": 1, "count": 0}, "count must be at least 1, got 0"),
         ({"weight": [1, 2], "length": 1, "count": 3}, "count must not exceed the 2 links of a chain, got 3"),
-        ({"weight": [1, 2], "length": 1, "threads": 0}, "threads must be at least 1, got 0"),
+        ({"weight": [1, 2], "length": 1, "threads": -1}, "threads must not be negative, got -1"),
         ({"weight": [1, 2], "length": 1, "threads": 1.5}, "threads must be a whole number, got 1.5"),
         ({"weight": 1, "length": 1, "centroid": 1}, "centroid needs exactly one of"),
         ({"weight": 1, "length": 1, "pendulum_length": 1}, "pendulum_length needs centroid"),

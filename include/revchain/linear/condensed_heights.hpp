@@ -116,24 +116,26 @@ std::optional<CondensedHeights<T>> heights_by_condensation(const Chain<T>& chain
         return pencil::bisect(pencil, number, count, tolerance, pencil.least_shift);
     };
     const auto rough = brackets(first, range.count, T(1e-3));
-    Heights<T> result;
-    result.reserve(rough.size());
-    while (result.size() < rough.size()) {
-        const std::size_t done = result.size();
-        const std::size_t count = std::min(pack_size, rough.size() - done);
-        auto found = refined(pencil, first, rough, done, margin);
-        if (!found) {  // neighbours so close that a step from 1e-3 may end at the wrong one
-            const Index number = first + static_cast<Index>(done);
-            found = refined(pencil, number, brackets(number, static_cast<Index>(count), T(0)), 0, margin);
+    Heights<T> result(rough.size());
+    std::atomic<bool> proved = true;
+    parallel_for(rough.size(), pack_size, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t done = begin; done < end && proved; done += pack_size) {
+            const std::size_t count = std::min(pack_size, end - done);
+            auto found = refined(pencil, first, rough, done, margin);
+            if (!found) {  // neighbours so close that a step from 1e-3 may end at the wrong one
+                const Index number = first + static_cast<Index>(done);
+                found = refined(pencil, number, brackets(number, static_cast<Index>(count), T(0)), 0, margin);
+            }
+            if (!found) proved = false;
+            for (std::size_t lane = 0; found && lane < count; ++lane) {
+                const S height = S(found->high[lane], found->low[lane]) * S(condensed.unit_length);
+                const S scaled = ldexp(height, -units.length_exponent);
+                result[done + lane] = {static_cast<T>(scaled), bound, scaled};
+            }
+            advance(options.progress, static_cast<double>(done + count) / static_cast<double>(rough.size()));
         }
-        if (!found) return std::nullopt;
-        for (std::size_t lane = 0; lane < count; ++lane) {
-            const S height = S(found->high[lane], found->low[lane]) * S(condensed.unit_length);
-            const S scaled = ldexp(height, -units.length_exponent);
-            result.push_back({static_cast<T>(scaled), bound, scaled});
-        }
-        advance(options.progress, static_cast<double>(done + count) / static_cast<double>(rough.size()));
-    }
+    });
+    if (!proved) return std::nullopt;
     restore_order<T>(result);
     return CondensedHeights<T>{std::move(result), std::move(condensed)};
 }

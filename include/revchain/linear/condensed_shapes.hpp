@@ -179,23 +179,20 @@ void store(ModeShapes<T>& shapes, ShapePack<T>& pack, std::size_t first, std::si
     }
 }
 
-/// Stage 2 of `modes` for a condensed chain: shapes, residuals and nodes of all its modes. Offsets between
-/// blocks by twisted recursions in double words; from each block's upper pin down, link by link, with compensated sums.
-/// False where offsets leave the range of T; sure shapes are then still to be found.
-/// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the
-/// top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
+/// `shapes_by_condensation` of the modes begin ... end - 1; packs start at `begin`.
 template <std::floating_point T>
-bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const CondensedChain<T>& condensed,
-                            const Heights<T>& heights, Progress* progress) {
+bool shapes_in_packs(ModeShapes<T>& shapes, const Chain<T>& chain, const CondensedChain<T>& condensed,
+                     const Heights<T>& heights, std::size_t begin, std::size_t end, Progress* progress) {
     using std::ldexp;
     using V = Pack<T>;
     using S = Wide<T>;
     const auto& blocks = condensed.pencil.blocks;
     const Index size = chain.size();
-    const auto lanes_from = [&](std::size_t first) { return std::min(pack_size, heights.size() - first); };
-    std::vector<ShapePack<T>> packs((heights.size() + pack_size - 1) / pack_size);
+    const auto first_of = [&](std::size_t pack) { return begin + pack * pack_size; };
+    const auto lanes_of = [&](std::size_t pack) { return std::min(pack_size, end - first_of(pack)); };
+    std::vector<ShapePack<T>> packs((end - begin + pack_size - 1) / pack_size);
     for (std::size_t k = 0; k < packs.size(); ++k) {
-        const std::size_t first = k * pack_size, lanes = lanes_from(first);
+        const std::size_t first = first_of(k), lanes = lanes_of(k);
         for (std::size_t lane = 0; lane < pack_size; ++lane) {
             const S unrounded = heights[first + std::min(lane, lanes - 1)].unrounded;
             const S height = ldexp(unrounded, chain.units().length_exponent) / S(condensed.unit_length);
@@ -220,15 +217,15 @@ bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const 
                 for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
                     pack.largest = max(pack.largest, abs(offset[i]));
                 weigh(chunk, pack.height.high, pack.top, above + count == size, offset.data(), pack.balance);
-                store(shapes, pack, k * pack_size, lanes_from(k * pack_size), above, count, offset);
+                store(shapes, pack, first_of(k), lanes_of(k), above, count, offset);
                 pack.top = offset[0];
             }
         }
         advance(progress, 1 - static_cast<double>(above) / static_cast<double>(size));
     }
     for (std::size_t k = 0; k < packs.size(); ++k)
-        for (std::size_t lane = 0; lane < lanes_from(k * pack_size); ++lane) {
-            const auto j = static_cast<Index>(k * pack_size + lane);
+        for (std::size_t lane = 0; lane < lanes_of(k); ++lane) {
+            const auto j = static_cast<Index>(first_of(k) + lane);
             auto& crossing = packs[k].crossing[lane];
             shapes.offset(j, size) = T(0);
             const T scale = (shapes.offset(j, 0) < T(0) ? T(-1) : T(1)) / packs[k].largest[lane];
@@ -239,6 +236,21 @@ bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const 
             shapes.nodes[static_cast<std::size_t>(j)] = nodes(chain, crossing);
         }
     return true;
+}
+
+/// Stage 2 of `modes` for a condensed chain: shapes, residuals and nodes of all its modes. Offsets between
+/// blocks by twisted recursions in double words; from each block's upper pin down, link by link, with compensated sums.
+/// False where offsets leave the range of T; sure shapes are then still to be found.
+/// Accuracy, measured: 2e-16 / (gap to the next height) of the largest offset, and as good relative to itself at the
+/// top pin (tests/cpp/linear/condensed_heights.cpp). Cost: 10 ns per link and mode.
+template <std::floating_point T>
+bool shapes_by_condensation(ModeShapes<T>& shapes, const Chain<T>& chain, const CondensedChain<T>& condensed,
+                            const Heights<T>& heights, Progress* progress) {
+    std::atomic<bool> in_range = true;
+    parallel_for(heights.size(), pack_size, [&](std::size_t begin, std::size_t end) {
+        if (!shapes_in_packs(shapes, chain, condensed, heights, begin, end, progress)) in_range = false;
+    });
+    return in_range;
 }
 
 }  // namespace revchain::detail

@@ -3,7 +3,7 @@
 
 #include "revchain/linear/assembly.hpp"
 #include "revchain/linear/rig_elements.hpp"
-#include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/forced/lanes.hpp"
 #include "revchain/simd/pack.hpp"
 
@@ -63,34 +63,37 @@ inline DrivenChain driven_chain(const Rig& rig) {
 inline bool is_negligible(const pencil::Driven& found) { return found.error_bound <= 0x1p-56; }
 
 /// `driven_lanes` for any number of drives, and sharper bounds for those whose own is not negligible beside rounding.
-/// `put(row, which, offset)`, and then `take(row, found)` for each.
+/// `put(row, which, offset)`, and then `take(row, found)` for each, on several threads.
 template <class Put, class Take>
-void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, pencil::DrivenPins& pins, const Put& put,
-                     const Take& take, Progress* progress) {
-    simd([&](auto registers) REVCHAIN_INLINED {
-        using V = Pack<double, registers.doubles>;
-        constexpr bool fused = registers.fused;
-        constexpr std::size_t together = pencil::driven_together<V>;
-        std::vector<double> scratch;
-        Driving padded[together];
-        pencil::Driven found[together];
-        for (std::size_t i = 0; i < at.size(); i += together) {
-            const std::size_t taken = std::min(together, at.size() - i);
-            for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
-            const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y) REVCHAIN_INLINED {
-                if (lane < taken) put(static_cast<Index>(i + lane), which, y);
-            };
-            if (chain.turning)
-                pencil::driven_lanes<true, fused, V>(chain.elements, padded, pins, found, offset);
-            else
-                pencil::driven_lanes<false, fused, V>(chain.elements, padded, pins, found, offset);
-            bool sharp = true;
-            for (std::size_t j = 0; j < taken; ++j) sharp = sharp && (!found[j].decided || is_negligible(found[j]));
-            if (!sharp && chain.turning) pencil::sharpen<true, fused, V>(chain.elements, padded, found, scratch);
-            if (!sharp && !chain.turning) pencil::sharpen<false, fused, V>(chain.elements, padded, found, scratch);
-            for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
-            advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
-        }
+void driven_by_lanes(const DrivenChain& chain, const std::vector<Driving>& at, const pencil::DrivenPins& pins,
+                     const Put& put, const Take& take, Progress* progress) {
+    parallel_for(at.size(), pencil::most_driven_together, [&](std::size_t begin, std::size_t end) {
+        simd([&](auto registers) REVCHAIN_INLINED {
+            using V = Pack<double, registers.doubles>;
+            constexpr bool fused = registers.fused;
+            constexpr std::size_t together = pencil::driven_together<V>;
+            std::vector<double> scratch;
+            Driving padded[together];
+            pencil::Driven found[together];
+            pencil::DrivenPins wanted = pins;
+            for (std::size_t i = begin; i < end; i += together) {
+                const std::size_t taken = std::min(together, end - i);
+                for (std::size_t j = 0; j < together; ++j) padded[j] = at[i + (j < taken ? j : 0)];
+                const auto offset = [&](std::size_t lane, std::size_t which, const Wide<double>& y) REVCHAIN_INLINED {
+                    if (lane < taken) put(static_cast<Index>(i + lane), which, y);
+                };
+                if (chain.turning)
+                    pencil::driven_lanes<true, fused, V>(chain.elements, padded, wanted, found, offset);
+                else
+                    pencil::driven_lanes<false, fused, V>(chain.elements, padded, wanted, found, offset);
+                bool sharp = true;
+                for (std::size_t j = 0; j < taken; ++j) sharp = sharp && (!found[j].decided || is_negligible(found[j]));
+                if (!sharp && chain.turning) pencil::sharpen<true, fused, V>(chain.elements, padded, found, scratch);
+                if (!sharp && !chain.turning) pencil::sharpen<false, fused, V>(chain.elements, padded, found, scratch);
+                for (std::size_t j = 0; j < taken; ++j) take(static_cast<Index>(i + j), found[j]);
+                advance(progress, static_cast<double>(i + taken) / static_cast<double>(at.size()));
+            }
+        });
     });
 }
 

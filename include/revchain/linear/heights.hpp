@@ -7,6 +7,7 @@
 
 #include "revchain/count.hpp"
 #include "revchain/linear/plain_pencil.hpp"
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/numeric/progress.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/certificate.hpp"
@@ -63,14 +64,17 @@ std::optional<Heights<double>> loose_heights(const Chain<double>& chain, const M
     const auto brackets =
         pencil::bisect(pencil::rounded<P>(*pencil), range.first - 1, range.count, static_cast<P>(0.5 * goal),
                        static_cast<P>(std::ldexp(chain.total_length(), -chain.units().length_exponent)), finished);
-    Heights<double> result;
-    result.reserve(brackets.size());
-    for (const auto& bracket : brackets) {
-        const double start = pencil::between<double>(bracket.lower, bracket.upper);
-        const Index j = range.first - 1 + static_cast<Index>(result.size());
-        if (!pencil::lies_within<double>(*pencil, j, start, goal / 2)) return std::nullopt;
-        result.push_back({start, pencil::bound_of_margin<double>(goal / 2), start});
-    }
+    Heights<double> result(brackets.size());
+    std::atomic<bool> proved = true;
+    parallel_for(brackets.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end && proved; ++i) {
+            const double start = pencil::between<double>(brackets[i].lower, brackets[i].upper);
+            const Index j = range.first - 1 + static_cast<Index>(i);
+            if (!pencil::lies_within<double>(*pencil, j, start, goal / 2)) proved = false;
+            result[i] = {start, pencil::bound_of_margin<double>(goal / 2), start};
+        }
+    });
+    if (!proved) return std::nullopt;
     restore_order<double>(result);
     return result;
 }
@@ -131,17 +135,17 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
     const auto brackets =
         pencil::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),
                        pencils.scaled(chain.total_length()), half_way);
-    Heights<T> result;
-    result.reserve(brackets.size());
-    for (const auto& bracket : brackets) {
-        const Index j = static_cast<Index>(result.size());
-        const T start = pencil::between(bracket.lower, bracket.upper);
-        const bool near = loose && pencil::lies_within<T>(pencils.rounded(), range.first - 1 + j, start, goal / T(2));
-        result.push_back(near ? Height<T>{start, pencil::bound_of_margin<T>(goal / T(2)), Wide<T>(start)}
-                              : pencil::certified_eigenvalue<Wide<T>, T>(pencils.wide(), pencils.rounded(),
-                                                                         range.first - 1 + j, start));
-        advance(options.progress, 0.5 + 0.5 * static_cast<double>(j + 1) / count);
-    }
+    Heights<T> result(brackets.size());
+    parallel_for(brackets.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Index j = range.first - 1 + static_cast<Index>(i);
+            const T start = pencil::between(brackets[i].lower, brackets[i].upper);
+            const bool near = loose && pencil::lies_within<T>(pencils.rounded(), j, start, goal / T(2));
+            result[i] = near ? Height<T>{start, pencil::bound_of_margin<T>(goal / T(2)), Wide<T>(start)}
+                             : pencil::certified_eigenvalue<Wide<T>, T>(pencils.wide(), pencils.rounded(), j, start);
+            advance(options.progress, 0.5 + 0.5 * static_cast<double>(i + 1) / count);
+        }
+    });
     restore_order<T>(result);
     return result;
 }

@@ -64,10 +64,12 @@ class ShapeFinder {
                 in_lanes(shapes, pencils, height, progress);
                 return shapes;
             }
-        for (Index j = 0; j < count; ++j) {
-            alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]);
-            advance(progress, 1.0);  // may be cancelled
-        }
+        parallel_for(count, 1, [&](Index begin, Index end) {
+            for (Index j = begin; j < end; ++j) {
+                alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]);
+                advance(progress, 1.0);  // may be cancelled
+            }
+        });
         return shapes;
     }
 
@@ -91,9 +93,9 @@ class ShapeFinder {
         const bool details = shapes.residual.size() > 0;
         const std::vector<Wide<T>> places = details ? pin_places(chain_) : std::vector<Wide<T>>();
         const std::size_t pins = static_cast<std::size_t>(chain_.size()) + 1;
-        std::vector<pencil::Crossing<T>> crossed;
         pencil::for_eights<T>(height.size(), pins, [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
             pencil::RootsInLanes<T> roots;
+            std::vector<pencil::Crossing<T>> crossed;
             for (std::size_t i = 0; i < lanes; ++i) {
                 const Height<T>& at = height[first + std::min(i, there - 1)];
                 roots.exact[i] = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;

@@ -21,6 +21,9 @@ struct Registers {
     static constexpr std::size_t doubles = Bytes / sizeof(double);
 };
 
+/// What the largest registers hold: a number of doubles that fills whole registers of every size is a multiple of it.
+inline constexpr std::size_t most_doubles = 8;
+
 namespace detail {
 
 #if defined(__FP_FAST_FMA) || defined(__FMA__)

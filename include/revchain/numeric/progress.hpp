@@ -26,7 +26,11 @@ namespace detail {
 /// A function that a program may set before it computes. Every loop that can take longer than 0.1 s calls it at least
 /// every 0.1 s, on the thread that runs the loop. An exception from it ends the computation and reaches the caller.
 inline std::atomic<void (*)()> interrupt = nullptr;
+/// Becomes true when nobody waits for the result of this thread any longer; null on threads where that cannot happen.
+inline thread_local const std::atomic<bool>* abandoned = nullptr;
+/// Calls `interrupt`. Throws Cancelled on a thread that has been abandoned.
 inline void look() {
+    if (abandoned != nullptr && *abandoned) throw Cancelled("revchain: cancelled");
     if (void (*const call)() = interrupt.load(std::memory_order_relaxed)) call();
 }
 

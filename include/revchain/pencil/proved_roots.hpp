@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/quotient_lanes.hpp"
 
 /// Some or all roots of a pencil to the last digit, each with a proof, eight at a time.
@@ -17,14 +18,16 @@ struct ProvedRoot {
     T off;
 };
 
-/// Calls f(first, count, scratch) for every eight of `count`.
+/// Calls f(first, count, scratch) for every eight of `count`, on `Threads::used()` threads.
 template <std::floating_point T, class F>
 void for_eights(std::size_t count, std::size_t links, const F& f) {
-    with_shapes_in_lanes<T>(links, [&](ShapesInLanes<T>& scratch) {
-        for (std::size_t first = 0; first < count; first += shape_lanes) {
-            revchain::detail::look();
-            f(first, std::min(shape_lanes, count - first), scratch);
-        }
+    revchain::detail::parallel_for(count, shape_lanes, [&](std::size_t begin, std::size_t end) {
+        with_shapes_in_lanes<T>(links, [&](ShapesInLanes<T>& scratch) {
+            for (std::size_t first = begin; first < end; first += shape_lanes) {
+                revchain::detail::look();
+                f(first, std::min(shape_lanes, end - first), scratch);
+            }
+        });
     });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/bisection.hpp"
 #include "revchain/pencil/twisted_lanes.hpp"
 
@@ -37,14 +38,14 @@ T positive_root(const T& k, const T& s, const T& m) {
 
 template <class Where, class Terms, class T>
 [[gnu::always_inline]] inline void approach_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
-                                                     Index first, std::vector<Bracket<T>>& brackets,
-                                                     ShapesInLanes<T>& s, std::vector<T>& roots) {
+                                                     Index first, Bracket<T>* brackets, std::size_t count,
+                                                     ShapesInLanes<T>& s, T* roots) {
     using std::abs;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     constexpr T near(0x1p-24);  // the next error is the cube of the last, over the square of the gap
     constexpr int most_rounds = 100;
     using V = Pack<T, width, L / width>;
-    const std::size_t n = pencil.elements.size(), count = brackets.size();
+    const std::size_t n = pencil.elements.size();
     for (std::size_t j = 0; j < count; ++j) roots[j] = between(brackets[j].lower, brackets[j].upper);
     // The root in each lane; one that is done makes room for the next, while there is one.
     std::array<std::size_t, L> root;
@@ -160,14 +161,19 @@ template <bool spinning = false, std::floating_point T>
 std::vector<T> approached(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, Index first,
                           std::vector<Bracket<T>> brackets) {
     std::vector<T> roots(brackets.size());
-    with_shapes_in_lanes<T>(pencil.elements.size(), [&](ShapesInLanes<T>& shapes) {
-        shapes.make_room(pencil.elements.size());
-        simd([&](auto where) REVCHAIN_INLINED {
-            if (lumped)
-                detail::approach_in_lanes(where, detail::Terms<true, spinning>(), pencil, first, brackets, shapes, roots);
-            else
-                detail::approach_in_lanes(where, detail::Terms<false, spinning>(), pencil, first, brackets, shapes,
-                                          roots);
+    revchain::detail::parallel_for(brackets.size(), 8 * shape_lanes, [&](std::size_t begin, std::size_t end) {
+        with_shapes_in_lanes<T>(pencil.elements.size(), [&](ShapesInLanes<T>& shapes) {
+            shapes.make_room(pencil.elements.size());
+            simd([&](auto where) REVCHAIN_INLINED {
+                const auto approach = [&](auto terms) REVCHAIN_INLINED {
+                    detail::approach_in_lanes(where, terms, pencil, first + static_cast<Index>(begin), &brackets[begin],
+                                              end - begin, shapes, &roots[begin]);
+                };
+                if (lumped)
+                    approach(detail::Terms<true, spinning>());
+                else
+                    approach(detail::Terms<false, spinning>());
+            });
         });
     });
     return roots;

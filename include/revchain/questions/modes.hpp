@@ -81,6 +81,16 @@ void certify(Modes<T>& modes, Index j, const Pencils<P>& pencils, Index mode_cou
     }
 }
 
+template <Real T, Real P>
+void certify_all(Modes<T>& modes, const Pencils<P>& pencils, Index mode_count) {
+    parallel_for(modes.size(), 1, [&](Index begin, Index end) {
+        for (Index j = begin; j < end; ++j) {
+            look();
+            certify(modes, j, pencils, mode_count);
+        }
+    });
+}
+
 /// Heights in the units of the chain's pencils, as `ShapeFinder` takes them.
 inline std::vector<Height<double>> heights_in_units(const Chain<double>& chain, const Answer& answer) {
     const int exponent = -chain.units().length_exponent;
@@ -129,15 +139,14 @@ Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) 
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options);
     const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
     result.lazy_shapes = LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
-                                            condense = options.method != ModesMethod::bisection](
-                                               Index from, Index count, bool details, Progress* progress) {
+                                            condense = options.method != ModesMethod::bisection,
+                                            threads = options.threads](Index from, Index count, bool details,
+                                                                       Progress* progress) {
+        const Threads used("modes", threads);
         return ShapeFinder<T>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count, details,
                                                                                              progress);
     });
-    for (Index j = 0; options.certify && j < range.count; ++j) {
-        look();
-        certify(result, j, assembled.pencils(), chain.mode_count());
-    }
+    if (options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
     advance(options.progress, 1.0);
     return result;
 }
@@ -153,14 +162,13 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
     if (options.angular_speed) asked.angular_speed = {options.angular_speed->low, options.angular_speed->high};
     asked.gravity = options.gravity;
     if (options.rtol && *options.rtol > 4 * half_ulp) asked.rtol = *options.rtol - half_ulp;
+    asked.threads = options.threads;
     asked.progress = options.progress;
     asked.method = options.method;
     const Modes<double> fine = modes(wide, asked);
 
     Modes<float> result = room_for_modes(fine.range(), options);
     result.method = fine.method;
-    std::optional<Pencils<double>> pencils;
-    if (fine.size() > 0 && options.certify) pencils.emplace(wide);
     for (Index j = 0; j < fine.size(); ++j) {
         const float height = static_cast<float>(fine.conical_height[j]);
         const double off = std::abs(static_cast<double>(height) - fine.conical_height[j]) / fine.conical_height[j];
@@ -168,8 +176,8 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
                                                                  : std::numeric_limits<double>::infinity();
         set_height(result, j, height, std::nextafter(static_cast<float>(bound), std::numeric_limits<float>::infinity()),
                    0, options);
-        if (options.certify) certify(result, j, *pencils, chain.mode_count());
     }
+    if (fine.size() > 0 && options.certify) certify_all(result, Pencils<double>(wide), chain.mode_count());
     const Vector<float> heights = result.conical_height;
     result.lazy_shapes = LazyModeShapes<float>([wide, fine, heights](Index first, Index count, bool details,
                                                                       Progress* progress) {
@@ -201,10 +209,14 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     for (Index j = 0; j < range.count; ++j) {
         const auto& height = found[static_cast<std::size_t>(j)];
         set_height(result, j, height.eigenvalue, height.error_bound, chain.units().length_exponent, options);
-        if (options.certify) certify(result, j, assembled.pencils(), chain.mode_count());
     }
+    if (range.count > 0 && options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
     result.lazy_shapes =
-        LazyModeShapes<T>(ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false));
+        LazyModeShapes<T>([finder = ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false),
+                           threads = options.threads](Index from, Index count, Progress* progress) {
+            const Threads used("modes", threads);
+            return finder(from, count, progress);
+        });
     return result;
 }
 
@@ -216,6 +228,7 @@ Modes<T> modes(const Chain<T>& chain, const ModesOptions<T>& options) {
         !std::is_same_v<T, DoubleWord<double>> && !std::is_same_v<T, DoubleWord<long double>>,
         "a double word is the working arithmetic of a narrower scalar; as a scalar of its own take DoubleDouble");
     detail::check(options);
+    const detail::Threads threads("modes", options.threads);
     if constexpr (std::is_same_v<T, float>)
         return detail::modes_in_double(chain, options);
     else if constexpr (std::is_same_v<T, double>)

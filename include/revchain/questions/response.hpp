@@ -113,11 +113,12 @@ inline void store(Response& result, Index row, const pencil::Driven& found, cons
 
 template <class Carried>
 Response responses(const Carried& carried, const ResponseOptions& options) {
+    const Threads threads("response", options.threads);
     require_positive("response", "support radius", options.support_radius);
     const double radius = options.support_radius;
     const std::vector<Driving> at = drives(carried, options);
     const DrivenChain chain = driven_chain(carried);
-    PinsAsked pins = pins_asked(options, base_chain(carried).size(), chain);
+    const PinsAsked pins = pins_asked(options, base_chain(carried).size(), chain);
 
     const auto rows = static_cast<Index>(at.size()), columns = static_cast<Index>(pins.asked.size());
     Response result{pins.asked,           Table<double>(rows, columns), Vector<double>(rows),
@@ -128,29 +129,28 @@ Response responses(const Carried& carried, const ResponseOptions& options) {
         const double offset = (y * radius).high;
         for (const Index column : pins.columns[which]) result.offset(row, column) = offset;
     };
-    std::vector<Index> left;
     const auto take = [&](Index row, const pencil::Driven& found) {
         store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
-        if (!found.decided) left.push_back(row);
     };
-    if (chain.one_unit) {
-        driven_by_lanes(chain, at, pins.wanted, put, take, options.progress);
-    } else {
-        left.resize(at.size());
-        std::iota(left.begin(), left.end(), Index(0));
-    }
-    for (const Index row : left) {
-        std::size_t which = pins.wanted.pins.size();
-        const auto found = pencil::driven(chain.elements, at[static_cast<std::size_t>(row)],
-                                          [&](std::size_t pin, const Wide<double>& y) {
-                                              if (which == 0 || pins.wanted.pins[which - 1] != pin) return;
-                                              put(row, --which, y);
-                                          });
-        for (const Index column : pins.carried_columns) result.offset(row, column) = radius;
-        store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
-        for (const Index column : pins.carried_columns) result.offset(row, column) = radius;
-        advance(options.progress, 1.0);
-    }
+    if (chain.one_unit) driven_by_lanes(chain, at, pins.wanted, put, take, options.progress);
+    std::vector<Index> left;
+    for (Index row = 0; row < rows; ++row)
+        if (!chain.one_unit || result.resonant[static_cast<std::size_t>(row)] != 0) left.push_back(row);
+    parallel_for(left.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Index row = left[i];
+            std::size_t which = pins.wanted.pins.size();
+            const auto found = pencil::driven(chain.elements, at[static_cast<std::size_t>(row)],
+                                              [&](std::size_t pin, const Wide<double>& y) {
+                                                  if (which == 0 || pins.wanted.pins[which - 1] != pin) return;
+                                                  put(row, --which, y);
+                                              });
+            for (const Index column : pins.carried_columns) result.offset(row, column) = radius;
+            store(result, row, found, at[static_cast<std::size_t>(row)], chain, radius);
+            for (const Index column : pins.carried_columns) result.offset(row, column) = radius;
+            advance(options.progress, 1.0);
+        }
+    });
     return result;
 }
 

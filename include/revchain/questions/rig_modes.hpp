@@ -39,8 +39,10 @@ class RigShapeFinder {
    public:
     /// `elements`: the pencil once more, where shapes can be found eight at a time; else null.
     RigShapeFinder(const Rig& rig, Index idle, pencil::SignedPencil<RigWord> sense,
-                   std::shared_ptr<const pencil::ElementPencil<RigWord>> elements, std::vector<RigWord> roots)
-        : chain_(rig.chain()),
+                   std::shared_ptr<const pencil::ElementPencil<RigWord>> elements, std::vector<RigWord> roots,
+                   Index threads)
+        : threads_(threads),
+          chain_(rig.chain()),
           idle_(idle),
           sense_(std::move(sense)),
           elements_(std::move(elements)),
@@ -48,6 +50,7 @@ class RigShapeFinder {
 
     /// Returns the shapes of `count` modes, the first at index `first`, and if asked for residuals and nodes.
     ModeShapes<double> operator()(Index first, Index count, bool details, Progress* progress) const {
+        const Threads used("modes", threads_);
         ModeShapes<double> shapes = room_for_shapes(chain_, count, details);
         if (elements_ && elements_->spin.empty())
             in_lanes<false>(shapes, first, progress);
@@ -78,12 +81,12 @@ class RigShapeFinder {
         const FloatingPointStateGuard quiet;
         const bool lumped = pencil::is_lumped(*elements_), details = shapes.residual.size() > 0;
         const std::size_t pins = elements_->elements.size() + 1;
-        std::vector<double> rows(pencil::shape_lanes * pins);
         pencil::for_eights<double>(
             static_cast<std::size_t>(shapes.offset.rows()), pins,
             [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<double>& found) {
                 const auto j = static_cast<Index>(first);
                 pencil::RootsInLanes<double> at;
+                std::vector<double> rows(pencil::shape_lanes * pins);
                 for (std::size_t i = 0; i < pencil::shape_lanes; ++i)
                     at.exact[i] = at.rounded[i] = root(from + j + static_cast<Index>(std::min(i, there - 1)));
                 pencil::shapes_in_lanes<spinning>(*elements_, lumped, at, details, found);
@@ -123,6 +126,7 @@ class RigShapeFinder {
         return crossings;
     }
 
+    Index threads_;
     Chain<double> chain_;
     Index idle_;
     pencil::SignedPencil<RigWord> sense_;
@@ -164,7 +168,7 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& p
     std::vector<RigWord> found;
     const auto keep_shapes = [&](std::shared_ptr<const pencil::ElementPencil<RigWord>> elements) {
         modes.lazy_shapes = LazyModeShapes<double>(
-            RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found)));
+            RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
         if (auto elements = pencil::positive_elements(roots.pencil()))
@@ -197,7 +201,7 @@ inline RigModes plain_modes(const Rig& rig, const ModesOptions<double>& options)
     result.complete = true, result.method = "modes";
     if (range.count == 0) return result;
     const Modes<double> plain = modes(
-        rig.chain(), ModesOptions<double>{.first = range.first, .count = range.count, .progress = options.progress});
+        rig.chain(), ModesOptions<double>{.first = range.first, .count = range.count, .progress = options.progress, .threads = options.threads});
     result.forward = {range.first,
                       available,
                       plain.conical_height,
@@ -345,7 +349,7 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Mo
             roots.push_back(root.x);
         }
         modes.lazy_shapes =
-            LazyModeShapes<double>(RigShapeFinder(rig, pencil.idle, std::move(sense), nullptr, std::move(roots)));
+            LazyModeShapes<double>(RigShapeFinder(rig, pencil.idle, std::move(sense), nullptr, std::move(roots), options.threads));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
@@ -378,6 +382,7 @@ inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes)
 
 REVCHAIN_INLINE RigModes modes(const Rig& rig, const ModesOptions<double>& options) {
     detail::require_positive("modes", "gravity", options.gravity);
+    const detail::Threads used("modes", options.threads);
     if (options.conical_height || options.angular_speed)
         detail::throw_invalid("modes", "a window needs counts, which rigs do not have yet; give first and count");
     if (options.certify)

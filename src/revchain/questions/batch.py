@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
-from ..systems.numbers import Floats, link_arrays, mass_or_weight
+from ..systems.numbers import Floats, integer, link_arrays, mass_or_weight
 from ..systems.numbers import count as checked_count
 
 _PLACE = "revchain.conical_heights"
@@ -48,8 +48,8 @@ def conical_heights(
     count : int, optional
         How many modes of each chain, slowest first; all if left out, which takes chains that have
         equally many (massless links may cost modes).
-    threads : int
-        How many threads to use.
+    threads : int, optional
+        How many threads to use; 0 for all processors.
 
     Returns
     -------
@@ -107,7 +107,7 @@ def conical_heights(
         size,
         **{name: _table(array, tuple(batch)) for name, array in arrays.items()},
         count=None if count is None else checked_count(_PLACE, "count", count),
-        threads=checked_count(_PLACE, "threads", threads),
+        threads=integer(_PLACE, "threads", threads),
     )
 
 

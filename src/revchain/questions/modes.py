@@ -14,7 +14,7 @@ from ..results.modes import CordModes, Modes, RigModes
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, one_positive, positive, real, shown, together
+from ..systems.numbers import STANDARD_GRAVITY, Floats, boolean, floats, integer, one_positive, positive, real, shown, together
 from ..systems.numbers import count as checked_count
 from ..systems.numbers import word as checked_word
 from ..systems.rig import Rig
@@ -36,10 +36,16 @@ def modes(
     method: str | None = ...,
     precision: str = ...,
     certify: bool = ...,
+    threads: int = ...,
 ) -> Modes: ...
 @overload
 def modes(
-    system: Rig, count: int | Literal["all"] | None = ..., *, first: int = ..., gravity: float = ...
+    system: Rig,
+    count: int | Literal["all"] | None = ...,
+    *,
+    first: int = ...,
+    gravity: float = ...,
+    threads: int = ...,
 ) -> RigModes: ...
 @overload
 def modes(
@@ -75,6 +81,7 @@ def modes(
     method: str | None = None,
     precision: str = "double",
     certify: bool = False,
+    threads: int = 1,
 ) -> Modes | RigModes:
     """Find the modes of a system: whirl speeds (critical speeds), with shapes, nodes and error bounds.
 
@@ -115,6 +122,9 @@ def modes(
         one link, 1e-24 for 2000), and shapes are float64.
     certify : bool
         Whether to return with every height the interval that holds it and the counts that prove it.
+    threads : int, optional
+        Chains and rigs: how many threads to use for heights and, when they are read, shapes; 0 for all processors. Results are
+        bitwise the same whatever their number.
 
     Returns
     -------
@@ -126,7 +136,7 @@ def modes(
     ------
     ValueError
         If the modes asked for are not there or are given twice, a window is none, `rtol` is NaN or negative, or
-        `method` or `precision` unknown. For a rig if anything but `count`, `first` and `gravity` is given; for a rig of
+        `method` or `precision` unknown. For a rig if anything but `count`, `first`, `gravity` and `threads` is given; for a rig of
         more than 200 links whose speeds may be complex (inverted links or driven wheels together with momentum,
         floats in fluid that turns). For a held system unless it is a chain under a tension that exceeds its weight.
     TypeError
@@ -177,6 +187,7 @@ def modes(
         method=method,
         precision=precision,
         certify=certify,
+        threads=threads,
     )
 
 
@@ -199,18 +210,20 @@ def find_modes(
     method: str | None = None,
     precision: str = "double",
     certify: bool = False,
+    threads: int = 1,
     progress: _core.Progress | None = None,
 ) -> Modes | RigModes | CordModes:
     """`modes`, watched: `progress` tells how far it is and can cancel it from another thread."""
     place = "revchain.modes"
     g = gravity if type(gravity) is float and 0 < gravity < 1e300 else one_positive(place, "gravity", gravity)
     start = first if type(first) is int and first == 1 else checked_count(place, "first", first)
+    shared = threads if type(threads) is int and threads == 1 else integer(place, "threads", threads)
     if conical_height is not None or angular_speed is not None:
         _refuse_two_choices(place, conical_height, angular_speed, count, start)
     if isinstance(system, Rig):
         asked = {"conical_height": conical_height, "angular_speed": angular_speed, "rtol": rtol, "method": method, "precision": precision, "certify": certify}
         _refuse(place, asked, "is for a Chain; the modes of a Rig are chosen by count and first")
-        of_rig = _core.rig_modes(system._under(g), start, count_of(place, count, 10), g, progress)
+        of_rig = _core.rig_modes(system._under(g), start, count_of(place, count, 10), g, progress, shared)
         found = RigModes._made(of_rig, system=system, gravity=g)
         if start > max(1, *found.available):
             raise ValueError(f"{place}: first must be from 1 to {max(found.available)}, the number of modes in a direction, got {start}")
@@ -242,7 +255,8 @@ def find_modes(
         tolerance = FULL / 2 if method == "double-double" and rtol is None else rtol or 0.0
         of_model = _core.solve_by(core, start, wanted, tolerance, 0.0, method)
         return _by_model(of_model, system, g, rtol, start)
-    of_chain = _core.modes(core, start, wanted, heights, speeds, rtol, certify, precision, method or "auto", progress)
+    way = method or "auto"
+    of_chain = _core.modes(core, start, wanted, heights, speeds, rtol, certify, precision, way, progress, shared)
     return Modes._made(of_chain, system=system, gravity=g, precision=precision, rtol=rtol)
 
 

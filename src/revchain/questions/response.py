@@ -38,6 +38,7 @@ def response(
     gravity: float = STANDARD_GRAVITY,
     support_radius: float | None = None,
     pins: ArrayLike | None = None,
+    threads: int = 1,
 ) -> Response:
     """Find the forced motion (base excitation) of a chain whose support is carried round a small circle, or to and fro.
 
@@ -59,6 +60,8 @@ def response(
     pins : int or array_like of int, optional
         Only these pins, 0 the free end, N (or -1) the support; all N + 1 if left out. Long sweeps of
         long chains need less memory.
+    threads : int, optional
+        How many threads to use; 0 for all processors. Results are bitwise the same whatever their number.
 
     Returns
     -------
@@ -123,7 +126,7 @@ def response(
             positive(place, "angular_speed", given)
         height, speed = np.asarray(_core.conical_pendulum_height(np.abs(given), np.full(given.shape, g))), given
     which, axis = _pins(place, pins, system.size)
-    asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g)
+    asked = (given.reshape(-1), angular_speed is not None, radius, which.reshape(-1), g, integer(place, "threads", threads))
     if isinstance(system, Rig):
         found = _core.rig_response(system._under(g), *asked)
     else:

@@ -35,6 +35,7 @@ def steady_shapes(
     max_half_waves: int = 1,
     prove: bool = True,
     scanned: int = 200,
+    threads: int = 1,
 ) -> SteadyShapes:
     """Find all steady shapes (relative equilibria) of a system at a given speed, at any inclination.
 
@@ -63,6 +64,9 @@ def steady_shapes(
         Held chains: whether error bounds are proved; else they are estimates.
     scanned : int, optional
         Cords with a tip or a density other than uniform: how many offsets of the free end to look at for shapes.
+    threads : int, optional
+        Chains and rigs: how many threads to use; 0 for all processors. Results are bitwise the same whatever their
+        number. The threads share the shapes found, not the search for them, which is about half of the work.
 
     Returns
     -------
@@ -152,6 +156,7 @@ def steady_shapes(
     if not 1 <= looks <= 10**6:
         raise ValueError(f"{place}: scanned must be from 1 to 1000000, got {looks}")
     proved = boolean(place, "prove", prove)
+    shared = integer(place, "threads", threads)
     if isinstance(system, Held) and system.weightless:
         return _weightless(place, system, conical_height, angular_speed, waves, proved)
     name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
@@ -171,15 +176,15 @@ def steady_shapes(
     if isinstance(system, Rig):
         core = system._under(g)
         if name == "conical_height":
-            found = _core.steady_shapes_of_rig(core, value, most, hanging, int(direction), g)
+            found = _core.steady_shapes_of_rig(core, value, most, hanging, int(direction), g, shared)
         else:
-            found = _core.steady_shapes_of_rig_at_speed(core, int(direction) * value, most, hanging, g)
+            found = _core.steady_shapes_of_rig_at_speed(core, int(direction) * value, most, hanging, g, shared)
     elif not isinstance(system, Chain):
         raise no_system(place, system)
     elif name == "conical_height":
-        found = _core.steady_shapes(compiled(place, system), value, most, hanging)
+        found = _core.steady_shapes(compiled(place, system), value, most, hanging, shared)
     else:
-        found = _core.steady_shapes_at_speed(compiled(place, system), value, g, most, hanging)
+        found = _core.steady_shapes_at_speed(compiled(place, system), value, g, most, hanging, shared)
     return shapes_made(found, system, height, speed, g, int(direction))
 
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -13,7 +14,7 @@
 #include "revchain/finite/shapes/isolation.hpp"
 #include "revchain/finite/shapes/several_inclinations.hpp"
 #include "revchain/finite/shapes/verification.hpp"
-#include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/parallel.hpp"
 
 /// The list of all steady shapes at a height. `Result` and `Options` are those of revchain/steady_shapes.hpp.
 namespace revchain::finite {
@@ -203,43 +204,59 @@ void add(const AnyLinks& links, const Wide<double>& height, const Settled& settl
     result.shapes.back().error_bound = settled.error, result.shapes.back().condition = settled.condition;
 }
 
+template <class Result>
+void leave_open(const Bracket<Far>& part, Result& result) {
+    const auto inclination = [](const Far& t) { return std::atan(static_cast<double>(t)); };
+    result.undecided.push_back({inclination(part.low), inclination(part.high)});
+}
+
+/// Adds the one shape in the bracket to `result`, which has none yet; or leaves the bracket open.
+template <class AnyLinks, class Result>
+void add_isolated(const AnyLinks& links, const EnclosedLinks<Far>& narrow, const Wide<double>& height,
+                  const Bracket<Far>& bracket, Result& result) {
+    using Shape = typename decltype(result.shapes)::value_type;
+    const auto support = enclosed<Far>(support_of(links));
+    if (auto found = finished(links, height, bracket)) {
+        Shape& shape = result.shapes.emplace_back(
+            verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
+        if (shape.error_bound <= 0x1.8p-52) return;
+        // all but horizontal, or all but critical: the sweep may say more
+        const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
+        if (error < shape.error_bound) {
+            const double condition = shape.condition;
+            turn_outwards(*found, support);
+            shape = described<Shape>(links, height, *found);
+            shape.error_bound = error, shape.condition = condition;
+        }
+        if (shape.error_bound < 0x1p-48) return;
+    }
+    // or the tangents
+    const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
+    if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
+        result.shapes.clear();
+        add(links, height, *settled, result);
+    } else if (result.shapes.empty()) {
+        leave_open(part, result);
+    }
+}
+
 /// Adds all shapes where each link hangs at one inclination for what hangs below it.
 template <class AnyLinks, class Result>
 void add_single_valued(const AnyLinks& links, const Wide<double>& height, double last, long budget, Result& result) {
-    using Shape = typename decltype(result.shapes)::value_type;
     const auto narrow = swept_links<Far>(links);
-    const auto support = enclosed<Far>(support_of(links));
     const auto isolation = isolated(links, height, last, budget);
     result.cells = isolation.cells;
-    const auto leave_open = [&](const Bracket<Far>& b) {
-        const auto inclination = [](const Far& t) { return std::atan(static_cast<double>(t)); };
-        result.undecided.push_back({inclination(b.low), inclination(b.high)});
-    };
-    for (const auto& bracket : isolation.undecided) leave_open(bracket);
-    for (const auto& bracket : isolation.shapes) {
-        const std::size_t before = result.shapes.size();
-        if (auto found = finished(links, height, bracket)) {
-            Shape& shape = result.shapes.emplace_back(
-                verified_shape<Shape>(links, narrow, height, enclosed<Far>(height), *found, true));
-            if (shape.error_bound <= 0x1.8p-52) continue;
-            // all but horizontal, or all but critical: the sweep may say more
-            const double error = inclination_error(narrow, height, bracket, *found, links.links, support) + 0x1p-52;
-            if (error < shape.error_bound) {
-                const double condition = shape.condition;
-                turn_outwards(*found, support);
-                shape = described<Shape>(links, height, *found);
-                shape.error_bound = error, shape.condition = condition;
-            }
-            if (shape.error_bound < 0x1p-48) continue;
+    for (const auto& bracket : isolation.undecided) leave_open(bracket, result);
+    std::vector<Result> each(isolation.shapes.size());
+    revchain::detail::parallel_for(each.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            revchain::detail::look();
+            add_isolated(links, narrow, height, isolation.shapes[i], each[i]);
         }
-        // or the tangents
-        const auto part = narrowed(narrow, enclosed<Far>(height), support, bracket);
-        if (const auto settled = finished_by_tangents(links, height, bracket, part)) {
-            result.shapes.resize(before);
-            add(links, height, *settled, result);
-        } else if (result.shapes.size() == before) {
-            leave_open(part);
-        }
+    });
+    for (Result& one : each) {
+        std::move(one.shapes.begin(), one.shapes.end(), std::back_inserter(result.shapes));
+        result.undecided.insert(result.undecided.end(), one.undecided.begin(), one.undecided.end());
     }
 }
 

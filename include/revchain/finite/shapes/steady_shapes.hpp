@@ -9,6 +9,7 @@
 #include "revchain/finite/shapes/list.hpp"
 #include "revchain/finite/shapes/rigged_links.hpp"
 #include "revchain/numeric/compiled.hpp"
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain {
@@ -105,6 +106,7 @@ inline bool height_is_given(const SteadyShapesOptions& options) {
 }  // namespace finite
 
 REVCHAIN_INLINE SteadyShapes steady_shapes(const Chain<double>& chain, const SteadyShapesOptions& options) {
+    const detail::Threads threads("steady_shapes", options.threads);
     if (finite::height_is_given(options))
         return finite::steady_shapes(chain, Wide<double>(*options.conical_height), options);
     const double angular_speed = *options.angular_speed, gravity = options.gravity;
@@ -122,6 +124,7 @@ REVCHAIN_INLINE SteadyShapes steady_shapes(const Chain<double>& chain, const Ste
 }
 
 REVCHAIN_INLINE SteadyShapes steady_shapes(const Rig& rig, const SteadyShapesOptions& options) {
+    const detail::Threads threads("steady_shapes", options.threads);
     if (finite::height_is_given(options)) {
         if (options.direction != 1 && options.direction != -1)
             detail::throw_invalid("steady_shapes", "direction must be 1 or -1", options.direction);

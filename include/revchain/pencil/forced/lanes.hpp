@@ -103,6 +103,7 @@ template <bool turning, bool fused, class V>
 /// How many drives are walked together.
 template <class V>
 inline constexpr std::size_t driven_together = 2 * V::size;
+inline constexpr std::size_t most_driven_together = 2 * most_doubles;
 
 /// For the drives given (`driven_together`), what `driven` gives: one to a SIMD lane, in words of two doubles, with a
 /// running bound as that of `certified_count`. Units must be one for all elements. Undecided are drives next to a

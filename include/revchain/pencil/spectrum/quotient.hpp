@@ -2,7 +2,7 @@
 #pragma once
 
 #include "revchain/numeric/compensated_sum.hpp"
-#include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/spectrum/lumped_chain.hpp"
 #include "revchain/simd/pack.hpp"
 
@@ -212,23 +212,25 @@ std::vector<Result> in_packs(const LumpedChain& chain, const std::vector<double>
     if (!places.empty())
         std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return places[i] < places[j]; });
     std::vector<Result> result(shifts.size());
-    simd([&](auto registers) REVCHAIN_INLINED {
-        constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
-        Result found[together];
-        double padded[together];
-        for (std::size_t i = 0; i < shifts.size(); i += together) {
-            revchain::detail::look();
-            const std::size_t taken = std::min(together, shifts.size() - i);
-            for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
-            const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
-            const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
-            if (chain.has_cross) {
-                solve(registers, std::true_type(), padded, lowest, highest, found);
-            } else {
-                solve(registers, std::false_type(), padded, lowest, highest, found);
+    revchain::detail::parallel_for(shifts.size(), packs * most_doubles, [&](std::size_t begin, std::size_t end) {
+        simd([&](auto registers) REVCHAIN_INLINED {
+            constexpr std::size_t together = packs * registers.doubles, slack = 4 * longest_leg;
+            Result found[together];
+            double padded[together];
+            for (std::size_t i = begin; i < end; i += together) {
+                revchain::detail::look();
+                const std::size_t taken = std::min(together, end - i);
+                for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[order[i + (j < taken ? j : 0)]];
+                const std::size_t lowest = places.empty() ? 0 : places[order[i]] - std::min(places[order[i]], slack);
+                const std::size_t highest = places.empty() ? chain.size() : places[order[i + taken - 1]] + slack;
+                if (chain.has_cross) {
+                    solve(registers, std::true_type(), padded, lowest, highest, found);
+                } else {
+                    solve(registers, std::false_type(), padded, lowest, highest, found);
+                }
+                for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
             }
-            for (std::size_t j = 0; j < taken; ++j) result[order[i + j]] = found[j];
-        }
+        });
     });
     return result;
 }

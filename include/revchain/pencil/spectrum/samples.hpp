@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "revchain/numeric/progress.hpp"
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/spectrum/lumped_chain.hpp"
 #include "revchain/simd/pack.hpp"
 
@@ -97,24 +97,26 @@ inline std::vector<Sample> sample_all(const LumpedChain& chain, const std::vecto
     std::vector<Sample> samples(shifts.size());
     const std::size_t words = history_words(chain.size());
     if (history != nullptr) history->assign(shifts.size() * words, 0);
-    simd([&](auto registers) REVCHAIN_INLINED {
-        using V = Pack<double, registers.doubles>;
-        constexpr std::size_t together = sample_packs * V::size;
-        double padded[together];
-        Sample found[together];
-        std::vector<std::uint64_t> signs(history == nullptr ? 0 : together * words);
-        for (std::size_t i = 0; i < shifts.size(); i += together) {
-            revchain::detail::look();
-            const std::size_t taken = std::min(together, shifts.size() - i);
-            for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[i + (j < taken ? j : 0)];
-            if (history == nullptr && chain.has_cross) sample<V, true, true>(chain, padded, found, nullptr);
-            if (history == nullptr && !chain.has_cross) sample<V, false, true>(chain, padded, found, nullptr);
-            if (history != nullptr && chain.has_cross) sample<V, true, false>(chain, padded, found, signs.data());
-            if (history != nullptr && !chain.has_cross) sample<V, false, false>(chain, padded, found, signs.data());
-            for (std::size_t j = 0; j < taken; ++j) samples[i + j] = found[j];
-            if (history != nullptr)
-                for (std::size_t j = 0; j < taken * words; ++j) (*history)[i * words + j] = signs[j];
-        }
+    revchain::detail::parallel_for(shifts.size(), sample_packs * most_doubles, [&](std::size_t begin, std::size_t end) {
+        simd([&](auto registers) REVCHAIN_INLINED {
+            using V = Pack<double, registers.doubles>;
+            constexpr std::size_t together = sample_packs * V::size;
+            double padded[together];
+            Sample found[together];
+            std::vector<std::uint64_t> signs(history == nullptr ? 0 : together * words);
+            for (std::size_t i = begin; i < end; i += together) {
+                revchain::detail::look();
+                const std::size_t taken = std::min(together, end - i);
+                for (std::size_t j = 0; j < together; ++j) padded[j] = shifts[i + (j < taken ? j : 0)];
+                if (history == nullptr && chain.has_cross) sample<V, true, true>(chain, padded, found, nullptr);
+                if (history == nullptr && !chain.has_cross) sample<V, false, true>(chain, padded, found, nullptr);
+                if (history != nullptr && chain.has_cross) sample<V, true, false>(chain, padded, found, signs.data());
+                if (history != nullptr && !chain.has_cross) sample<V, false, false>(chain, padded, found, signs.data());
+                for (std::size_t j = 0; j < taken; ++j) samples[i + j] = found[j];
+                if (history != nullptr)
+                    for (std::size_t j = 0; j < taken * words; ++j) (*history)[i * words + j] = signs[j];
+            }
+        });
     });
     return samples;
 }

@@ -150,8 +150,10 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
             work = cut(
                 chain, work, [](const Window&) { return 3; }, quarter);
         std::vector<double> shifts;
+        std::vector<std::size_t> starts;
         for (const Window& w : work) {
             const std::size_t n = node_count(w.size());
+            starts.push_back(shifts.size());
             for (std::size_t i = 0; i < n; ++i)
                 shifts.push_back(w.lower + (w.upper - w.lower) * 0.5 * (1 + Chebyshev::node(i, n)));
         }
@@ -164,14 +166,19 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
         };
         std::vector<Neighbours> placed;
         std::vector<double> between_roots;
-        std::size_t at = 0;
-        for (const Window& w : work) {
-            const std::size_t n = node_count(w.size());
-            const auto roots = interpolated(w, &samples[at], n, round < 3);
+        std::vector<std::vector<double>> roots_of(work.size());
+        revchain::detail::parallel_for(work.size(), 1, [&](std::size_t from, std::size_t to) {
+            for (std::size_t k = from; k < to; ++k)
+                roots_of[k] = interpolated(work[k], &samples[starts[k]], node_count(work[k].size()), round < 3);
+        });
+        for (std::size_t k = 0; k < work.size(); ++k) {
+            const Window& w = work[k];
+            const std::vector<double>& roots = roots_of[k];
+            const std::size_t at = starts[k];
             if (static_cast<Index>(roots.size()) != w.size()) {
                 failed.push_back(w);
             } else {
-                std::size_t cell = n - 1;  // nodes descend
+                std::size_t cell = node_count(w.size()) - 1;  // nodes descend
                 for (std::size_t i = 0; i < roots.size(); ++i) {
                     const std::size_t before = cell;
                     while (cell > 1 && shifts[at + cell - 1] < roots[i]) --cell;
@@ -185,7 +192,6 @@ bool isolate(const LumpedChain& chain, Index first, Index last, std::vector<Wind
                     placed.push_back(around);
                 }
             }
-            at += n;
         }
         std::vector<std::uint64_t> more;
         sample_all(chain, between_roots, &more);
