@@ -164,8 +164,8 @@ void bind_rig_modes(py::module_& module) {
                 return Found(revchain::modes(rig, {.first = first,
                                                    .count = count.value_or(revchain::all_modes),
                                                    .gravity = gravity,
-                                                   .progress = progress,
-                                                   .threads = threads}),
+                                                   .threads = threads,
+                                                   .progress = progress}),
                              rig.size() + 1);
             });
         },

@@ -64,8 +64,8 @@ class ShapeFinder {
                 in_lanes(shapes, pencils, height, progress);
                 return shapes;
             }
-        parallel_for(count, 1, [&](Index begin, Index end) {
-            for (Index j = begin; j < end; ++j) {
+        parallel_for(count, 1, [&](Index start, Index end) {
+            for (Index j = start; j < end; ++j) {
                 alone(shapes, j, pencils, height[static_cast<std::size_t>(j)]);
                 advance(progress, 1.0);  // may be cancelled
             }

@@ -200,8 +200,10 @@ inline RigModes plain_modes(const Rig& rig, const ModesOptions<double>& options)
     make_room(result.forward, range, available);
     result.complete = true, result.method = "modes";
     if (range.count == 0) return result;
-    const Modes<double> plain = modes(
-        rig.chain(), ModesOptions<double>{.first = range.first, .count = range.count, .progress = options.progress, .threads = options.threads});
+    const Modes<double> plain = modes(rig.chain(), ModesOptions<double>{.first = range.first,
+                                                                        .count = range.count,
+                                                                        .threads = options.threads,
+                                                                        .progress = options.progress});
     result.forward = {range.first,
                       available,
                       plain.conical_height,
