@@ -213,9 +213,9 @@ Modes<T> modes_in_scalar(const Chain<T>& chain, const ModesOptions<T>& options) 
     if (range.count > 0 && options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
     result.lazy_shapes =
         LazyModeShapes<T>([finder = ShapeFinder<T>(chain, range.first, std::move(found), is_loose(chain, stage), false),
-                           threads = options.threads](Index from, Index count, Progress* progress) {
+                           threads = options.threads](Index from, Index count, bool details, Progress* progress) {
             const Threads used("modes", threads);
-            return finder(from, count, progress);
+            return finder(from, count, details, progress);
         });
     return result;
 }
