@@ -8,25 +8,35 @@
 
 namespace revchain::finite {
 
-/// A function of D numbers over a cell of them: what it and its derivatives to the second order stay within, and its
-/// value and slopes at the cell's centre.
+/// What the derivatives to the second order of a function of D numbers stay within over a cell of them, and its slopes at
+/// the cell's centre.
 template <Real T, std::size_t D>
-struct Taylor {
+struct Derivatives {
     static constexpr std::size_t pairs = D * (D + 1) / 2;
-    Interval<T> value, centre_value;
     std::array<Interval<T>, D> slope, centre_slope;
     std::array<Interval<T>, pairs> bend;  ///< by the pairs of numbers (0, 0), ..., (0, D - 1), (1, 1), ...
 
-    /// f and g, part by part.
+    /// Sets each part to that of f and of g taken together.
+    template <class Operation>
+    void combine(const Derivatives& f, const Derivatives& g, const Operation& of) {
+        for (std::size_t i = 0; i < D; ++i) {
+            slope[i] = of(f.slope[i], g.slope[i]);
+            centre_slope[i] = of(f.centre_slope[i], g.centre_slope[i]);
+        }
+        for (std::size_t k = 0; k < pairs; ++k) bend[k] = of(f.bend[k], g.bend[k]);
+    }
+};
+
+/// The function as well: what it stays within over the cell, and its value at the centre.
+template <Real T, std::size_t D>
+struct Taylor : Derivatives<T, D> {
+    Interval<T> value, centre_value;
+
     template <class Operation>
     static Taylor combined(const Taylor& f, const Taylor& g, const Operation& of) {
         Taylor r;
         r.value = of(f.value, g.value), r.centre_value = of(f.centre_value, g.centre_value);
-        for (std::size_t i = 0; i < D; ++i) {
-            r.slope[i] = of(f.slope[i], g.slope[i]);
-            r.centre_slope[i] = of(f.centre_slope[i], g.centre_slope[i]);
-        }
-        for (std::size_t k = 0; k < pairs; ++k) r.bend[k] = of(f.bend[k], g.bend[k]);
+        r.combine(f, g, of);
         return r;
     }
     friend Taylor operator+(const Taylor& f, const Taylor& g) { return combined(f, g, std::plus<Interval<T>>()); }
@@ -122,66 +132,142 @@ Taylor<T, D> sine_at(const Taylor<T, D>& t) {
 }
 
 /// Sets the derivatives of the tangent t under the load R from its value and its centre's; false where the load may not
-/// grow with it. The last of two numbers is lambda: `pull` is the derivative of the stiffness with it.
-template <Real T, std::size_t D>
-bool derive(const Interval<T>& stiffness, const Interval<T>& centre_stiffness, const Interval<T>& turning,
-            const Interval<T>& pull, const Taylor<T, D>& R, Taylor<T, D>& t) {
-    Interval<T> growth = stiffness, centre_growth = centre_stiffness, bend(T(0));
+/// grow with it.
+template <Real T>
+bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Taylor<T, 1>& R, Taylor<T, 1>& t) {
+    Interval<T> growth = stiffness, centre_growth = stiffness, bend(T(0));
     if (!is_zero(turning)) {
         const Sine<T> over(t.value), centre(t.centre_value);
         growth = growth + turning * over.slope, centre_growth = centre_growth + turning * centre.slope;
         bend = Interval<T>(T(3)) * turning * over.half_bend;
     }
-    Taylor<T, D> rest = R;
-    if constexpr (D == 2) {
-        rest.slope[1] = rest.slope[1] - pull * t.value;
-        rest.centre_slope[1] = rest.centre_slope[1] - pull * t.centre_value;
-    }
-    for (std::size_t i = 0; i < D; ++i)
-        t.slope[i] = rest.slope[i] / growth, t.centre_slope[i] = rest.centre_slope[i] / centre_growth;
-    if constexpr (D == 2) {
-        rest.bend[1] = rest.bend[1] - pull * t.slope[0];
-        rest.bend[2] = rest.bend[2] - Interval<T>(T(2)) * pull * t.slope[1];
-    }
-    each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) {
-        if (!is_zero(turning)) rest.bend[k] = rest.bend[k] + bend * product(t.slope, i, j);
-        t.bend[k] = rest.bend[k] / growth;
-    });
+    t.slope[0] = R.slope[0] / growth, t.centre_slope[0] = R.centre_slope[0] / centre_growth;
+    t.bend[0] = (is_zero(turning) ? R.bend[0] : R.bend[0] + bend * square(t.slope[0])) / growth;
     return !growth.may_vanish();
 }
 
 }  // namespace detail
 
-/// The sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that and of lambda (D = 2).
+/// The upward sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that and of lambda (D = 2). Each
+/// link but the lowest has one inclination under its load.
+///
+/// Intervals that are handed on from link to link as they are get wider at each, like boxes around a figure that turns
+/// and stretches. So what the offset y and the sum H are off from those of the cell's centre is kept in a frame,
+///     (y, H) - (y, H at the centre) = u p + v q,
+/// where p and q are two solutions of the sweep with  s = k R, k a number chosen for each link near ds/dR at the centre.
+/// Both frame and sweep conserve areas (p_y q_H - q_y p_H = 1), so that from one link to the next, exactly,
+///     u -= a R_q N,   v += a R_p N,   N = s - s at the centre - k (R - R at the centre),
+/// R_p and R_q the loads of p and q. Little changes where the links answer to their loads as at the centre.
+/// R. J. Lohner, in: Computational Ordinary Differential Equations (1992), 425, does so for differential equations.
 template <Real T, std::size_t D>
-struct TaylorSweep {
-    const EnclosedLinks<T>& links;
-    const Cell<T, D>& cell;
-    const Interval<T>&height, &centre_height;
+class CellSweep {
+    using I = Interval<T>;
 
-    Taylor<T, D> tighten(const Taylor<T, D>& f) const { return cell.centred(f); }
-    bool propagate(std::size_t m, const Taylor<T, D>& R, Taylor<T, D>& t) const {
-        const Link<Interval<T>>& link = links[m];
-        const Interval<T> stiffness = height * link.pull, turning = turning_of(link),
-                          centre_stiffness = D == 1 ? stiffness : centre_height * link.pull;
-        if (D == 1 && is_zero(turning)) {
-            t = R / stiffness;
-            return true;
-        }
-        t.value = detail::tangent_of(stiffness, turning, R.value);
-        t.centre_value = detail::tangent_of(centre_stiffness, turning, R.centre_value);
-        detail::derive(stiffness, centre_stiffness, turning, link.pull, R, t);
-        return true;
+   public:
+    /// From the tangent `t` of the lowest link. `height` is lambda over the cell.
+    CellSweep(const EnclosedLinks<T>& links, const Cell<T, D>& cell, const I& height, const I& centre_height,
+              const Taylor<T, D>& t)
+        : cell_(cell), height_(height), centre_height_(centre_height) {
+        start(links[0], t);
+        for (std::size_t m = 1; m < links.size(); ++m) pass(links[m]);
     }
-    Taylor<T, D> sine(std::size_t, const Taylor<T, D>& t) const { return detail::sine_at(t); }
-    Taylor<T, D> upright(const Taylor<T, D>&) const {
-        const Interval<T> weight = D == 1 ? height * links[0].pull : links[0].pull;
+    /// Offset of the topmost pin, and H there.
+    Taylor<T, D> offset() const { return cell_.centred(framed(p_.offset, q_.offset, offset_, centre_offset_)); }
+    Taylor<T, D> sum() const { return cell_.centred(framed(p_.sum, q_.sum, sum_, centre_sum_)); }
+
+   private:
+    struct Side {
+        I offset, sum;
+    };
+
+    void start(const Link<I>& link, const Taylor<T, D>& t) {
+        const auto s = cell_.centred(detail::sine_at(t));
+        const I weight = D == 1 ? height_ * link.pull : link.pull;
         Taylor<T, D> R;
-        R.value = weight * cell.range(0), R.centre_value = weight * cell.centre(0);
+        R.value = weight * cell_.range(0), R.centre_value = weight * cell_.centre(0);
         R.slope[0] = R.centre_slope[0] = weight;
-        return R;
+        if (!is_zero(link.cross)) R = R + turning_of(link) * s;
+        const auto y = cell_.centred(R / link.moment) - link.length * s;
+        const auto H = is_zero(link.rest) ? R : R + link.rest * y;
+        offset_ = y.value, centre_offset_ = y.centre_value, u_ = y;
+        sum_ = H.value, centre_sum_ = H.centre_value, v_ = H;
     }
-    void pass(std::size_t, const Taylor<T, D>&, const Taylor<T, D>&) const {}
+
+    void pass(const Link<I>& link) {
+        const I R_p = p_.sum + link.moment * p_.offset, R_q = q_.sum + link.moment * q_.offset;
+        const auto R = cell_.centred(
+            framed(R_p, R_q, sum_ + link.moment * offset_, centre_sum_ + link.moment * centre_offset_));
+        const I stiffness = height_ * link.pull, centre_stiffness = D == 1 ? stiffness : centre_height_ * link.pull,
+                turning = turning_of(link), t = detail::tangent_of(stiffness, turning, R.value),
+                centre_t = detail::tangent_of(centre_stiffness, turning, R.centre_value);
+        const detail::Sine<T> over(t), centre(centre_t);
+        I growth = stiffness, centre_growth = centre_stiffness, bend = I(T(-3)) * over.half_bend;
+        if (!is_zero(turning)) {
+            growth = growth + turning * over.slope, centre_growth = centre_growth + turning * centre.slope;
+            bend = bend * (stiffness / growth);
+        }
+        const I along = over.slope / growth, centre_along = centre.slope / centre_growth, k(centre_along.middle());
+        const auto N = beyond_linear(R, link.pull, t, centre_t, growth, bend, along - k, centre_along - k, k);
+        const I a_p = link.length * R_p, a_q = link.length * R_q;
+        u_.combine(u_, N, [&](const I& x, const I& n) { return x - a_q * n; });
+        v_.combine(v_, N, [&](const I& x, const I& n) { return x + a_p * n; });
+        p_.offset = p_.offset - k * a_p, q_.offset = q_.offset - k * a_q;
+        p_.sum = R_p + link.rest * p_.offset, q_.sum = R_q + link.rest * q_.offset;
+        spread_frame(T(2) * link.moment.middle());
+        offset_ = offset_ - link.length * over.value, sum_ = R.value + link.rest * offset_;
+        centre_offset_ = centre_offset_ - link.length * centre.value;
+        centre_sum_ = R.centre_value + link.rest * centre_offset_;
+    }
+
+    /// N, by  s_i = along S_i,  s_ij = along S_ij + bend t_i t_j,  S_i the derivatives of the load less those of lambda:
+    /// S_1 = R_1 - pull t, S_01 = R_01 - pull t_0, S_11 = R_11 - 2 pull t_1. `off`: along less k.
+    static Derivatives<T, D> beyond_linear(const Taylor<T, D>& R, const I& pull, const I& t, const I& centre_t,
+                                           const I& growth, const I& bend, const I& off, const I& centre_off,
+                                           const I& k) {
+        Derivatives<T, D> by_height, N;
+        std::array<I, D> slope;
+        if constexpr (D == 2) by_height.slope[1] = -(pull * t), by_height.centre_slope[1] = -(pull * centre_t);
+        const auto add = [&](I& n, const I& load, const I& away, const I& from_height, bool has_height) {
+            n = has_height ? away * (load + from_height) + k * from_height : away * load;
+        };
+        for (std::size_t i = 0; i < D; ++i) {
+            const bool last = i == 1;
+            add(N.slope[i], R.slope[i], off, by_height.slope[i], last);
+            add(N.centre_slope[i], R.centre_slope[i], centre_off, by_height.centre_slope[i], last);
+            slope[i] = (last ? R.slope[i] + by_height.slope[i] : R.slope[i]) / growth;
+        }
+        if constexpr (D == 2)
+            by_height.bend[1] = -(pull * slope[0]), by_height.bend[2] = -(I(T(2)) * pull * slope[1]);
+        each_pair<D>([&](std::size_t n, std::size_t i, std::size_t j) {
+            add(N.bend[n], R.bend[n], off, by_height.bend[n], n > 0);
+            N.bend[n] = N.bend[n] + bend * product(slope, i, j);
+        });
+        return N;
+    }
+
+    /// Where q has come near the direction of p, takes as much of p from it as leaves it square to it; offsets count by
+    /// `weight`, to compare with sums.
+    void spread_frame(const T& weight) {
+        const T a = weight * p_.offset.middle(), b = p_.sum.middle(), c = weight * q_.offset.middle(),
+                d = q_.sum.middle(), share = (a * c + b * d) / (a * a + b * b);
+        if (!(share * (a * c + b * d) > T(0.9) * (c * c + d * d))) return;
+        const I of_p(share);
+        q_.offset = q_.offset - of_p * p_.offset, q_.sum = q_.sum - of_p * p_.sum;
+        u_.combine(u_, v_, [&](const I& x, const I& y) { return x + of_p * y; });
+    }
+
+    Taylor<T, D> framed(const I& p, const I& q, const I& value, const I& centre_value) const {
+        Taylor<T, D> f;
+        f.value = value, f.centre_value = centre_value;
+        f.combine(u_, v_, [&](const I& x, const I& y) { return p * x + q * y; });
+        return f;
+    }
+
+    const Cell<T, D>& cell_;
+    const I &height_, &centre_height_;
+    Side p_{I(T(1)), I(T(0))}, q_{I(T(0)), I(T(1))};
+    Derivatives<T, D> u_, v_;
+    I offset_, centre_offset_, sum_, centre_sum_;  // of the pin, over the cell and at its centre
 };
 
 /// Offset of the support over a cell of tangents of the lowest link: zero for every steady shape. `height` is lambda.
@@ -189,9 +275,9 @@ struct TaylorSweep {
 template <Real T, class End = OnAxis>
 Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& height, const Cell<T, 1>& cell,
                             const End& support = {}) {
-    TaylorSweep<T, 1> rules{links, cell, height, height};
-    const auto end = sweep_up(links, cell.first(), rules);
-    return is_held<End> ? cell.centred(support.miss(end.offset, end.sum)) : end.offset;
+    const CellSweep<T, 1> sweep(links, cell, height, height, cell.first());
+    if constexpr (is_held<End>) return cell.centred(support.miss(sweep.offset(), sweep.sum()));
+    return sweep.offset();
 }
 
 /// Offset of the support over a cell of x = lambda t, t the tangent of the lowest link, and of heights lambda: zero for
@@ -208,8 +294,7 @@ Taylor<T, 2> support_offset(const EnclosedLinks<T>& links, const Cell<T, 2>& cel
     t.value = value, t.slope = {by_x, by_height};
     t.centre_value = centre_value, t.centre_slope = {centre_by_x, centre_by_height};
     t.bend = {Interval<T>(T(0)), -square(by_x), Interval<T>(T(2)) * value * square(by_x)};
-    TaylorSweep<T, 2> rules{links, cell, cell.range(1), cell.centre(1)};
-    return sweep_up(links, cell.centred(t), rules).offset;
+    return CellSweep<T, 2>(links, cell, cell.range(1), cell.centre(1), cell.centred(t)).offset();
 }
 
 }  // namespace revchain::finite
