@@ -172,8 +172,8 @@ class CellSweep {
         for (std::size_t m = 1; m < links.size(); ++m) pass(links[m]);
     }
     /// Offset of the topmost pin, and H there.
-    Taylor<T, D> offset() const { return cell_.centred(framed(p_.offset, q_.offset, offset_, centre_offset_)); }
-    Taylor<T, D> sum() const { return cell_.centred(framed(p_.sum, q_.sum, sum_, centre_sum_)); }
+    Taylor<T, D> offset() const { return narrowed(framed(p_.offset, q_.offset, offset_, centre_offset_), offset_slope_); }
+    Taylor<T, D> sum() const { return narrowed(framed(p_.sum, q_.sum, sum_, centre_sum_), sum_slope_); }
 
    private:
     struct Side {
@@ -191,12 +191,15 @@ class CellSweep {
         const auto H = is_zero(link.rest) ? R : R + link.rest * y;
         offset_ = y.value, centre_offset_ = y.centre_value, u_ = y;
         sum_ = H.value, centre_sum_ = H.centre_value, v_ = H;
+        offset_slope_ = y.slope, sum_slope_ = H.slope;
     }
 
     void pass(const Link<I>& link) {
         const I R_p = p_.sum + link.moment * p_.offset, R_q = q_.sum + link.moment * q_.offset;
-        const auto R = cell_.centred(
-            framed(R_p, R_q, sum_ + link.moment * offset_, centre_sum_ + link.moment * centre_offset_));
+        std::array<I, D> R_slope;
+        for (std::size_t i = 0; i < D; ++i) R_slope[i] = sum_slope_[i] + link.moment * offset_slope_[i];
+        const auto R = narrowed(
+            framed(R_p, R_q, sum_ + link.moment * offset_, centre_sum_ + link.moment * centre_offset_), R_slope);
         const I stiffness = height_ * link.pull, centre_stiffness = D == 1 ? stiffness : centre_height_ * link.pull,
                 turning = turning_of(link), t = detail::tangent_of(stiffness, turning, R.value),
                 centre_t = detail::tangent_of(centre_stiffness, turning, R.centre_value);
@@ -207,7 +210,31 @@ class CellSweep {
             bend = bend * (stiffness / growth);
         }
         const I along = over.slope / growth, centre_along = centre.slope / centre_growth, k(centre_along.middle());
-        const auto N = beyond_linear(R, link.pull, t, centre_t, growth, bend, along - k, centre_along - k, k);
+        // of the load, less what lambda pull t takes of it with lambda: then s_i = along load_i, and
+        // s_ij = along load_ij + bend t_i t_j
+        Derivatives<T, D> load = R, N;
+        if constexpr (D == 2) {
+            load.slope[1] = load.slope[1] - link.pull * t;
+            load.centre_slope[1] = load.centre_slope[1] - link.pull * centre_t;
+        }
+        std::array<I, D> slope;
+        for (std::size_t i = 0; i < D; ++i) slope[i] = load.slope[i] / growth;
+        if constexpr (D == 2) {
+            load.bend[1] = load.bend[1] - link.pull * slope[0];
+            load.bend[2] = load.bend[2] - I(T(2)) * link.pull * slope[1];
+        }
+        const I beyond = along - k, centre_beyond = centre_along - k;
+        for (std::size_t i = 0; i < D; ++i)
+            N.slope[i] = beyond * load.slope[i], N.centre_slope[i] = centre_beyond * load.centre_slope[i];
+        each_pair<D>([&](std::size_t n, std::size_t i, std::size_t j) {
+            N.bend[n] = beyond * load.bend[n] + bend * product(slope, i, j);
+        });
+        if constexpr (D == 2) {
+            N.slope[1] = N.slope[1] - k * (link.pull * t);
+            N.centre_slope[1] = N.centre_slope[1] - k * (link.pull * centre_t);
+            N.bend[1] = N.bend[1] - k * (link.pull * slope[0]);
+            N.bend[2] = N.bend[2] - k * (I(T(2)) * link.pull * slope[1]);
+        }
         const I a_p = link.length * R_p, a_q = link.length * R_q;
         u_.combine(u_, N, [&](const I& x, const I& n) { return x - a_q * n; });
         v_.combine(v_, N, [&](const I& x, const I& n) { return x + a_p * n; });
@@ -217,32 +244,10 @@ class CellSweep {
         offset_ = offset_ - link.length * over.value, sum_ = R.value + link.rest * offset_;
         centre_offset_ = centre_offset_ - link.length * centre.value;
         centre_sum_ = R.centre_value + link.rest * centre_offset_;
-    }
-
-    /// N, by  s_i = along S_i,  s_ij = along S_ij + bend t_i t_j,  S_i the derivatives of the load less those of lambda:
-    /// S_1 = R_1 - pull t, S_01 = R_01 - pull t_0, S_11 = R_11 - 2 pull t_1. `off`: along less k.
-    static Derivatives<T, D> beyond_linear(const Taylor<T, D>& R, const I& pull, const I& t, const I& centre_t,
-                                           const I& growth, const I& bend, const I& off, const I& centre_off,
-                                           const I& k) {
-        Derivatives<T, D> by_height, N;
-        std::array<I, D> slope;
-        if constexpr (D == 2) by_height.slope[1] = -(pull * t), by_height.centre_slope[1] = -(pull * centre_t);
-        const auto add = [&](I& n, const I& load, const I& away, const I& from_height, bool has_height) {
-            n = has_height ? away * (load + from_height) + k * from_height : away * load;
-        };
         for (std::size_t i = 0; i < D; ++i) {
-            const bool last = i == 1;
-            add(N.slope[i], R.slope[i], off, by_height.slope[i], last);
-            add(N.centre_slope[i], R.centre_slope[i], centre_off, by_height.centre_slope[i], last);
-            slope[i] = (last ? R.slope[i] + by_height.slope[i] : R.slope[i]) / growth;
+            offset_slope_[i] = offset_slope_[i] - link.length * (along * load.slope[i]);
+            sum_slope_[i] = R.slope[i] + link.rest * offset_slope_[i];
         }
-        if constexpr (D == 2)
-            by_height.bend[1] = -(pull * slope[0]), by_height.bend[2] = -(I(T(2)) * pull * slope[1]);
-        each_pair<D>([&](std::size_t n, std::size_t i, std::size_t j) {
-            add(N.bend[n], R.bend[n], off, by_height.bend[n], n > 0);
-            N.bend[n] = N.bend[n] + bend * product(slope, i, j);
-        });
-        return N;
     }
 
     /// Where q has come near the direction of p, takes as much of p from it as leaves it square to it; offsets count by
@@ -263,11 +268,18 @@ class CellSweep {
         return f;
     }
 
+    /// With slopes that were handed on as they are: they are the narrower ones where links turn far.
+    Taylor<T, D> narrowed(Taylor<T, D> f, const std::array<I, D>& slope) const {
+        for (std::size_t i = 0; i < D; ++i) f.slope[i] = common(f.slope[i], slope[i]);
+        return cell_.centred(f);
+    }
+
     const Cell<T, D>& cell_;
     const I &height_, &centre_height_;
     Side p_{I(T(1)), I(T(0))}, q_{I(T(0)), I(T(1))};
     Derivatives<T, D> u_, v_;
     I offset_, centre_offset_, sum_, centre_sum_;  // of the pin, over the cell and at its centre
+    std::array<I, D> offset_slope_, sum_slope_;
 };
 
 /// Offset of the support over a cell of tangents of the lowest link: zero for every steady shape. `height` is lambda.
