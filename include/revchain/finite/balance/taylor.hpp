@@ -2,15 +2,15 @@
 #pragma once
 
 #include <array>
-#include <functional>
 
+#include "revchain/finite/balance/link_lanes.hpp"
 #include "revchain/finite/balance/sweep.hpp"
 
 namespace revchain::finite {
 
 /// What the derivatives to the second order of a function of D numbers stay within over a cell of them, and its slopes at
 /// the cell's centre.
-template <Real T, std::size_t D>
+template <class T, std::size_t D>
 struct Derivatives {
     static constexpr std::size_t pairs = D * (D + 1) / 2;
     std::array<Interval<T>, D> slope, centre_slope;
@@ -18,7 +18,7 @@ struct Derivatives {
 
     /// Sets each part to that of f and of g taken together.
     template <class Operation>
-    void combine(const Derivatives& f, const Derivatives& g, const Operation& of) {
+    [[gnu::always_inline]] void combine(const Derivatives& f, const Derivatives& g, const Operation& of) {
         for (std::size_t i = 0; i < D; ++i) {
             slope[i] = of(f.slope[i], g.slope[i]);
             centre_slope[i] = of(f.centre_slope[i], g.centre_slope[i]);
@@ -28,27 +28,31 @@ struct Derivatives {
 };
 
 /// The function as well: what it stays within over the cell, and its value at the centre.
-template <Real T, std::size_t D>
+template <class T, std::size_t D>
 struct Taylor : Derivatives<T, D> {
     Interval<T> value, centre_value;
 
     template <class Operation>
-    static Taylor combined(const Taylor& f, const Taylor& g, const Operation& of) {
+    [[gnu::always_inline]] static Taylor combined(const Taylor& f, const Taylor& g, const Operation& of) {
         Taylor r;
         r.value = of(f.value, g.value), r.centre_value = of(f.centre_value, g.centre_value);
         r.combine(f, g, of);
         return r;
     }
-    friend Taylor operator+(const Taylor& f, const Taylor& g) { return combined(f, g, std::plus<Interval<T>>()); }
-    friend Taylor operator-(const Taylor& f, const Taylor& g) { return combined(f, g, std::minus<Interval<T>>()); }
-    friend Taylor operator-(Taylor f, const Interval<T>& constant) {
+    [[gnu::always_inline]] friend Taylor operator+(const Taylor& f, const Taylor& g) {
+        return combined(f, g, [](const Interval<T>& x, const Interval<T>& y) REVCHAIN_INLINED { return x + y; });
+    }
+    [[gnu::always_inline]] friend Taylor operator-(const Taylor& f, const Taylor& g) {
+        return combined(f, g, [](const Interval<T>& x, const Interval<T>& y) REVCHAIN_INLINED { return x - y; });
+    }
+    [[gnu::always_inline]] friend Taylor operator-(Taylor f, const Interval<T>& constant) {
         f.value = f.value - constant, f.centre_value = f.centre_value - constant;
         return f;
     }
-    friend Taylor operator*(const Interval<T>& k, const Taylor& f) {
-        return combined(f, f, [&](const Interval<T>& x, const Interval<T>&) { return k * x; });
+    [[gnu::always_inline]] friend Taylor operator*(const Interval<T>& k, const Taylor& f) {
+        return combined(f, f, [&](const Interval<T>& x, const Interval<T>&) REVCHAIN_INLINED { return k * x; });
     }
-    friend Taylor operator/(const Taylor& f, const Interval<T>& k) { return (Interval<T>(T(1)) / k) * f; }
+    [[gnu::always_inline]] friend Taylor operator/(const Taylor& f, const Interval<T>& k) { return (Interval<T>(T(1)) / k) * f; }
 };
 
 /// Calls `each(k, i, j)` for every pair of numbers i <= j, k its place in `Taylor::bend`. Inlined by force: as a call,
@@ -59,25 +63,26 @@ template <std::size_t D, class Each>
     for (std::size_t i = 0; i < D; ++i)
         for (std::size_t j = i; j < D; ++j) each(k++, i, j);
 }
-template <Real T, std::size_t D>
-Interval<T> product(const std::array<Interval<T>, D>& x, std::size_t i, std::size_t j) {
+template <class T, std::size_t D>
+[[gnu::always_inline]] inline Interval<T> product(const std::array<Interval<T>, D>& x, std::size_t i, std::size_t j) {
     return i == j ? square(x[i]) : x[i] * x[j];
 }
 
 /// Ranges of D numbers, their centre, and what the mean value theorem and Taylor's formula about it need of them.
-template <Real T, std::size_t D>
+template <class T, std::size_t D>
 class Cell {
    public:
     template <std::convertible_to<Interval<T>>... Ranges>
-    explicit Cell(const Ranges&... ranges) : range_{Interval<T>(ranges)...} {
+    [[gnu::always_inline]] explicit Cell(const Ranges&... ranges) : range_{Interval<T>(ranges)...} {
         static_assert(sizeof...(Ranges) == D);
         for (std::size_t i = 0; i < D; ++i) {
             centre_[i] = Interval<T>(range_[i].middle());
             const Interval<T> off = range_[i] - centre_[i];
-            const T reach = std::max(T(-off.low), off.high);
+            using std::max;
+            const T reach = max(T(-off.low), off.high);
             off_[i] = {-reach, reach};
         }
-        each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) {
+        each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) REVCHAIN_INLINED {
             using revchain::detail::up;
             const T reach = off_[i].high;
             product_[k] = i == j ? Interval<T>(T(0), up(T(up(T(reach * reach)) / T(2)))) : off_[i] * off_[j];
@@ -86,16 +91,16 @@ class Cell {
     const Interval<T>& range(std::size_t i) const { return range_[i]; }
     const Interval<T>& centre(std::size_t i) const { return centre_[i]; }
     /// The first number itself.
-    Taylor<T, D> first() const {
+    [[gnu::always_inline]] Taylor<T, D> first() const {
         Taylor<T, D> x;
         x.value = range_[0], x.centre_value = centre_[0];
         x.slope[0] = x.centre_slope[0] = Interval<T>(T(1));
         return x;
     }
     /// A narrower enclosure of `f`, from Taylor's formula about the centre to first and to second order.
-    Taylor<T, D> centred(Taylor<T, D> f) const {
+    [[gnu::always_inline]] Taylor<T, D> centred(Taylor<T, D> f) const {
         auto slope = f.centre_slope;
-        each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) {
+        each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) REVCHAIN_INLINED {
             slope[i] = slope[i] + f.bend[k] * off_[j];
             if (i != j) slope[j] = slope[j] + f.bend[k] * off_[i];
         });
@@ -117,15 +122,15 @@ class Cell {
 namespace detail {
 
 /// Sine of the inclination whose tangent is t.
-template <Real T, std::size_t D>
-Taylor<T, D> sine_at(const Taylor<T, D>& t) {
+template <class T, std::size_t D>
+[[gnu::always_inline]] inline Taylor<T, D> sine_at(const Taylor<T, D>& t) {
     const Sine<T> over(t.value), centre(t.centre_value);
     const Interval<T> bend = Interval<T>(T(3)) * over.half_bend;
     Taylor<T, D> s;
     s.value = over.value, s.centre_value = centre.value;
     for (std::size_t i = 0; i < D; ++i)
         s.slope[i] = over.slope * t.slope[i], s.centre_slope[i] = centre.slope * t.centre_slope[i];
-    each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) {
+    each_pair<D>([&](std::size_t k, std::size_t i, std::size_t j) REVCHAIN_INLINED {
         s.bend[k] = over.slope * t.bend[k] - bend * product(t.slope, i, j);
     });
     return s;
@@ -159,53 +164,55 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
 ///     u -= a R_q N,   v += a R_p N,   N = s - s at the centre - k (R - R at the centre),
 /// R_p and R_q the loads of p and q. Little changes where the links answer to their loads as at the centre.
 /// R. J. Lohner, in: Computational Ordinary Differential Equations (1992), 425, does so for differential equations.
-template <Real T, std::size_t D>
+template <class T, std::size_t D>
 class CellSweep {
     using I = Interval<T>;
 
    public:
     /// From the tangent `t` of the lowest link. `height` is lambda over the cell.
-    CellSweep(const EnclosedLinks<T>& links, const Cell<T, D>& cell, const I& height, const I& centre_height,
+    [[gnu::always_inline]] CellSweep(const EnclosedLinks<Lane<T>>& links, const Cell<T, D>& cell, const I& height, const I& centre_height,
               const Taylor<T, D>& t)
         : cell_(cell), height_(height), centre_height_(centre_height) {
-        start(links[0], t);
-        for (std::size_t m = 1; m < links.size(); ++m) pass(links[m]);
+        start(detail::in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
+        for (std::size_t m = 1; m < links.size(); ++m) pass(detail::in_lanes<T>(links[m]), is_zero(links[m].cross));
     }
     /// Offset of the topmost pin, and H there.
-    Taylor<T, D> offset() const { return narrowed(framed(p_.offset, q_.offset, offset_, centre_offset_), offset_slope_); }
-    Taylor<T, D> sum() const { return narrowed(framed(p_.sum, q_.sum, sum_, centre_sum_), sum_slope_); }
+    [[gnu::always_inline]] Taylor<T, D> offset() const { return narrowed(framed(p_.offset, q_.offset, offset_, centre_offset_), offset_slope_); }
+    [[gnu::always_inline]] Taylor<T, D> sum() const { return narrowed(framed(p_.sum, q_.sum, sum_, centre_sum_), sum_slope_); }
 
    private:
     struct Side {
         I offset, sum;
     };
 
-    void start(const Link<I>& link, const Taylor<T, D>& t) {
+    [[gnu::always_inline]] void start(const Link<I>& link, bool is_plummet, bool ends_in_mass, const Taylor<T, D>& t) {
         const auto s = cell_.centred(detail::sine_at(t));
         const I weight = D == 1 ? height_ * link.pull : link.pull;
         Taylor<T, D> R;
         R.value = weight * cell_.range(0), R.centre_value = weight * cell_.centre(0);
         R.slope[0] = R.centre_slope[0] = weight;
-        if (!is_zero(link.cross)) R = R + turning_of(link) * s;
+        if (!is_plummet) R = R + link.length * link.cross * s;
         const auto y = cell_.centred(R / link.moment) - link.length * s;
-        const auto H = is_zero(link.rest) ? R : R + link.rest * y;
+        const auto H = ends_in_mass ? R : R + link.rest * y;
         offset_ = y.value, centre_offset_ = y.centre_value, u_ = y;
         sum_ = H.value, centre_sum_ = H.centre_value, v_ = H;
         offset_slope_ = y.slope, sum_slope_ = H.slope;
     }
 
-    void pass(const Link<I>& link) {
+    [[gnu::always_inline]] void pass(const Link<I>& link, bool is_plummet) {
         const I R_p = p_.sum + link.moment * p_.offset, R_q = q_.sum + link.moment * q_.offset;
         std::array<I, D> R_slope;
         for (std::size_t i = 0; i < D; ++i) R_slope[i] = sum_slope_[i] + link.moment * offset_slope_[i];
         const auto R = narrowed(
             framed(R_p, R_q, sum_ + link.moment * offset_, centre_sum_ + link.moment * centre_offset_), R_slope);
         const I stiffness = height_ * link.pull, centre_stiffness = D == 1 ? stiffness : centre_height_ * link.pull,
-                turning = turning_of(link), t = detail::tangent_of(stiffness, turning, R.value),
-                centre_t = detail::tangent_of(centre_stiffness, turning, R.centre_value);
+                turning = link.length * link.cross;
+        const I t = is_plummet ? R.value / stiffness : detail::tangent_of(stiffness, turning, R.value),
+                centre_t = is_plummet ? R.centre_value / centre_stiffness
+                                      : detail::tangent_of(centre_stiffness, turning, R.centre_value);
         const detail::Sine<T> over(t), centre(centre_t);
         I growth = stiffness, centre_growth = centre_stiffness, bend = I(T(-3)) * over.half_bend;
-        if (!is_zero(turning)) {
+        if (!is_plummet) {
             growth = growth + turning * over.slope, centre_growth = centre_growth + turning * centre.slope;
             bend = bend * (stiffness / growth);
         }
@@ -226,7 +233,7 @@ class CellSweep {
         const I beyond = along - k, centre_beyond = centre_along - k;
         for (std::size_t i = 0; i < D; ++i)
             N.slope[i] = beyond * load.slope[i], N.centre_slope[i] = centre_beyond * load.centre_slope[i];
-        each_pair<D>([&](std::size_t n, std::size_t i, std::size_t j) {
+        each_pair<D>([&](std::size_t n, std::size_t i, std::size_t j) REVCHAIN_INLINED {
             N.bend[n] = beyond * load.bend[n] + bend * product(slope, i, j);
         });
         if constexpr (D == 2) {
@@ -236,8 +243,8 @@ class CellSweep {
             N.bend[2] = N.bend[2] - k * (I(T(2)) * link.pull * slope[1]);
         }
         const I a_p = link.length * R_p, a_q = link.length * R_q;
-        u_.combine(u_, N, [&](const I& x, const I& n) { return x - a_q * n; });
-        v_.combine(v_, N, [&](const I& x, const I& n) { return x + a_p * n; });
+        u_.combine(u_, N, [&](const I& x, const I& n) REVCHAIN_INLINED { return x - a_q * n; });
+        v_.combine(v_, N, [&](const I& x, const I& n) REVCHAIN_INLINED { return x + a_p * n; });
         p_.offset = p_.offset - k * a_p, q_.offset = q_.offset - k * a_q;
         p_.sum = R_p + link.rest * p_.offset, q_.sum = R_q + link.rest * q_.offset;
         spread_frame(T(2) * link.moment.middle());
@@ -252,24 +259,26 @@ class CellSweep {
 
     /// Where q has come near the direction of p, takes as much of p from it as leaves it square to it; offsets count by
     /// `weight`, to compare with sums.
-    void spread_frame(const T& weight) {
+    [[gnu::always_inline]] void spread_frame(const T& weight) {
         const T a = weight * p_.offset.middle(), b = p_.sum.middle(), c = weight * q_.offset.middle(),
                 d = q_.sum.middle(), share = (a * c + b * d) / (a * a + b * b);
-        if (!(share * (a * c + b * d) > T(0.9) * (c * c + d * d))) return;
-        const I of_p(share);
+        const T near = share * (a * c + b * d), far = T(0.9) * (c * c + d * d);
+        using detail::any, detail::if_less;
+        if (!any(far < near)) return;
+        const I of_p(if_less(far, near, share, T(0)));
         q_.offset = q_.offset - of_p * p_.offset, q_.sum = q_.sum - of_p * p_.sum;
-        u_.combine(u_, v_, [&](const I& x, const I& y) { return x + of_p * y; });
+        u_.combine(u_, v_, [&](const I& x, const I& y) REVCHAIN_INLINED { return x + of_p * y; });
     }
 
-    Taylor<T, D> framed(const I& p, const I& q, const I& value, const I& centre_value) const {
+    [[gnu::always_inline]] Taylor<T, D> framed(const I& p, const I& q, const I& value, const I& centre_value) const {
         Taylor<T, D> f;
         f.value = value, f.centre_value = centre_value;
-        f.combine(u_, v_, [&](const I& x, const I& y) { return p * x + q * y; });
+        f.combine(u_, v_, [&](const I& x, const I& y) REVCHAIN_INLINED { return p * x + q * y; });
         return f;
     }
 
     /// With slopes that were handed on as they are: they are the narrower ones where links turn far.
-    Taylor<T, D> narrowed(Taylor<T, D> f, const std::array<I, D>& slope) const {
+    [[gnu::always_inline]] Taylor<T, D> narrowed(Taylor<T, D> f, const std::array<I, D>& slope) const {
         for (std::size_t i = 0; i < D; ++i) f.slope[i] = common(f.slope[i], slope[i]);
         return cell_.centred(f);
     }
@@ -293,10 +302,10 @@ Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& he
 }
 
 /// Offset of the support over a cell of x = lambda t, t the tangent of the lowest link, and of heights lambda: zero for
-/// every steady shape. NaN where a link may have several inclinations.
-template <Real T>
-Taylor<T, 2> support_offset(const EnclosedLinks<T>& links, const Cell<T, 2>& cell) {
-    const auto over = [](const Interval<T>& x, const Interval<T>& height) {  // x/lambda and its slopes
+/// every steady shape. NaN where a link may have several inclinations. T: a number or a pack of them.
+template <class T>
+[[gnu::always_inline]] inline Taylor<T, 2> support_offset(const EnclosedLinks<Lane<T>>& links, const Cell<T, 2>& cell) {
+    const auto over = [](const Interval<T>& x, const Interval<T>& height) REVCHAIN_INLINED {  // x/lambda and its slopes
         const Interval<T> slope = Interval<T>(T(1)) / height, value = x * slope;
         return std::array{value, slope, -(value * slope)};
     };
