@@ -13,14 +13,15 @@
 /// the digit and a half that widening costs matters, wider numbers are used.
 namespace revchain {
 
-/// low <= number <= high. NaN where nothing is known (an overflow), so that comparisons with it decide nothing. Of packs:
-/// an interval in each lane (simd/interval_lanes.hpp).
+/// low <= number <= high. NaN where nothing is known (an overflow), so that comparisons with it decide nothing.
+/// T may be a pack: then each lane holds an interval (simd/interval_lanes.hpp).
 template <class T>
 requires(Real<T> || IsPack<T>) struct Interval {
     T low{}, high{};
 
     [[gnu::always_inline]] constexpr Interval() = default;
-    [[gnu::always_inline]] constexpr Interval(const T& x) : low(x), high(x) {}  // NOLINT(google-explicit-constructor): a T is an interval
+    [[gnu::always_inline]] constexpr Interval(const T& x)
+        : low(x), high(x) {}  // NOLINT(google-explicit-constructor): a T is an interval
     [[gnu::always_inline]] constexpr Interval(const T& l, const T& h) : low(l), high(h) {}
 
     bool positive() const { return low > T(0); }

@@ -107,8 +107,8 @@ struct RegisterOf {
     [[gnu::always_inline]] static void equal(Integers& to, const Numbers& x, const Numbers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            to = REVCHAIN_BITS_AS(Integers,
-                                  __builtin_ia32_cvtmask2q512(__builtin_ia32_cmppd512_mask(x, y, 0, all_lanes, as_it_is)));
+            to = REVCHAIN_BITS_AS(
+                Integers, __builtin_ia32_cvtmask2q512(__builtin_ia32_cmppd512_mask(x, y, 0, all_lanes, as_it_is)));
         else
 #endif
             to = x == y;

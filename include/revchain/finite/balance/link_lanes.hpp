@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <array>
+
 #include "revchain/finite/balance/link_equation.hpp"
 #include "revchain/simd/interval_lanes.hpp"
 
@@ -34,50 +36,51 @@ struct Sine<V> {
 
     [[gnu::always_inline]] explicit Sine(const Interval<V>& t) {
         const V zero(0), one(1);
-        const Interval<V> low(t.low), high(t.high), secant_low = sqrt(Interval<V>(one) + square(low)),
-                                                    secant_high = sqrt(Interval<V>(one) + square(high));
-        const Interval<V> s0 = low / secant_low, s1 = high / secant_high, c0 = Interval<V>(one) / secant_low,
-                          c1 = Interval<V>(one) / secant_high, cc0 = square(c0), cc1 = square(c1);
-        value = {s0.low, s1.high};
-        slope = hull(c0 * cc0, c1 * cc1);
+        const std::array<Interval<V>, 2> end{Interval<V>(t.low), Interval<V>(t.high)};
+        std::array<Interval<V>, 2> sine, cube, bend;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Interval<V> cosine = Interval<V>(one) / sqrt(Interval<V>(one) + square(end[i])),
+                              squared = square(cosine);
+            sine[i] = end[i] * cosine, cube[i] = cosine * squared, bend[i] = sine[i] * square(squared);
+        }
+        value = {sine[0].low, sine[1].high};
+        slope = hull(cube[0], cube[1]), half_bend = hull(bend[0], bend[1]);
         slope.high = if_less(t.low, zero, if_less(zero, t.high, one, slope.high), slope.high);
-        half_bend = hull(s0 * square(cc0), s1 * square(cc1));
         const V half(0.5), turning(steepest_half_bend);
         half_bend.high = if_less(half, t.low, half_bend.high, if_less(t.high, half, half_bend.high, turning));
         half_bend.low = if_less(-half, t.low, half_bend.low, if_less(t.high, -half, half_bend.low, -turning));
     }
 };
 
-/// Encloses the tangents under the loads R, as for numbers.
+/// Encloses the tangents under the loads R: the first of t, t + step, t + 3 step, ... beyond where Newton's method ends
+/// whose load is for certain beyond that wanted. NaN where none of them is.
 template <IsPack V>
 [[gnu::always_inline]] inline Interval<V> tangent_of(const Interval<V>& stiffness, const Interval<V>& turning,
                                                      const Interval<V>& R) {
     using T = Lane<V>;
     const V zero(0), one(1), twist = turning.middle();
-    const auto near = [&](const V& load, const V& k) REVCHAIN_INLINED {
-        V t = load / (if_less(zero, twist, k + twist, k));
+    const std::array<V, 2> wanted{-R.low, R.high};  // the load is odd in t: each end as an upper one
+    std::array<V, 2> above;
+    for (std::size_t end = 0; end < 2; ++end) {
+        const V k = if_less(wanted[end], zero, stiffness.high, stiffness.low);
+        V t = wanted[end] / if_less(zero, twist, k + twist, k);
         for (int round = 0; round < 100; ++round) {
             const V cosine = one / root(one + t * t);
-            const V step = (load - k * t - twist * t * cosine) / (k + twist * cosine * cosine * cosine);
+            const V step = (wanted[end] - k * t - twist * t * cosine) / (k + twist * cosine * cosine * cosine);
             t = t + step;
             if (!any(V(T(4) * epsilon<T>()) * abs(t) < abs(step))) break;
         }
-        return t;
-    };
-    // the first of t, t + step, t + 3 step, ... whose loads are all beyond the end of R; NaN where none of them is
-    const auto passed = [&](V t, const V& sign, const V& wanted) REVCHAIN_INLINED {
         V step = V(T(2) * epsilon<T>()) * abs(t) + V(std::numeric_limits<T>::denorm_min());
-        for (int round = 0; round < 41; ++round, step = step + step) {
-            const Interval<V> load = stiffness * Interval<V>(t) + turning * Sine<V>(Interval<V>(t)).value;
-            const V beyond = if_less(zero, sign, load.low - wanted, wanted - load.high);
-            const auto yes = ~(beyond < zero) & equal(beyond, beyond);
-            if (!any(~yes)) return t;
-            t = select(yes, t, t + sign * step);
+        V found(std::numeric_limits<T>::quiet_NaN());
+        for (int round = 0; round < 41; ++round, t = t + step, step = step + step) {
+            const V load = (stiffness * Interval<V>(t) + turning * Sine<V>(Interval<V>(t)).value).low;
+            const auto first = ~equal(found, found) & ~(load < wanted[end]) & equal(load, load);
+            found = select(first, t, found);
+            if (!any(~equal(found, found))) break;
         }
-        return V(std::numeric_limits<T>::quiet_NaN());
-    };
-    return {passed(near(R.low, if_less(R.low, zero, stiffness.low, stiffness.high)), -one, R.low),
-            passed(near(R.high, if_less(R.high, zero, stiffness.high, stiffness.low)), one, R.high)};
+        above[end] = found;
+    }
+    return {-above[0], above[1]};
 }
 
 }  // namespace revchain::finite::detail

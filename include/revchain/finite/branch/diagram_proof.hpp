@@ -119,17 +119,17 @@ class DiagramProver {
             for (std::size_t first = 0; first < count; first += V::size) {
                 const auto lanes = [&](const auto& number) REVCHAIN_INLINED {
                     V x;
-                    for (std::size_t i = 0; i < V::size; ++i)
-                        x.set(i, number(parts[std::min(first + i, count - 1)]));
+                    for (std::size_t i = 0; i < V::size; ++i) x.set(i, number(parts[std::min(first + i, count - 1)]));
                     return x;
                 };
-                const Interval<V> x(lanes([](const Rectangle& part) REVCHAIN_INLINED { return part.low; }),
-                                    lanes([](const Rectangle& part) REVCHAIN_INLINED { return part.high; })),
-                    height(lanes([](const Rectangle& part) REVCHAIN_INLINED { return part.height_low; }),
-                           lanes([](const Rectangle& part) REVCHAIN_INLINED { return part.height_high; }));
+                const Interval<V> x(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.low; }),
+                                    lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.high; })),
+                    height(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_low; }),
+                           lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_high; }));
                 const auto y = support_offset(links_, Cell<V, 2>(x, height));
                 for (std::size_t i = 0; i < std::min(V::size, count - first); ++i) {
-                    const auto lane = [&](const Interval<V>& of) REVCHAIN_INLINED { return Interval<double>(of.low[i], of.high[i]); };
+                    const auto lane = [&](const Interval<V>& of)
+                                          REVCHAIN_INLINED { return Interval<double>(of.low[i], of.high[i]); };
                     auto& to = result[first + i];
                     to.value = lane(y.value), to.centre_value = lane(y.centre_value);
                     for (std::size_t k = 0; k < 2; ++k)
@@ -140,9 +140,7 @@ class DiagramProver {
             return result;
         });
     }
-    Taylor<double, 2> offset_over(const Rectangle& part) const {
-        return support_offset(links_, Cell<double, 2>(part.x(), part.height()));
-    }
+    Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}, 1).front(); }
     int sign(double x, double height) const {
         const Interval<double> lambda(height);
         return detail::support_offset(links_, lambda, Interval<double>(x) / lambda).sign();
