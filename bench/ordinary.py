@@ -180,6 +180,16 @@ JOBS = {
     "rigs with springs": ("plummets", our_rig, {"scipy eigh(M, K)": on_spring}),
     "rigs with flywheels": ("plummets", our_wheels, {"scipy eig, first order": first_order}),
 }
+WITHOUT_PEER = {  # nothing else lists steady shapes or their branches: kind, sizes, call
+    "plummets, steady shapes": ("plummets", (2, 4, 8, 12), lambda links: rc.steady_shapes(
+        links.chain(), conical_height=links.length.sum() / 100)),
+    "rods, steady shapes": ("rods", (2, 4, 8, 12), lambda links: rc.steady_shapes(
+        links.chain(), conical_height=links.length.sum() / 100)),
+    "equal plummets, branches": ("plummets", (8,), lambda links: rc.branches(
+        rc.Chain.uniform_plummets(8, length=8.0), max_angular_speed=5 * GRAVITY**0.5)),
+    "equal rods, branches": ("rods", (20,), lambda links: rc.branches(
+        rc.Chain.uniform_rods(20, length=1.0), max_angular_speed=20.0)),
+}
 MILLION = ("plummets", ours(10), {"scipy eigh_tridiagonal": lambda links: tridiagonal(links, 10)})
 
 
@@ -241,6 +251,16 @@ def measure(job, kind, method, peers, n, budget, rounds, seed=1):
     return row | {"target": target, "status": row.get("status", "ok")}
 
 
+def alone(job, kind, call, n, rounds, seed=1):
+    times = []
+    for number in range(rounds):
+        links = Links(np.random.default_rng([seed, n, number]), kind, n)
+        start = time.process_time()
+        call(links)
+        times.append(time.process_time() - start)
+    return {"job": job, "N": n, "revchain_us": 1e6 * statistics.median(times), "status": "ok"}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--quick", action="store_true", help="sizes up to 100, few rounds")
@@ -268,6 +288,11 @@ def main():
             print(f"{job:38} {n:8,} {row['revchain_us']:8.1f} us {row.get('peer_us', np.nan):8.1f} us "
                   f"{row.get('ratio', np.nan):7.2f} {target:>7} {row['error']:8.1e} {row.get('peer_error', np.nan):9.1e}  "
                   f"{row.get('peer', '')}{'' if row['status'] == 'ok' else '  ' + row['status']}", flush=True)
+    for job, (kind, sizes, call) in WITHOUT_PEER.items():
+        if given.jobs is None or any(text in job for text in given.jobs):
+            for n in sizes:
+                rows.append(alone(job, kind, call, n, 5 if given.quick else 15))
+                print(f"{job:38} {n:8,} {rows[-1]['revchain_us']:8.1f} us", flush=True)
     if given.csv:
         with open(given.csv, "w", newline="", encoding="utf-8") as file:
             file.write("# SPDX-License-Identifier: MPL-2.0\n")

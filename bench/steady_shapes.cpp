@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 // All steady shapes of a chain, proved complete: how many, whether proved, cells looked at, CPU milliseconds (median of 5
 // runs, of 1 where it takes over a second), and the worst proved bound of an inclination, as CSV. Families of random chains
-// give their largest number of shapes, worst time and bound, and how many lists stayed open. Half a minute.
+// give their largest number of shapes, worst time and bound, and how many lists stayed open. Diagrams of branches give the
+// number of branches, whether proved complete, the number of points, and the time. Half a minute.
 #include <cstdio>
 #include <functional>
 #include <string>
@@ -47,6 +48,23 @@ void report(const std::string& name, const Timed& t) {
 
 Chain<double> plummets(Index n) { return Chain<double>::uniform_plummets(n, static_cast<double>(n), 1.0); }
 Chain<double> rods(Index n) { return Chain<double>::uniform_rods(n, static_cast<double>(n), 1.0); }
+
+/// All branches down to a conical height.
+void diagram(const std::string& name, const Chain<double>& chain, double least) {
+    revchain::Branches found;
+    std::vector<double> times;
+    for (int i = 0; i < 5; ++i) {
+        const double start = bench::cpu_seconds();
+        found = revchain::branches(chain, {.min_conical_height = least});
+        times.push_back(1e3 * (bench::cpu_seconds() - start));
+        if (times.back() > 1000) break;
+    }
+    std::size_t points = 0;
+    for (const auto& branch : found.branches) points += branch.size();
+    std::printf("branches: %s,%zu,%s,%zu,%.3g,\n", name.c_str(), found.branches.size(), found.complete ? "yes" : "no",
+                points, bench::median(times));
+    std::fflush(stdout);
+}
 
 /// Random chains of 2 ... 8 links (or fewer) at heights down to `least` of their length.
 void family(const std::string& name, int count, Index most_links, double weights, double lengths, double least,
@@ -108,6 +126,29 @@ int main() {
     family("plummets to 6 links at lambda >= 1e-4 L", 60, 6, 100, 10, 1e-4, true, plummet);
     family("links of l > a to 4 links at lambda >= 1e-3 L", 120, 4, 100, 10, 1e-3, true, heavy);
     family("links of l > a to 4 links in any posture", 60, 4, 100, 10, 1e-3, false, heavy);
+
+    diagram("plummets 8 to n = 5 sqrt(g/a)", plummets(8), 1.0 / 25);
+    for (const double length : {1.0, 2.0})
+        diagram("rods 20 of " + std::to_string(length).substr(0, 1) + " m to 20 rad/s",
+                Chain<double>::uniform_rods(20, length, 1.0), 9.80665 / 400);
+    for (const Index n : {2, 3, 4, 5, 6, 8, 10, 12}) {
+        support::Random random(static_cast<unsigned>(n));
+        const auto some = [&](auto link) {
+            return support::chain_of(
+                n, [&](Index) { return link(random.log_between(1.0, 10.0), random.log_between(1.0, 5.0)); });
+        };
+        const auto points = some([](double W, double a) { return revchain::plummet(W, a); });
+        const auto bars = some([](double W, double a) { return revchain::uniform_rod(W, a); });
+        const std::string size = std::to_string(n);
+        for (const double share : {100, 1000}) {
+            const std::string at = size + " at lambda = L/" + std::to_string(static_cast<int>(share));
+            report("random plummets " + at, timed(points, {.conical_height = points.total_length() / share}));
+            report("random rods " + at, timed(bars, {.conical_height = bars.total_length() / share}));
+        }
+        const double share = n > 6 ? 50 : 200;
+        diagram("random plummets " + size + " to L/" + (n > 6 ? "50" : "200"), points, points.total_length() / share);
+        diagram("random rods " + size + " to L/" + (n > 6 ? "50" : "200"), bars, bars.total_length() / share);
+    }
 
     // Not a list: one shape of a long chain, on the branch of the slowest mode.
     const auto long_chain = Chain<double>::uniform_rods(100'000, 1.0, 1.0);
