@@ -133,9 +133,9 @@ FoundModes solved(const Chain& chain, const Asked& asked, const std::string& met
     const bool certified = asked.certify;
     if constexpr (std::is_same_v<T, double>) {
         if (method == "dense")
-            return {aside(chain, progress,
-                          [=](const Chain& own) { return solve(own, asked.options<double>(nullptr)); }),
-                    certified};
+            return {
+                aside(chain, progress, [=](const Chain& own) { return solve(own, asked.options<double>(nullptr)); }),
+                certified};
         return {without_lock([&] { return solve(chain, asked.options<double>(progress)); }), certified};
     } else {
         return {without_lock([&] { return solve(revchain::converted<T>(chain), asked.options<T>(progress)); }),
@@ -145,8 +145,7 @@ FoundModes solved(const Chain& chain, const Asked& asked, const std::string& met
 
 FoundModes modes(const Chain& chain, Index first, std::optional<Index> count, std::optional<Pair> conical_height,
                  std::optional<Triple> angular_speed, std::optional<double> rtol, bool certify,
-                 const std::string& precision, const std::string& method, revchain::Progress* progress,
-                 Index threads) {
+                 const std::string& precision, const std::string& method, revchain::Progress* progress, Index threads) {
     check_word("method", method, methods);
     check_word("precision", precision, precisions);
     const auto way = method == "bisection"      ? revchain::ModesMethod::bisection
@@ -211,12 +210,11 @@ void bind_linear(py::module_& module) {
             "error_bound",
             [](const FoundModes& f) { return f.read([](const auto& m) { return bounds(m.error_bound); }); })
         .def_property_readonly("shape", &shape)
-        .def_property_readonly("residual",
-                               [](const FoundModes& f) {
-                                   return f.read([](const auto& m) {
-                                       return leading(*without_lock([&] { return &m.residual(); }));
-                                   });
-                               })
+        .def_property_readonly(
+            "residual",
+            [](const FoundModes& f) {
+                return f.read([](const auto& m) { return leading(*without_lock([&] { return &m.residual(); })); });
+            })
         .def_property_readonly("nodes", &nodes)
         .def_property_readonly("certificate", &certificate)
         .def_property_readonly("method",
@@ -246,10 +244,10 @@ void bind_linear(py::module_& module) {
         },
         "chain"_a, "angular_speed"_a, "gravity"_a);
     py::class_<HeldChain>(module, "Held", "A chain held at both ends; immutable.")
-        .def(py::init([](const Chain& chain, std::optional<double> span, std::optional<double> tension,
-                         bool weightless) {
-                 return HeldChain(chain, {.span = span, .tension = tension, .weightless = weightless});
-             }),
+        .def(py::init(
+                 [](const Chain& chain, std::optional<double> span, std::optional<double> tension, bool weightless) {
+                     return HeldChain(chain, {.span = span, .tension = tension, .weightless = weightless});
+                 }),
              "chain"_a, "span"_a, "tension"_a, "weightless"_a);
     module.def("held_modes", &held_modes, "held"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a,
                "rtol"_a, "progress"_a = py::none());

@@ -42,8 +42,8 @@ py::tuple response(const Carried& carried, const Array& given, bool speeds, doub
                           to_numpy(found.support_force_error));
 }
 
-py::tuple swing(const Chain<double>& chain, const Array& offsets, const Array& velocities,
-                            const Array& time, std::optional<Index> modes, double gravity) {
+py::tuple swing(const Chain<double>& chain, const Array& offsets, const Array& velocities, const Array& time,
+                std::optional<Index> modes, double gravity) {
     const auto column = [](const Array& array) {
         return revchain::Vector<double>(Eigen::Map<const revchain::Vector<double>>(array.data(), array.size()));
     };
@@ -66,6 +66,5 @@ void bind_response(py::module_& module) {
                "gravity"_a, "threads"_a = 1);
     module.def("rig_response", &response<Rig>, "rig"_a, "given"_a, "speeds"_a, "support_radius"_a, "pins"_a,
                "gravity"_a, "threads"_a = 1);
-    module.def("swing", &swing, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a,
-               "gravity"_a);
+    module.def("swing", &swing, "chain"_a, "offsets"_a, "velocities"_a, "time"_a, "modes"_a, "gravity"_a);
 }

@@ -80,48 +80,47 @@ void bind_rig_modes(py::module_& module) {
     using Other = revchain::OtherMode;
     using Slack = revchain::SlackLink;
     py::class_<Found>(module, "RigModes", "Modes of a rig.")
-        .def_property_readonly("number",
-                               [](const Found& f) {
-                                   return f.column<std::int64_t>(
-                                       [](const WhirlModes& m, Index j, bool) { return m.first + j; });
-                               })
-        .def_property_readonly("direction",
-                               [](const Found& f) {
-                                   return f.column<std::int64_t>(
-                                       [](const WhirlModes&, Index, bool forward) { return forward ? 1 : -1; });
-                               })
-        .def_property_readonly("conical_height",
-                               [](const Found& f) {
-                                   return f.column<double>(
-                                       [](const WhirlModes& m, Index j, bool) { return m.conical_height[j]; });
-                               })
-        .def_property_readonly("error_bound",
-                               [](const Found& f) {
-                                   return f.column<double>(
-                                       [](const WhirlModes& m, Index j, bool) { return m.error_bound[j]; });
-                               })
+        .def_property_readonly(
+            "number",
+            [](const Found& f) {
+                return f.column<std::int64_t>([](const WhirlModes& m, Index j, bool) { return m.first + j; });
+            })
+        .def_property_readonly(
+            "direction",
+            [](const Found& f) {
+                return f.column<std::int64_t>([](const WhirlModes&, Index, bool forward) { return forward ? 1 : -1; });
+            })
+        .def_property_readonly(
+            "conical_height",
+            [](const Found& f) {
+                return f.column<double>([](const WhirlModes& m, Index j, bool) { return m.conical_height[j]; });
+            })
+        .def_property_readonly(
+            "error_bound",
+            [](const Found& f) {
+                return f.column<double>([](const WhirlModes& m, Index j, bool) { return m.error_bound[j]; });
+            })
         .def_property_readonly("angular_speed",
                                [](const Found& f) {
                                    return f.column<double>([](const WhirlModes& m, Index j, bool forward) {
                                        return forward ? m.angular_speed[j] : -m.angular_speed[j];
                                    });
                                })
-        .def_property_readonly("speed_error_bound",
-                               [](const Found& f) {
-                                   return f.column<double>(
-                                       [](const WhirlModes& m, Index j, bool) { return m.speed_error_bound[j]; });
-                               })
+        .def_property_readonly(
+            "speed_error_bound",
+            [](const Found& f) {
+                return f.column<double>([](const WhirlModes& m, Index j, bool) { return m.speed_error_bound[j]; });
+            })
         .def_property_readonly("shape", &shape)
-        .def_property_readonly("residual",
-                               [](const Found& f) {
-                                   return f.column<double>(
-                                       [](const WhirlModes& m, Index j, bool) { return m.residual()[j]; });
-                               })
+        .def_property_readonly(
+            "residual",
+            [](const Found& f) {
+                return f.column<double>([](const WhirlModes& m, Index j, bool) { return m.residual()[j]; });
+            })
         .def_property_readonly("nodes", &nodes)
-        .def_property_readonly("available",
-                               [](const Found& f) {
-                                   return py::make_tuple(f.modes.forward.available, f.modes.backward.available);
-                               })
+        .def_property_readonly(
+            "available",
+            [](const Found& f) { return py::make_tuple(f.modes.forward.available, f.modes.backward.available); })
         .def_property_readonly("has_momentum", [](const Found& f) { return f.modes.has_momentum; })
         .def_property_readonly("other_height",
                                [](const Found& f) {
@@ -133,26 +132,26 @@ void bind_rig_modes(py::module_& module) {
                                    return Found::items<std::complex<double>>(
                                        f.modes.other, [](const Other& x) { return x.angular_speed; });
                                })
-        .def_property_readonly(
-            "growth_rate",
-            [](const Found& f) {
-                return Found::items<double>(f.modes.other, [](const Other& x) { return x.growth_rate; });
-            })
-        .def_property_readonly(
-            "other_error_bound",
-            [](const Found& f) {
-                return Found::items<double>(f.modes.other, [](const Other& x) { return x.error_bound; });
-            })
-        .def_property_readonly(
-            "slack_link",
-            [](const Found& f) {
-                return Found::items<std::int64_t>(f.modes.slack, [](const Slack& x) { return x.link; });
-            })
-        .def_property_readonly(
-            "slack_speed",
-            [](const Found& f) {
-                return Found::items<double>(f.modes.slack, [](const Slack& x) { return x.angular_speed; });
-            })
+        .def_property_readonly("growth_rate",
+                               [](const Found& f) {
+                                   return Found::items<double>(f.modes.other,
+                                                               [](const Other& x) { return x.growth_rate; });
+                               })
+        .def_property_readonly("other_error_bound",
+                               [](const Found& f) {
+                                   return Found::items<double>(f.modes.other,
+                                                               [](const Other& x) { return x.error_bound; });
+                               })
+        .def_property_readonly("slack_link",
+                               [](const Found& f) {
+                                   return Found::items<std::int64_t>(f.modes.slack,
+                                                                     [](const Slack& x) { return x.link; });
+                               })
+        .def_property_readonly("slack_speed",
+                               [](const Found& f) {
+                                   return Found::items<double>(f.modes.slack,
+                                                               [](const Slack& x) { return x.angular_speed; });
+                               })
         .def_property_readonly("complete", [](const Found& f) { return f.modes.complete; })
         .def_property_readonly("method", [](const Found& f) { return f.modes.method; })
         .def_property_readonly("status", [](const Found& f) { return std::string(to_string(f.modes.status)); });

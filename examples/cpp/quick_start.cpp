@@ -17,7 +17,6 @@ int main() {
     const auto speed = modes.angular_speed(9.80665);
     for (revchain::Index k = 0; k < modes.size(); ++k)
         std::printf("mode %td: %.15g rad/s, conical height %.15g within %.1e, %td nodes\n", k + 1, speed[k],
-                    modes.conical_height[k], modes.error_bound[k],
-                    modes.nodes()[static_cast<std::size_t>(k)].size());
+                    modes.conical_height[k], modes.error_bound[k], modes.nodes()[static_cast<std::size_t>(k)].size());
     return modes.status == revchain::Status::success ? 0 : 1;
 }

@@ -310,8 +310,7 @@ TEST_CASE("a rig without anything is its chain; next to nothing changes nothing"
             CHECK(held.complete);
             for (Index j = 0; j < plain.size(); ++j) {
                 CHECK(std::abs(held.forward.conical_height[j] / plain.conical_height[j] - 1) <= 2.3e-16);
-                CHECK((held.forward.shapes().row(j) - plain.shapes().row(j)).cwiseAbs().maxCoeff() <=
-                      3e-16);
+                CHECK((held.forward.shapes().row(j) - plain.shapes().row(j)).cwiseAbs().maxCoeff() <= 3e-16);
             }
             std::vector<Flywheel> slow(static_cast<std::size_t>(n));
             slow[0].momentum = 1e-60;
@@ -364,8 +363,7 @@ TEST_CASE("Thomson's uniform gyrostatic string", "[linear]") {
             const double sine2 = square * w / (T / a + speed * p / (a * a) + square * w * h * (a - l) / (a * a)) / 4;
             for (Index i = 3; i + 1 < n; ++i)  // y_{i-1} + y_{i+1} = 2 cos(theta) y_i
                 CHECK(std::abs(sense->shapes()(j, i - 1) + sense->shapes()(j, i + 1) -
-                               2 * (1 - 2 * sine2) * sense->shapes()(j, i)) <=
-                      4e-15 * (1 + 4 * std::abs(sine2)));
+                               2 * (1 - 2 * sine2) * sense->shapes()(j, i)) <= 4e-15 * (1 + 4 * std::abs(sine2)));
         }
 }
 

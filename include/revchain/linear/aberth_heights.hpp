@@ -78,10 +78,10 @@ inline std::optional<Heights<double>> refined(const Chain<double>& chain, const 
     };
     const Index first = range.first - 1, last = first + range.count;
     const std::vector<double> starts(all.eigenvalue.begin() + first, all.eigenvalue.begin() + last);
-    const auto roots = pencil::proved_roots(
-        assembled.pencil, pencil::is_lumped(assembled.pencil), starts, first, last == modes ? 0.0 : end(last, 1),
-        first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1), worst_unrounded,
-        [](double) { return pencil::CertifiedCount{}; });
+    const auto roots = pencil::proved_roots(assembled.pencil, pencil::is_lumped(assembled.pencil), starts, first,
+                                            last == modes ? 0.0 : end(last, 1),
+                                            first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1),
+                                            worst_unrounded, [](double) { return pencil::CertifiedCount{}; });
     if (!roots) return std::nullopt;
     Heights<double> heights;
     heights.reserve(roots->size());

@@ -30,8 +30,7 @@ void set_entry_errors(pencil::ElementPencil<S>& pencil, Index size, const E& can
     const Index segments = (size - 1) / segment_size;
     const Index sums = segments == 0 ? size : segment_size + segments + 20;
     pencil.entry_error = operation_error<S>() * (E(sums + 4) * cancelled * E(1.01) + E(7));
-    pencil.stiffness_underflow =
-        std::numeric_limits<E>::min() * std::numeric_limits<E>::epsilon() * E(4) / shortest;
+    pencil.stiffness_underflow = std::numeric_limits<E>::min() * std::numeric_limits<E>::epsilon() * E(4) / shortest;
 }
 
 /// `assemble` of a chain in one unit whose centroids are not above their pins, several links at a time: 15 ns a link,

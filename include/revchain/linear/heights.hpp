@@ -7,9 +7,9 @@
 
 #include "revchain/count.hpp"
 #include "revchain/linear/plain_pencil.hpp"
+#include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/numeric/parallel.hpp"
 #include "revchain/numeric/progress.hpp"
-#include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/proved_roots.hpp"
 #include "revchain/pencil/twisted.hpp"
@@ -129,8 +129,8 @@ Heights<T> heights_by_bisection(const Chain<T>& chain, LazyCounter<T>& assembled
     const Pencils<T>& pencils = assembled.pencils();
     if constexpr (std::is_same_v<T, double>)
         if (!loose)
-            if (auto found = heights_in_lanes(pencils, range, chain.mode_count(),
-                                              pencils.scaled(chain.total_length()), half_way))
+            if (auto found = heights_in_lanes(pencils, range, chain.mode_count(), pencils.scaled(chain.total_length()),
+                                              half_way))
                 return std::move(*found);
     const auto brackets =
         pencil::bisect(pencils.rounded(), range.first - 1, range.count, loose ? goal / T(4) : T(2) * epsilon<T>(),

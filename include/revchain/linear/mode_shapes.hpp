@@ -93,29 +93,30 @@ class ShapeFinder {
         const bool details = shapes.residual.size() > 0;
         const std::vector<Wide<T>> places = details ? pin_places(chain_) : std::vector<Wide<T>>();
         const std::size_t pins = static_cast<std::size_t>(chain_.size()) + 1;
-        pencil::for_eights<T>(height.size(), pins, [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
-            pencil::RootsInLanes<T> roots;
-            std::vector<pencil::Crossing<T>> crossed;
-            for (std::size_t i = 0; i < lanes; ++i) {
-                const Height<T>& at = height[first + std::min(i, there - 1)];
-                roots.exact[i] = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;
-                roots.rounded[i] = at.eigenvalue;
-            }
-            pencil::shapes_in_lanes(pencils.wide(), lumped, roots, details, found);
-            T* const row = &shapes.offset(static_cast<Index>(first), 0);
-            found.store_rows(row, pins, there);
-            for (std::size_t i = 0; i < there; ++i) {
-                const auto j = static_cast<Index>(first + i);
-                if (!found.found[i]) {
-                    alone(shapes, j, pencils, height[first + i]);
-                } else if (details) {
-                    shapes.residual[j] = found.residual[i];
-                    found.crossings(i, row + i * pins, crossed);
-                    shapes.nodes[first + i] = nodes(chain_, places, crossed);
-                }
-                advance(progress, 1.0);  // may be cancelled
-            }
-        });
+        pencil::for_eights<T>(height.size(), pins,
+                              [&](std::size_t first, std::size_t there, pencil::ShapesInLanes<T>& found) {
+                                  pencil::RootsInLanes<T> roots;
+                                  std::vector<pencil::Crossing<T>> crossed;
+                                  for (std::size_t i = 0; i < lanes; ++i) {
+                                      const Height<T>& at = height[first + std::min(i, there - 1)];
+                                      roots.exact[i] = loose_ ? Wide<T>(at.eigenvalue) : at.unrounded;
+                                      roots.rounded[i] = at.eigenvalue;
+                                  }
+                                  pencil::shapes_in_lanes(pencils.wide(), lumped, roots, details, found);
+                                  T* const row = &shapes.offset(static_cast<Index>(first), 0);
+                                  found.store_rows(row, pins, there);
+                                  for (std::size_t i = 0; i < there; ++i) {
+                                      const auto j = static_cast<Index>(first + i);
+                                      if (!found.found[i]) {
+                                          alone(shapes, j, pencils, height[first + i]);
+                                      } else if (details) {
+                                          shapes.residual[j] = found.residual[i];
+                                          found.crossings(i, row + i * pins, crossed);
+                                          shapes.nodes[first + i] = nodes(chain_, places, crossed);
+                                      }
+                                      advance(progress, 1.0);  // may be cancelled
+                                  }
+                              });
     }
 
     Chain<T> chain_;

@@ -24,11 +24,7 @@ struct FoundRoot {
 class CountedRoots {
    public:
     CountedRoots(pencil::SignedPencil<RigWord> pencil, const RigWord& pace, Index base, Index sign, int side)
-        : pencil_(std::move(pencil)),
-          pace_(pace),
-          base_(base),
-          sign_(sign),
-          side_(side) {}
+        : pencil_(std::move(pencil)), pace_(pace), base_(base), sign_(sign), side_(side) {}
 
     const pencil::SignedPencil<RigWord>& pencil() const { return pencil_; }
 
@@ -51,7 +47,8 @@ class CountedRoots {
     /// Brackets of the roots number `first` ..., by counts in double. `finished(done)` is called after every pass.
     std::vector<pencil::Bracket<double>> brackets(Index first, Index count, double start,
                                                   const std::function<void(Index)>& finished) const {
-        return pencil::bisect(pencil::SignedCounter<double>(pencil_, base_, sign_, side_), first, count, 2 * epsilon<double>(), start, finished);
+        return pencil::bisect(pencil::SignedCounter<double>(pencil_, base_, sign_, side_), first, count,
+                              2 * epsilon<double>(), start, finished);
     }
 
     /// Root number j from its bracket: a vector in two words, its quotient, and two proved counts.

@@ -142,7 +142,11 @@ inline std::vector<RigElement> rig_elements(const Rig& rig) {
     const AssembledChain<double> assembled = assemble(rig.chain());
     const double error = assembled.pencil.entry_error;
     for (const auto& e : assembled.pencil.elements)
-        elements.push_back({e.stiffness, S(0.0), e.lower, e.upper, e.cross,
+        elements.push_back({e.stiffness,
+                            S(0.0),
+                            e.lower,
+                            e.upper,
+                            e.cross,
                             {error * e.stiffness.high, 0, error * e.lower.high, error * e.upper.high,
                              error * (std::abs(e.cross.high) + 2 * e.turning.high)}});
     if (rig.has_momentum())

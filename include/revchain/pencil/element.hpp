@@ -76,8 +76,8 @@ struct ElementPencil {
     /// With momentum: s of each element, of any sign. Its L is then x^2 k + x s, and the family quadratic in x, with a
     /// positive root for each mode in one sense of rotation. Else empty.
     std::vector<S> spin;
-    /// Bound on the error of every number in `elements` and of each spin, relative to it and, of the cross mass, to |X| + 2 c; besides
-    /// what underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
+    /// Bound on the error of every number in `elements` and of each spin, relative to it and, of the cross mass, to
+    /// |X| + 2 c; besides what underflows: less than `least_pivot` in masses, `stiffness_underflow` in stiffnesses.
     Narrow<S> entry_error{};
     Narrow<S> stiffness_underflow = largest_underflow();
 

@@ -84,8 +84,8 @@ std::optional<std::vector<ProvedRoot<T>>> proved_range(const ElementPencil<Doubl
                                                        Index count, Index available, const T& guess, const T& worst,
                                                        const std::function<void(Index)>& finished) {
     const bool lumped = is_lumped(pencil);
-    const std::vector<T> starts = approached<spinning>(
-        pencil, lumped, first, bisect(counter, first, count, T(1), guess, finished));
+    const std::vector<T> starts =
+        approached<spinning>(pencil, lumped, first, bisect(counter, first, count, T(1), guess, finished));
     // Counts next to the ends, where others lie beyond.
     constexpr T beside(0x1p-20);
     T above = std::numeric_limits<T>::infinity(), below(0);

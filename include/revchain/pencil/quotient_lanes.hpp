@@ -67,8 +67,7 @@ template <class Where, class Terms, class T>
             stiffness += V(e.stiffness.high) * square;
             if constexpr (Terms::spinning) spin += V(pencil.spin[m].high) * square;
             mass += V(e.lower.high) * lower * lower;
-            if constexpr (!Terms::lumped)
-                mass += upper * (V(e.upper.high) * upper + V(T(2) * e.cross.high) * lower);
+            if constexpr (!Terms::lumped) mass += upper * (V(e.upper.high) * upper + V(T(2) * e.cross.high) * lower);
             lower = upper;
         }
         for (std::size_t i = 0; i < L; ++i) {
@@ -76,8 +75,7 @@ template <class Where, class Terms, class T>
             if (!busy[i]) continue;
             Bracket<T>& bracket = brackets[j];
             const T at = roots[j];
-            const T quotient =
-                Terms::spinning ? positive_root(stiffness[i], spin[i], mass[i]) : mass[i] / stiffness[i];
+            const T quotient = Terms::spinning ? positive_root(stiffness[i], spin[i], mass[i]) : mass[i] / stiffness[i];
             const bool exceeds = static_cast<Index>(joined.above[i]) > first + static_cast<Index>(j);
             (exceeds ? bracket.lower : bracket.upper) = at;
             bool done = abs(quotient - at) <= near * at;
@@ -93,8 +91,7 @@ template <class Where, class Terms, class T>
 
 template <class Where, class Terms, class T>
 [[gnu::always_inline]] inline void quotients_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
-                                                      const T& unit, ShapesInLanes<T>& s,
-                                                      QuotientsInLanes<T>& result) {
+                                                      const T& unit, ShapesInLanes<T>& s, QuotientsInLanes<T>& result) {
     constexpr bool fused = Where::fused;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     const T u = epsilon<T>() / T(2);

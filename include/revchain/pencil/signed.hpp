@@ -71,7 +71,9 @@ std::optional<ElementPencil<S>> positive_elements(const SignedPencil<S>& pencil)
     ElementPencil<S> result;
     result.elements.reserve(pencil.elements.size());
     M worst(0);
-    const auto add = [&](const M& error, const M& size) { worst = std::max(worst, error == M(0) ? error : error / size); };
+    const auto add = [&](const M& error, const M& size) {
+        worst = std::max(worst, error == M(0) ? error : error / size);
+    };
     for (const SignedElement<S>& e : pencil.elements) {
         const S weight = e.weight();
         const S turning = weight > zero ? e.determinant() / weight : zero;

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "revchain/pencil/forces_in_lanes.hpp"
 #include "revchain/pencil/twisted.hpp"
-#include "revchain/simd/pack.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
@@ -100,131 +100,6 @@ void with_shapes_in_lanes(std::size_t links, const F& f) {
 
 namespace detail {
 
-/// high + low, unevaluated: of sums and products whose low parts only need to be right to T's own digits.
-template <class V>
-struct Pair {
-    V high{}, low{};
-};
-
-template <bool fused, class V, class T>
-[[gnu::always_inline]] inline Pair<V> times(const DoubleWord<T>& x, const V& y) {
-    const DoubleWord<V> p = two_product<fused>(V(x.high), y);
-    return {p.high, p.low + V(x.low) * y};
-}
-
-template <bool fused, class V>
-[[gnu::always_inline]] inline Pair<V> times(const Pair<V>& x, const DoubleWord<V>& y) {
-    const DoubleWord<V> p = two_product<fused>(x.high, y.high);
-    return {p.high, p.low + (x.high * y.low + x.low * y.high)};
-}
-
-template <class V>
-[[gnu::always_inline]] inline Pair<V> operator+(const Pair<V>& x, const Pair<V>& y) {
-    const DoubleWord<V> s = two_sum(x.high, y.high);
-    return {s.high, s.low + (x.low + y.low)};
-}
-
-/// Coupling over pivot, from its difference to 1 where that is small.
-template <class V>
-[[gnu::always_inline]] inline V ratio_in_lanes(const V& coupling, const V& pivot, const V& inverse) {
-    using T = Lane<V>;
-    const V change = (coupling - pivot) * inverse;
-    return if_less(abs(change), V(T(0.5)), V(T(1)) + change, coupling * inverse);
-}
-
-/// What is known of a pencil when its loops are compiled: whether every element is a point mass at its lower pin, and
-/// whether elements have spins.
-template <bool Lumped, bool Spinning>
-struct Terms {
-    static constexpr bool lumped = Lumped, spinning = Spinning;
-};
-
-template <class Terms, class V>
-[[gnu::always_inline]] inline Factors<V> factors_in_lanes(Terms, const V& x) {
-    return {Terms::spinning ? x * x : x, x};
-}
-
-/// L of element m, rounded.
-template <class Terms, class V, class T>
-[[gnu::always_inline]] inline V stiffness_in_lanes(Terms, const ElementPencil<DoubleWord<T>>& pencil, std::size_t m,
-                                                   const Factors<V>& at) {
-    const V k = at.stiffness * V(pencil.elements[m].stiffness.high);
-    if constexpr (Terms::spinning)
-        return k + at.spin * V(pencil.spin[m].high);
-    else
-        return k;
-}
-
-/// The dynamic stiffness carried across an element, as `across` does.
-template <class Terms, class V, class T>
-[[gnu::always_inline]] inline V carried(Terms, const Element<DoubleWord<T>>& e, const V& k, const V& near,
-                                        const T& near_mass, const T& far_mass, const V& coupling, const V& inverse) {
-    if constexpr (Terms::lumped) {
-        if (near_mass == T(0)) return k * (near * inverse) - V(far_mass);
-        return k * ((near - V(near_mass)) * inverse);
-    } else {
-        const V far(far_mass), weight(e.weight), turning(e.turning.high), size = abs(inverse);
-        const V k_size = Terms::spinning ? abs(k) : k;
-        const V of_coupling =
-            V(T(2)) * abs(coupling) * ((k_size + weight + V(near_mass) + far) * size) + (k_size + far);
-        const V of_weight = (k_size + far) * (abs(near) * size) + (k_size + turning) * (weight * size);
-        return if_less(of_coupling, of_weight, (k - far) - coupling * (coupling * inverse),
-                       (k - far) * (near * inverse) - (k - turning) * (weight * inverse));
-    }
-}
-
-template <class V>
-[[gnu::always_inline]] inline V not_zero_in_lanes(const V& pivot, const V& stiffness) {
-    using T = Lane<V>;
-    const V least(least_pivot<T>());
-    return if_less(abs(pivot), least, stiffness * (epsilon<T>() * epsilon<T>()) + least, pivot);
-}
-
-/// Forces left over at the pins but the held one, (L(x) y - M y), from the free end up: `take(m, force, size, offset,
-/// stretch)` gets that at pin m, the sum of the sizes of what meets there if `sized`, the pin's offset, and by how much
-/// it exceeds the next one's.
-template <bool fused, bool sized, class V, class Terms, class T, class Offset, class Take>
-[[gnu::always_inline]] inline void forces_left(Terms, const ElementPencil<DoubleWord<T>>& pencil,
-                                               const Factors<Pair<V>>& at, const Offset& offset, const Take& take) {
-    const std::size_t n = pencil.elements.size();
-    const auto product = [](const Pair<V>& x, const DoubleWord<T>& y) REVCHAIN_INLINED {
-        const DoubleWord<V> p = two_product<fused>(x.high, V(y.high));
-        return Pair<V>{p.high, p.low + (x.high * V(y.low) + x.low * V(y.high))};
-    };
-    Pair<V> from_below{};
-    V size{}, lower = offset(0);
-    for (std::size_t m = 0; m < n; ++m) {
-        const Element<DoubleWord<T>>& e = pencil.elements[m];
-        const V upper = m + 1 < n ? offset(m + 1) : V{};
-        Pair<V> k = product(at.stiffness, e.stiffness);
-        V k_size = abs(k.high);
-        if constexpr (Terms::spinning) {
-            const Pair<V> spin = product(at.spin, pencil.spin[m]);
-            k = k + spin;
-            k_size += abs(spin.high);
-        }
-        const DoubleWord<V> stretch = two_sum(lower, -upper);
-        const Pair<V> spring = times<fused>(k, stretch);
-        Pair<V> near = times<fused>(e.lower, -lower), far{};
-        V near_size = abs(near.high), far_size{};
-        if constexpr (!Terms::lumped) {
-            const Pair<V> by_upper = times<fused>(e.cross, -upper), by_lower = times<fused>(e.cross, -lower);
-            far = times<fused>(e.upper, -upper);
-            if constexpr (sized) near_size += abs(by_upper.high), far_size = abs(far.high) + abs(by_lower.high);
-            near = near + by_upper;
-            far = far + by_lower;
-        }
-        const Pair<V> left = (from_below + spring) + near;
-        V spring_size{};
-        if constexpr (sized) spring_size = k_size * (abs(lower) + abs(upper));
-        take(m, left.high + left.low, size + (spring_size + near_size), lower, stretch.high);
-        from_below = {-spring.high, -spring.low};
-        if constexpr (!Terms::lumped) from_below = from_below + far;
-        if constexpr (sized) size = spring_size + far_size;
-        lower = upper;
-    }
-}
-
 /// Vectors at some x in plain arithmetic, 1 at the pin where upper and lower part balance best: offsets below it are in
 /// `s.offset`, those above follow from `s.up`.
 template <class V>
@@ -233,9 +108,8 @@ struct TwistInLanes {
     V above;      ///< how many eigenvalues exceed x, by rounded arithmetic
 };
 template <class Terms, class V, class T>
-[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms terms,
-                                                               const ElementPencil<DoubleWord<T>>& pencil, const V& x,
-                                                               ShapesInLanes<T>& s) {
+[[gnu::always_inline]] inline TwistInLanes<V> twisted_in_lanes(Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
+                                                               const V& x, ShapesInLanes<T>& s) {
     constexpr std::size_t L = shape_lanes;
     constexpr bool lumped = Terms::lumped;
     const std::size_t n = pencil.elements.size();
@@ -305,21 +179,9 @@ template <class V, class T>
     return offset;
 }
 
-/// x as a pair, or x^2 and x.
-template <bool fused, class Terms, class V>
-[[gnu::always_inline]] inline Factors<Pair<V>> factors_in_pairs(Terms, const V& x, const V& low) {
-    if constexpr (Terms::spinning) {
-        const DoubleWord<V> p = two_product<fused>(x, x), square = fast_two_sum(p.high, p.low + V(Lane<V>(2)) * x * low);
-        return {{square.high, square.low}, {x, low}};
-    } else {
-        return {{x, low}, {}};
-    }
-}
-
 template <class Where, class Terms, class T>
 [[gnu::always_inline]] inline void shapes_in_lanes(Where, Terms terms, const ElementPencil<DoubleWord<T>>& pencil,
-                                                   const RootsInLanes<T>& roots, bool residuals,
-                                                   ShapesInLanes<T>& s) {
+                                                   const RootsInLanes<T>& roots, bool residuals, ShapesInLanes<T>& s) {
     constexpr bool fused = Where::fused;
     constexpr std::size_t width = std::min(Where::doubles, shape_lanes), L = shape_lanes;
     using V = Pack<T, width, L / width>;
@@ -421,14 +283,6 @@ void shapes_in_lanes(const ElementPencil<DoubleWord<T>>& pencil, bool lumped, co
         else
             detail::shapes_in_lanes(where, detail::Terms<false, spinning>(), pencil, roots, residuals, shapes);
     });
-}
-
-/// Whether all elements are point masses at their lower pins.
-template <class S>
-bool is_lumped(const ElementPencil<S>& pencil) {
-    for (const Element<S>& e : pencil.elements)
-        if (!(e.upper == S(0)) || !(e.cross == S(0)) || !(e.turning == S(0))) return false;
-    return true;
 }
 
 }  // namespace revchain::pencil

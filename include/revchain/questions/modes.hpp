@@ -138,14 +138,14 @@ Modes<T> modes_by_models(const Chain<T>& chain, const ModesOptions<T>& options) 
     for (Index j = 0; j < range.count; ++j)
         set_height(result, j, found.answer.conical_height[j], found.answer.error_bound[j], 0, options);
     const bool loose = is_loose(chain, HeightsOptions<T>{options.rtol});
-    result.lazy_shapes = LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
-                                            condense = options.method != ModesMethod::bisection,
-                                            threads = options.threads](Index from, Index count, bool details,
-                                                                       Progress* progress) {
-        const Threads used("modes", threads);
-        return ShapeFinder<T>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count, details,
-                                                                                             progress);
-    });
+    result.lazy_shapes =
+        LazyModeShapes<T>([chain, first = range.first, answer = std::move(found.answer), loose,
+                           condense = options.method != ModesMethod::bisection,
+                           threads = options.threads](Index from, Index count, bool details, Progress* progress) {
+            const Threads used("modes", threads);
+            return ShapeFinder<T>(chain, first, heights_in_units(chain, answer), loose, condense)(from, count, details,
+                                                                                                  progress);
+        });
     if (options.certify) certify_all(result, assembled.pencils(), chain.mode_count());
     advance(options.progress, 1.0);
     return result;
@@ -179,20 +179,20 @@ Modes<T> modes_in_double(const Chain<T>& chain, const ModesOptions<T>& options) 
     }
     if (fine.size() > 0 && options.certify) certify_all(result, Pencils<double>(wide), chain.mode_count());
     const Vector<float> heights = result.conical_height;
-    result.lazy_shapes = LazyModeShapes<float>([wide, fine, heights](Index first, Index count, bool details,
-                                                                      Progress* progress) {
-        const ModeShapes<double> found = fine.lazy_shapes.some(first, count, details, progress);
-        ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(details ? count : 0), {}};
-        if (count == 0 || !details) return shapes;
-        const Pencils<double> own(wide);
-        for (Index j = 0; j < count; ++j) {
-            const Vector<double> offset = shapes.offset.row(j).transpose().cast<double>();
-            const double height = own.scaled(static_cast<double>(heights[first + j]));
-            shapes.residual[j] = static_cast<float>(pencil::relative_residual(own.rounded(), height, offset));
-            shapes.nodes.push_back(found.nodes[static_cast<std::size_t>(j)].cast<float>());
-        }
-        return shapes;
-    });
+    result.lazy_shapes =
+        LazyModeShapes<float>([wide, fine, heights](Index first, Index count, bool details, Progress* progress) {
+            const ModeShapes<double> found = fine.lazy_shapes.some(first, count, details, progress);
+            ModeShapes<float> shapes{found.offset.cast<float>(), Vector<float>(details ? count : 0), {}};
+            if (count == 0 || !details) return shapes;
+            const Pencils<double> own(wide);
+            for (Index j = 0; j < count; ++j) {
+                const Vector<double> offset = shapes.offset.row(j).transpose().cast<double>();
+                const double height = own.scaled(static_cast<double>(heights[first + j]));
+                shapes.residual[j] = static_cast<float>(pencil::relative_residual(own.rounded(), height, offset));
+                shapes.nodes.push_back(found.nodes[static_cast<std::size_t>(j)].cast<float>());
+            }
+            return shapes;
+        });
     return result;
 }
 

@@ -107,12 +107,10 @@ struct Pack {
     [[gnu::always_inline]] Pack& operator*=(const Pack& x) { return *this = *this * x; }
 
     [[gnu::always_inline]] friend Mask operator<(const Pack& x, const Pack& y) {
-        return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { RegisterOf::less(r, x.part[i], y.part[i]); });
+        return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED { RegisterOf::less(r, x.part[i], y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask equal(const Pack& x, const Pack& y) {
-        return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { RegisterOf::equal(r, x.part[i], y.part[i]); });
+        return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED { RegisterOf::equal(r, x.part[i], y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask operator>(const Pack& x, const Pack& y) { return y < x; }
 
@@ -135,8 +133,7 @@ struct Pack {
         return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED { r = ~x.part[i]; });
     }
     [[gnu::always_inline]] friend Mask operator==(const Mask& x, const Mask& y) {
-        return each<Mask>([&](auto& r, std::size_t i)
-                              REVCHAIN_INLINED { RegisterOf::equal(r, x.part[i], y.part[i]); });
+        return each<Mask>([&](auto& r, std::size_t i) REVCHAIN_INLINED { RegisterOf::equal(r, x.part[i], y.part[i]); });
     }
     [[gnu::always_inline]] friend Mask operator>(const Mask& x, const Mask& y) {
         return each<Mask>([&](auto& r, std::size_t i)
@@ -157,9 +154,8 @@ struct Pack {
     }
     /// a where x < y, else b (where one is NaN, too).
     [[gnu::always_inline]] friend Pack if_less(const Pack& x, const Pack& y, const Pack& a, const Pack& b) {
-        return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
-            RegisterOf::if_less(r, x.part[i], y.part[i], a.part[i], b.part[i]);
-        });
+        return each([&](auto& r, std::size_t i)
+                        REVCHAIN_INLINED { RegisterOf::if_less(r, x.part[i], y.part[i], a.part[i], b.part[i]); });
     }
     [[gnu::always_inline]] friend Pack if_equal(const Pack& x, const Pack& y, const Pack& a, const Pack& b) {
         return select(equal(x, y), a, b);

@@ -135,9 +135,8 @@ Summary<T> summary(const T* x, Index count) {
                 }
                 sum[i] = s;
             }
-        Summary<T> result{{},
-                          *std::min_element(least, least + detail::sum_lanes),
-                          *std::max_element(most, most + detail::sum_lanes)};
+        Summary<T> result{
+            {}, *std::min_element(least, least + detail::sum_lanes), *std::max_element(most, most + detail::sum_lanes)};
         if constexpr (compensated)
             result.sum = two_sum(sum[0], error[0]);
         else

@@ -80,8 +80,7 @@ TEST_CASE("shapes of many modes are as good as one by one", "[linear]") {
         for (std::size_t j = 0; j < all.nodes().size(); ++j) {
             REQUIRE(all.nodes()[j].size() == sure.nodes()[j].size());
             for (Index i = 0; i < all.nodes()[j].size(); ++i)
-                CHECK(std::abs(all.nodes()[j][i] - sure.nodes()[j][i]) <=
-                      2 * ulp * all.nodes()[j][i]);
+                CHECK(std::abs(all.nodes()[j][i] - sure.nodes()[j][i]) <= 2 * ulp * all.nodes()[j][i]);
         }
     }
 }

@@ -100,11 +100,9 @@ TEMPLATE_TEST_CASE("speeds, shapes, windows and ranges in more than double", "[l
     const auto narrow = revchain::modes(chain<double>("bodies"), {.count = revchain::all_modes});
     for (Index j = 0; j < all.size(); ++j) {
         CHECK(static_cast<double>(all.residual()[j]) <= 1e-30);
-        CHECK(all.nodes()[static_cast<std::size_t>(j)].size() ==
-              narrow.nodes()[static_cast<std::size_t>(j)].size());
+        CHECK(all.nodes()[static_cast<std::size_t>(j)].size() == narrow.nodes()[static_cast<std::size_t>(j)].size());
         for (Index m = 0; m <= links.size(); ++m)
-            REQUIRE(std::abs(static_cast<double>(all.shapes()(j, m) - T(narrow.shapes()(j, m)))) <=
-                    4e-16);
+            REQUIRE(std::abs(static_cast<double>(all.shapes()(j, m) - T(narrow.shapes()(j, m)))) <= 4e-16);
     }
     const auto some = revchain::modes(links, {.first = 11, .count = 5});
     CHECK(some.first == 11);

@@ -24,8 +24,7 @@ void require_part(const revchain::Modes<double>& part, const revchain::Modes<dou
         REQUIRE(std::abs(part.conical_height[j] / all.conical_height[i] - 1) <= 0x1p-52);
         if (part.shapes().size() == 0) continue;
         REQUIRE((part.shapes().row(j) - all.shapes().row(i)).cwiseAbs().maxCoeff() <= 1e-15);
-        REQUIRE(part.nodes()[static_cast<std::size_t>(j)].size() ==
-                all.nodes()[static_cast<std::size_t>(i)].size());
+        REQUIRE(part.nodes()[static_cast<std::size_t>(j)].size() == all.nodes()[static_cast<std::size_t>(i)].size());
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 // Truth: `modes` of the chain itself to the last digit (0.5 ulp, itself tested against quadruple precision). Error: relative.
-#include "revchain/modes.hpp"
 #include "revchain/models/heights.hpp"
+#include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 

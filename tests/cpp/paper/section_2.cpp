@@ -324,8 +324,7 @@ TEST_CASE("§2 (4): a figure that has just left the vertical is the mode", "[pap
                     shape = &other;
             REQUIRE(shape->half_waves() == k + 1);
             CHECK(shape->inclination[0] < 0.1);
-            CHECK(std::abs(shape->offset[1] / shape->offset[0] - m.shapes()(k, 1) / m.shapes()(k, 0)) <
-                  1e-5);
+            CHECK(std::abs(shape->offset[1] / shape->offset[0] - m.shapes()(k, 1) / m.shapes()(k, 0)) < 1e-5);
         }
     }
 }

@@ -379,9 +379,7 @@ TEST_CASE("§4: a chain of many links tends to the continuous chain", "[paper][s
 
             // Vertical points: the slope, linear between the links' middles, changes sign.
             const auto points = heavy_chain::vertical_points(k + 1, 1.0);
-            const auto difference = [&](Index link) {
-                return m.shapes()(k, link) - m.shapes()(k, link + 1);
-            };
+            const auto difference = [&](Index link) { return m.shapes()(k, link) - m.shapes()(k, link + 1); };
             Index seen = 0;
             for (Index link = 0; link + 1 < size; ++link) {
                 const double lower = difference(link), upper = difference(link + 1);

@@ -235,8 +235,7 @@ namespace {
 /// How far from one line the links of a two-link mode are: y_1/y_0 against a_2/(a_1 + a_2), in ulp.
 double bend(const revchain::Modes<double>& m, Index k, const Letterses& link) {
     const Quad straight = link[2].a / (link[1].a + link[2].a);
-    return static_cast<double>(fabsq(m.shapes()(k, 1) / Quad(m.shapes()(k, 0)) - straight) / straight) /
-           ulp;
+    return static_cast<double>(fabsq(m.shapes()(k, 1) / Quad(m.shapes()(k, 0)) - straight) / straight) / ulp;
 }
 
 /// The mode whose height is nearest.
@@ -368,8 +367,7 @@ TEMPLATE_TEST_CASE("§8: links whose L is the lower pin are kinetically plummets
         for (Index k = 0; k < m.size(); ++k) {
             CHECK(m.conical_height[k] == p.conical_height[k]);
             for (Index pin = 0; pin <= size; ++pin)
-                CHECK(std::abs(m.shapes()(k, pin) - p.shapes()(k, pin)) <=
-                      T(1) * revchain::epsilon<T>());  // measured
+                CHECK(std::abs(m.shapes()(k, pin) - p.shapes()(k, pin)) <= T(1) * revchain::epsilon<T>());  // measured
         }
     }
 }

@@ -104,8 +104,7 @@ TEST_CASE("a summary says what the numbers are", "[chain]") {
         for (Index m = 0; m < count; ++m) x.push_back(random.between(-1, 1));
         const auto found = revchain::summary(x.data(), count);
         CHECK(found.least == *std::min_element(x.begin(), x.end()));
-        CHECK(found.most ==
-              std::max(*std::max_element(x.begin(), x.end()), -found.least));
+        CHECK(found.most == std::max(*std::max_element(x.begin(), x.end()), -found.least));
         for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
             for (std::size_t m = 0; m < x.size(); ++m) {
                 auto broken = x;

@@ -112,8 +112,7 @@ TEST_CASE("a uniform rod jointed where it does not bend whirls as the whole rod 
         CAPTURE(pin);
         CHECK(std::abs(free.conical_height[0] / whole.conical_height[0] - 1) < 1e-15);
         CHECK(std::abs(whole.conical_height[0] / (pin + 1 / (3 * pin)) - 1) < 1e-15);
-        CHECK(std::abs((free.shapes()(0, 0) - free.shapes()(0, 1)) / lower -
-                       free.shapes()(0, 1) / joint) < 2e-15);
+        CHECK(std::abs((free.shapes()(0, 0) - free.shapes()(0, 1)) / lower - free.shapes()(0, 1) / joint) < 2e-15);
     }
 }
 
