@@ -14,15 +14,13 @@
 namespace revchain {
 
 /// low <= number <= high. NaN where nothing is known (an overflow), so that comparisons with it decide nothing.
-/// T may be a pack: then each lane holds an interval (simd/interval_lanes.hpp).
-template <class T>
-requires(Real<T> || IsPack<T>) struct Interval {
+template <Real T>
+struct Interval {
     T low{}, high{};
 
-    [[gnu::always_inline]] constexpr Interval() = default;
-    [[gnu::always_inline]] constexpr Interval(const T& x)
-        : low(x), high(x) {}  // NOLINT(google-explicit-constructor): a T is an interval
-    [[gnu::always_inline]] constexpr Interval(const T& l, const T& h) : low(l), high(h) {}
+    constexpr Interval() = default;
+    constexpr Interval(const T& x) : low(x), high(x) {}  // NOLINT(google-explicit-constructor): a T is an interval
+    constexpr Interval(const T& l, const T& h) : low(l), high(h) {}
 
     bool positive() const { return low > T(0); }
     bool negative() const { return high < T(0); }
@@ -37,10 +35,10 @@ requires(Real<T> || IsPack<T>) struct Interval {
         const T a = abs(low), b = abs(high);
         return !(a == a) || a > b ? a : b;
     }
-    [[gnu::always_inline]] T width() const { return high - low; }
-    [[gnu::always_inline]] T middle() const { return low + (high - low) / T(2); }
+    T width() const { return high - low; }
+    T middle() const { return low + (high - low) / T(2); }
 
-    [[gnu::always_inline]] friend Interval operator-(const Interval& x) { return {-x.high, -x.low}; }
+    friend Interval operator-(const Interval& x) { return {-x.high, -x.low}; }
 };
 
 namespace detail {
