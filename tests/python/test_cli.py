@@ -86,7 +86,7 @@ def test_the_table(run):
     assert lines[-1] == "gravity 9.80665 m/s^2; error bound: relative, of the conical height"
     assert all(unit in out for unit in ("(rad/s)", "(rpm)", "(s)", "error", "bound", "(m from", "the free", "end)"))
     (second,) = (line.split() for line in lines if line.strip().startswith("2 "))
-    assert second == ["2", "14.4064", "137.571", "0.436139", "0.0472508729", "4.4e-16", "1:", "0.0683"]
+    assert second == ["2", "14.4064", "137.571", "0.436139", "0.0472508729", "1.1e-16", "1:", "0.0683"]
     assert max(map(len, lines)) <= 80 and "…\n" not in out
     assert files() == ["watch.toml"]
 

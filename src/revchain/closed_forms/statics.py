@@ -27,7 +27,7 @@ class TransverseModes(Result):
     >>> rc.transverse_modes([2.0], [0.0, 1.0, 2.0], tension=8.0)
     TransverseModes: 1 mode
     mode  speed (rad/s)  speed (rpm)  height (m)  error bound
-       1        8.85738      84.5818    0.125000      1.1e-15
+       1        8.85738      84.5818    0.125000      7.8e-16
     """
 
     __slots__ = ()
