@@ -105,8 +105,7 @@ void bind_cord(py::module_& module) {
     };
     py::class_<LineDensity, std::shared_ptr<LineDensity>>(module, "LineDensity", "Weight per length, as polynomials.")
         .def(py::init<const std::function<double(double)>&, double>(), "weight_per_length"_a, "length"_a)
-        .def(
-            "__call__", [](const LineDensity& density, double s) { return density.about(s)[0]; }, "s"_a)
+        .def("__call__", [](const LineDensity& density, double s) { return density.about(s)[0]; }, "s"_a)
         .def("weight_below", &LineDensity::weight_below, "s"_a)
         .def(py::pickle(&get_state, &set_state));
     py::class_<Cord>(module, "Cord", "A flexible cord hung from one end; immutable.")

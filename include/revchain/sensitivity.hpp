@@ -133,7 +133,8 @@ double momentum_for_speed(const Rig& rig, Index link, double angular_speed,
 /// double-double, as `momentum_for_speed` is. Cost O(N).
 /// Throws InvalidArgument for a speed that is 0 or not finite, gravity not positive, and where no positive finite
 /// stiffness has that effect.
-double stiffness_for_speed(const Rig& rig, double angular_speed, double gravity = conical_pendulum::standard_gravity);
+double stiffness_for_speed(const Rig& rig, double angular_speed,
+                           double gravity = conical_pendulum::standard_gravity);
 
 }  // namespace revchain
 

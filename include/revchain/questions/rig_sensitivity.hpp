@@ -23,10 +23,7 @@ struct RigMode {
     S denominator{0.0};    ///< y^T G y - 2 y^T M y n/g
 
     RigMode(const Rig& of, double angular_speed, const Vector<double>& y, double gravity)
-        : rig(of),
-          offset(y),
-          links(rig_links(of)),
-          speed(angular_speed),
+        : rig(of), offset(y), links(rig_links(of)), speed(angular_speed),
           turning(ldexp(speed * speed / S(gravity), of.chain().units().length_exponent)) {
         const ChainUnits units = rig.chain().units();
         const Index count = rig.size();
@@ -59,10 +56,9 @@ struct RigMode {
     };
     Body body(Index m, double weight, double centroid, const S& ratio, const S& borne) const {
         const ChainUnits units = rig.chain().units();
-        const S h(std::ldexp(centroid, -units.length_exponent)),
-            a = links[static_cast<std::size_t>(m)].length, s = slope[static_cast<std::size_t>(m)],
-            gyration = ratio * (a * a), centre = S(offset[m + 1]) + h * s;
-        return {S(std::ldexp(weight, -units.weight_exponent)),   h, gyration, centre, sign(m) * h * (s * s) + borne,
+        const S h(std::ldexp(centroid, -units.length_exponent)), a = links[static_cast<std::size_t>(m)].length,
+            s = slope[static_cast<std::size_t>(m)], gyration = ratio * (a * a), centre = S(offset[m + 1]) + h * s;
+        return {S(std::ldexp(weight, -units.weight_exponent)), h, gyration, centre, sign(m) * h * (s * s) + borne,
                 turning * (centre * centre + gyration * (s * s))};
     }
     S sign(Index m) const { return S(rig.stands(m) ? -1.0 : 1.0); }
