@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
-// What threads save: wall time of one thread over that of several, medians of interleaved runs, as CSV. Arguments: the
-// number of threads (2; 0 for all processors), repetitions (9). Read it on a machine with nothing else to do.
+// Wall time of one thread over that of several, medians of interleaved runs, as CSV. Arguments: number of threads (2;
+// 0 for all processors), repetitions (9). Run it on an idle machine.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

@@ -221,8 +221,8 @@ void Chain<T>::check() {
     const Summary<T> weights = summary(weight_, size_, &partial);
     if (!partial.empty()) partial_weights_ = std::make_shared<const std::vector<Wide<T>>>(std::move(partial));
     const Summary<T> lengths = summary(length_, size_);
-    const bool pendulums = !centroid_.is_scalar() && centroid_.data() == length_.data();  // the same numbers
-    const Summary<T> centroids = pendulums ? lengths : summary(centroid_, size_);
+    const bool same = !centroid_.is_scalar() && centroid_.data() == length_.data();  // plummets: one column for both
+    const Summary<T> centroids = same ? lengths : summary(centroid_, size_);
     centroids_below_ = centroids.least >= T(0);
     bool radii = true, all_turn = true;
     T least_ratio = std::numeric_limits<T>::infinity(), largest_ratio{};

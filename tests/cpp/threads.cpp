@@ -34,14 +34,13 @@ bool same_bits(const Numbers& x, const Numbers& y) {
 template <class T>
 bool same(const revchain::Modes<T>& x, const revchain::Modes<T>& y) {
     bool nodes = true;
-    for (std::size_t j = 0; j < x.nodes().size(); ++j)
-        nodes = nodes && same_bits(x.nodes()[j], y.nodes()[j]);
+    for (std::size_t j = 0; j < x.nodes().size(); ++j) nodes = nodes && same_bits(x.nodes()[j], y.nodes()[j]);
     return nodes && x.method == y.method && same_bits(x.conical_height, y.conical_height) &&
            same_bits(x.error_bound, y.error_bound) && same_bits(x.certificate.lower, y.certificate.lower) &&
            same_bits(x.certificate.upper, y.certificate.upper) &&
            same_bits(x.certificate.above_lower, y.certificate.above_lower) &&
-           same_bits(x.certificate.above_upper, y.certificate.above_upper) &&
-           same_bits(x.shapes(), y.shapes()) && same_bits(x.residual(), y.residual());
+           same_bits(x.certificate.above_upper, y.certificate.above_upper) && same_bits(x.shapes(), y.shapes()) &&
+           same_bits(x.residual(), y.residual());
 }
 
 template <class T>

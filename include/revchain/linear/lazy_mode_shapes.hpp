@@ -48,7 +48,7 @@ class LazyModeShapes {
     ModeShapes<T> some(Index first, Index count, bool details, Progress* progress) const {
         return state().find(first, count, details, progress);
     }
-    /// What keeps the numbers that were returned by reference.
+    /// An owner of the numbers that were returned by reference: they stay while it does.
     std::shared_ptr<const void> owner() const { return state_; }
 
    private:

@@ -49,7 +49,7 @@ class ShapeFinder {
         const auto begin = height_.begin() + from;
         const Heights<T> height(begin, begin + count);
         if constexpr (std::is_same_v<T, double>)
-            if (condense_ && chain_.size() > most_kept_links && condensation_pays(chain_, {first_ + from, count}) &&
+            if (condense_ && chain_.size() > most_for_lanes && condensation_pays(chain_, {first_ + from, count}) &&
                 chain_.has_one_weight_unit() &&
                 std::abs(chain_.units().weight_exponent) <= std::numeric_limits<T>::max_exponent / 2) {
                 const T unit = std::ldexp(T(1), chain_.units().length_exponent) / LinkColumns<T>(chain_).unit_length;
@@ -74,7 +74,7 @@ class ShapeFinder {
     }
 
    private:
-    static constexpr Index most_kept_links = 4096;  // up to which eight at a time are faster than blocks
+    static constexpr Index most_for_lanes = static_cast<Index>(pencil::most_kept_links);  // where they beat blocks
 
     void alone(ModeShapes<T>& shapes, Index j, const Pencils<T>& pencils, const Height<T>& at) const {
         if (loose_)

@@ -67,7 +67,7 @@ class CountedRoots {
         return bisected(j, pencil::between(bracket.lower, bracket.upper));
     }
 
-    /// Whether exactly `above` roots exceed x, as a proof.
+    /// A proved count of the roots above x.
     pencil::CertifiedCount certified(double x) const { return counted<1>({RigWord(x)})[0]; }
 
     /// y with Q y = 0 at a root.

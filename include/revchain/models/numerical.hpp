@@ -86,9 +86,9 @@ struct Bisection {
         const double count = detail::real(question.count);
         if (!is_loose(kind, question)) return full_cost(kind, count);
         // A tolerance next to full accuracy takes as many counts as that takes steps in all.
-        return std::min(full_cost(kind, count),
-                        3e-7 + 2e-7 * count +
-                            detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9));
+        return std::min(
+            full_cost(kind, count),
+            3e-7 + 2e-7 * count + detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9));
     }
     static double full_cost(const ChainKind& kind, double count) {
         if (kind.size > most_in_lanes) return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);

@@ -21,7 +21,7 @@ struct Registers {
     static constexpr std::size_t doubles = Bytes / sizeof(double);
 };
 
-/// What the largest registers hold: a number of doubles that fills whole registers of every size is a multiple of it.
+/// Doubles in the largest registers. Every multiple of this number fills whole registers of each size.
 inline constexpr std::size_t most_doubles = 8;
 
 namespace detail {

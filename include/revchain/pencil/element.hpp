@@ -59,7 +59,7 @@ S not_zero(const S& pivot, const S& stiffness) {
     return abs(pivot) < least ? stiffness * (S(epsilon<S>()) * S(epsilon<S>())) + least : pivot;
 }
 
-/// x, or x^2 and x: what the stiffness and the spin of each element are multiplied by.
+/// Factors of the stiffness and of the spin of each element: x and none, or x^2 and x.
 template <class S>
 struct Factors {
     S stiffness{}, spin{};

@@ -54,8 +54,8 @@ template <class V>
     return if_less(abs(change), V(T(0.5)), V(T(1)) + change, coupling * inverse);
 }
 
-/// What is known of a pencil when its loops are compiled: whether every element is a point mass at its lower pin, and
-/// whether elements have spins.
+/// Properties of a pencil for which loops are compiled separately: every element is a point mass at its lower pin
+/// (`lumped`), elements have spins (`spinning`).
 template <bool Lumped, bool Spinning>
 struct Terms {
     static constexpr bool lumped = Lumped, spinning = Spinning;

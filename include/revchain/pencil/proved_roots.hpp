@@ -58,17 +58,22 @@ std::optional<std::vector<ProvedRoot<T>>> proved_roots(const ElementPencil<Doubl
     for (std::size_t j = 1; j < count; ++j) gap[j] = end(j - 1, -1) - end(j, 1);
     gap[0] = gap[count] = std::numeric_limits<T>::infinity();
     const auto meets = [&](std::size_t j) { return !(gap[j] > T(0)); };  // its interval that above it
-    for (std::size_t j = 1; j < count; ++j) {  // a gap next to some that meet has to be where it seems to be
+    // In each gap, where the roots above it may reach down to and those below it up to. Roots that meet need not lie in
+    // their intervals: a count has to show that they are on their side of the gap.
+    std::vector<T> down_to(count + 1, above), up_to(count + 1, below);
+    for (std::size_t j = 1; j < count; ++j) {
+        down_to[j] = end(j - 1, -1), up_to[j] = end(j, 1);
         if (meets(j) || !(meets(j - 1) || meets(j + 1))) continue;
-        const CertifiedCount there = certified(end(j, 1) + gap[j] / T(2));
+        const T middle = up_to[j] + gap[j] / T(2);
+        const CertifiedCount there = certified(middle);
         if (!there.proved || there.above != first + static_cast<Index>(j)) return std::nullopt;
+        down_to[j] = up_to[j] = middle;
     }
     std::vector<T> off(count, std::numeric_limits<T>::infinity());
     for (std::size_t j = 0; j < count; ++j) {
         if (meets(j) || meets(j + 1)) continue;
-        const T root = roots[j].root.high, next_above = j == 0 ? above : end(j - 1, -1),
-                next_below = j + 1 == count ? below : end(j + 1, 1);
-        const T room = std::min(next_above - root, root - next_below) - roots[j].off - T(4) * epsilon<T>() * root;
+        const T root = roots[j].root.high;
+        const T room = std::min(down_to[j] - root, root - up_to[j + 1]) - roots[j].off - T(4) * epsilon<T>() * root;
         const T far = (reach[j] * (reach[j] / room) + roots[j].off) * (T(1) + T(0x1p-20));
         if (room > reach[j] && far <= worst * root) off[j] = far;
     }

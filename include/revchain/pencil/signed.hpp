@@ -61,8 +61,8 @@ struct SignedPencil {
     }
 };
 
-/// The same family as an `ElementPencil`, where every stiffness is positive and every mass not negative. Nothing where
-/// a number is not sure to some 20 digits relative to its own size.
+/// Converts to an `ElementPencil`. Returns nothing if the error of a number exceeds 1e-20 of its size.
+/// Precondition: every stiffness is positive, and no mass is negative.
 template <Real S>
 std::optional<ElementPencil<S>> positive_elements(const SignedPencil<S>& pencil) {
     using std::abs;

@@ -85,12 +85,15 @@ struct ShapesInLanes {
     }
 };
 
-/// f(scratch for so many links). It is kept for the next call on the same thread, up to 2.6 MB: memory that is given
-/// back each time costs more than what is computed in it.
+/// Links whose scratch is kept from call to call, at most: 2.6 MB.
+inline constexpr std::size_t most_kept_links = 4096;
+
+/// f(scratch for so many links). The scratch is kept for the next call on the same thread: to give it back each time
+/// costs more than what is computed in it.
 template <std::floating_point T, class F>
 void with_shapes_in_lanes(std::size_t links, const F& f) {
     static thread_local ShapesInLanes<T> kept;
-    if (links <= 4096) {
+    if (links <= most_kept_links) {
         f(kept);
     } else {
         ShapesInLanes<T> own;

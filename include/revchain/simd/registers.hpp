@@ -22,7 +22,8 @@ using IntegerLike = std::conditional_t<sizeof(T) == 4, std::int32_t, std::int64_
 // function returns a vector: GCC warns that how it does so depends on the processor.
 #if !defined(REVCHAIN_NO_VECTOR_EXTENSIONS)
 
-// Of comparisons of 64 bytes, and of fused operations, GCC 12 makes one instruction a number; these are one for all.
+// GCC 12 compiles a comparison of 64 bytes, and a fused operation, to one instruction for each number. The built-in
+// functions below are one instruction for the whole register.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #if defined(REVCHAIN_SEVERAL_TARGETS) || defined(__FMA__)
 #define REVCHAIN_FUSED_INSTRUCTIONS
@@ -90,7 +91,7 @@ struct RegisterOf {
     [[gnu::always_inline]] static void less(Integers& to, const Numbers& x, const Numbers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            to = REVCHAIN_BITS_AS(Integers, __builtin_ia32_cvtmask2q512(mask_less(x, y)));
+            from_mask(to, mask_less(x, y));
         else
 #endif
             to = x < y;
@@ -98,8 +99,7 @@ struct RegisterOf {
     [[gnu::always_inline]] static void equal(Integers& to, const Numbers& x, const Numbers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            to = REVCHAIN_BITS_AS(
-                Integers, __builtin_ia32_cvtmask2q512(__builtin_ia32_cmppd512_mask(x, y, 0, all_lanes, as_it_is)));
+            from_mask(to, __builtin_ia32_cmppd512_mask(x, y, 0, all_lanes, as_it_is));
         else
 #endif
             to = x == y;
@@ -107,8 +107,8 @@ struct RegisterOf {
     [[gnu::always_inline]] static void equal(Integers& to, const Integers& x, const Integers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            to = REVCHAIN_BITS_AS(Integers, __builtin_ia32_cvtmask2q512(__builtin_ia32_pcmpeqq512_mask(
-                                                REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes)));
+            from_mask(
+                to, __builtin_ia32_pcmpeqq512_mask(REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes));
         else
 #endif
             to = x == y;
@@ -116,8 +116,8 @@ struct RegisterOf {
     [[gnu::always_inline]] static void greater(Integers& to, const Integers& x, const Integers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
         if constexpr (has_masks)
-            to = REVCHAIN_BITS_AS(Integers, __builtin_ia32_cvtmask2q512(__builtin_ia32_pcmpgtq512_mask(
-                                                REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes)));
+            from_mask(
+                to, __builtin_ia32_pcmpgtq512_mask(REVCHAIN_BITS_AS(Longs, x), REVCHAIN_BITS_AS(Longs, y), all_lanes));
         else
 #endif
             to = x > y;
@@ -143,6 +143,9 @@ struct RegisterOf {
     typedef double Two __attribute__((vector_size(16), aligned(16)));
     // NOLINTEND(modernize-use-using)
 
+    [[gnu::always_inline]] static void from_mask(Integers& to, unsigned char mask) {
+        to = REVCHAIN_BITS_AS(Integers, __builtin_ia32_cvtmask2q512(mask));
+    }
     [[gnu::always_inline]] static unsigned char mask_less(const Numbers& x, const Numbers& y) {
         constexpr int less_ordered = 1;
         return __builtin_ia32_cmppd512_mask(x, y, less_ordered, all_lanes, as_it_is);
