@@ -54,8 +54,14 @@ template <class Where>
     using V = Pack<double, Where::doubles, 8 / Where::doubles>;
     using Words = DoubleWord<V>;
     using Numbers = std::array<double, V::size>;
-    const double per_weight = std::ldexp(1.0, -result.units.weight_exponent),
-                 per_length = std::ldexp(1.0, -result.units.length_exponent);
+    // In two steps: a power of two that scales the largest numbers to 1 may itself be below the normal ones.
+    struct Scale {
+        double first, second;
+        explicit Scale(int exponent)
+            : first(std::ldexp(1.0, -exponent / 2)), second(std::ldexp(1.0, -exponent - -exponent / 2)) {}
+        double operator()(double x) const { return x * first * second; }
+    };
+    const Scale weighed(result.units.weight_exponent), measured(result.units.length_exponent);
     const Index size = chain.size();
     auto& elements = result.pencil.elements;
     elements.resize(static_cast<std::size_t>(size));
@@ -65,15 +71,15 @@ template <class Where>
         const std::size_t there = std::min(V::size, static_cast<std::size_t>(size - first));
         if (first % segment_size == 0) {
             const Wide<double> sum = chain.weight_below(first);
-            below = {sum.high * per_weight, sum.low * per_weight};
+            below = {weighed(sum.high), weighed(sum.low)};
         }
         Numbers weight, length, centroid, ratio, ratio_low, hung, hung_low;
         bool lumped = true;
         for (std::size_t i = 0; i < V::size; ++i) {
             const Index m = first + static_cast<Index>(std::min(i, there - 1));
-            weight[i] = chain.weight()[m] * per_weight;
-            length[i] = chain.length()[m] * per_length;
-            centroid[i] = chain.centroid()[m] * per_length;
+            weight[i] = weighed(chain.weight()[m]);
+            length[i] = measured(chain.length()[m]);
+            centroid[i] = measured(chain.centroid()[m]);
             ratio[i] = chain.gyration_ratio()[m].high;
             ratio_low[i] = chain.gyration_ratio()[m].low;
             hung[i] = below.high;
@@ -130,8 +136,7 @@ AssembledChain<T> assemble(const Chain<T>& chain) {
     AssembledChain<T> result;
     result.units = chain.units();
     if constexpr (std::same_as<T, double>)
-        if (one_unit && chain.centroids_below() &&
-            std::max(abs(result.units.weight_exponent), abs(result.units.length_exponent)) < 1000) {
+        if (one_unit && chain.centroids_below()) {
             simd([&](auto where) REVCHAIN_INLINED { detail::assemble_in_packs(where, chain, result); });
             return result;
         }

@@ -104,12 +104,16 @@ inline std::optional<Heights<double>> heights_in_lanes(const Pencils<double>& pe
     if (!roots) return std::nullopt;
     Heights<double> heights;
     heights.reserve(roots->size());
-    for (const auto& root : *roots)
-        heights.push_back(std::isfinite(root.off)
-                              ? rounded_height(root)
-                              : pencil::certified_eigenvalue<Wide<double>, double>(
-                                    pencils.wide(), pencils.rounded(),
-                                    range.first - 1 + static_cast<Index>(heights.size()), root.root.high));
+    for (const auto& root : *roots) {
+        if (std::isfinite(root.off)) {
+            heights.push_back(rounded_height(root));
+            continue;
+        }
+        const Index j = range.first - 1 + static_cast<Index>(heights.size());
+        const auto bracket = pencil::bisect(pencils.rounded(), j, 1, 2 * epsilon<double>(), guess).front();
+        heights.push_back(pencil::certified_eigenvalue<Wide<double>, double>(
+            pencils.wide(), pencils.rounded(), j, pencil::between(bracket.lower, bracket.upper)));
+    }
     restore_order<double>(heights);
     return heights;
 }

@@ -125,11 +125,11 @@ inline std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::Elemen
     if (!proved) return std::nullopt;
     std::vector<FoundRoot> found;
     found.reserve(proved->size());
-    for (const auto& [root, off] : *proved)
-        found.push_back(std::isfinite(off)
-                            ? FoundRoot{root, (off / root.high + epsilon<double>() / 2) * (1 + 0x1p-30)}
-                            : roots.refined(range.first - 1 + static_cast<Index>(found.size()),
-                                            {root.high * (1 - 0x1p-50), root.high * (1 + 0x1p-50), true}));
+    for (const auto& [root, off] : *proved) {
+        const Index j = range.first - 1 + static_cast<Index>(found.size());
+        found.push_back(std::isfinite(off) ? FoundRoot{root, (off / root.high + epsilon<double>() / 2) * (1 + 0x1p-30)}
+                                           : roots.refined(j, roots.brackets(j, 1, guess, {}).front()));
+    }
     return found;
 }
 

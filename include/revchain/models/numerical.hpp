@@ -93,7 +93,8 @@ struct Bisection {
     static double full_cost(const ChainKind& kind, double count) {
         if (kind.size > most_in_lanes) return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
         const double beyond_cache = kind.size > 1500 ? 1.35 : 1;
-        return 1.5e-6 + detail::real(kind.size) * (7e-8 + 1.25e-7 * std::ceil(count / 8)) * beyond_cache;
+        const double eight = kind.point_masses ? 1.25e-7 : 1.6e-7;
+        return 1.5e-6 + detail::real(kind.size) * (7e-8 + eight * std::ceil(count / 8)) * beyond_cache;
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
@@ -168,7 +169,7 @@ struct Aberth {
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double n = detail::real(kind.size), lanes = 8 * std::ceil(detail::real(question.count) / 8);
-        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n + (question.rtol >= loose ? 0 : 5e-7 + 6e-8 * n + 7e-9 * n * lanes);
+        return 5e-7 + 3.2e-8 * n + 5e-9 * n * n + (question.rtol >= loose ? 0 : 5e-7 + 2e-8 * n + 4.8e-9 * n * lanes);
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {
@@ -196,7 +197,7 @@ struct Interpolated {
     double cost(const ChainKind& kind, const Question& question) const {
         const double n = detail::real(kind.size), count = detail::real(question.count);
         if (question.rtol >= loose) return 2.5e-5 + n * (5e-7 + 2.5e-9 * count);
-        return 2.5e-5 + 5e-7 * n + count * (2e-6 + 3.5e-9 * n);
+        return 1.2e-5 + 3.6e-7 * n + count * (1.4e-6 + 2.9e-9 * n);
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind& kind, const Question& question) const {

@@ -89,8 +89,12 @@ std::optional<std::vector<ProvedRoot<T>>> proved_range(const ElementPencil<Doubl
                                                        Index count, Index available, const T& guess, const T& worst,
                                                        const std::function<void(Index)>& finished) {
     const bool lumped = is_lumped(pencil);
-    const std::vector<T> starts =
-        approached<spinning>(pencil, lumped, first, bisect(counter, first, count, T(1), guess, finished));
+    // With the next root on either side, so that the outermost brackets hold one root, too.
+    const Index before = std::min<Index>(first, 1), after = std::min<Index>(available - first - count, 1);
+    std::vector<Bracket<T>> brackets = bisect(counter, first - before, before + count + after, T(1), guess, finished);
+    brackets.erase(brackets.begin(), brackets.begin() + before);
+    brackets.resize(static_cast<std::size_t>(count));
+    const std::vector<T> starts = approached<spinning>(pencil, lumped, first, std::move(brackets));
     // Counts next to the ends, where others lie beyond.
     constexpr T beside(0x1p-20);
     T above = std::numeric_limits<T>::infinity(), below(0);

@@ -47,9 +47,11 @@ TEST_CASE("what is taken where", "[linear]") {
     CHECK(method(1, 1) == "aberth");
     CHECK(method(12, 12) == "aberth");
     CHECK(method(100, 1) == "bisection");
-    CHECK(method(100, 20) == "aberth");
-    CHECK(method(101, 60) == "interpolated");
-    CHECK(method(1000, 4) == "condensed");
+    CHECK(method(100, 20) == "bisection");
+    CHECK(method(100, 100) == "aberth");
+    CHECK(method(200, 150) == "interpolated");
+    CHECK(method(1000, 1) == "condensed");
+    CHECK(method(1000, 4) == "bisection");
     CHECK(method(1000, 200) == "interpolated");
     CHECK(method(1000, 600, 1e-13) == "interpolated");
     CHECK(modes(support::families()[7].make(40), {.count = revchain::all_modes}).method == "bisection");

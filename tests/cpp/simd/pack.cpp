@@ -105,7 +105,9 @@ TEST_CASE("packs do to each number what is done to a number") {
     CHECK(disagreements<Pack<double>>() == 0);
     CHECK(disagreements<Pack<float>>() == 0);
     CHECK(disagreements<Pack<double, 2>>() == 0);
+#if !defined(REVCHAIN_MASK_INSTRUCTIONS)  // else where the processor has such registers: the next test
     CHECK(disagreements<Pack<double, 8>>() == 0);
+#endif
     CHECK(disagreements<Pack<double, 2, 4>>() == 0);
     CHECK(disagreements<Pack<double, 4, 4>>() == 0);
     CHECK(disagreements<Pack<float, 8, 2>>() == 0);
