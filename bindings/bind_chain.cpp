@@ -53,6 +53,7 @@ auto combined(Index size, Make make, const Column<V>&... columns) {
     if ((columns.is_scalar() && ...)) return Column<Made>(make("Chain", columns[0]...));
     std::vector<Made> values;
     values.reserve(static_cast<std::size_t>(size));
+    revchain::detail::will_be_filled(values.data(), static_cast<std::size_t>(size) * sizeof(Made));
     try {
         while (static_cast<Index>(values.size()) < size) {
             const auto m = static_cast<Index>(values.size());
@@ -70,27 +71,31 @@ auto combined(Index size, Make make, const Column<V>&... columns) {
 Chain make_chain(const Array& weight, const Array& length, const std::optional<Array>& centroid,
                  const std::optional<Array>& pendulum_length, const std::optional<Array>& radius_of_gyration) {
     namespace d = revchain::detail;
-    const Column<double> W = column(weight, "weight"), a = column(length, "length");
+    Column<double> W = column(weight, "weight"), a = column(length, "length");
     Size size;
     size.note(W, "weight");
     size.note(a, "length");
     if (!centroid) {
         if (pendulum_length || radius_of_gyration)
             throw_invalid("Chain", "pendulum_length and radius_of_gyration need the centroid");
-        return Chain(size.value(), W, a, a, Wide(0));
+        Column<double> h = a;
+        return Chain(size.value(), std::move(W), std::move(a), std::move(h), Wide(0));
     }
     if (pendulum_length.has_value() == radius_of_gyration.has_value())
         throw_invalid("Chain", "a centroid needs either pendulum_length or radius_of_gyration (not both)");
-    const Column<double> h = column(*centroid, "centroid");
+    Column<double> h = column(*centroid, "centroid");
+    std::optional<Column<Wide>> gyration;
     size.note(h, "centroid");
     if (pendulum_length) {
         const Column<double> l = column(*pendulum_length, "pendulum_length");
         size.note(l, "pendulum_length");
-        return Chain(size.value(), W, a, h, combined(size.value(), d::gyration_from_pendulum_length<double>, a, h, l));
+        gyration = combined(size.value(), d::gyration_from_pendulum_length<double>, a, h, l);
+    } else {
+        const Column<double> rho = column(*radius_of_gyration, "radius_of_gyration");
+        size.note(rho, "radius_of_gyration");
+        gyration = combined(size.value(), d::gyration_from_radius<double>, a, rho);
     }
-    const Column<double> rho = column(*radius_of_gyration, "radius_of_gyration");
-    size.note(rho, "radius_of_gyration");
-    return Chain(size.value(), W, a, h, combined(size.value(), d::gyration_from_radius<double>, a, rho));
+    return Chain(size.value(), std::move(W), std::move(a), std::move(h), *std::move(gyration));
 }
 
 py::array to_numpy(bool is_scalar, Index size, auto value) {

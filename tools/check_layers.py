@@ -29,9 +29,9 @@ ALLOWED = {
     "pencil/complex": {"numeric", "simd", "pencil"},
     "linear": {"numeric", "simd", "system", "pencil", "pencil/batch", "pencil/condensed", "pencil/spectrum"}
     | {"pencil/forced", "pencil/complex"},
-    "finite/balance": {"numeric", "system", "linear"},
+    "finite/balance": {"numeric", "simd", "system", "linear"},
     "finite/shapes": {"numeric", "system", "linear", "finite/balance"},
-    "finite/branch": {"numeric", "system", "linear", "finite/balance", "finite/shapes"},
+    "finite/branch": {"numeric", "simd", "system", "linear", "finite/balance", "finite/shapes"},
     "finite/held": {"numeric", "system", "finite/balance", "finite/shapes", "finite/cord"},
     "finite/cord": {"numeric", "system"},
     "finite/stability": {"numeric", "system", "pencil/complex", "finite/balance", "finite/shapes"}

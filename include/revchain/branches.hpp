@@ -116,7 +116,7 @@ struct BranchesOptions {
     double max_step = 0.1;                      ///< along the arc
     int lists = 16;                 ///< number of proved lists of all shapes, at heights evenly spaced in the logarithm
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
-    long proof_budget = 1'000'000;  ///< links to look at to prove that no branch is missing, 1 to 3 microseconds each
+    long proof_budget = 1'000'000;  ///< links to look at to prove that no branch is missing, 0.1 to 1 microsecond each
     double gravity = conical_pendulum::standard_gravity;
 };
 
@@ -143,8 +143,9 @@ struct Branches {
 /// inclinations; `remark` says between which heights. The proof is about where branches are. It is checked, not proved,
 /// that a computed branch is one of them (see finite::BranchWalk).
 /// Accuracy: as of `branch`.
-/// Cost: that of the lists, 10 ms for three plummets, and of the proof: down to 1/200 of the length 5 to 50 ms for
-/// three links, 0.05 to 0.3 s for five, 0.2 to 0.7 s for six (8,000 to 40,000 rectangles of five and six).
+/// Cost: that of the lists and of the proof: down to 1/200 of the length 4 to 8 ms for three links, 15 ms for five, 30
+/// ms for six; eight equal plummets to 5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s (with AVX-512;
+/// with SSE2 up to twice as long).
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and for `lists` below
 /// 1.
 Branches branches(const Chain<double>& chain, const BranchesOptions& options);

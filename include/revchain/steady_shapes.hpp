@@ -82,15 +82,16 @@ struct SteadyShapes {
 /// followed along each inclination. Krawczyk's test then decides boxes of the tangents of all links.
 /// Accuracy: every inclination is within `error_bound`, proved, mostly 2.3e-16 (4.4e-16 if links stand); measured
 /// errors are at most 2 ulp of the inclination. `complete` is proved too. If it is false, `undecided` says where shapes
-/// may be missing: at exactly a critical speed or a fold, or where the budget ends, as for chains of 20 links and more
-/// at heights of some 1/300 of their length. If links hang at one inclination, a scan looks there too, and the shapes
-/// it finds are in the list.
+/// may be missing: at exactly a critical speed or a fold, or where the budget ends, as for chains of 20 plummets and
+/// more at heights of some 1/1000 of their length. If links hang at one inclination, a scan looks there too, and the
+/// shapes it finds are in the list.
 /// At heights below 2^-50 (9e-16) of the longest length (rounded up to a power of 2) nothing is listed and `complete`
 /// is false: a sideways pull is an offset over the height, and double-double holds offsets to 2^-104 of that length.
 /// Below that, tensions would lose their digits.
-/// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 15 ms, 6466 of twelve 1.3 s, the first of 1000
-/// plummets 0.02 s. In any posture, heights down to 1e-3 of the length: all shapes of three links 1 to 5 ms, of four
-/// (64 of equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s, 11008 of eight 11 s.
+/// Cost: 10 to 500 cells for a shape: 84 shapes of eight plummets take 12 ms, 6466 of twelve 1 s, the first of 1000
+/// plummets 0.02 s, the 14 of 1000 plummets at 1/500 of their length 4 s. In any posture, heights down to 1e-3 of the
+/// length: all shapes of three links 1 to 5 ms, of four (64 of equal plummets) 4 to 70 ms, 868 of six plummets 0.6 s,
+/// 11008 of eight 11 s.
 /// Threads share the shapes found, not the search for them, about half of the cost. Results are bitwise the same
 /// whatever their number.
 /// No shape in any posture exists above the first critical height. Proof: let s be the sines of the inclinations d, G

@@ -14,13 +14,15 @@
 namespace revchain {
 
 /// low <= number <= high. NaN where nothing is known (an overflow), so that comparisons with it decide nothing.
-template <Real T>
-struct Interval {
+/// T may be a pack: then each lane holds an interval (simd/interval_lanes.hpp).
+template <class T>
+requires(Real<T> || IsPack<T>) struct Interval {
     T low{}, high{};
 
-    constexpr Interval() = default;
-    constexpr Interval(const T& x) : low(x), high(x) {}  // NOLINT(google-explicit-constructor): a T is an interval
-    constexpr Interval(const T& l, const T& h) : low(l), high(h) {}
+    [[gnu::always_inline]] constexpr Interval() = default;
+    [[gnu::always_inline]] constexpr Interval(const T& x)
+        : low(x), high(x) {}  // NOLINT(google-explicit-constructor): a T is an interval
+    [[gnu::always_inline]] constexpr Interval(const T& l, const T& h) : low(l), high(h) {}
 
     bool positive() const { return low > T(0); }
     bool negative() const { return high < T(0); }
@@ -35,10 +37,10 @@ struct Interval {
         const T a = abs(low), b = abs(high);
         return !(a == a) || a > b ? a : b;
     }
-    T width() const { return high - low; }
-    T middle() const { return low + (high - low) / T(2); }
+    [[gnu::always_inline]] T width() const { return high - low; }
+    [[gnu::always_inline]] T middle() const { return low + (high - low) / T(2); }
 
-    friend Interval operator-(const Interval& x) { return {-x.high, -x.low}; }
+    [[gnu::always_inline]] friend Interval operator-(const Interval& x) { return {-x.high, -x.low}; }
 };
 
 namespace detail {

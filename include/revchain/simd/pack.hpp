@@ -168,6 +168,9 @@ struct Pack {
         return each([&](auto& r, std::size_t i)
                         REVCHAIN_INLINED { RegisterOf::multiply_subtract(r, x.part[i], y.part[i], p.part[i]); });
     }
+    [[gnu::always_inline]] friend Pack root(const Pack& x) {
+        return each([&](auto& r, std::size_t i) REVCHAIN_INLINED { RegisterOf::root(r, x.part[i]); });
+    }
     [[gnu::always_inline]] friend Pack abs(const Pack& x) {
         return each([&](auto& r, std::size_t i) REVCHAIN_INLINED {
             r = REVCHAIN_BITS_AS(Register, REVCHAIN_BITS_AS(Integers, x.part[i]) & std::numeric_limits<Integer>::max());

@@ -87,6 +87,15 @@ struct RegisterOf {
 #endif
             for (std::size_t i = 0; i < width; ++i) to[i] = std::fma(x[i], y[i], -p[i]);
     }
+    [[gnu::always_inline]] static void root(Numbers& to, const Numbers& x) {
+#if defined(REVCHAIN_MASK_INSTRUCTIONS)
+        if constexpr (has_masks) {
+            to = __builtin_ia32_sqrtpd512_mask(x, Numbers{}, all_lanes, as_it_is);
+            return;
+        }
+#endif
+        for (std::size_t i = 0; i < width; ++i) to[i] = std::sqrt(x[i]);
+    }
     // Answers have all bits set (yes) or none.
     [[gnu::always_inline]] static void less(Integers& to, const Numbers& x, const Numbers& y) {
 #if defined(REVCHAIN_MASK_INSTRUCTIONS)
@@ -172,6 +181,7 @@ struct RegisterOf {
     static Integers get(Integers x, std::size_t) { return x; }
     static void set(T& to, std::size_t, T x) { to = x; }
     static void multiply_subtract(T& to, T x, T y, T p) { to = std::fma(x, y, -p); }
+    static void root(T& to, T x) { to = std::sqrt(x); }
     static void less(Integers& to, T x, T y) { to = -Integers(x < y); }
     template <class N>
     static void equal(Integers& to, N x, N y) {

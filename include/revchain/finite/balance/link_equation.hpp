@@ -36,9 +36,12 @@ namespace detail {
 using revchain::detail::down;
 using revchain::detail::up;
 
+/// Largest t (1+t^2)^-5/2, at t = 1/2: (1/2)(5/4)^(-5/2) = 0.28621670111997307...
+inline constexpr double steepest_half_bend = 0.2862167011199732;
+
 /// Sine of the inclination whose tangent is t, and its derivatives along t, over an interval of t: each takes its
 /// extremes at the ends or where the next derivative turns.
-template <Real T>
+template <class T>
 struct Sine {
     Interval<T> value, slope, half_bend;  // s, (1+t^2)^-3/2, t (1+t^2)^-5/2 = -s''/3
 
@@ -66,10 +69,8 @@ struct Sine {
         const Interval<T> b0 = low * square(square(c0)), b1 = high * square(square(c1));
         half_bend = hull(b0, b1);
         const T half = T(1) / T(2);
-        // +-(1/2)(5/4)^(-5/2) = +-0.28621670111997307...
-        constexpr double turning = 0.2862167011199732;
-        if (t.contains(half)) half_bend.high = T(turning);
-        if (t.contains(-half)) half_bend.low = T(-turning);
+        if (t.contains(half)) half_bend.high = T(steepest_half_bend);
+        if (t.contains(-half)) half_bend.low = T(-steepest_half_bend);
     }
 };
 

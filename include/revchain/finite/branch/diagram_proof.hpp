@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "revchain/finite/branch/crossing.hpp"
@@ -69,19 +70,25 @@ class DiagramProver {
             stack_.push_back({0.0, last, low, i == 0 ? highest : std::nextafter(high, 2 * high)});
             while (!stack_.empty()) {
                 revchain::detail::look();
-                const Rectangle part = stack_.back();
-                stack_.pop_back();
                 if (proof.rectangles >= budget_) {
                     leave_open(proof, {0, 0, lowest, high});
                     return proof;
                 }
-                if (!settled(part, proof, known)) leave_open(proof, part);
+                std::array<Rectangle, batch> parts;
+                const std::size_t count = std::min(batch, stack_.size());
+                std::copy_n(stack_.rbegin(), count, parts.begin());
+                stack_.resize(stack_.size() - count);
+                const auto y = offsets_over(parts, count);
+                for (std::size_t each = 0; each < count; ++each)
+                    if (!settled(parts[each], y[each], proof, known)) leave_open(proof, parts[each]);
             }
         }
         return proof;
     }
 
    private:
+    static constexpr std::size_t batch = 8;
+
     static void leave_open(DiagramProof& proof, const Rectangle& part) {
         proof.open_low = proof.complete ? part.height_low : std::min(proof.open_low, part.height_low);
         proof.open_high = proof.complete ? part.height_high : std::max(proof.open_high, part.height_high);
@@ -90,9 +97,8 @@ class DiagramProver {
 
     /// Whether nothing is left to show there but in the parts it was split into.
     template <class Known>
-    bool settled(const Rectangle& part, DiagramProof& proof, Known&& known) {
+    bool settled(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof, Known&& known) {
         ++proof.rectangles;
-        const auto y = offset_over(part);
         const bool from_zero = part.low == 0;
         if ((!from_zero && !y.value.may_vanish()) || !y.slope[0].may_vanish()) return true;
         if (const auto graph = graph_over(part, y, proof)) {
@@ -104,9 +110,37 @@ class DiagramProver {
         }
         return split(part, y);
     }
-    Taylor<double, 2> offset_over(const Rectangle& part) const {
-        return support_offset(links_, Cell<double, 2>(part.x(), part.height()));
+    /// Over several rectangles, side by side in registers.
+    std::array<Taylor<double, 2>, batch> offsets_over(const std::array<Rectangle, batch>& parts,
+                                                      std::size_t count) const {
+        return simd([&]<class Registers>(Registers) REVCHAIN_INLINED {
+            using V = Pack<double, Registers::doubles>;
+            std::array<Taylor<double, 2>, batch> result;
+            for (std::size_t first = 0; first < count; first += V::size) {
+                const auto lanes = [&](const auto& number) REVCHAIN_INLINED {
+                    V x;
+                    for (std::size_t i = 0; i < V::size; ++i) x.set(i, number(parts[std::min(first + i, count - 1)]));
+                    return x;
+                };
+                const Interval<V> x(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.low; }),
+                                    lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.high; })),
+                    height(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_low; }),
+                           lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_high; }));
+                const auto y = support_offset(links_, Cell<V, 2>(x, height));
+                for (std::size_t i = 0; i < std::min(V::size, count - first); ++i) {
+                    const auto lane = [&](const Interval<V>& of)
+                                          REVCHAIN_INLINED { return Interval<double>(of.low[i], of.high[i]); };
+                    auto& to = result[first + i];
+                    to.value = lane(y.value), to.centre_value = lane(y.centre_value);
+                    for (std::size_t k = 0; k < 2; ++k)
+                        to.slope[k] = lane(y.slope[k]), to.centre_slope[k] = lane(y.centre_slope[k]);
+                    for (std::size_t k = 0; k < 3; ++k) to.bend[k] = lane(y.bend[k]);
+                }
+            }
+            return result;
+        });
     }
+    Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}, 1).front(); }
     int sign(double x, double height) const {
         const Interval<double> lambda(height);
         return detail::support_offset(links_, lambda, Interval<double>(x) / lambda).sign();

@@ -34,14 +34,17 @@ void append(Branch& branch, const BranchPoint& point) {
     branch.points.push_back(point);
 }
 
+/// Whether a point lies beyond another one next to it, in the direction of the branch.
+inline bool is_past(const BranchPoint& here, const BranchPoint& there) {
+    return inner(moved(here.state, -1, there.state), here.tangent) > 0;
+}
+
 /// Whether a step passes the point where a loop began, going the same way.
 inline bool returned(const BranchPoint& here, const BranchPoint& before, const BranchPoint& start) {
     const double reach = here.arc - before.arc;
     if (!(before.arc > start.arc) || inner(here.tangent, start.tangent) < 0.5) return false;
-    const BranchState from_before = moved(start.state, -1, before.state),
-                      from_here = moved(start.state, -1, here.state);
-    return inner(from_before, from_before) < 2 * reach * reach && inner(from_before, before.tangent) >= 0 &&
-           inner(from_here, here.tangent) < 0;
+    const BranchState from_before = moved(start.state, -1, before.state);
+    return inner(from_before, from_before) < 2 * reach * reach && !is_past(before, start) && is_past(here, start);
 }
 
 /// Whether a step goes through the straight chain to the mirror image.
@@ -64,8 +67,10 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
         auto crossings = crossings_of(walk, to_end);
         std::erase_if(crossings, [](const WithinStep& each) { return each.point.tangent.log_height > 0; });
         const double until = crossings.empty() ? 1.0 : crossings.front().share;
+        const bool closed = returned(here, before, start);
         if (before.tangent.log_height * here.tangent.log_height < 0)
-            if (const auto fold = turning_of(walk, to_end); fold && fold->share < until) {
+            if (const auto fold = turning_of(walk, to_end);
+                fold && fold->share < until && !(closed && is_past(fold->point, start))) {
                 append(branch, fold->point);
                 branch.folds.push_back(branch.size() - 1);
                 if (branch.size() >= max_points) return End::budget;
@@ -75,7 +80,7 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
             return End::height;
         }
         if (here.state.log_height < log_end) return End::stuck;  // passed the end unseen
-        if (returned(here, before, start)) {
+        if (closed) {
             append(branch, start);
             return End::closed;
         }

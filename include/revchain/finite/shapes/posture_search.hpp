@@ -124,8 +124,7 @@ class PostureSearch {
             }
             const LoadedTangents<T> centre = response.met(choice[m], R.centre_value);
             t.centre_value = centre.tangent;
-            smooth = centre.possible && centre.smooth &&
-                     detail::derive(response.stiffness(), response.stiffness(), response.turning(), {}, R, t);
+            smooth = centre.possible && centre.smooth && detail::derive(response.stiffness(), response.turning(), R, t);
             return true;
         }
         Taylor<T, 1> sine(std::size_t m, const Taylor<T, 1>& t) const {
