@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <optional>
 
 #include "bindings.hpp"
@@ -15,32 +16,43 @@ using revchain::Posture;
 using revchain::Rig;
 using Flags = py::array_t<bool, py::array::c_style | py::array::forcecast>;
 
-/// Number m of an array with one for each link; `otherwise` where none was given.
-double at(const std::optional<Array>& array, Index m, double otherwise) { return array ? array->data()[m] : otherwise; }
+/// Number m of an array with one for each link, or for all; `otherwise` where none was given.
+double at(const std::optional<Array>& array, Index m, double otherwise) {
+    if (!array) return otherwise;
+    return array->data()[array->ndim() == 0 ? 0 : m];
+}
+
+/// Leaves out an array of nothing but zeros.
+std::optional<Array> unless_zero(const std::optional<Array>& array) {
+    if (!array || std::all_of(array->data(), array->data() + array->size(), [](double x) { return x == 0; })) return {};
+    return array;
+}
 
 Rig make_rig(const Chain<double>& chain, double stiffness, double carriage_weight, double support_radius,
-             const std::optional<Flags>& standing, const std::optional<Array>& momentum,
-             const std::optional<Array>& axial_moment, const std::optional<Array>& displaced_weight,
+             const std::optional<Flags>& standing, const std::optional<Array>& given_momentum,
+             const std::optional<Array>& given_moment, const std::optional<Array>& displaced_weight,
              const std::optional<Array>& displaced_centroid, const std::optional<Array>& displaced_radius_of_gyration,
              const std::optional<Array>& added_weight, bool turning_fluid) {
+    const std::optional<Array> momentum = unless_zero(given_momentum), axial_moment = unless_zero(given_moment);
     for (const auto* array : {&momentum, &axial_moment, &displaced_weight, &displaced_centroid,
                               &displaced_radius_of_gyration, &added_weight})
-        if (*array && (*array)->size() != chain.size())
+        if (*array && (*array)->ndim() > 0 && (*array)->size() != chain.size())
             revchain::detail::throw_invalid("Rig", "arrays must have one number for each link", (*array)->size());
     if (standing && standing->size() != chain.size())
         revchain::detail::throw_invalid("Rig", "standing must have one entry for each link", standing->size());
     revchain::Rigging with{.support = {stiffness, carriage_weight, support_radius}};
     with.fluid = turning_fluid ? revchain::Fluid::turning : revchain::Fluid::still;
+    const bool floats = displaced_weight || displaced_centroid || displaced_radius_of_gyration || added_weight;
     for (Index m = 0; m < chain.size(); ++m) {
-        const revchain::Link<double> link = chain.link(m);
         if (standing) with.posture.push_back(standing->data()[m] ? Posture::stands : Posture::hangs);
         if (momentum || axial_moment) with.flywheels.push_back({at(momentum, m, 0), at(axial_moment, m, 0)});
-        if (!displaced_weight && !displaced_centroid && !displaced_radius_of_gyration && !added_weight) continue;
+        if (!floats) continue;
+        const revchain::Link<double> link = chain.link(m);
         Displaced fluid = displaced_by(link, at(displaced_weight, m, 0), at(added_weight, m, 0));
         fluid.centroid = at(displaced_centroid, m, link.centroid);
         if (displaced_radius_of_gyration)
             fluid.gyration_ratio = revchain::detail::gyration_from_radius<double>(
-                "Rig: links[" + std::to_string(m) + "]", link.length, displaced_radius_of_gyration->data()[m]);
+                "Rig: links[" + std::to_string(m) + "]", link.length, at(displaced_radius_of_gyration, m, 0));
         with.displaced.push_back(fluid);
     }
     return Rig(chain, std::move(with));
@@ -62,9 +74,10 @@ auto of_string(const Function& function) {
 
 void bind_rig(py::module_& module) {
     py::class_<Rig>(module, "Rig", "A chain and what it is rigged with; immutable.")
-        .def(py::init(&make_rig), "chain"_a, "stiffness"_a, "carriage_weight"_a, "support_radius"_a, "standing"_a,
-             "momentum"_a, "axial_moment"_a, "displaced_weight"_a, "displaced_centroid"_a,
-             "displaced_radius_of_gyration"_a, "added_weight"_a, "turning_fluid"_a)
+        .def(py::init(&make_rig), "chain"_a, "stiffness"_a, "carriage_weight"_a, "support_radius"_a,
+             "standing"_a = py::none(), "momentum"_a = py::none(), "axial_moment"_a = py::none(),
+             "displaced_weight"_a = py::none(), "displaced_centroid"_a = py::none(),
+             "displaced_radius_of_gyration"_a = py::none(), "added_weight"_a = py::none(), "turning_fluid"_a = false)
         .def(
             "__eq__", [](const Rig& x, const Rig& y) { return x == y; }, py::is_operator());
 

@@ -183,8 +183,8 @@ inline void Rig::check() const {
         detail::throw_invalid("Rig", "the stiffness of the support must be positive", support.stiffness);
     detail::require_not_negative("Rig", "carriage weight", support.carriage_weight, "radius of the support",
                                  support.radius);
-    for (Index m = 0; m < size(); ++m) {
-        const std::string place = "Rig: links[" + std::to_string(m) + "]";
+    if (with_.flywheels.empty() && with_.displaced.empty()) return;
+    const auto check_link = [&](Index m, std::string_view place) {
         const Flywheel wheel = flywheel(m);
         detail::require_finite(place, "momentum", wheel.momentum);
         detail::require_not_negative(place, "axial moment", wheel.axial_moment);
@@ -194,6 +194,13 @@ inline void Rig::check() const {
         detail::require_not_negative(place, "added weight", fluid.added_weight,
                                      "(radius of gyration / length)^2 of the fluid displaced",
                                      static_cast<double>(fluid.gyration_ratio));
+    };
+    Index m = 0;
+    try {
+        for (; m < size(); ++m) check_link(m, "Rig");
+    } catch (const InvalidArgument&) {  // once more, with the place
+        check_link(m, "Rig: links[" + std::to_string(m) + "]");
+        throw;
     }
 }
 

@@ -108,14 +108,14 @@ class Rig:
         stiffness: float,
         carriage_weight: float,
         support_radius: float,
-        standing: numpy.typing.NDArray[numpy.bool_] | None,
-        momentum: _Floats | None,
-        axial_moment: _Floats | None,
-        displaced_weight: _Floats | None,
-        displaced_centroid: _Floats | None,
-        displaced_radius_of_gyration: _Floats | None,
-        added_weight: _Floats | None,
-        turning_fluid: bool,
+        standing: numpy.typing.NDArray[numpy.bool_] | None = None,
+        momentum: _Floats | None = None,
+        axial_moment: _Floats | None = None,
+        displaced_weight: _Floats | None = None,
+        displaced_centroid: _Floats | None = None,
+        displaced_radius_of_gyration: _Floats | None = None,
+        added_weight: _Floats | None = None,
+        turning_fluid: bool = False,
     ) -> None: ...
 
 def sensitivity(

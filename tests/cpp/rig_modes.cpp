@@ -453,6 +453,39 @@ TEST_CASE("chains stiffer than their spring by many decades", "[linear]") {
     CHECK(modes(soft, {.count = revchain::all_modes}).forward.conical_height[0] == 2e12 + 0.5);
 }
 
+TEST_CASE("all modes under a spring: plummets, rods and bodies, with a carriage and without", "[linear]") {
+    Random random(66);
+    double worst = 0;
+    int together = 0;
+    for (int i = 0; i < 240; ++i) {
+        const Index n = i % 8 == 0 ? 60 + i / 4 : 1 + i / 10;
+        std::vector<Link<double>> links;
+        for (Index m = 0; m < n; ++m) {
+            const double W = random.log_between(0.01, 1), a = random.log_between(0.1, 1), p = random.between(0.2, 0.8);
+            if (i % 3 == 0) links.push_back(plummet(W, a));
+            if (i % 3 == 1) links.push_back(uniform_rod(W, a));
+            if (i % 3 == 2)
+                links.push_back(compound_pendulum<double>({.weight = W,
+                                                           .length = a,
+                                                           .centroid = a * p,
+                                                           .radius_of_gyration = a * 0.3 * random.between(0.3, 1)}));
+        }
+        const double carriage = i % 2 == 0 ? 0 : random.log_between(1e-3, 1e3);
+        const Rig rig(Chain<double>(links), {.support = {random.log_between(1e-3, 1e3), carriage, 0}});
+        const auto m = modes(rig, {.count = revchain::all_modes});
+        CAPTURE(i, n, carriage);
+        CHECK(m.complete);
+        CHECK(m.forward.size() == n + (i % 3 == 0 && carriage == 0 ? 0 : 1));
+        CHECK(m.forward.error_bound.maxCoeff() <= 2.3e-16);
+        worst = std::max(worst, worst_error(RigTruth(rig), m, n > 30 ? 7 : 1));
+        const auto elements = pencil::positive_elements(rig_pencil(rig).pencil);
+        REQUIRE(elements);
+        together += detail::roots_under_a_spring(rig, *elements, {1, m.forward.size()}, m.forward.size()) ? 1 : 0;
+    }
+    CHECK(worst <= 0.501);
+    CHECK(together >= 200);
+}
+
 TEST_CASE("rigs: questions without an answer yet say what to ask instead", "[linear]") {
     const Rig rig(Chain<double>::uniform_rods(3), {.support = horizontal_spring(2.0)});
     using Catch::Matchers::ContainsSubstring;

@@ -10,11 +10,19 @@
 
 namespace revchain::detail {
 
+/// A spring that holds the support of a chain sideways, and the weight of what moves with it, in `chain.units()`.
+struct SpringOnTop {
+    double stiffness, carriage;
+};
+
 /// A chain as lumped pins and springs in double. Heights in units of `chain.units()`. With p = h/a, q = 1 - p the
 /// lumped masses are W p and W q, X = W (p q - r). False for chains not served: all have to be plummets, or all to have
 /// 0 <= h <= a and 0 < (rho/a)^2 < p q (l < a). Roundings: of S one (compensated); of p one, of q two; of k two with
-/// plummets, else four, of 1/k the same; the others in docs/accuracy.md, "All modes of small chains", 1.
-inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain) {
+/// plummets, else four, of 1/k the same; the others in docs/accuracy.md, "All modes of small chains", 1. A support on
+/// a spring is one more link, with the mass of the carriage at its lower pin. Of plummets without a carriage the spring
+/// and the uppermost thread are one: 1/k three roundings, k four.
+inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain,
+                 const std::optional<SpringOnTop>& top = std::nullopt) {
     const std::size_t n = static_cast<std::size_t>(chain.size());
     const ChainUnits units = chain.units();
     const double per_weight = std::ldexp(1.0, -units.weight_exponent);
@@ -61,35 +69,51 @@ inline bool lump(pencil::aberth::LumpedLinks& links, const Chain<double>& chain)
         greatest = std::max(greatest, links.rigid ? k / links.turn[m] : 2 * (stiffness_below + k) / mass);
         stiffness_below = k;
     }
-    links.least_shift = (1 - 0x1p-30) / trace;
-    links.greatest_shift = (1 + 0x1p-30) * greatest;
     links.roundings = {2, 0, 6, 0};
     if (links.rigid) links.roundings = {6, 4, 5 * worst_cross + 15, worst_centroid};
+    if (top) {
+        const double flexibility = 1 / top->stiffness, mass = mass_above + top->carriage;
+        trace += (hung.value() + top->carriage) * flexibility;
+        if (links.rigid) {  // K y^2 of the uppermost link and the spring together, over its mass alone
+            const double p = links.lower_share[n - 1], turn = links.turn[n - 1];
+            greatest =
+                std::max(greatest, (stiffness_below + top->stiffness * (p * p + turn / links.weight[n - 1])) / turn);
+        }
+        if (mass > 0) {
+            if (!links.rigid) greatest = std::max(greatest, 2 * (stiffness_below + top->stiffness) / mass);
+            links.mass[n] = mass, links.stiffness[n] = top->stiffness, links.flexibility[n] = flexibility;
+            links.cross_ratio[n] = links.turn[n] = links.upper_share[n] = 0;
+            links.weight[n] = top->carriage, links.lower_share[n] = 1;
+            links.size = n + 1;
+        } else {
+            links.flexibility[n - 1] += flexibility;
+            links.stiffness[n - 1] = 1 / links.flexibility[n - 1];
+            links.roundings = {4, 0, 8, 0};
+        }
+    }
+    links.least_shift = (1 - 0x1p-30) / trace;
+    links.greatest_shift = (1 + 0x1p-30) * greatest;
     return fit && worst_cross < 0x1p20;
 }
 
-/// The heights of a range of the modes that `all` holds, to 2 ulp; nothing where that is not proved.
-inline std::optional<Heights<double>> refined(const Chain<double>& chain, const ModeRange& range, Index modes,
-                                              const pencil::AberthSpectrum& all) {
-    const AssembledChain<double> assembled = assemble(chain);
+/// A range of the roots that `all` holds, each to `worst`, relative; nothing where that is not proved.
+inline std::optional<std::vector<pencil::ProvedRoot<double>>> refined(const pencil::ElementPencil<Wide<double>>& pencil,
+                                                                      const ModeRange& range, Index modes,
+                                                                      const pencil::AberthSpectrum& all, double worst) {
     const auto end = [&](Index j, int side) {
         const std::size_t i = static_cast<std::size_t>(j);
         return all.eigenvalue[i] * (1 + side * all.bound[i] * (1 + 0x1p-30));
     };
     const Index first = range.first - 1, last = first + range.count;
     const std::vector<double> starts(all.eigenvalue.begin() + first, all.eigenvalue.begin() + last);
-    const auto roots = pencil::proved_roots(assembled.pencil, pencil::is_lumped(assembled.pencil), starts, first,
-                                            last == modes ? 0.0 : end(last, 1),
-                                            first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1),
-                                            worst_unrounded, [](double) { return pencil::CertifiedCount{}; });
-    if (!roots) return std::nullopt;
-    Heights<double> heights;
-    heights.reserve(roots->size());
-    for (const auto& root : *roots) {
-        if (!std::isfinite(root.off)) return std::nullopt;
-        heights.push_back(rounded_height(root));
-    }
-    return heights;
+    auto roots =
+        pencil::proved_roots(pencil, pencil::is_lumped(pencil), starts, first, last == modes ? 0.0 : end(last, 1),
+                             first == 0 ? std::numeric_limits<double>::infinity() : end(first - 1, -1), worst,
+                             [](double) { return pencil::CertifiedCount{}; });
+    if (roots)
+        for (const auto& root : *roots)
+            if (!std::isfinite(root.off)) return std::nullopt;
+    return roots;
 }
 
 /// Stage 1 of `modes` for small chains; nothing for chains that `pencil::aberth_spectrum` does not serve. Bounds are
@@ -107,9 +131,14 @@ inline std::optional<Heights<double>> heights_by_aberth(const Chain<double>& cha
     if (!lump(links, chain)) return std::nullopt;
     pencil::AberthSpectrum all;
     if (!pencil::aberth_spectrum(links, goal < loose ? 0x1p-40 : goal, all)) return std::nullopt;
-    if (goal < loose) return refined(chain, range, chain.mode_count(), all);
     Heights<double> result;
     result.reserve(static_cast<std::size_t>(range.count));
+    if (goal < loose) {
+        const auto roots = refined(assemble(chain).pencil, range, chain.mode_count(), all, worst_unrounded);
+        if (!roots) return std::nullopt;
+        for (const auto& root : *roots) result.push_back(rounded_height(root));
+        return result;
+    }
     for (Index j = range.first - 1; j < range.first - 1 + range.count; ++j) {
         const std::size_t i = static_cast<std::size_t>(j);
         result.push_back({all.eigenvalue[i], all.bound[i], all.eigenvalue[i]});

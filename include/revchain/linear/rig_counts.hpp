@@ -2,7 +2,7 @@
 #pragma once
 
 #include "revchain/count.hpp"
-#include "revchain/linear/heights.hpp"
+#include "revchain/linear/aberth_heights.hpp"
 #include "revchain/linear/rig_pencil.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
 #include "revchain/pencil/certificate.hpp"
@@ -106,6 +106,38 @@ class CountedRoots {
     int side_;
 };
 
+/// A root as it is given out.
+inline FoundRoot given_out(const pencil::ProvedRoot<double>& proved) {
+    return {proved.root, (proved.off / proved.root.high + epsilon<double>() / 2) * (1 + 0x1p-30)};
+}
+/// How far a root may be from the exact one, relative, before it is rounded.
+inline constexpr double worst_unrounded_root = 0.49 * std::numeric_limits<double>::epsilon();
+
+/// The heights of a chain under a support that yields, from all of them at once; nothing for other rigs, where a few of
+/// many are asked for, and where one is not proved. `elements` is the rig's pencil.
+inline std::optional<std::vector<FoundRoot>> roots_under_a_spring(const Rig& rig,
+                                                                  const pencil::ElementPencil<RigWord>& elements,
+                                                                  const ModeRange& range, Index available) {
+    const Chain<double>& chain = rig.chain();
+    const Rigging& with = rig.rigging();
+    if (with.support.is_firm() || !with.posture.empty() || !with.flywheels.empty() || !with.displaced.empty() ||
+        chain.mode_count() != chain.size() || !chain.has_one_weight_unit() ||
+        chain.size() >= static_cast<Index>(pencil::aberth::most_links) || 4 * range.count < available)
+        return std::nullopt;
+    const FloatingPointStateGuard quiet;
+    const auto& spring = elements.elements.back();
+    pencil::aberth::LumpedLinks links;
+    if (!lump(links, chain, SpringOnTop{spring.stiffness.high, spring.lower.high})) return std::nullopt;
+    pencil::AberthSpectrum all;
+    if (static_cast<Index>(links.size) != available || !pencil::aberth_spectrum(links, 0x1p-40, all))
+        return std::nullopt;
+    const auto roots = refined(elements, range, available, all, worst_unrounded_root);
+    if (!roots) return std::nullopt;
+    std::vector<FoundRoot> found;
+    for (const auto& root : *roots) found.push_back(given_out(root));
+    return found;
+}
+
 /// The roots of a range of numbers, from 1, where every stiffness is positive and no mass negative: eight at a time, to
 /// an ulp of what is given out. Nothing where that is not proved. `elements` is the pencil of `roots`.
 inline std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::ElementPencil<RigWord>& elements,
@@ -114,21 +146,20 @@ inline std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::Elemen
                                                             const std::function<void(Index)>& finished) {
     if (elements.size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
-    constexpr double worst = 0.49 * std::numeric_limits<double>::epsilon();  // before it is rounded
     const auto counter = pencil::rounded<double>(elements);
     const auto certified = [&](double x) { return roots.certified(x); };
     const auto find = [&](auto spinning) {
         return pencil::proved_range<spinning.value>(elements, counter, certified, range.first - 1, range.count,
-                                                    available, guess, worst, finished);
+                                                    available, guess, worst_unrounded_root, finished);
     };
     const auto proved = elements.spin.empty() ? find(std::false_type()) : find(std::true_type());
     if (!proved) return std::nullopt;
     std::vector<FoundRoot> found;
     found.reserve(proved->size());
-    for (const auto& [root, off] : *proved) {
+    for (const auto& root : *proved) {
         const Index j = range.first - 1 + static_cast<Index>(found.size());
-        found.push_back(std::isfinite(off) ? FoundRoot{root, (off / root.high + epsilon<double>() / 2) * (1 + 0x1p-30)}
-                                           : roots.refined(j, roots.brackets(j, 1, guess, {}).front()));
+        found.push_back(std::isfinite(root.off) ? given_out(root)
+                                                : roots.refined(j, roots.brackets(j, 1, guess, {}).front()));
     }
     return found;
 }

@@ -72,16 +72,19 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& p
             RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
     };
     if (pencil.stiffness_positive && pencil.mass_not_negative)
-        if (auto elements = pencil::positive_elements(roots.pencil()))
-            if (const auto in_lanes = roots_in_lanes(*elements, roots, range, available, guess, finished)) {
+        if (auto elements = pencil::positive_elements(roots.pencil())) {
+            auto several = roots_under_a_spring(rig, *elements, range, available);
+            if (!several) several = roots_in_lanes(*elements, roots, range, available, guess, finished);
+            if (several) {
                 for (Index j = 0; j < range.count; ++j) {
-                    const FoundRoot& root = (*in_lanes)[static_cast<std::size_t>(j)];
+                    const FoundRoot& root = (*several)[static_cast<std::size_t>(j)];
                     proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
                     found.push_back(root.x);
                 }
                 keep_shapes(std::make_shared<const pencil::ElementPencil<RigWord>>(*std::move(elements)));
                 return proved;
             }
+        }
     const auto brackets = roots.brackets(range.first - 1, range.count, guess, finished);
     for (Index j = 0; j < range.count; ++j) {
         const FoundRoot root = roots.refined(range.first - 1 + j, brackets[static_cast<std::size_t>(j)]);

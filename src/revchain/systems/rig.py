@@ -196,22 +196,25 @@ class Flywheel(_Fitting):
             refuse_where(~np.isfinite(column), column, f"{place}: {name} must be finite")
             if name not in ("spin", "momentum"):
                 refuse_where(column < 0, column, f"{place}: {name} must not be negative")
-        flags = array_of(driven)
-        if flags.dtype != np.bool_:
-            raise ValueError(f"{place}: driven must be True, False or an array of them, got {shown(driven)}")
         if "axial_moment" in columns and not columns["axial_moment"].any():
             del columns["axial_moment"]
         _set(self, "_given", {name: read_only(column) for name, column in columns.items()})
-        if flags.any() and "spin" not in columns:
+        if driven is False:
+            return
+        flags = array_of(driven)
+        if flags.dtype != np.bool_:
+            raise ValueError(f"{place}: driven must be True, False or an array of them, got {shown(driven)}")
+        if not flags.any():
+            return
+        if "spin" not in columns:
             raise ValueError(f"{place}: driven goes with mass, radius_of_gyration and spin; with momentum give axial_moment")
-        if flags.any():
-            self._given["driven"] = read_only(flags)
+        self._given["driven"] = read_only(flags)
 
     def _about(self, gravity: float) -> tuple[Floats, Floats]:
-        """Momentum over what a force of the compiled chain is in, and axial moment."""
+        """Momentum and axial moment; of wheels given by mass, the momentum is over gravity."""
         given = self._given
         if "momentum" in given:
-            return given["momentum"], given.get("axial_moment", np.float64(0))
+            return given["momentum"], given.get("axial_moment", _NOTHING)
         place = "revchain.Flywheel"
         heavy, radius = given.get("mass", given.get("weight")), given["radius_of_gyration"]
         with np.errstate(over="ignore", invalid="ignore"):
@@ -392,10 +395,17 @@ class Rig(System):
 
     def _momentum(self, gravity: float) -> Floats:
         """Angular momentum that each link keeps, for the compiled rig, shape (N,)."""
-        if self.flywheels is None:
-            return np.broadcast_to(np.float64(0), self.size)
-        momentum = _column("revchain.Rig", "momentum", self.flywheels._about(gravity)[0], self.size)
-        return momentum / gravity if self.by_mass and "momentum" in self.flywheels._given else momentum
+        momentum = _NOTHING if self.flywheels is None else self._turning(gravity)[0]
+        return np.broadcast_to(momentum, self.size)
+
+    def _turning(self, gravity: float) -> tuple[Floats, Floats]:
+        """Momentum and axial moment for the compiled rig, each a number or one for each link."""
+        assert self.flywheels is not None
+        momentum, moment = self.flywheels._about(gravity)
+        if self.by_mass and "momentum" in self.flywheels._given:
+            momentum = momentum / gravity
+        place, size = "revchain.Rig", self.size
+        return _column(place, "momentum", momentum, size), _column(place, "axial_moment", moment, size)
 
     @property
     def has_momentum(self) -> bool:
@@ -416,12 +426,9 @@ class Rig(System):
 
     def _made(self, gravity: float) -> _core.Rig:
         place, size = "revchain.Rig", self.size
-        columns: dict[str, Any] = dict.fromkeys(_COLUMNS)
+        columns: dict[str, Floats] = {}
         if self.flywheels is not None:
-            moment = _column(place, "axial_moment", self.flywheels._about(gravity)[1], size)
-            momentum = self._momentum(gravity)
-            columns["momentum"] = momentum if momentum.any() else None
-            columns["axial_moment"] = moment if moment.any() else None
+            columns["momentum"], columns["axial_moment"] = self._turning(gravity)
         if self.displaced is not None:
             for name, value in self.displaced._given.items():
                 columns[_COLUMN_OF[name]] = _column(place, f"displaced {name}", value, size)
@@ -522,10 +529,12 @@ _COLUMN_OF = {
     "added_mass": "added_weight",
     "added_weight": "added_weight",
 }
-_COLUMNS = ("momentum", "axial_moment", *dict.fromkeys(_COLUMN_OF.values()))
+_NOTHING = np.zeros(())
 
 
 def _flags(place: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:
+    if value is False:
+        return None
     flags = array_of(value)
     if flags.dtype != np.bool_ or flags.ndim > 1 or (flags.ndim == 1 and flags.size != size):
         raise ValueError(
@@ -536,12 +545,13 @@ def _flags(place: str, value: ArrayLike, size: int) -> NDArray[np.bool_] | None:
 
 
 def _column(place: str, name: str, column: Floats, size: int) -> Floats:
+    """The column, if it is a number or has one for each link."""
     if column.ndim > 1 or (column.ndim == 1 and column.size != size):
         raise ValueError(
             f"{place}: {name} must be a number or an array with one for each of the {size} links, "
             f"got shape {column.shape}"
         )
-    return read_only(np.ascontiguousarray(np.broadcast_to(column, size)))
+    return column
 
 
 _set = object.__setattr__
