@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MPL-2.0
 // What the whirl speeds of a chain of gyrostats cost, beside those of the chain alone, as CSV: N, modes asked of each
-// sense, CPU microseconds per link and mode with shapes and without, the same of `modes` one by one, the worst bound of a
+// sense, CPU microseconds per link and mode with shapes and without, the same of the chain's `modes`, the worst bound of a
 // speed in ulp. Medians of 5 rounds; half a minute.
 #include <cstdio>
 

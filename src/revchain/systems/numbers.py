@@ -33,7 +33,7 @@ def floats(place: str, name: str, value: ArrayLike | None) -> Floats:
     """`value` as a float64 array, numbers with units in SI; a ValueError refuses anything but real numbers."""
     if type(value) is np.ndarray and value.dtype is _FLOAT64 and value.flags.c_contiguous:
         return value  # as fast as can be: there is nothing to convert
-    if type(value) is not float and units.are_there(value := units.unpacked(value)):
+    if not isinstance(value, float) and units.are_there(value := units.unpacked(value)):
         value = units.in_si(place, name, value)
     array = array_of(value)
     if array.dtype == object and all(isinstance(x, Real) and not isinstance(x, bool) for x in array.flat):
@@ -153,8 +153,8 @@ def refuse_where(wrong: NDArray[np.bool_], array: Floats, message: str) -> None:
 
 def real(place: str, name: str, value: object) -> float:
     """`value` as a float; anything but one real number is refused with a ValueError."""
-    if type(value) is float:
-        return value
+    if isinstance(value, float):  # numpy's float64 is one, too
+        return float(value)
     array = floats(place, name, value)  # type: ignore[arg-type]
     if array.ndim != 0:
         raise ValueError(f"{place}: {name} must be a single number, got an array of shape {array.shape}")
