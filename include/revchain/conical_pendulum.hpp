@@ -152,11 +152,13 @@ struct HeldPlummet {
     T radius, depth;  ///< of the plummet: from the axis, and below the upper point
     T upper_tension, lower_tension;
     bool upper_taut,
-        lower_taut;  ///< tension >= 0; otherwise that thread is slack and the other one carries the plummet
+        lower_taut;  ///< else that thread is slack, its tension 0, and the plummet circles on the other one
 };
 
 /// The plummet held by threads from two points of the axis, the lower one `distance` below the upper one; equations of
-/// the polygon KN, NP, PC', C'K of §1. The lower thread is taut where depth > height.
+/// the polygon KN, NP, PC', C'K of §1. With D the depth where both are straight, the lower thread is slack where
+/// height >= D, and the upper one where height <= D - distance; the plummet is then a conical pendulum on the other one.
+/// It is where depth + radius^2/(2 height) is largest within reach of both: that has one maximum along their limits.
 /// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of 1e-29 of the larger one.
 /// Also throws InvalidArgument unless the three lengths form a triangle.
 template <Real T>
@@ -181,9 +183,17 @@ HeldPlummet<T> held_plummet(const T& upper_thread, const T& lower_thread, const 
     const S u(ldexp(upper_thread, -unit)), l(ldexp(lower_thread, -unit)), d(ldexp(distance, -unit)), x(height);
     const S rise = ldexp(S(upper_thread) - S(lower_thread), -short_unit) / S(ldexp(distance, -short_unit));
     const S along = rise * (u + l), depth = ldexp(d + along, unit - 1), above_lower = ldexp(along - d, unit - 1);
+    if (x >= depth) {
+        const InclinedPendulum<T> hung = inclined_pendulum(upper_thread, height);
+        return {hung.radius, hung.depth, hung.tension, T(0), true, false};
+    }
+    if (x <= above_lower) {
+        const InclinedPendulum<T> hung = inclined_pendulum(lower_thread, height);
+        return {hung.radius, distance + hung.depth, T(0), hung.tension, false, true};
+    }
     const T upper = upper_thread / distance * (static_cast<T>(S(x - above_lower)) / height);
     const T lower = lower_thread / distance * (static_cast<T>(S(depth - x)) / height);
-    return {radius, static_cast<T>(depth), upper, lower, upper >= T(0), lower >= T(0)};
+    return {radius, static_cast<T>(depth), upper, lower, true, true};
 }
 
 /// Resistance of the air over the weight, CA / CN, measured with the whirling machine: the plummet's thread hangs from

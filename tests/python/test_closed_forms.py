@@ -49,7 +49,7 @@ def exactly(*numbers):
 
 @pytest.mark.parametrize("distance", [1e-9, 1e-20, 1e-100, 1e-150, 1e-200, 1e-300])
 def test_two_equal_threads_from_nearly_one_point_reach_as_far_as_they_are_long(distance):
-    found = plummet.held_plummet(1.0, 1.0, distance, 0.5)
+    found = plummet.held_plummet(1.0, 1.0, distance, 0.1 * distance)
     assert found.radius == near(1.0, rel=4 * ULP)
     assert np.isfinite(found.depth)
 

@@ -35,7 +35,7 @@ class InclinedPendulum(NamedTuple):
 class HeldPlummet(NamedTuple):
     """A point mass on two threads tied to the axis: distance from it, depth below the upper point, tensions.
 
-    A thread is taut where its tension is not negative; otherwise it is slack and the mass circles on the other one.
+    Where a thread is slack its tension is 0, and the mass circles on the other one.
     """
 
     radius: Any
@@ -89,7 +89,8 @@ def held_plummet(
     -------
     HeldPlummet
         Broadcast shape, within 3 ulp; where a depth or a tension nearly vanishes, within 1e-29 of the larger of the two
-        terms whose difference it is. The lower thread is taut where ``depth >= height``.
+        terms whose difference it is. With D the depth where both threads are straight, the lower one is slack from
+        ``height = D`` on, and the upper one up to ``height = D - distance``.
 
     Raises
     ------
@@ -102,11 +103,14 @@ def held_plummet(
     >>> held = rc.plummet.held_plummet(1.0, 1.0, distance=1.2, height=0.3)
     >>> round(float(held.radius), 6), bool(held.lower_taut)
     (0.8, True)
+    >>> slow = rc.plummet.held_plummet(1.0, 1.0, distance=1.2, height=0.8)  # the lower thread hangs in a bow
+    >>> round(float(slow.radius), 6), float(slow.upper_tension), bool(slow.lower_taut)
+    (0.6, 1.25, False)
     """
     place = "revchain.plummet.held_plummet"
     given = positives(place, upper_thread=upper_thread, lower_thread=lower_thread, distance=distance, height=height)
     radius, depth, upper, lower = numbers(_core.held_plummet(*given))
-    return HeldPlummet(radius, depth, upper, lower, np.greater_equal(upper, 0), np.greater_equal(lower, 0))
+    return HeldPlummet(radius, depth, upper, lower, np.greater(upper, 0), np.greater(lower, 0))
 
 
 def air_resistance(arm: ArrayLike, height: ArrayLike) -> Any:

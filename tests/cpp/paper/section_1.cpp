@@ -114,7 +114,7 @@ TEMPLATE_TEST_CASE("§1: a plummet held by a second thread, forces balanced", "[
     using T = TestType;
     paper::Random random(109);
     double places = 0, forces = 0;
-    int slack = 0;
+    int slack = 0, slack_above = 0;
     for (int i = 0; i < 4000; ++i) {
         const T upper = static_cast<T>(random.log_between(0.01, 100.0));
         const T lower = static_cast<T>(upper * random.log_between(0.1, 10.0));
@@ -123,7 +123,10 @@ TEMPLATE_TEST_CASE("§1: a plummet held by a second thread, forces balanced", "[
         const T height = static_cast<T>(upper * random.log_between(0.01, 10.0));
         const auto found = revchain::held_plummet(upper, lower, distance, height);
         const Quad u = upper, v = lower, d = distance, h = height;
-        const Quad depth = (d * d + u * u - v * v) / (2 * d), radius = sqrtq((u - depth) * (u + depth));
+        Quad depth = (d * d + u * u - v * v) / (2 * d), radius = sqrtq((u - depth) * (u + depth));
+        const bool lower_taut = depth > h, upper_taut = depth - d < h;
+        if (!lower_taut) depth = std::min(h, u), radius = sqrtq((u - depth) * (u + depth));
+        if (!upper_taut) depth = d + h, radius = sqrtq((v - h) * (v + h));
         places = std::max({places, error_in_ulp(found.radius, radius),
                            static_cast<double>(fabsq(found.depth - depth) / std::max(u, v)) /
                                static_cast<double>(revchain::epsilon<T>())});
@@ -134,15 +137,20 @@ TEMPLATE_TEST_CASE("§1: a plummet held by a second thread, forces balanced", "[
                    height_size = 1 + fabsq(t1) * u + fabsq(t2) * v;
         forces = std::max(forces, static_cast<double>(std::max(fabsq(across) / size, fabsq(down) / height_size)) /
                                       static_cast<double>(revchain::epsilon<T>()));
-        CHECK(found.upper_taut == (found.upper_tension >= 0));
         // "the lower thread is taut when the plummet would fly out farther": lambda < depth
-        CHECK(found.lower_taut == (found.depth >= height));
-        slack += !found.lower_taut;
+        CHECK(found.lower_taut == lower_taut);
+        CHECK(found.upper_taut == upper_taut);
+        CHECK((found.lower_tension > 0) == lower_taut);
+        CHECK((found.upper_tension > 0) == upper_taut);
+        CHECK(radius * radius + depth * depth <= u * u * (1 + Quad(1e-30)));
+        CHECK(radius * radius + (depth - d) * (depth - d) <= v * v * (1 + Quad(1e-30)));
+        slack += !lower_taut, slack_above += !upper_taut;
     }
     CAPTURE(places, forces);
     CHECK(places <= 2.5);
     CHECK(forces <= 3.3);
     CHECK(slack > 100);
+    CHECK(slack_above > 20);
     // distances and units at the ends of the range
     for (const int e : {0, std::numeric_limits<T>::max_exponent - 3, std::numeric_limits<T>::min_exponent + 3}) {
         const T unit = std::ldexp(T(1), e);
@@ -152,8 +160,8 @@ TEMPLATE_TEST_CASE("§1: a plummet held by a second thread, forces balanced", "[
         CHECK(error_in_ulp(far.depth, Quad(near.depth) * unit) <= 2);
         CHECK(error_in_ulp(far.upper_tension, Quad(near.upper_tension)) <= 2);
     }
-    CHECK(error_in_ulp(revchain::held_plummet(T(1), T(1), std::numeric_limits<T>::denorm_min(), T(0.5)).radius,
-                       Quad(1)) <= 2);
+    const T least = std::numeric_limits<T>::denorm_min();
+    CHECK(error_in_ulp(revchain::held_plummet(T(1), T(1), T(4) * least, least).radius, Quad(1)) <= 2);
     CHECK_THROWS_AS(revchain::held_plummet(T(1), T(1), T(2.5), T(1)), revchain::InvalidArgument);
     CHECK_THROWS_AS(revchain::held_plummet(T(3), T(1), T(1), T(1)), revchain::InvalidArgument);
 }
