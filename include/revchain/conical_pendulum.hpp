@@ -157,7 +157,7 @@ struct HeldPlummet {
 
 /// The plummet held by threads from two points of the axis, the lower one `distance` below the upper one; equations of
 /// the polygon KN, NP, PC', C'K of §1. With D the depth where both are straight, the lower thread is slack where
-/// height >= D, and the upper one where height <= D - distance; the plummet is then a conical pendulum on the other one.
+/// height >= D, and the upper one where height <= D - distance: a conical pendulum on the other one.
 /// It is where depth + radius^2/(2 height) is largest within reach of both: that has one maximum along their limits.
 /// Accuracy: 3 ulp; a depth or tension that is a small difference of two terms has an error of 1e-29 of the larger one.
 /// Also throws InvalidArgument unless the three lengths form a triangle.

@@ -3,13 +3,36 @@
 
 from __future__ import annotations
 
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
 import numpy as np
 
 from .. import _core
 from ..results.base import Field, Result
 from ..results.sheet import Column, Sheet, speed_columns
 from ..systems.chain import Chain, compiled
-from ..systems.numbers import STANDARD_GRAVITY, Floats, one_positive, real
+from ..systems.extras import require
+from ..systems.numbers import STANDARD_GRAVITY, Floats, one_positive, real, shown
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class Strike(NamedTuple):
+    """The first blow of a clapper in one swing of its bell; see `BellAndClapper.first_strike`.
+
+    `strikes`: whether there is one. `side`: ``"leading"``, the side of the bell that goes ahead as the bell rises (it
+    rings right, the clapper has flown ahead), or ``"trailing"`` (the clapper falls behind). `bell_angle`: how far the bell
+    has risen past its lowest place, rad; `relative_speed`: of the clapper in the bell, rad/s, positive towards the leading
+    side; `time`: after the start, s. All three are nan where there is no blow.
+    """
+
+    strikes: bool
+    side: str
+    bell_angle: float
+    relative_speed: float
+    time: float
 
 
 class BellAndClapper(Result):
@@ -91,6 +114,114 @@ class BellAndClapper(Result):
         values = _core.bell_and_clapper_with_ratio(self.system._compiled, wanted)
         return dict(zip(_core.BELL_DATA, values, strict=True))
 
+    def strike_amplitude(self, clearance: float) -> float:
+        """Return how far the bell must swing before the clapper reaches its side, where the swing is small.
+
+        Parameters
+        ----------
+        clearance : float
+            Angle in the bell from the clapper in the middle to where it touches, rad (or ``"25 deg"``), below pi/2.
+
+        Returns
+        -------
+        float
+            ``clearance / abs(inclination_ratio[0] - 1)``, rad: infinite where bell and clapper are one piece. Exact in
+            the limit of small swings in the slower mode; from half a radian on ask `first_strike`.
+
+        Raises
+        ------
+        ValueError
+            For a clearance that is not between 0 and pi / 2.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
+        >>> bell = rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.3]))
+        >>> round(bell.strike_amplitude("3 deg"), 4)
+        0.2226
+        """
+        gap = _clearance("revchain.BellAndClapper.strike_amplitude", clearance)
+        apart = abs(float(self.inclination_ratio[0]) - 1)
+        return gap / apart if apart else math.inf
+
+    def first_strike(self, clearance: float, *, amplitude: float | None = None) -> Strike:
+        """Return where in a swing the clapper first strikes the bell; needs SciPy.
+
+        Parameters
+        ----------
+        clearance : float
+            Angle in the bell from the clapper in the middle to where it touches, rad (or ``"25 deg"``), below pi/2.
+        amplitude : float, optional
+            Angle from which the bell falls, rad, up to pi: let go at rest, the clapper hanging free or resting on the
+            lower side. Left out: full circle, as church bells are rung in England: it falls from the balance, mouth up,
+            the clapper on the side that trails.
+
+        Returns
+        -------
+        Strike
+            Up to the next turn of the bell. Angles and speeds to 1e-8 of their size, by integration.
+
+        Raises
+        ------
+        ValueError
+            For a clearance that is not between 0 and pi / 2, and an amplitude that is not between 0 and pi.
+        ImportError
+            If SciPy is not installed; the message says how to install it.
+
+        Notes
+        -----
+        Bell and clapper are a double pendulum in a plane, without friction, rope or stay; the headstock is stiff. The
+        clapper rests on the side of the bell as long as that has to push, then flies free; what bounces do after the first
+        blow is not followed, for it depends on the two metals. The same model, with the bell many times heavier than
+        its clapper, is behind the design charts of Woodhouse et al. (2012), doi:10.1155/2012/681787: there two ratios of
+        lengths decide, ``joint / l1`` and ``l2 / l1``. Where ``l2 = l1 + joint`` a clapper that hangs in the middle stays
+        there; for any weights that is Greenhill (1908), section 8 (16): `mismatch` = 0.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.2]}
+        >>> bell = rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.3]))
+        >>> blow = bell.first_strike("27 deg")
+        >>> blow.side, round(blow.bell_angle, 3), round(blow.relative_speed, 2)
+        ('leading', 1.851, 2.52)
+        """
+        place = "revchain.BellAndClapper.first_strike"
+        gap = _clearance(place, clearance)
+        from_angle = None if amplitude is None else real(place, "amplitude", amplitude)
+        if from_angle is not None and not 0 < from_angle <= math.pi:
+            raise ValueError(f"{place}: amplitude must be between 0 and pi, got {shown(from_angle)}")
+        require("scipy", "fit", "the first strike of a clapper")
+        from .strike import first_strike
+
+        return Strike(*first_strike(self.present, gap, from_angle, self.gravity))
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw bell, clapper and headstock at rest, true to scale; needs matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axle, the pin of the clapper, both centres of gravity, and the pendulum lengths beside them. The outline of
+            the bell is a picture only: its data say nothing of its shape but the radius of gyration.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> links = {"mass": [18, 500], "length": [0.65, 0.15], "centroid": [0.52, 0.05]}
+        >>> rc.bell_and_clapper(rc.Chain(**links, radius_of_gyration=[0.08, 0.36])).plot().get_ylabel()
+        'below the axle (m)'
+        """
+        from ..plots.bell import plot_bell
+
+        return plot_bell(self, ax)
+
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
             Column("mode", np.arange(1, 3), "mode"),
@@ -101,6 +232,13 @@ class BellAndClapper(Result):
         names = ("gravity", "silent_height", "mismatch", "present", "derivative")
         heading = f"BellAndClapper: one piece where mismatch is 0, here {self.mismatch:.4g}"
         return Sheet("mode", heading, columns, {name: getattr(self, name) for name in names})
+
+
+def _clearance(place: str, clearance: float) -> float:
+    angle = real(place, "clearance", clearance)
+    if not 0 < angle < math.pi / 2:
+        raise ValueError(f"{place}: clearance must be between 0 and pi / 2, got {shown(angle)}")
+    return angle
 
 
 def bell_and_clapper(chain: Chain, *, gravity: float = STANDARD_GRAVITY) -> BellAndClapper:
