@@ -177,13 +177,13 @@ def make(path):
         by = "the potential made stationary in the angles, Newton's method, 80 digits"
         return write(path, {**head, "by": by, "digits": 30, "modes": [], "shapes": held(scene)})
     if is_rigged(scene):
-        asked = scene.get("ask", {}).get("modes", DEFAULT_MODES)
+        asked = scene.get("ask", {}).get("modes", {}).get("count", DEFAULT_MODES)
         by = "Lagrange's equations in the angles, dense companion matrix, 80 digits"
         found = expected_of(scene, 40, 10**9 if asked == "all" else asked)
         return write(path, {**head, "by": by, "digits": 40, **found})
     links = links_of(scene)
     n = len(links)
-    asked = scene.get("ask", {}).get("modes", min(DEFAULT_MODES, n))
+    asked = scene.get("ask", {}).get("modes", {}).get("count", min(DEFAULT_MODES, n))
     asked = n if asked == "all" else asked
     dense = n <= DENSE_LIMIT
     mp.mp.dps = 80 if dense else 60  # the counting is checked below to 25 digits on both sides
