@@ -59,6 +59,21 @@ def test_list_is_complete_exact_and_in_order(kind, count, seed, hanging):
             assert shape.half_waves == 1 + np.count_nonzero(np.diff(signs))
 
 
+@pytest.mark.parametrize(("count", "over"), [(100, 500), (1000, 20), (1000, 100)])
+@pytest.mark.parametrize("rods", [False, True])
+def test_long_chains_far_from_the_vertical_are_complete(count, over, rods):
+    rng = np.random.default_rng([count, over, rods])
+    length = rng.uniform(0.5, 2.0, count)
+    body = {"centroid": length / 2, "radius_of_gyration": length / np.sqrt(12)} if rods else {}
+    chain = rc.Chain(weight=rng.uniform(0.5, 2.0, count), length=length, **body)
+    height = length.sum() / over
+    shapes = rc.steady_shapes(chain, conical_height=height)
+    assert shapes.complete and len(shapes) == len({tuple(s.inclination) for s in shapes})
+    # from each speed of small motion on there is a shape with as many half waves
+    assert {s.half_waves for s in shapes} >= set(range(1, rc.count_modes(chain, conical_height=height) + 1))
+    assert all(moments(chain, shape) < 1e-13 for shape in shapes)
+
+
 BODY = {"centroid": [0.8, 0.6, 0.6], "pendulum_length": [0.8, 4.0, 0.8]}
 THREE = rc.Chain(weight=[0.5, 1.0, 1.5], length=[0.8, 1.0, 1.2], **BODY)  # a plummet, a link with l = 4 a, a rod
 PAIR = rc.Chain(weight=[1.0, 1.0], length=[1.0, 0.2], centroid=[0.5, 0.5], radius_of_gyration=[0.3, 0.9])
