@@ -39,6 +39,9 @@ def results():
     yield "Certificate", modes.certificate
     yield "Sensitivity", modes.sensitivity
     yield "Derivatives", modes.sensitivity.relative
+    bent = rc.steady_shapes(CHAIN, conical_height=0.5 * float(modes.conical_height[0]))[0].sensitivity
+    yield "ShapeSensitivity", bent
+    yield "ShapeDerivatives", bent.offset
     yield "Uncertainty", modes.uncertainty(weight=0.1)
     yield "RigModes", rig
     yield "RigSensitivity", rig.sensitivity

@@ -14,9 +14,10 @@ from .. import _core
 from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.numbers import Floats, shown
-from ..systems.rig import Rig
+from ..systems.rig import Rig, Support
 from .base import Field, Result, Results
 from .diagrams import ForceDiagram
+from .shape_sensitivity import ShapeSensitivity, shape_sensitivity
 from .sheet import Column, Sheet, digits
 
 if TYPE_CHECKING:
@@ -220,6 +221,32 @@ class SteadyShape(Shape):
         """
         driven = is_driven("revchain.SteadyShape.stability", frame)
         return Stability._made(_core.stability(self._chain("stability"), self._found(), driven), frame=frame)
+
+    @property
+    def sensitivity(self) -> ShapeSensitivity:
+        """Derivatives of inclinations, offsets and tensions by the speed and by every datum; see `ShapeSensitivity`.
+
+        Raises
+        ------
+        ValueError
+            If the shape is that of a `Rig` with more than a support carried round.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> seat = rc.Rig(rc.Chain(mass=80.0, length=5.0), support=rc.Support(radius=4.0))
+        >>> shape = rc.steady_shapes(seat, angular_speed="8 rpm")[0]
+        >>> round(float(shape.sensitivity.offset.support_radius[0]), 4)
+        1.3859
+        """
+        if isinstance(self.system, Rig):
+            rig, plain = self.system, Support(radius=self.system.support.radius)
+            if rig.support != plain or rig.flywheels is not None or rig.displaced is not None or rig.inverted.any():
+                raise ValueError(
+                    "revchain.SteadyShape.sensitivity: is for shapes of a Chain, or of a Rig with a firm support; "
+                    "ask steady_shapes of the changed rig"
+                )
+        return shape_sensitivity(self)
 
     def force_diagram(self) -> ForceDiagram:
         """Return the graphical construction of the shape: force diagram and funicular polygon.
