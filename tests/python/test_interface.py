@@ -119,8 +119,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "stability": {"rig": "is for shapes of a Chain", "cord": r"cord\.chain", "held cord": r"cord\.chain"},
     "sensitivity": {"cord": r"cord\.chain", "held": "is for a Chain", "held, span": "is bent", "held cord": "cut it"},
     "uncertainty": {
-        "rig": "take sensitivity",
-        "cord": "is for a Chain",
+        "cord": r"is for a Chain or a Rig, got a Cord; cut a cord: cord\.chain",
         "held": "is for a Chain",
         "held, span": "is bent",
         "held cord": "cut it",

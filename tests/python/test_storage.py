@@ -42,6 +42,8 @@ def results():
     yield "Uncertainty", modes.uncertainty(weight=0.1)
     yield "RigModes", rig
     yield "RigSensitivity", rig.sensitivity
+    yield "RigUncertainty", rig.uncertainty(weight=0.1, stiffness="3 %")
+    yield "RigDerivatives", rig.uncertainty(weight=0.1, momentum="3 %").share
     yield "OtherModes", rc.modes(rc.Rig(three, flywheels=rc.Flywheel(momentum=0.3), displaced=FLOATING)).other
     yield "links without weight in the fluid", rc.modes(rc.Rig(three, displaced=rc.Displaced(weight=1.0)))
     floats, one = {"displaced": rc.Displaced(weight=[1, 0, 0]), "fluid": "turning"}, rc.Chain(weight=1.0, length=[1.0])
