@@ -69,6 +69,8 @@ GIVEN = {
     "status": "success",
     "ratio": 0.5,
     "exponent": 0.5,
+    "measured": {1: 3.0},
+    "vary": "length",
     "tip": 0.5,
     "x": 0.5,
     "pin": 1,

@@ -113,7 +113,7 @@ def tune(
     >>> rc.tune(rig, vary="flywheels[0].momentum", angular_speed=2.0, gravity=10.0).value
     -3.0
     >>> rc.tune(rc.Held(chain, tension=60.0), vary="tension", angular_speed="60 rpm").value.__round__(9)
-    81.297588407
+    73.927601407
     """
     if not isinstance(system, Chain | Rig | Cord | Held):
         raise no_system(_PLACE, system)
