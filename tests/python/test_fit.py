@@ -10,6 +10,7 @@ from exact import heights_of, stored_links
 from rigs import random_chain
 
 import revchain as rc
+from revchain.systems.datum import read
 
 G = 9.80665
 CRANE = rc.Chain(mass=[2500.0, 400.0], length=[6.0, 24.0])
@@ -93,8 +94,6 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_what_was_changed_is_found_again(name):
     system, numbers, changes = CASES[name]
-    from revchain.systems.datum import read
-
     true, values = system, []
     for path, factor in changes.items():
         datum = read("", true, path, G)

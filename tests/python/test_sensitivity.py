@@ -13,6 +13,7 @@ from rigs import random_chain, rigged
 
 import revchain as rc
 from revchain import Chain, _core
+from revchain.systems.datum import read
 
 QUANTITIES = ("mass", "length", "centroid", "radius_of_gyration", "length_in_proportion")
 
@@ -311,6 +312,39 @@ def test_the_spin_of_a_wheel_against_differences(gravity):
     assert (rc.modes(rc.Rig(bodies(), flywheels=rc.Flywheel(momentum=1.0))).sensitivity.spin == 0).all()
     with pytest.raises(KeyError, match="quantity must be one of mass, .*, support_mass, got"):
         found.sensitivity["radius"]
+
+
+@pytest.mark.parametrize("gravity", [9.80665, 1.62])
+@pytest.mark.parametrize("name", ["chain", "rig", "rig without fluid"])
+def test_derivatives_along_every_path_against_differences(name, gravity):
+    """What `fit` takes for the derivatives of speeds, of links that stand too: differences of fourth order."""
+    rig = spinning()
+    bare = rc.Rig(rig.chain, support=rig.support, flywheels=rig.flywheels, inverted=rig.inverted)
+    system = {"chain": rig.chain, "rig": rig, "rig without fluid": bare}[name]
+    paths = ["length", *(f"links[{k}].{quantity}" for k in range(3) for quantity in QUANTITIES)]
+    if name != "chain":
+        paths += ["mass", "support.stiffness", "support.mass", *(f"flywheels[{k}].spin" for k in range(3))]
+        paths += [f"flywheels[{k}].momentum" for k in range(3)]
+    if name == "rig":
+        paths += [f"displaced[{k}].{quantity}" for k in (0, 2) for quantity in ("mass", "added_mass")]
+    found, compared = rc.modes(system, "all", gravity=gravity), 0
+    s = found.sensitivity
+    for path in paths:
+        datum = read("", system, path, gravity)
+        assert datum.change(datum.present) == system or "momentum" in path
+        if datum.rate is None:
+            assert name == "rig"  # what is displaced may follow the link
+            continue
+        field, part = datum.rate
+        rates = s[field] @ part if s[field].ndim == 2 else s[field] * part
+        if name == "chain":  # of heights
+            rates = -0.5 * found.angular_speed / found.conical_height * rates
+        step = 2e-4 * datum.typical
+        near = [rc.modes(datum.change(datum.present + k * step), "all", gravity=gravity).angular_speed for k in (-2, -1, 1, 2)]
+        want = (near[0] - 8 * near[1] + 8 * near[2] - near[3]) / (12 * step)
+        np.testing.assert_allclose(rates, want, rtol=1e-7, atol=1e-9 * np.abs(found.angular_speed).max() / datum.typical)
+        compared += 1
+    assert compared > 12
 
 
 def test_uncertainty_of_a_rig_is_that_of_a_sample():

@@ -111,7 +111,8 @@ def fit(
         )
     data = [read(_PLACE, system, path, g) for path in paths]
     refuse_overlap(_PLACE, paths)
-    if (number < 0).any() and not (isinstance(system, Rig) and (system.has_momentum or any("flywheels" in p for p in paths))):
+    turns = isinstance(system, Rig) and (system.has_momentum or any("flywheels" in path for path in paths))
+    if (number < 0).any() and not turns:
         raise ValueError(
             f"{_PLACE}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
             f"got {number.min()}"
@@ -159,9 +160,8 @@ class _Model:
                 columns.append(self._difference(free, k))
                 continue
             name, part = datum.rate
-            inner = datum.typical if datum.floor is None else value - datum.floor
-            column = rates[name]
-            columns.append((column @ part if column.ndim == 2 else column * part) * inner / self.deviation)
+            column = rates[name] @ part if rates[name].ndim == 2 else rates[name] * part
+            columns.append(column * _inner(datum, value) / self.deviation)
         return np.column_stack(columns)
 
     def _rates(self, there: Speeds) -> Any:
@@ -252,7 +252,7 @@ class _Known:
 def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviation: Floats | None) -> Fitted:
     system, there = model.at(free)
     values, paths = model.values(free), tuple(datum.path for datum in model.data)
-    inner = np.array([datum.typical if datum.floor is None else x - datum.floor for datum, x in zip(model.data, values, strict=True)])
+    inner = np.array([_inner(*each) for each in zip(model.data, values, strict=True)])
     covariance = known.covariance * np.outer(inner, inner)
     left, freedom = float((model.off(free) ** 2).sum()), len(model.number) - known.rank
     if deviation is None:
@@ -278,6 +278,11 @@ def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviati
         degrees_of_freedom=freedom,
         undetermined=tuple(tuple(paths[k] for k in group) for group in known.groups),
     )
+
+
+def _inner(datum: Datum, value: float) -> float:
+    """Derivative of a value by its variable."""
+    return datum.typical if datum.floor is None else value - datum.floor
 
 
 def _bounded(datum: Datum, free: float) -> float:
@@ -308,14 +313,16 @@ def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
     else:
         paths = list(vary) if isinstance(vary, Iterable) and not isinstance(vary, bytes) else []
     if not paths:
-        raise ValueError(f'{_PLACE}: vary must be a path or a list of paths such as ["length", "links[0].mass"], got {shown(vary)}')
+        such = '["length", "links[0].mass"]'
+        raise ValueError(f"{_PLACE}: vary must be a path or a list of paths such as {such}, got {shown(vary)}")
     return paths, list(vary.values()) if isinstance(vary, Mapping) else [None] * len(paths)
 
 
 def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
     """Mode numbers, speeds, negative for backward modes, and their standard uncertainties, if they were given."""
     if not isinstance(measured, Mapping) or not measured:
-        raise ValueError(f"{_PLACE}: measured must be a dictionary of speeds by mode number such as {_FORM}, got {shown(measured)}")
+        such = f"a dictionary of speeds by mode number such as {_FORM}"
+        raise ValueError(f"{_PLACE}: measured must be {such}, got {shown(measured)}")
     numbers, found = [], []
     for key, value in measured.items():
         number = integer(_PLACE, "measured: each mode number", key)
@@ -357,7 +364,10 @@ def _measurement(number: int, value: Any) -> tuple[float, float | None]:
             raise ValueError(f'{place}: give speed and uncertainty in the same unit, or "1 %", got {shown((value, spread))}')
         part = deviation / size
     if not 0 < part < math.inf:
-        raise ValueError(f"{place}: uncertainty must be positive and finite, got {shown(spread)}; leave out those of all speeds if none is known")
+        raise ValueError(
+            f"{place}: uncertainty must be positive and finite, got {shown(spread)}; leave out those of all speeds if none "
+            "is known"
+        )
     return speed, part * speed
 
 

@@ -27,8 +27,8 @@ class Fitted(Result):
     datum            value  standard uncertainty   before
     length         29.9867              0.108299  30.0000
     links[0].mass  2683.31               38.4727  2500.00
-    mode 1: 0.578030 rad/s measured, 0.578030 computed, 0.0 standard uncertainties above it
-    mode 2: 3.92699 rad/s measured, 3.92699 computed, 0.0 standard uncertainties above it
+    mode 1: measured 0.578030 rad/s, computed 0.578030, residual +0.0 standard uncertainties
+    mode 2: measured 3.92699 rad/s, computed 3.92699, residual +0.0 standard uncertainties
     >>> round(found["length"], 4)
     29.9867
     >>> found.system.total_length == found["length"]
@@ -104,15 +104,15 @@ class Fitted(Result):
             if len(group) == 1:
                 lines.append(f"{group[0]} has no effect on the speeds measured: leave it out, or measure another mode")
             else:
-                lines.append(f"the speeds measured cannot tell {' and '.join(group)} apart: leave one of them out, or measure more")
+                both = " and ".join(group)
+                lines.append(f"the speeds measured cannot tell {both} apart: leave one of them out, or measure more")
         for k, (number, measured, computed) in enumerate(zip(self.number, self.measured, self.computed, strict=True)):
             if k == _MOST_LINES:
                 lines.append(f"and {len(self.number) - k} more measured speeds")
                 break
-            line = f"mode {number}: {measured:#.6g} rad/s measured, {computed:#.6g} computed"
-            off = float(self.normalized_residual[k])
-            known = np.isfinite(off)
-            lines.append(f"{line}, {abs(off):.1f} standard uncertainties {'below' if off < -0.05 else 'above'} it" if known else line)
+            line = f"mode {number}: measured {measured:#.6g} rad/s, computed {computed:#.6g}"
+            off = round(float(self.normalized_residual[k]), 1) + 0.0
+            lines.append(f"{line}, residual {off:+.1f} standard uncertainties" if np.isfinite(off) else line)
         return lines
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -124,12 +124,13 @@ class Fitted(Result):
             Column("covariance", self.covariance, axes=("other_datum",)),
             Column("correlation", self.correlation, axes=("other_datum",)),
         ]
-        names: tuple[str, ...] = ("status", "gravity", "number", "measured", "measured_uncertainty", "computed", "residual", "normalized_residual")
-        names += ("chi_square", "degrees_of_freedom", "undetermined")
+        names = ["status", "gravity", "number", "measured", "measured_uncertainty", "computed", "residual"]
+        names += ["normalized_residual", "chi_square", "degrees_of_freedom", "undetermined"]
         facts = {name: getattr(self, name) for name in names} | {"system": self.system.describe()}
         chi = "" if self.chi_square is None else f"; chi-square {round(self.chi_square, 9):.3g} with {self._freedom()}"
         p, m = len(self.vary), len(self.number)
-        heading = f"Fitted: {p} {'datum' if p == 1 else 'data'} to {m} speed{'s' * (m > 1)}, {self.status.replace('_', ' ')}{chi}"
+        what = f"{p} {'datum' if p == 1 else 'data'} to {m} speed{'s' * (m > 1)}"
+        heading = f"Fitted: {what}, {self.status.replace('_', ' ')}{chi}"
         return Sheet("datum", heading, columns, facts, self._lines(), self.status == "success")
 
     def _freedom(self) -> str:

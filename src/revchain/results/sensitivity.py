@@ -404,7 +404,8 @@ def rig_uncertainty(modes: RigModes, given: dict[str, ArrayLike | None]) -> RigU
     if given["spin"] is not None and given["momentum"] is not None:
         raise ValueError(f"{place}: give spin or momentum, which holds it, got both")
     if given["stiffness"] is not None and not np.isfinite(rig.support.stiffness):
-        raise ValueError(f"{place}: stiffness is of a support on a spring, and this one is firm; leave it out, got {shown(given['stiffness'])}")
+        why = "stiffness is of a support on a spring, and this one is firm; leave it out"
+        raise ValueError(f"{place}: {why}, got {shown(given['stiffness'])}")
     sensitivity: Any = modes.sensitivity
     parts: dict[str, Floats] = {}
     for name in _ByRigDatum._known:

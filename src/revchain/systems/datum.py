@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from .chain import Chain, checked
+from .chain import Chain, checked, compiled
 from .cord import Cord
 from .held import Held
 from .numbers import Floats, shown
@@ -141,7 +141,7 @@ def _paths(system: Any, heavy: str) -> list[str]:
 
 
 def _of_chain(place: str, chain: Chain, path: str, link: int | None) -> Datum:
-    whole = chain._compiled.total_weight
+    whole = compiled(place, chain).total_weight
     if path in ("mass", "weight"):
         column = np.broadcast_to(chain._compiled.weight, chain.size)
         return Datum(path, whole, lambda x: _scaled(place, chain, x / whole, 1.0), whole, rate=("mass", column / whole))
