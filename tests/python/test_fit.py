@@ -339,6 +339,10 @@ def test_the_result():
     assert found.to_dataframe().loc["length", "value"] == found["length"]
     assert found.to_xarray()["covariance"].dims == ("datum", "other_datum")
     assert "1 datum to 2 speeds, success; chi-square" in repr(found) and "with 1 degree of freedom" in repr(found)
+    doubtful = rc.fit(CRANE, {1: ("11.5 s", "0.02 s"), 2: ("1.61 s", "0.01 s")}, vary="length")
+    assert doubtful.status == "success" and "chi-square is far above" in repr(doubtful)
+    well = rc.fit(CRANE, {1: ("10.9 s", "0.02 s"), 2: ("1.65 s", "0.01 s")}, vary="length")
+    assert "far above" not in repr(well) and well.degrees_of_freedom == 1
     many = rc.fit(rc.Chain.uniform_rods(30, length=2.0), dict(enumerate(rc.modes(rc.Chain.uniform_rods(30, length=2.1), 12).angular_speed, 1)), vary="length")
     assert "and 4 more measured speeds" in repr(many)
 

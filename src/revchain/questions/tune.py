@@ -156,10 +156,9 @@ def _link(chain: Chain, datum: Datum, mode: int, name: str, wanted: float, gravi
     """One datum of a link of a chain, by proved counts."""
     low, high = (None, None) if between is None else _ends(between, datum)
     height, speed = (wanted, None) if name == "conical_height" else (None, wanted)
-    link, quantity = int(datum.path[6:].partition("]")[0]), datum.quantity.replace("mass", "weight")
-    core = compiled(_PLACE, chain)
+    core, quantity = compiled(_PLACE, chain), datum.quantity.replace("mass", "weight")
     status, present, tuned, bound, values, complete, low, high, lowest, highest, found = _core.tune(
-        core, mode, link, quantity, height, speed, gravity, low, high
+        core, mode, datum.link, quantity, height, speed, gravity, low, high
     )
     return Tuned._made(
         None,
@@ -202,8 +201,7 @@ def _one(system: Any, datum: Datum, tuned: Any, value: float | None, bound: floa
 
 def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> Tuned | None:
     """A stiffness, a momentum or a spin, of which there is one for each speed; None of all else."""
-    under, per = rig._under(gravity), rig._force(gravity)
-    link = int(datum.path[10:].partition("]")[0]) if datum.path.startswith("flywheels") else 0
+    under, per, link = rig._under(gravity), rig._force(gravity), datum.link
     of: Callable[[], float]
     if datum.path == "support.stiffness":
         of = lambda: per * _core.stiffness_for_speed(under, speed, gravity)  # noqa: E731

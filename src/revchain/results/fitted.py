@@ -106,6 +106,10 @@ class Fitted(Result):
             else:
                 both = " and ".join(group)
                 lines.append(f"the speeds measured cannot tell {both} apart: leave one of them out, or measure more")
+        free = self.degrees_of_freedom
+        if self.chi_square is not None and free and self.chi_square > free + 5 * (2 * free) ** 0.5:  # five standard deviations
+            why = "start nearer, vary other data, or doubt the uncertainties"
+            lines.append(f"chi-square is far above its degrees of freedom: {why}")
         for k, (number, measured, computed) in enumerate(zip(self.number, self.measured, self.computed, strict=True)):
             if k == _MOST_LINES:
                 lines.append(f"and {len(self.number) - k} more measured speeds")

@@ -42,6 +42,8 @@ class Datum:
     rate : (str, ndarray) or None
         The field of the sensitivities of a `Chain` or a `Rig` that has its derivatives, and how much each link has part in
         it; None where there is none.
+    link : int
+        The link that it is of, from 0 for the lowest; 0 where it is of none.
     """
 
     path: str
@@ -51,6 +53,7 @@ class Datum:
     floor: float | None = 0.0
     ceiling: float = math.inf
     rate: tuple[str, Floats | float] | None = None
+    link: int = 0
 
     @property
     def quantity(self) -> str:
@@ -90,12 +93,14 @@ def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
         what = name.partition("[")[0]
         raise ValueError(f"{place}: vary names {what}[{link}], and the highest is {what}[{system.size - 1}]")
     if isinstance(system, Chain):
-        return _of_chain(place, system, path, link)
-    if isinstance(system, Rig):
-        return _of_rig(place, system, path, link, gravity)
-    if isinstance(system, Held):
-        return _of_held(place, system, path, link, gravity)
-    return _of_cord(place, system, path)
+        datum = _of_chain(place, system, path, link)
+    elif isinstance(system, Rig):
+        datum = _of_rig(place, system, path, link, gravity)
+    elif isinstance(system, Held):
+        datum = _of_held(place, system, path, link, gravity)
+    else:
+        datum = _of_cord(place, system, path)
+    return replace(datum, link=link or 0)
 
 
 def refuse_overlap(place: str, paths: Iterable[str]) -> None:
