@@ -9,12 +9,12 @@ G. Greenhill, "The Revolving Chain" (1908).
 Systems
     Chain, Rig (with Support, Flywheel, Displaced), Cord, Held
 Questions
-    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, explain; of many chains
-    at once conical_heights
+    modes, count_modes, steady_shapes, steady_shape, branches, branch, response, swing, tune, fit, explain; of many
+    chains at once conical_heights
 Results
     Modes, RigModes, CordModes, SteadyShapes, SteadyShape, CordShape, HeldShape, HeldCordShape, Branches, Branch,
-    Stability, ForceDiagram, Response, Swing, Tuned, Explanation, Sensitivity, Uncertainty; ``load`` reads what their
-    method ``save`` wrote
+    Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads what
+    their method ``save`` wrote
 Closed forms
     conical_pendulum, plummet, two_links, elliptic, hoop, bell_and_clapper, funicular_polygon, transverse_modes,
     recurrence_matrices; BellAndClapper, BufferImpact, GovernorMotion, GyrostaticString, SkippingRope, TortuousRope,
@@ -50,6 +50,7 @@ from .questions.branches import branch as branch
 from .questions.branches import branches as branches
 from .questions.branches import steady_shape as steady_shape
 from .questions.explain import explain as explain
+from .questions.fit import fit as fit
 from .questions.modes import count_modes as count_modes
 from .questions.modes import modes as modes
 from .questions.modes import recurrence_matrices as recurrence_matrices
@@ -64,6 +65,7 @@ from .results.branches import Branch as Branch
 from .results.branches import Branches as Branches
 from .results.diagrams import ForceDiagram as ForceDiagram
 from .results.explanation import Explanation as Explanation
+from .results.fitted import Fitted as Fitted
 from .results.modes import CordModes as CordModes
 from .results.modes import Modes as Modes
 from .results.modes import RigModes as RigModes

@@ -13,6 +13,7 @@ from rigs import random_chain, rigged
 
 import revchain as rc
 from revchain import Chain, _core
+from revchain.systems.datum import read
 
 QUANTITIES = ("mass", "length", "centroid", "radius_of_gyration", "length_in_proportion")
 
@@ -287,3 +288,118 @@ def test_a_rig_with_nothing_moves_as_its_chain():
             rtol=1e-11,
             atol=1e-14 * np.abs(speed * of_height / plain.conical_height[:, None]).max(),
         )
+
+
+def spinning(stiffness=30.0, carriage=0.5, spin=(40.0, 0.0, -25.0), displaced=(0.2, 0.0, 0.1), mass=(3.0, 1.0, 2.0), length=1.0):
+    """A rig by mass that has everything: wheels of both kinds, a spring, a float, a link that stands."""
+    chain = Chain(mass=mass, length=length * np.array([1.0, 0.5, 2.0]), centroid=[0.75, 0.25, 1.25], radius_of_gyration=[0.5, 0.125, 0.75])
+    wheels = rc.Flywheel(mass=0.4, radius_of_gyration=[0.3, 0.2, 0.25], spin=spin, driven=[True, False, False])
+    fluid = rc.Displaced(mass=displaced, centroid=0.5, radius_of_gyration=0.2, added_mass=0.05)
+    support = rc.Support(stiffness=stiffness, mass=carriage)
+    return rc.Rig(chain, support=support, flywheels=wheels, displaced=fluid, inverted=[False, True, False])
+
+
+@pytest.mark.parametrize("gravity", [9.80665, 1.62])
+def test_the_spin_of_a_wheel_against_differences(gravity):
+    found = rc.modes(spinning(), gravity=gravity)
+    for link in range(3):
+        speeds = []
+        for steps in (-2, -1, 1, 2):
+            spin = np.array([40.0, 0.0, -25.0]) + 0.01 * steps * (np.arange(3) == link)
+            speeds.append(rc.modes(spinning(spin=spin), gravity=gravity).angular_speed)
+        want = (speeds[0] - 8 * speeds[1] + 8 * speeds[2] - speeds[3]) / 0.12
+        np.testing.assert_allclose(found.sensitivity.spin[:, link], want, rtol=1e-8, atol=1e-12)
+    assert (rc.modes(rc.Rig(bodies(), flywheels=rc.Flywheel(momentum=1.0))).sensitivity.spin == 0).all()
+    with pytest.raises(KeyError, match="quantity must be one of mass, .*, support_mass, got"):
+        found.sensitivity["radius"]
+
+
+@pytest.mark.parametrize("gravity", [9.80665, 1.62])
+@pytest.mark.parametrize("name", ["chain", "rig", "rig without fluid"])
+def test_derivatives_along_every_path_against_differences(name, gravity):
+    """What `fit` takes for the derivatives of speeds, of links that stand too: differences of fourth order."""
+    rig = spinning()
+    bare = rc.Rig(rig.chain, support=rig.support, flywheels=rig.flywheels, inverted=rig.inverted)
+    system = {"chain": rig.chain, "rig": rig, "rig without fluid": bare}[name]
+    paths = ["length", *(f"links[{k}].{quantity}" for k in range(3) for quantity in QUANTITIES)]
+    if name != "chain":
+        paths += ["mass", "support.stiffness", "support.mass", *(f"flywheels[{k}].spin" for k in range(3))]
+        paths += [f"flywheels[{k}].momentum" for k in range(3)]
+    if name == "rig":
+        paths += [f"displaced[{k}].{quantity}" for k in (0, 2) for quantity in ("mass", "added_mass")]
+    found, compared = rc.modes(system, "all", gravity=gravity), 0
+    s = found.sensitivity
+    for path in paths:
+        datum = read("", system, path, gravity)
+        assert datum.change(datum.present) == system or "momentum" in path
+        if datum.rate is None:
+            assert name == "rig"  # what is displaced may follow the link
+            continue
+        field, part = datum.rate
+        rates = s[field] @ part if s[field].ndim == 2 else s[field] * part
+        if name == "chain":  # of heights
+            rates = -0.5 * found.angular_speed / found.conical_height * rates
+        step = 2e-4 * datum.typical
+        near = [rc.modes(datum.change(datum.present + k * step), "all", gravity=gravity).angular_speed for k in (-2, -1, 1, 2)]
+        want = (near[0] - 8 * near[1] + 8 * near[2] - near[3]) / (12 * step)
+        np.testing.assert_allclose(rates, want, rtol=1e-7, atol=1e-9 * np.abs(found.angular_speed).max() / datum.typical)
+        compared += 1
+    assert compared > 12
+
+
+def test_uncertainty_of_a_rig_is_that_of_a_sample():
+    """20,000 rigs, all data drawn at once; 2 % is four times the sample's own error."""
+    rng, size = np.random.default_rng(11), 20_000
+    found = rc.modes(spinning())
+    given = {"stiffness": 0.3, "support_mass": 0.02, "spin": [0.4, 0.0, 0.3], "displaced_mass": 0.005, "mass": [0.03, 0.01, 0.02]}
+    u = found.uncertainty(**given)
+    drawn = np.empty((size, len(found)))
+    for k in range(size):
+        drawn[k] = rc.modes(spinning(
+            30.0 + 0.3 * rng.normal(), 0.5 + 0.02 * rng.normal(), np.array([40.0, 0.0, -25.0]) + [0.4, 0.0, 0.3] * rng.normal(size=3),
+            np.array([0.2, 0.0, 0.1]) + [0.005, 0.0, 0.005] * rng.normal(size=3),
+            np.array([3.0, 1.0, 2.0]) + [0.03, 0.01, 0.02] * rng.normal(size=3),
+        )).angular_speed  # fmt: skip
+    alone = found.uncertainty(**(given | {"displaced_mass": [0.005, 0.0, 0.005]}))  # nothing negative can be displaced
+    np.testing.assert_allclose(alone.angular_speed, drawn.std(axis=0), rtol=0.02)
+    assert (u.angular_speed >= alone.angular_speed).all()
+    np.testing.assert_allclose(u.relative, 2 * u.angular_speed / np.abs(found.angular_speed), rtol=1e-15)
+    np.testing.assert_allclose(u.period / found.period, 0.5 * u.relative, rtol=1e-15)
+    share = sum(u.share[name].sum(axis=1) if u.share[name].ndim == 2 else u.share[name] for name in u.share._known)
+    np.testing.assert_allclose(share, 1.0, rtol=1e-14)
+
+
+def test_uncertainty_of_a_rig_in_all_its_forms():
+    found = rc.modes(spinning())
+    each = found.uncertainty(mass=["1 %", "2 %", 0.0], stiffness="5 %", momentum="1 %")
+    wheels = np.abs(0.4 * np.array([0.3, 0.2, 0.25]) ** 2 * [40.0, 0.0, -25.0])
+    again = found.uncertainty(mass=np.diag([0.03, 0.02, 0.0]) ** 2, stiffness=1.5, momentum=0.01 * wheels)
+    np.testing.assert_allclose(each.angular_speed, again.angular_speed, rtol=1e-14)
+    np.testing.assert_allclose(found.uncertainty(spin="1 %").angular_speed, found.uncertainty(momentum="1 %").angular_speed, rtol=1e-14)
+    together = found.uncertainty(mass=np.outer([3.0, 1.0, 2.0], [3.0, 1.0, 2.0]) * 1e-4)  # all masses by one factor
+    rates = found.sensitivity.mass @ [0.03, 0.01, 0.02]
+    np.testing.assert_allclose(together.angular_speed, np.abs(rates), rtol=1e-12)
+    assert set(found.uncertainty(stiffness=0.1).largest) == {("stiffness", 0)}
+    assert "of the support" in repr(found.uncertainty(stiffness=0.1)) and "nothing" in repr(found.uncertainty())
+    chain = bodies()
+    plain, rigged = rc.modes(chain).uncertainty(weight=0.1, length=0.01), rc.modes(rc.Rig(chain)).uncertainty(weight=0.1, length=0.01)
+    np.testing.assert_allclose(plain.angular_speed, rigged.angular_speed, rtol=1e-12)
+    np.testing.assert_allclose(plain.conical_height, rigged.conical_height, rtol=1e-12)
+    for wrong, message in [
+        ({"mass": -1.0}, "mass must be finite and not negative, got -1"),
+        ({"stiffness": math.nan}, "stiffness must be finite and not negative, got nan"),
+        ({"stiffness": [1.0, 2.0]}, r"stiffness must be a number, one for each of the 1"),
+        ({"length": np.triu(np.ones((3, 3)))}, "covariance of length must be finite, symmetric"),
+        ({"spin": 1.0, "momentum": 1.0}, "give spin or momentum"),
+        ({"weight": 1.0}, "given by mass: give mass, not weight"),
+    ]:
+        with pytest.raises(ValueError, match=f"^revchain.RigModes.uncertainty: .*{message}"):
+            found.uncertainty(**wrong)
+    by_momentum = rc.modes(rc.Rig(chain, flywheels=rc.Flywheel(momentum=1.0)))
+    with pytest.raises(ValueError, match="spin is for flywheels that were given by spin; give momentum, got 1"):
+        by_momentum.uncertainty(spin=1.0)
+    with pytest.raises(ValueError, match="this one is firm; leave it out"):
+        by_momentum.uncertainty(stiffness="5 %")
+    assert by_momentum.uncertainty(displaced_mass="1 N").angular_speed.shape == (8,)
+    with pytest.raises(ValueError, match="displaced_weight must be a force .*; give it as mass"):
+        by_momentum.uncertainty(displaced_mass="1 kg")

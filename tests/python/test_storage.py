@@ -45,6 +45,8 @@ def results():
     yield "Uncertainty", modes.uncertainty(weight=0.1)
     yield "RigModes", rig
     yield "RigSensitivity", rig.sensitivity
+    yield "RigUncertainty", rig.uncertainty(weight=0.1, stiffness="3 %")
+    yield "RigDerivatives", rig.uncertainty(weight=0.1, momentum="3 %").share
     yield "OtherModes", rc.modes(rc.Rig(three, flywheels=rc.Flywheel(momentum=0.3), displaced=FLOATING)).other
     yield "links without weight in the fluid", rc.modes(rc.Rig(three, displaced=rc.Displaced(weight=1.0)))
     floats, one = {"displaced": rc.Displaced(weight=[1, 0, 0]), "fluid": "turning"}, rc.Chain(weight=1.0, length=[1.0])
@@ -77,6 +79,10 @@ def results():
     yield "SweepResult", rc.sweep({"scene": {"links": [{"mass": 1, "length": 1}] * 2}, "vary": vary, "samples": 9})
     yield "Tuned", rc.tune(CHAIN, vary="links[0].weight", conical_height=0.99 * float(modes.conical_height[0]))
     yield "Tuned, of a rig", rc.tune(rc.Rig(CHAIN), vary="flywheels[1].momentum", angular_speed=1.0)
+    measured = {k: (n, "2 %") for k, n in enumerate(modes.angular_speed, 1)}
+    yield "Fitted", rc.fit(CHAIN, measured, vary=["length", "links[0].weight"])
+    yield "Fitted, undetermined", rc.fit(CHAIN, measured, vary=["links[0].weight", "links[1].weight", "links[3].weight"])
+    yield "Fitted, of a rig", rc.fit(rc.Rig(CHAIN, flywheels=rc.Flywheel(momentum=0.2)), {1: 0.9, -1: 0.8}, vary="length")
     named = rc.Chain(mass=[1.0, 2.0], length=0.7, names=["lower", "upper"])
     yield "Modes by mass", rc.modes(named, rtol=1e-3)
     yield "SteadyShapes by mass", rc.steady_shapes(named, angular_speed=9.0)

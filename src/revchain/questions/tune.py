@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Callable
 from contextlib import suppress
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,19 +14,21 @@ from .. import _core
 from ..results.tuned import Tuned
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
+from ..systems.datum import Datum, read
 from ..systems.held import Held
-from ..systems.numbers import STANDARD_GRAVITY, Floats, count, exactly_one, one_positive, real, shown
-from ..systems.rig import Rig, Support
-from .modes import modes
-from .refuse import refuse_other
+from ..systems.numbers import STANDARD_GRAVITY, count, exactly_one, one_positive, real, shown
+from ..systems.rig import Rig
+from .modes import modes, straight
+from .refuse import no_system
+from .speeds import speeds
 
 _PLACE = "revchain.tune"
-_DATA = ("mass", "weight", "length", "centroid", "radius_of_gyration", "length_in_proportion")
 _PATHS = '"length", "links[0].mass", "support.stiffness" or "flywheels[0].momentum"'
+_SEARCHED = 65  # values
 
 
 def tune(
-    system: Chain | Rig | Cord,
+    system: Chain | Rig | Cord | Held,
     *,
     vary: str = "length",
     mode: int = 1,
@@ -38,14 +41,21 @@ def tune(
 
     Parameters
     ----------
-    system : Chain, Rig or Cord
-        The system as it is.
+    system : Chain, Rig, Cord or Held
+        The system as it is; what is held, a chain by its tension.
     vary : str
-        The path to the datum that may change, all else held. ``"length"``: the length of a whole chain or cord, which
-        keeps its proportions. Of a chain also one link's datum, ``"links[k].NAME"`` with k from 0 for the lowest and
-        NAME ``mass`` (``weight``), ``length`` (centre of gravity and radius of gyration stay where they are),
-        ``length_in_proportion`` (they grow with it, as of a point mass's thread), ``centroid`` or
-        ``radius_of_gyration``. Of a rig ``"support.stiffness"`` or ``"flywheels[k].momentum"``.
+        The path to the datum that may change, all else held:
+
+        - ``"length"``: of the whole chain or cord, which keeps its proportions; of a rig and of what is held the chain's.
+        - ``"mass"`` (``"weight"``): of the whole chain of a rig or of what is held, or of a cord beside its tip.
+        - ``"links[k].NAME"`` of a chain, also of a rig's or of one that is held, with k from 0 for the lowest: NAME is
+          ``mass`` (``weight``), ``length`` (centre of gravity and radius of gyration stay where they are),
+          ``length_in_proportion`` (they grow with it, as of a point mass's thread), ``centroid`` or
+          ``radius_of_gyration``.
+        - of a rig ``"support.stiffness"``, ``"support.mass"``, ``"flywheels[k].momentum"``, and what was given of
+          flywheels and displaced fluid: ``"flywheels[k].spin"``, ``.mass``, ``.radius_of_gyration``, ``.axial_moment``,
+          ``"displaced[k].mass"``, ``.added_mass``, ``.centroid``, ``.radius_of_gyration``.
+        - of a cord ``"tip_mass"``; of what is held ``"tension"``.
     mode : int
         Number of the mode, from 1 for the slowest; of a rig among those of the direction of the speed wanted.
     angular_speed : float, optional
@@ -55,33 +65,36 @@ def tune(
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     between : (low, high), optional
-        For one link's datum: where to look. Left out: from a thousandth to a thousand times the present mass (the
-        whole chain's for a massless link) or length; for centroid and radius of gyration from 0 to the
-        link's length or the present value.
+        Where to look for a value that is searched for. Left out: from a thousandth to a thousand times the present value
+        (the whole chain's for a massless link); for centroid and radius of gyration from 0 to the link's length or the
+        present value.
 
     Returns
     -------
     Tuned
         With the new system, and the bound of the value's error. Cost for a link O(N) for each of some 10 to 60
-        counts; of a mass some 10 to 100 modes.
+        counts; of a mass some 10 to 100 modes; of other searches some 150 modes.
 
     Raises
     ------
     ValueError
         Unless exactly one of speed and height is given; for numbers out of range, another path, a range in which the
-        link would stand rather than hang; for what is held at both ends.
+        link would stand rather than hang, a mode that is not there; for what is held and has no modes.
     TypeError
         If `system` is none of the four systems.
 
     Notes
     -----
-    At a given height the chain is a spring at each pin of the link. The values of a centroid or a length are
-    then roots of a quadratic, those of a radius of gyration or a length in proportion of a linear
+    A link of a chain: at a given height the chain is a spring at each pin of the link. The values of a centroid or a
+    length are then roots of a quadratic, those of a radius of gyration or a length in proportion of a linear
     equation, and proved counts say which are this mode's and how accurate they are. Heights rise with a
     length in proportion and a radius of gyration; with others they may turn. A mass bears on every
     link above; there the search moves in steps that can pass no value, since a height never changes faster
-    than the mass, in ratio. Of a rig there is one stiffness, and one momentum of a link, for each speed, formed in
-    double-double to 1e-15; the modes of the new rig tell which mode it is.
+    than the mass, in ratio. Of a rig there is one stiffness, one momentum and one spin of a link for each speed, formed in
+    double-double to 1e-15; the modes of the new rig tell which mode it is. All other data of rigs, cords and what is held
+    are searched for: the speed is found at 65 values and where it turns between them, and each two neighbours with the
+    speed wanted between them are bisected. Solutions may lie unseen, and `complete` is False. The error bound is then that of two
+    values whose speeds, with their own bounds, are on either side of the one wanted.
 
     Examples
     --------
@@ -99,31 +112,58 @@ def tune(
     >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0))
     >>> rc.tune(rig, vary="flywheels[0].momentum", angular_speed=2.0, gravity=10.0).value
     -3.0
+    >>> rc.tune(rc.Held(chain, tension=60.0), vary="tension", angular_speed="60 rpm").value.__round__(9)
+    73.927601407
     """
-    refuse_other(_PLACE, system, (Chain, Rig, Cord), {Held: "change its system, and ask modes or steady_shapes again"})
+    if not isinstance(system, Chain | Rig | Cord | Held):
+        raise no_system(_PLACE, system)
     if not isinstance(vary, str):
         raise ValueError(f"{_PLACE}: vary must be a path such as {_PATHS}, got {shown(vary)}")
     number = count(_PLACE, "mode", mode)
     g = one_positive(_PLACE, "gravity", gravity)
     if isinstance(system, Rig):
-        return _of_rig(system, vary, number, angular_speed, conical_height, g, between)
-    name, value = exactly_one(_PLACE, conical_height=conical_height, angular_speed=angular_speed)
-    if vary == "length":
-        if between is not None:
-            raise ValueError(f"{_PLACE}: between is for the datum of one link; a length has one value, got {shown(between)}")
-        return _length(system, number, name, value, g)
-    link, datum = _link(system, vary)
+        name, value = _of_either_sign(angular_speed, conical_height)
+    else:
+        name, value = exactly_one(_PLACE, conical_height=conical_height, angular_speed=angular_speed)
+    if isinstance(system, Held):
+        straight(_PLACE, system, g)
+    datum = read(_PLACE, system, vary, g)
+    if isinstance(system, Chain) and vary != "length":
+        return _link(system, datum, number, name, value, g, between)
+    speed = value if name == "angular_speed" else float(np.sqrt(g / value))
+    one: Tuned | None = None
+    if isinstance(system, Rig):
+        one = _formed(system, datum, number, speed, g)
+    elif vary == "length" and not isinstance(system, Held):
+        one = _length(system, datum, number, value if name == "conical_height" else g / value**2)
+    if one is None:
+        return _searched(system, datum, number, speed, g, between)
+    if between is not None:
+        raise ValueError(f"{_PLACE}: between is for what is searched for; {vary} has one value, got {shown(between)}")
+    return one
+
+
+def _of_either_sign(speed: Any, height: Any) -> tuple[str, float]:
+    if speed is None or height is not None:
+        return exactly_one(_PLACE, conical_height=height, angular_speed=speed)
+    wanted = real(_PLACE, "angular_speed", speed)
+    if not np.isfinite(wanted) or wanted == 0:
+        raise ValueError(f"{_PLACE}: angular_speed must be finite and not 0, got {wanted:g}")
+    return "angular_speed", wanted
+
+
+def _link(chain: Chain, datum: Datum, mode: int, name: str, wanted: float, gravity: float, between: Any) -> Tuned:
+    """One datum of a link of a chain, by proved counts."""
     low, high = (None, None) if between is None else _ends(between, datum)
-    of_core = "weight" if datum in ("mass", "weight") else datum
-    height, speed = (value, None) if name == "conical_height" else (None, value)
-    core = compiled(_PLACE, system)  # type: ignore[arg-type]
+    height, speed = (wanted, None) if name == "conical_height" else (None, wanted)
+    core, quantity = compiled(_PLACE, chain), datum.quantity.replace("mass", "weight")
     status, present, tuned, bound, values, complete, low, high, lowest, highest, found = _core.tune(
-        core, number, link, of_core, height, speed, g, low, high
+        core, mode, datum.link, quantity, height, speed, gravity, low, high
     )
     return Tuned._made(
         None,
         status=status,
-        system=None if found is None else Chain._wrap(found, system.by_mass, system.names),  # type: ignore[union-attr]
+        system=None if found is None else Chain._wrap(found, chain.by_mass, chain.names),
         value=None if found is None else tuned,
         error_bound=None if found is None else bound,
         values=values,
@@ -131,136 +171,172 @@ def tune(
         present=present,
         between=(low, high),
         reachable=(lowest, highest) if status != "found" else None,
-        vary=vary,
+        vary=datum.path,
     )
 
 
-def _link(system: Chain | Cord, vary: str) -> tuple[int, str]:
-    """Index and datum of a path such as ``links[0].mass``."""
-    path = re.fullmatch(r"links\[(\d+)\]\.(\w+)", vary)
-    if path is None or path[2] not in _DATA or not isinstance(system, Chain):
-        known = '"length"' if isinstance(system, Cord) else f'"length" or "links[k].NAME", NAME one of {", ".join(_DATA)}'
-        raise ValueError(f"{_PLACE}: vary must be {known}, got {shown(vary)}")
-    link, datum = int(path[1]), path[2]
-    if link >= system.size:
-        raise ValueError(f"{_PLACE}: vary names links[{link}], and the highest is links[{system.size - 1}]")
-    if datum in ("mass", "weight") and (datum == "mass") != system.by_mass:
-        other = "mass" if system.by_mass else "weight"
-        raise ValueError(f"{_PLACE}: the chain was given by {other}: vary its {other}, got {shown(vary)}")
-    return link, datum
-
-
-def _length(system: Chain | Cord, mode: int, name: str, value: float, gravity: float) -> Tuned:
+def _length(system: Chain | Cord, datum: Datum, mode: int, height: float) -> Tuned:
     """Heights are as the length."""
     found = modes(system, 1, first=mode)
-    wanted = value if name == "conical_height" else gravity / value**2
-    factor = wanted / float(found.conical_height[0])
-    if isinstance(system, Cord):
-        present = system.length
-        tuned: Any = _longer_cord(system, factor)
-    else:
-        present = system.total_length
-        size, heavy, length, centroid, *rest = system._compiled.__getstate__()
-        state = ((size, heavy, factor * length, factor * centroid, *rest), system.by_mass, system.names)
-        tuned = Chain._from_state(state)
-    length = factor * present
+    length = height / float(found.conical_height[0]) * datum.present
+    return _one(system, datum, datum.change(length), length, length * (float(found.error_bound[0]) + 2.0**-50))
+
+
+def _one(system: Any, datum: Datum, tuned: Any, value: float | None, bound: float | None) -> Tuned:
+    """The only value there is, or that there is none."""
     return Tuned._made(
         None,
-        status="found",
-        system=tuned,
-        value=length,
-        error_bound=length * (float(found.error_bound[0]) + 2.0**-50),
-        values=np.array([length]),
+        status="no_value" if value is None else "found",
+        system=None if value is None else tuned,
+        value=value,
+        error_bound=bound,
+        values=np.array([] if value is None else [value]),
         complete=True,
-        present=present,
-        between=(0.0, np.inf),
+        present=datum.present,
+        between=(-np.inf if datum.floor is None else 0.0, np.inf),
         reachable=None,
-        vary="length",
+        vary=datum.path,
     )
 
 
-def _longer_cord(cord: Cord, factor: float) -> Cord:
-    length, weight, tip, kept, by_mass = cord._state()
-    if not isinstance(kept, float):
-        pieces = kept[1].copy()
-        pieces[:, :2] *= factor
-        pieces[:, 3:] /= factor
-        kept = (factor * length, pieces)
-    return Cord._from_state((factor * length, weight, tip, kept, by_mass))
-
-
-def _of_rig(
-    rig: Rig,
-    vary: str,
-    mode: int,
-    angular_speed: float | None,
-    conical_height: float | None,
-    gravity: float,
-    between: Any,
-) -> Tuned:
-    if between is not None:
-        raise ValueError(f"{_PLACE}: between is for the datum of one link of a Chain, got {shown(between)}")
-    if (angular_speed is None) == (conical_height is None):
-        raise ValueError(f"{_PLACE}: give exactly one of conical_height and angular_speed")
-    if angular_speed is not None:
-        speed = real(_PLACE, "angular_speed", angular_speed)
-        if not np.isfinite(speed) or speed == 0:
-            raise ValueError(f"{_PLACE}: angular_speed must be finite and not 0, got {speed:g}")
+def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> Tuned | None:
+    """A stiffness, a momentum or a spin, of which there is one for each speed; None of all else."""
+    under, per, link = rig._under(gravity), rig._force(gravity), datum.link
+    of: Callable[[], float]
+    if datum.path == "support.stiffness":
+        of = lambda: per * _core.stiffness_for_speed(under, speed, gravity)  # noqa: E731
+    elif datum.quantity == "momentum":
+        of = lambda: per * _core.momentum_for_speed(under, link, speed, gravity)  # noqa: E731
+    elif datum.quantity == "spin":
+        assert rig.flywheels is not None
+        given = rig.flywheels._given
+        inertia = np.broadcast_to(given.get("mass", given.get("weight")) * given["radius_of_gyration"] ** 2, rig.size)[link]
+        if not inertia:
+            raise ValueError(f"{_PLACE}: flywheels[{link}] has no moment of inertia: its spin moves no speed; vary another's")
+        of = lambda: gravity / inertia * _core.momentum_for_speed(under, link, speed, gravity)  # noqa: E731
     else:
-        speed = float(np.sqrt(gravity / one_positive(_PLACE, "conical_height", conical_height)))
-    path = re.fullmatch(r"flywheels\[(\d+)\]\.momentum", vary)
-    force = rig._force(gravity)
-    value: float | None = None
-    if vary == "support.stiffness":
-        present, tuned = rig.support.stiffness, rig
-        with suppress(ValueError):  # none is positive
-            value = force * _core.stiffness_for_speed(rig._under(gravity), speed, gravity)
-            tuned = _with_stiffness(rig, value)
-    elif path is not None and int(path[1]) < rig.size:
-        link, kept = int(path[1]), force * rig._momentum(gravity)
-        present, tuned = float(kept[link]), rig
-        with suppress(ValueError):  # none is finite
-            value = force * _core.momentum_for_speed(rig._under(gravity), link, speed, gravity)
-            tuned = _with_momentum(rig, np.where(np.arange(rig.size) == link, value, kept), gravity)
-    else:
-        known = '"support.stiffness" or "flywheels[k].momentum"'
-        raise ValueError(f"{_PLACE}: vary must be {known} for a Rig of {rig.size} links, got {shown(vary)}")
-    found = modes(tuned, mode, gravity=gravity)
+        return None
+    value, tuned = None, rig
+    with suppress(ValueError):  # none is finite, or of a stiffness positive
+        value = float(of())
+        tuned = datum.change(value)
+    found: Any = modes(tuned, mode, gravity=gravity)
     if mode > max(1, *found.available):
         raise ValueError(f"{_PLACE}: mode must be from 1 to {max(found.available)}, got {mode}")
-    same = (found.number == mode) & (np.sign(found.angular_speed) == np.sign(speed))
-    if not found.has_momentum:
-        same = found.number == mode
+    same = found.number == mode
+    if found.has_momentum:
+        same &= np.sign(found.angular_speed) == np.sign(speed)
     is_met = value is not None and bool(np.isclose(np.abs(found.angular_speed[same]), abs(speed), rtol=1e-9).any())
+    return _one(rig, datum, tuned, value if is_met else None, None)
+
+
+def _searched(system: Any, datum: Datum, mode: int, speed: float, gravity: float, between: Any) -> Tuned:
+    """All else: bisection between neighbours with the speed wanted between theirs."""
+    number = np.array([mode if speed > 0 else -mode])
+
+    def found(value: float) -> tuple[float, float]:
+        """The speed over the one wanted, less 1, and its bound; a ValueError where the system has no such mode."""
+        one = speeds(_PLACE, datum.change(value), number, gravity)
+        return float(one.speed[0]) / speed - 1, float(one.bound[0]) * float(one.speed[0]) / speed + 2.0**-52
+
+    low, high = _range(datum) if between is None else _ends(between, datum)
+    if not -np.inf < low < high < np.inf:
+        raise ValueError(f"{_PLACE}: between must be finite, and its high end must exceed the low one, got {low:g} and {high:g}")
+    off: dict[float, float] = {}
+
+    def seen(value: float) -> float:
+        with suppress(ValueError):
+            off[value] = found(value)[0]
+        return off.get(value, np.nan)
+
+    for value in _places(datum, low, high):
+        seen(value)
+    if not off:
+        found(datum.present)  # says why
+        raise ValueError(f"{_PLACE}: there is no mode {mode} anywhere between {low:g} and {high:g}")
+    for before, here, after in list(zip(off, [*off][1:], [*off][2:], strict=False)):
+        if off[here] and min(off[before] / off[here], off[after] / off[here]) > 1:  # it turns: towards the speed wanted
+            _turn(lambda x, sign=np.sign(off[here]): sign * seen(x), before, after)  # type: ignore[misc]
+    values = {}
+    for left, right in pairwise(sorted(value for value in off if off[value])):
+        if off[left] * off[right] < 0:
+            with suppress(ValueError):  # a system between two that can be cannot
+                value, bound = _root(found, left, right, off[left] < 0)
+                values[value] = bound
+    nearest = min(values, key=lambda x: abs(_scale(datum, x) - _scale(datum, datum.present)), default=None)
+    heights = gravity / (speed * (1 + np.array([*off.values()]))) ** 2
     return Tuned._made(
         None,
-        status="found" if is_met else "no_value",
-        system=tuned if is_met else None,
-        value=value if is_met else None,
-        error_bound=None,
-        values=np.array([value] if is_met else []),
-        complete=True,
-        present=present,
-        between=(-np.inf if path else 0.0, np.inf),
-        reachable=None,
-        vary=vary,
+        status="undecided" if nearest is None else "found",
+        system=None if nearest is None else datum.change(nearest),
+        value=nearest,
+        error_bound=None if nearest is None else values[nearest],
+        values=np.array(sorted(values)),
+        complete=False,
+        present=datum.present,
+        between=(low, high),
+        reachable=(float(heights.min()), float(heights.max())) if nearest is None else None,
+        vary=datum.path,
     )
 
 
-def _with_momentum(rig: Rig, momentum: Floats, gravity: float) -> Rig:
-    moment = 0.0 if rig.flywheels is None else rig.flywheels._about(gravity)[1]
-    _, support, _, *rest = rig._state()
-    return Rig._from_state((rig.chain, support, {"momentum": momentum, "axial_moment": moment}, *rest))
+def _turn(above: Callable[[float], float], left: float, right: float) -> None:
+    """Look for the least value between two by golden section, until one is below 0."""
+    part = (np.sqrt(5) - 1) / 2
+    for _ in range(30):
+        first, second = right - part * (right - left), left + part * (right - left)
+        one, other = above(first), above(second)
+        if not (one > 0 and other > 0):
+            return
+        left, right = (left, second) if one < other else (first, right)
 
 
-def _with_stiffness(rig: Rig, stiffness: float) -> Rig:
-    _, support, *rest = rig._state()
-    return Rig._from_state((rig.chain, {**Support(**support)._given, "stiffness": stiffness}, *rest))
+def _root(found: Callable[[float], tuple[float, float]], left: float, right: float, rises: bool) -> tuple[float, float]:
+    """A zero between two values, and the bound of its error; a ValueError where there is a jump and no zero."""
+    low, high = left, right
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (middle, high) if (found(middle)[0] < 0) == rises else (low, middle)
+    value = min(low, high, key=lambda x: abs(found(x)[0]))
+    if abs(found(value)[0]) > 1e-9:
+        raise ValueError("a jump")
+    bound = max(high - low, np.spacing(abs(value)))
+    while bound < right - left:
+        (below, left_bound), (above, right_bound) = found(max(value - bound, left)), found(min(value + bound, right))
+        if (-below if rises else below) > left_bound and (above if rises else -above) > right_bound:
+            break
+        bound *= 2
+    return value, float(bound)
 
 
-def _ends(between: Any, datum: str) -> tuple[float, float]:
+def _range(datum: Datum) -> tuple[float, float]:
+    """Where to search if nothing is said."""
+    if datum.ceiling < np.inf:
+        return min(0.0, datum.present), max(datum.ceiling, datum.present)
+    floor = datum.floor or 0.0
+    there = datum.present - floor if datum.has_scale else datum.typical
+    return floor + there / 1000, floor + there * 1000
+
+
+def _places(datum: Datum, low: float, high: float) -> list[float]:
+    """Values from `low` to `high`, evenly in ratio where they can be, and the present one if it is between."""
+    if datum.ceiling < np.inf or datum.floor is None or not datum.floor < low:
+        places = np.linspace(low, high, _SEARCHED)
+    else:
+        places = datum.floor + np.geomspace(low - datum.floor, high - datum.floor, _SEARCHED)
+        places[[0, -1]] = low, high
+    return sorted({*places.tolist(), *([datum.present] if low <= datum.present <= high else [])})
+
+
+def _scale(datum: Datum, value: float) -> float:
+    """By how much a value differs: in ratio, where it can be."""
+    in_ratio = datum.floor is not None and datum.ceiling == np.inf and datum.has_scale
+    return float(np.log(value - datum.floor)) if in_ratio else value  # type: ignore[operator]
+
+
+def _ends(between: Any, datum: Datum) -> tuple[float, float]:
     try:
         low, high = between
     except (TypeError, ValueError):
         raise ValueError(f"{_PLACE}: between must be a pair (low, high), got {shown(between)}") from None
-    return real(_PLACE, f"{datum} (each end of between)", low), real(_PLACE, f"{datum} (each end of between)", high)
+    ends = [real(_PLACE, f"{datum.quantity} (each end of between)", end) for end in (low, high)]
+    return ends[0], ends[1]

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .motions import Response
-    from .sensitivity import RigSensitivity, Sensitivity, Uncertainty
+    from .sensitivity import RigSensitivity, RigUncertainty, Sensitivity, Uncertainty
 
 Complex = NDArray[np.complex128]
 TURN = 8 * np.arctan(np.longdouble(1))
@@ -246,7 +246,8 @@ class Modes(Result):
         Raises
         ------
         ValueError
-            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric; for a rig.
+            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric; for a cord
+            and for what is held.
 
         Notes
         -----
@@ -265,8 +266,8 @@ class Modes(Result):
 
         if not isinstance(self.system, Chain):
             raise ValueError(
-                f"revchain.Modes.uncertainty: is for a Chain, got a {type(self.system).__name__}; of a Rig take "
-                "sensitivity, of others change the datum and ask again"
+                f"revchain.Modes.uncertainty: is for a Chain or a Rig, got a {type(self.system).__name__}; cut a cord: "
+                "cord.chain(100), of what is held change the datum and ask again"
             )
         given = {
             "mass": mass,
@@ -464,6 +465,75 @@ class RigModes(Modes):
     complete: Field[bool] = Field(
         "Whether the numbers of modes and the list of others are proved to be all there is.", part=True
     )
+
+    def uncertainty(
+        self,
+        *,
+        mass: ArrayLike | None = None,
+        weight: ArrayLike | None = None,
+        length: ArrayLike | None = None,
+        centroid: ArrayLike | None = None,
+        radius_of_gyration: ArrayLike | None = None,
+        length_in_proportion: ArrayLike | None = None,
+        momentum: ArrayLike | None = None,
+        spin: ArrayLike | None = None,
+        displaced_mass: ArrayLike | None = None,
+        added_mass: ArrayLike | None = None,
+        stiffness: float | None = None,
+        support_mass: float | None = None,
+    ) -> RigUncertainty:
+        """Return how uncertain conical heights and speeds are where the data are.
+
+        Parameters
+        ----------
+        mass, weight, length, centroid, radius_of_gyration, length_in_proportion : array_like, optional
+            Of the links: standard deviations or a covariance, as in `Modes.uncertainty`.
+        momentum, spin : array_like, optional
+            Of the flywheels, in the same forms. Give one of them; `spin` where they were given by spin.
+        displaced_mass, added_mass : array_like, optional
+            Of the fluid, in the same forms; weights for a rig given by weight.
+        stiffness, support_mass : float, optional
+            Of the support: a standard deviation, or text such as ``"5 %"``.
+
+        Returns
+        -------
+        RigUncertainty
+
+        Raises
+        ------
+        ValueError
+            For deviations that are negative or not finite, other shapes, a covariance that is not symmetric; a spin
+            where flywheels were given by momentum.
+
+        Notes
+        -----
+        First order, from `RigSensitivity`, which says what is held while a datum changes. The radius of a support moves
+        no speed of small oscillations.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), support=rc.Support(stiffness=30.0))
+        >>> rc.modes(rig, 1).uncertainty(stiffness="10 %").angular_speed.round(4)
+        array([0.0335])
+        """
+        from .sensitivity import rig_uncertainty
+
+        given = {
+            "mass": mass,
+            "weight": weight,
+            "length": length,
+            "centroid": centroid,
+            "radius_of_gyration": radius_of_gyration,
+            "length_in_proportion": length_in_proportion,
+            "momentum": momentum,
+            "spin": spin,
+            "displaced_mass": displaced_mass,
+            "added_mass": added_mass,
+            "stiffness": stiffness,
+            "support_mass": support_mass,
+        }
+        return rig_uncertainty(self, given)
 
     def _again(self) -> Any:
         if not len(self):

@@ -4,19 +4,20 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
 from ..systems.chain import checked, like
-from ..systems.numbers import Floats, Whole, floats, shown
+from ..systems.numbers import Floats, Whole, floats, refuse_where, shown
 from ..systems.units import unpacked
 from .base import Field, Result
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
+    from ..systems.rig import Rig
     from .modes import Modes, RigModes
 
 
@@ -27,19 +28,21 @@ class _ByDatum(Result):
     """One array for each datum of a link."""
 
     __slots__ = ()
+    _known: ClassVar[tuple[str, ...]] = DATA
     number: Field[Whole] = Field("Mode numbers, shape (k,).", part=True)
 
     def __getitem__(self, quantity: str) -> Floats:
         """The array of a quantity by its name."""
-        if quantity not in DATA:
-            raise KeyError(f"quantity must be one of {', '.join(DATA)}, got {shown(quantity)}")
+        if quantity not in self._known:
+            raise KeyError(f"quantity must be one of {', '.join(self._known)}, got {shown(quantity)}")
         return getattr(self, quantity)  # type: ignore[no-any-return]
 
     def _columns(self) -> list[Column]:
         columns = [Column("mode", self.number, "mode")]
-        for name in DATA:
+        for name in self._known:
             values = self[name]
-            columns.append(Column(name, values, f"{name} of links[0]", axes=("link",), shown=values[:, 0]))
+            of_links = {"axes": ("link",), "shown": values[:, 0]} if values.ndim == 2 else {}
+            columns.append(Column(name, values, f"{name} of links[0]" if of_links else name, **of_links))  # type: ignore[arg-type]
         return columns
 
 
@@ -220,25 +223,10 @@ def _derivatives(modes: Modes, values: Any) -> Derivatives:
 def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty:
     """`Modes.uncertainty`."""
     place = "revchain.Modes.uncertainty"
-    size = modes.system.size
     if given["mass"] is not None or given["weight"] is not None:
         given["mass"] = like(place, modes.system, given["mass"], given["weight"])
-    deviations: list[Any] = []
-    for name in DATA:
-        value = unpacked(given[name])
-        if isinstance(value, str):
-            value = [value] * size
-        if isinstance(value, np.ndarray) and value.dtype.kind == "U":
-            value = value.tolist()
-        if isinstance(value, list | tuple):
-            value = _parts_of_data(f"{place}: {name}", value, np.abs(_data(modes.system)[name]))
-        array = None if value is None else floats(place, name, value)
-        if array is not None and array.shape not in ((), (size,), (size, size)):
-            raise ValueError(
-                f"{place}: {name} must be a number, one for each of the {size} links, or their covariance of shape "
-                f"({size}, {size}), got shape {array.shape}"
-            )
-        deviations.append(array)
+    data = _data(modes.system)
+    deviations = [None if given[name] is None else _deviations(place, name, given[name], data[name]) for name in DATA]
     sensitivity: Any = modes.sensitivity
     heights = modes.conical_height.astype(np.float64)
     of = [sensitivity[name] for name in DATA]
@@ -257,11 +245,54 @@ def uncertainty(modes: Modes, given: dict[str, ArrayLike | None]) -> Uncertainty
     )
 
 
-class RigSensitivity(Result):
+class _ByRigDatum(_ByDatum):
+    """One array for each datum of the links of a rig, and of its support."""
+
+    __slots__ = ()
+    _known = (*DATA, "momentum", "spin", "displaced_mass", "added_mass", "stiffness", "support_mass")
+    number: Field[Whole] = Field("Mode numbers, shape (k,), each among those of its direction.", part=True)
+    direction: Field[Whole] = Field("1 forward, -1 backward, shape (k,).", part=True)
+
+    def _columns(self) -> list[Column]:
+        mode, *columns = super()._columns()
+        return [mode, Column("direction", self.direction, "direction"), *columns]
+
+
+class RigDerivatives(_ByRigDatum):
+    """One number for each mode, link and datum of a rig.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), support=rc.Support(stiffness=30.0))
+    >>> share = rc.modes(rig, 1).uncertainty(stiffness="10 %", length_in_proportion="1 %").share
+    >>> share.stiffness.round(3), share.length_in_proportion.round(3)
+    (array([0.914]), array([[0.086]]))
+    """
+
+    __slots__ = ()
+    mass: Field[Floats] = Field("Shape (k, N), links lowest first; see `RigSensitivity.mass`.", part=True)
+    length: Field[Floats] = Field("Shape (k, N); see `RigSensitivity.length`.", part=True)
+    centroid: Field[Floats] = Field("Shape (k, N).", part=True)
+    radius_of_gyration: Field[Floats] = Field("Shape (k, N).", part=True)
+    length_in_proportion: Field[Floats] = Field("Shape (k, N).", part=True)
+    momentum: Field[Floats] = Field("Shape (k, N).", part=True)
+    spin: Field[Floats] = Field("Shape (k, N).", part=True)
+    displaced_mass: Field[Floats] = Field("Shape (k, N).", part=True)
+    added_mass: Field[Floats] = Field("Shape (k, N).", part=True)
+    stiffness: Field[Floats] = Field("Shape (k,).", part=True)
+    support_mass: Field[Floats] = Field("Shape (k,).", part=True)
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        return Sheet("mode", "Numbers by datum; the lowest link is shown", self._columns())
+
+
+class RigSensitivity(_ByRigDatum):
     """Derivatives of the whirl speeds of k modes of a rig with respect to every datum of it; all else is held.
 
     As accurate as the shapes: 1e-14 of the largest. From ``y' (K + n G - n^2 M / g) y = 0``, stationary in y. Of the
-    conical height ``lambda = gravity / n**2``: ``d lambda = -2 * lambda / n * dn``. Cost O(N) a mode.
+    conical height ``lambda = gravity / n**2``: ``d lambda = -2 * lambda / n * dn``. Cost O(N) a mode. The radius of the
+    support moves no speed of small oscillations.
 
     Examples
     --------
@@ -277,8 +308,6 @@ class RigSensitivity(Result):
     """
 
     __slots__ = ()
-    number: Field[Whole] = Field("Mode numbers, shape (k,), each among those of its direction.", part=True)
-    direction: Field[Whole] = Field("1 forward, -1 backward, shape (k,).", part=True)
     mass: Field[Floats] = Field(
         "With respect to the mass of each link, shape (k, N); of a chain given by weight, to its weights, here and below.",
         part=True,
@@ -294,45 +323,158 @@ class RigSensitivity(Result):
         "With respect to a length that takes centroid and radius of gyration with it.", part=True
     )
     momentum: Field[Floats] = Field("With respect to the angular momentum of each link's flywheel.", part=True)
+    spin: Field[Floats] = Field(
+        "With respect to the spin of each link's flywheel, rad/s; 0 where flywheels were given by momentum.", part=True
+    )
     displaced_mass: Field[Floats] = Field("With respect to the mass of fluid that each link displaces.", part=True)
     added_mass: Field[Floats] = Field("With respect to the fluid that has to move with each link.", part=True)
     stiffness: Field[Floats] = Field("Of the support, shape (k,); 0 where it is firm.", part=True)
     support_mass: Field[Floats] = Field("Of what moves with the support, shape (k,); 0 where it is firm.", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("mode", self.number, "mode"), Column("direction", self.direction, "direction")]
-        for name in _OF_LINKS:
-            values = getattr(self, name)
-            columns.append(Column(name, values, name, axes=("link",), shown=values[:, 0]))
-        columns += [Column(name, getattr(self, name), name) for name in _OF_SUPPORT]
-        return Sheet("mode", "Derivatives of the whirl speeds; those for the lowest link are shown", columns)
+        return Sheet("mode", "Derivatives of the whirl speeds; those for the lowest link are shown", self._columns())
 
 
-_OF_LINKS = (
-    "mass",
-    "length",
-    "centroid",
-    "radius_of_gyration",
-    "length_in_proportion",
-    "momentum",
-    "displaced_mass",
-    "added_mass",
-)
-_OF_SUPPORT = ("stiffness", "support_mass")
+class RigUncertainty(Uncertainty):
+    """Standard deviations of the conical heights and speeds of k modes of a rig, to first order.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> rig = rc.Rig(rc.Chain(mass=1.0, length=1.0), support=rc.Support(stiffness=30.0))
+    >>> u = rc.modes(rig, 1).uncertainty(stiffness="10 %", length_in_proportion="1 %")
+    >>> u.largest
+    (('stiffness', 0),)
+    """
+
+    __slots__ = ()
+    number: Field[Whole] = Field("Mode numbers, shape (k,), each among those of its direction.", part=True)
+    direction: Field[Whole] = Field("1 forward, -1 backward, shape (k,).", part=True)
+    share: Field[RigDerivatives] = Field(  # type: ignore[assignment]
+        "What part of each variance comes from which datum; those of a mode add up to 1. With a covariance a part may be "
+        "negative.",
+        part=True,
+    )
+    largest: Field[tuple[tuple[str, int], ...]] = Field(
+        "For each mode the datum that contributes most, and its link, counted from 0 (of the support: 0).", part=True
+    )
+
+    def _most(self, row: int) -> str:
+        datum = self.largest[row][0]
+        named = {"stiffness": "stiffness of the support", "support_mass": "mass of the support"}
+        return named.get(datum, super()._most(row)) if self.relative[row] else "nothing"
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        sheet = super()._sheet(brief)
+        sheet.columns.insert(1, Column("direction", self.direction, "direction"))
+        return sheet
 
 
 def of_rig(modes: RigModes) -> RigSensitivity:
     """`RigModes.sensitivity`."""
-    rig = modes.system
-    rows = [
-        _core.rig_sensitivity(rig._under(modes.gravity), float(n), y, modes.gravity)
-        for n, y in zip(modes.angular_speed, modes.shape, strict=True)
-    ]
+    found = rig_derivatives(modes.system, modes.angular_speed, modes.shape, modes.gravity)
+    return RigSensitivity._made(None, number=modes.number, direction=modes.direction, **found)
+
+
+def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[str, Floats]:
+    """Those of `RigSensitivity`, of modes given by their speeds and shapes."""
+    under = rig._under(gravity)
+    rows = [_core.rig_sensitivity(under, float(n), y, gravity) for n, y in zip(speeds, shapes, strict=True)]
+    names = [name for name in _ByRigDatum._known if name != "spin"]
     if rows:
         columns: list[Any] = [np.array(column) for column in zip(*rows, strict=True)]
     else:
-        columns = [np.empty((0, rig.size))] * len(_OF_LINKS) + [np.empty(0)] * len(_OF_SUPPORT)
-    named = dict(zip((*_OF_LINKS, *_OF_SUPPORT), columns, strict=True))
-    per = rig._force(modes.gravity)
-    named |= {name: named[name] / per for name in ("momentum", "stiffness")}
-    return RigSensitivity._made(None, number=modes.number, direction=modes.direction, **named)
+        columns = [np.empty((0, rig.size))] * (len(names) - 2) + [np.empty(0)] * 2
+    found = dict(zip(names, columns, strict=True))
+    wheels = {} if rig.flywheels is None else rig.flywheels._given
+    inertia = wheels.get("mass", wheels.get("weight", 0.0)) * wheels.get("radius_of_gyration", 0.0) ** 2
+    per = rig._force(gravity)
+    spin = found["momentum"] * (inertia / gravity)
+    return found | {"spin": spin, "momentum": found["momentum"] / per, "stiffness": found["stiffness"] / per}
+
+
+def rig_uncertainty(modes: RigModes, given: dict[str, ArrayLike | None]) -> RigUncertainty:
+    """`RigModes.uncertainty`."""
+    place, rig = "revchain.RigModes.uncertainty", modes.system
+    if given["mass"] is not None or given["weight"] is not None:
+        given["mass"] = like(place, rig.chain, given["mass"], given["weight"])
+    wheels = {} if rig.flywheels is None else rig.flywheels._given
+    if given["spin"] is not None and "spin" not in wheels:
+        raise ValueError(f"{place}: spin is for flywheels that were given by spin; give momentum, got {shown(given['spin'])}")
+    if given["spin"] is not None and given["momentum"] is not None:
+        raise ValueError(f"{place}: give spin or momentum, which holds it, got both")
+    if given["stiffness"] is not None and not np.isfinite(rig.support.stiffness):
+        why = "stiffness is of a support on a spring, and this one is firm; leave it out"
+        raise ValueError(f"{place}: {why}, got {shown(given['stiffness'])}")
+    sensitivity: Any = modes.sensitivity
+    parts: dict[str, Floats] = {}
+    for name in _ByRigDatum._known:
+        rates = sensitivity[name]
+        of_links = rates.ndim == 2
+        spread = np.zeros(())
+        if given[name] is not None:
+            data = np.broadcast_to(_rig_data(rig, name, modes.gravity), rig.size if of_links else 1)
+            called = name if rig.by_mass else name.replace("mass", "weight")
+            spread = _deviations(place, called, given[name], data)
+            _refuse_no_deviations(place, called, spread)
+        rates = rates if of_links else rates[:, None]
+        part = rates * (rates @ spread) if spread.ndim == 2 else (rates * spread) ** 2
+        parts[name] = part if of_links else part[:, 0]
+    table = np.column_stack([*parts.values()])
+    variance = np.maximum(table.sum(axis=1), 0.0)
+    speed = np.sqrt(variance)
+    places = [(name, k) for name, part in parts.items() for k in range(part.shape[1] if part.ndim == 2 else 1)]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = {n: np.nan_to_num(p / (variance[:, None] if p.ndim == 2 else variance)) for n, p in parts.items()}
+    relative = 2 * speed / np.abs(modes.angular_speed)
+    return RigUncertainty._made(
+        None,
+        number=modes.number,
+        direction=modes.direction,
+        names=rig.chain.names,
+        conical_height=relative * modes.conical_height,
+        relative=relative,
+        angular_speed=speed,
+        period=0.5 * relative * modes.period,
+        share=RigDerivatives._made(None, number=modes.number, direction=modes.direction, **share),
+        largest=tuple(places[k] for k in np.abs(table).argmax(axis=1)),
+    )
+
+
+def _rig_data(rig: Rig, name: str, gravity: float) -> Any:
+    """The data themselves, one number or one for each link."""
+    if name in DATA:
+        return _data(rig.chain)[name]
+    if name == "momentum":
+        return rig._force(gravity) * rig._momentum(gravity)
+    if name in ("stiffness", "support_mass"):
+        return rig.support.stiffness if name == "stiffness" else rig.support.carriage
+    given = (rig.flywheels if name == "spin" else rig.displaced) or rig.support
+    named = {"displaced_mass": ("mass", "weight"), "added_mass": ("added_mass", "added_weight"), "spin": ("spin",)}
+    return next((given._given[key] for key in named[name] if key in given._given and given is not rig.support), 0.0)
+
+
+def _deviations(place: str, name: str, given: Any, data: Floats) -> Floats:
+    """Standard deviations, one number or one for each datum, or their covariance."""
+    value, size = unpacked(given), data.size
+    if isinstance(value, str):
+        value = [value] * size
+    if isinstance(value, np.ndarray) and value.dtype.kind == "U":
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        value = _parts_of_data(f"{place}: {name}", value, np.abs(data))
+    array = floats(place, name, value)
+    if array.shape not in ((), (size,), (size, size)):
+        raise ValueError(
+            f"{place}: {name} must be a number, one for each of the {size} links, or their covariance of shape "
+            f"({size}, {size}), got shape {array.shape}"
+        )
+    return array
+
+
+def _refuse_no_deviations(place: str, name: str, array: Floats) -> None:
+    """A ValueError where they are no deviations and no covariance."""
+    if array.ndim < 2:
+        refuse_where(~(np.isfinite(array) & (array >= 0)), array, f"{place}: {name} must be finite and not negative")
+    elif not (np.isfinite(array).all() and (array == array.T).all() and (array.diagonal() >= 0).all()):
+        raise ValueError(f"{place}: covariance of {name} must be finite, symmetric, and no variance negative")

@@ -41,20 +41,22 @@ class Tuned(Result):
         part=True,
     )
     error_bound: Field[float | None] = Field(
-        "Absolute, proved: `value` is that near to one that does exactly. None where none was found, and of rigs, whose "
-        "values are formed to 1e-15: the bound of the new rig's speed is proved.",
+        "Absolute, proved: `value` is that near to one that does exactly (of cords, whose own bounds are measured to hold, "
+        "so is this). None where none was found, and of a rig's stiffness, momentum and spin, which are formed to 1e-15: "
+        "the bound of the new rig's speed is proved.",
         part=True,
     )
     values: Field[Floats] = Field("All that were found in the range, ascending.", part=True)
     complete: Field[bool] = Field(
-        "Whether `values` are all there are in the range. For a weight, what is known is the nearest on either side of the "
-        "present value.",
+        "Whether `values` are all there are in the range. For a weight of a chain, what is known is the nearest on either "
+        "side of the present value; of what is searched for, those between neighbours of 65 values.",
         part=True,
     )
     present: Field[float] = Field("The datum as it is.", part=True)
     between: Field[Pair] = Field("The range searched.", part=True)
     reachable: Field[Pair | None] = Field(
-        "Where none was found: the least and the largest conical height seen in the range, at 33 places; None of rigs.", part=True
+        "Where none was found: the least and the largest conical height seen in the range, at 33 or 65 places; None of "
+        "what has one value for each speed.", part=True
     )
 
     def _sheet(self, brief: bool = False) -> Sheet:

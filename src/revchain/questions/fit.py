@@ -1,0 +1,381 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which values of several data bring a system nearest to measured speeds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..results.fitted import Fitted
+from ..results.modes import RigModes
+from ..results.sensitivity import rig_derivatives
+from ..systems.chain import Chain
+from ..systems.cord import Cord
+from ..systems.datum import Datum, read, refuse_overlap
+from ..systems.extras import require
+from ..systems.held import Held
+from ..systems.numbers import STANDARD_GRAVITY, Floats, Whole, integer, one_positive, real, shown
+from ..systems.rig import Rig
+from ..systems.units import are_there, in_si, unpacked
+from .modes import straight
+from .refuse import no_system
+from .speeds import Speeds, speeds
+
+_PLACE = "revchain.fit"
+_FORM = '{1: (3.21, 0.02)}, {1: "0.5 Hz"} or {1: ["10.9 s", "1 %"]}'
+_SINGULAR = 1e-8  # of the largest singular value: what is less is a combination that the measurements cannot tell
+_EFFECT = 1e-9  # of a speed, by a datum that changes as much as it is large
+_PART = 1e-6  # of a datum in a combination
+
+
+def fit(
+    system: Chain | Rig | Cord | Held,
+    measured: Mapping[int, Any],
+    *,
+    vary: str | Iterable[str] | Mapping[str, float],
+    gravity: float = STANDARD_GRAVITY,
+) -> Fitted:
+    """Find the values of several data that bring a system nearest to measured speeds, by least squares.
+
+    Parameters
+    ----------
+    system : Chain, Rig, Cord or Held
+        The system as it is believed to be: the search starts there.
+    measured : dict
+        Speeds by the number of their mode, 1 for the slowest; of a rig with flywheels -1 for the slowest backward one.
+        Each is a speed in rad/s, or text such as ``"0.5 Hz"``, ``"30 rpm"`` or a period ``"10.9 s"``; or a pair of it and
+        its standard uncertainty, in the same unit or a part such as ``"1 %"``: ``{1: ("10.9 s", "0.1 s"), 2: (3.8, 0.05)}``.
+        Give uncertainties of all speeds, or of none: all then count as equally well known in proportion, and their
+        uncertainty is estimated from what is left over.
+    vary : str, list of str or dict
+        Paths of the data that may change, as in `tune`; a dictionary says where to start: ``{"support.stiffness": 2000.0}``
+        where the support is firm, or a mass is 0.
+    gravity : float, optional
+        In m/s^2; standard gravity if left out.
+
+    Returns
+    -------
+    Fitted
+        The new system; the values with standard uncertainties, covariance and correlation; residuals and chi-square; which
+        data the measurements cannot tell. Cost some 5 to 30 times that of the modes, for data without derivatives times
+        five for each.
+
+    Raises
+    ------
+    ValueError
+        For more data than speeds, other paths, two paths to the same number, mode numbers beyond those there are, speeds
+        and uncertainties that are not positive, data that have nowhere to start; for what is held and has no modes.
+    TypeError
+        If `system` is none of the four systems.
+    ImportError
+        If scipy is not installed; the message says how to install it.
+
+    Notes
+    -----
+    Trust-region least squares (`scipy.optimize.least_squares`) in the logarithms of the data; momenta, spins and centroids,
+    which may have either sign, as parts of their size. Derivatives of chains and rigs are those of `Modes.sensitivity`, of
+    what they do not have (cords, what is held, wheels' masses) differences of fourth order. The values are
+    within a millionth of their standard uncertainties of those with the least sum of squares near them; that there is no
+    lesser one far from the start is not proved. Uncertainties are to first order, as where the speeds change in proportion to the data.
+
+    Masses act by their ratios: the speeds of a chain on a firm support cannot tell all its masses. Such combinations are
+    found by the singular values of the derivatives (below 1e-8 of the largest), and named.
+
+    Examples
+    --------
+    A crane's two periods were measured; how long is the rope, and how heavy the load?
+
+    >>> import revchain as rc
+    >>> crane = rc.Chain(mass=[2500, 400], length=[6, 24])
+    >>> measured = {1: ("10.91 s", "0.02 s"), 2: ("1.61 s", "0.01 s")}
+    >>> found = rc.fit(crane, measured, vary=["links[1].length_in_proportion", "links[0].mass"])
+    >>> found.value.round(2), found.standard_uncertainty.round(2)
+    (array([  24.21, 2652.13]), array([ 0.11, 36.99]))
+    >>> rc.fit(crane, measured, vary=["links[0].mass", "links[1].mass"]).undetermined
+    (('links[0].mass', 'links[1].mass'),)
+    """
+    if not isinstance(system, Chain | Rig | Cord | Held):
+        raise no_system(_PLACE, system)
+    g = one_positive(_PLACE, "gravity", gravity)
+    if isinstance(system, Held):
+        straight(_PLACE, system, g)
+    paths, starts = _varied(vary)
+    number, speed, deviation = _measurements(measured)
+    if len(paths) > len(number):
+        raise ValueError(
+            f"{_PLACE}: vary has {len(paths)} data for {len(number)} measured speed{'s' * (len(number) > 1)}; vary at most "
+            f"{len(number)}, or measure more modes"
+        )
+    data = [read(_PLACE, system, path, g) for path in paths]
+    refuse_overlap(_PLACE, paths)
+    turns = isinstance(system, Rig) and (system.has_momentum or any("flywheels" in path for path in paths))
+    if (number < 0).any() and not turns:
+        raise ValueError(
+            f"{_PLACE}: measured: modes are counted from 1; only a rig with flywheels has backward modes, -1 the slowest, "
+            f"got {number.min()}"
+        )
+    model = _Model(system, data, number, speed, speed if deviation is None else deviation, g)
+    return _fitted(model, *_least(model, np.array([_start(*each) for each in zip(data, starts, strict=True)])), deviation)
+
+
+class _Model:
+    """Speeds, and how far they are from those measured, as functions of the data as variables without bounds."""
+
+    def __init__(self, system: Any, data: list[Datum], number: Whole, speed: Floats, deviation: Floats, gravity: float):
+        self.system, self.data, self.number, self.gravity = system, data, number, gravity
+        self.measured, self.deviation = speed, np.abs(deviation)
+        self.kept: tuple[bytes, Any] = (b"", None)
+
+    def values(self, free: Floats) -> Floats:
+        with np.errstate(over="ignore"):
+            return np.array([_bounded(datum, x) for datum, x in zip(self.data, free, strict=True)])
+
+    def at(self, free: Floats) -> tuple[Any, Speeds]:
+        """The system and its speeds; a ValueError where it cannot be, or has not these modes."""
+        if self.kept[0] != free.tobytes():
+            system = self.system
+            for datum, value in zip(self.data, self.values(free), strict=True):
+                system = read(_PLACE, system, datum.path, self.gravity).change(float(value))
+            self.kept = (free.tobytes(), (system, speeds(_PLACE, system, self.number, self.gravity)))
+        found: tuple[Any, Speeds] = self.kept[1]
+        return found
+
+    def off(self, free: Floats) -> Floats:
+        """Computed less measured, over the uncertainties; NaN where there is none, from which the search steps back."""
+        try:
+            return (self.at(free)[1].speed - self.measured) / self.deviation
+        except ValueError:
+            return np.full(len(self.number), np.nan)
+
+    def slopes(self, free: Floats) -> Floats:
+        """Derivatives of `off`, shape (m, p)."""
+        _, there = self.at(free)
+        rates = self._rates(there)
+        columns = []
+        for k, (datum, value) in enumerate(zip(self.data, self.values(free), strict=True)):
+            if datum.rate is None or rates is None:
+                columns.append(self._difference(free, k))
+                continue
+            name, part = datum.rate
+            column = rates[name] @ part if rates[name].ndim == 2 else rates[name] * part
+            columns.append(column * _inner(datum, value) / self.deviation)
+        return np.column_stack(columns)
+
+    def _rates(self, there: Speeds) -> Any:
+        """Derivatives of the speeds by the data of a chain or a rig; None where there are none."""
+        if isinstance(there.modes, RigModes):
+            return rig_derivatives(there.modes.system, there.speed, there.modes.shape[there.rows], self.gravity)
+        if not isinstance(self.system, Chain):
+            return None
+        of_heights: Any = there.modes.sensitivity
+        factor = -0.5 * there.speed / there.modes.conical_height[there.rows].astype(np.float64)
+        named = {datum.rate[0] for datum in self.data if datum.rate is not None}
+        return {name: of_heights[name][there.rows] * factor[:, None] for name in named}
+
+    def _difference(self, free: Floats, k: int) -> Floats:
+        for step in (1e-3, 1e-5):
+            move = step * (np.arange(len(free)) == k)
+            near = [self.off(free + x * move) for x in (-2, -1, 1, 2)]
+            column: Floats = (near[0] - 8 * near[1] + 8 * near[2] - near[3]) / (12 * step)
+            if np.isfinite(column).all():
+                break
+        return np.nan_to_num(column)
+
+
+def _least(model: _Model, start: Floats) -> tuple[Floats, bool, _Known]:
+    """Where the sum of squares is least, whether it is, and what is known there; what is not stays as it was at the start."""
+    model.at(start)  # what is wrong is said now
+    optimize, hold = require("scipy.optimize", "fit", _PLACE), np.empty((0, len(start)))
+    for _ in range(2):
+        found = optimize.least_squares(
+            lambda free, hold=hold: np.append(model.off(free), hold @ (free - start)),
+            start,
+            lambda free, hold=hold: np.vstack([model.slopes(free), hold]),
+            x_scale="jac",
+            ftol=1e-12,
+            xtol=1e-10,
+            gtol=1e-15,
+            max_nfev=500,
+        )
+        slopes, off = model.slopes(found.x), model.off(found.x)
+        known = _Known(slopes, model.measured / model.deviation)
+        hold = known.lost
+        if not len(hold):
+            break
+    last = found.x - known.inverse @ (slopes.T @ off)  # a step of Gauss and Newton: the digits that tolerances left
+    if not (model.off(last) ** 2).sum() <= (off**2).sum() * (1 + 1e-9) + 1e-18:
+        last = found.x
+    return last, found.status > 0, known
+
+
+class _Known:
+    """What the measurements tell of the data, by the singular values of the derivatives.
+
+    Attributes
+    ----------
+    inverse : ndarray, shape (p, p)
+        Of the normal equations, as far as they have one.
+    covariance : ndarray, shape (p, p)
+        The same, NaN where it is not known.
+    lost : ndarray, shape (p - rank, p)
+        Combinations of the variables that are not known, as the rows of a matrix.
+    groups : list of list of int
+        Data that have part in the same of these.
+    """
+
+    def __init__(self, slopes: Floats, per_part: Floats) -> None:
+        moves = np.abs(slopes / per_part[:, None]).max(axis=0) > _EFFECT
+        size = np.where(moves, np.sqrt((slopes**2).sum(axis=0)), 1.0)
+        _, singular, rows = np.linalg.svd(np.where(moves, slopes / size, 0.0), full_matrices=True)
+        is_known = singular > _SINGULAR * max(singular[0], _SINGULAR)
+        self.rank = int(is_known.sum())
+        self.lost = rows[~is_known] * size
+        together = np.abs(rows[~is_known].T @ rows[~is_known]) > _PART
+        self.groups: list[list[int]] = []
+        rest = {int(k) for k in np.flatnonzero(together.diagonal())}
+        while rest:
+            group, new = set(), {min(rest)}
+            while new:
+                group |= new
+                new = {int(k) for one in new for k in np.flatnonzero(together[one])} - group
+            self.groups.append(sorted(group))
+            rest -= group
+        self.inverse = rows[is_known].T @ (rows[is_known] / singular[is_known, None] ** 2) / np.outer(size, size)
+        self.covariance = self.inverse.copy()
+        for lost in self.groups:
+            self.covariance[lost] = self.covariance[:, lost] = np.nan
+
+
+def _fitted(model: _Model, free: Floats, converged: bool, known: _Known, deviation: Floats | None) -> Fitted:
+    system, there = model.at(free)
+    values, paths = model.values(free), tuple(datum.path for datum in model.data)
+    inner = np.array([_inner(*each) for each in zip(model.data, values, strict=True)])
+    covariance = known.covariance * np.outer(inner, inner)
+    left, freedom = float((model.off(free) ** 2).sum()), len(model.number) - known.rank
+    if deviation is None:
+        spread = left / freedom if freedom else math.nan
+        covariance, deviation = covariance * spread, np.abs(model.measured) * math.sqrt(spread)
+        chi_square = None
+    else:
+        chi_square = left
+    return Fitted._made(
+        None,
+        status="undetermined" if known.groups and converged else "success" if converged else "not_converged",
+        vary=paths,
+        system=system,
+        gravity=model.gravity,
+        value=values,
+        covariance=covariance,
+        present=np.array([datum.present for datum in model.data]),
+        number=model.number,
+        measured=model.measured,
+        measured_uncertainty=deviation,
+        computed=there.speed,
+        chi_square=chi_square,
+        degrees_of_freedom=freedom,
+        undetermined=tuple(tuple(paths[k] for k in group) for group in known.groups),
+    )
+
+
+def _inner(datum: Datum, value: float) -> float:
+    """Derivative of a value by its variable."""
+    return datum.typical if datum.floor is None else value - datum.floor
+
+
+def _bounded(datum: Datum, free: float) -> float:
+    return float(free * datum.typical if datum.floor is None else datum.floor + np.exp(free))
+
+
+def _start(datum: Datum, given: Any) -> float:
+    """The variable of the value to start from."""
+    value = datum.present if given is None else real(_PLACE, f"{datum.quantity} (start of {datum.path})", given)
+    if datum.floor is None and math.isfinite(value):
+        return value / datum.typical
+    if datum.floor is not None and datum.floor < value < math.inf:
+        return math.log(value - datum.floor)
+    if given is None:
+        raise ValueError(
+            f"{_PLACE}: {datum.path} is {value:g}: say where to start, as in vary={{\"{datum.path}\": {datum.typical:.3g}}}"
+        )
+    limit = "finite" if datum.floor is None else f"finite and more than {datum.floor:.6g}"
+    raise ValueError(f"{_PLACE}: the start of {datum.path} must be {limit}, got {value:g}")
+
+
+def _varied(vary: Any) -> tuple[list[Any], list[Any]]:
+    """Paths, and where to start if that is said."""
+    if isinstance(vary, Mapping):
+        paths = list(vary)
+    elif isinstance(vary, str):
+        paths = [vary]
+    else:
+        paths = list(vary) if isinstance(vary, Iterable) and not isinstance(vary, bytes) else []
+    if not paths:
+        such = '["length", "links[0].mass"]'
+        raise ValueError(f"{_PLACE}: vary must be a path or a list of paths such as {such}, got {shown(vary)}")
+    return paths, list(vary.values()) if isinstance(vary, Mapping) else [None] * len(paths)
+
+
+def _measurements(measured: Any) -> tuple[Whole, Floats, Floats | None]:
+    """Mode numbers, speeds, negative for backward modes, and their standard uncertainties, if they were given."""
+    if not isinstance(measured, Mapping) or not measured:
+        such = f"a dictionary of speeds by mode number such as {_FORM}"
+        raise ValueError(f"{_PLACE}: measured must be {such}, got {shown(measured)}")
+    numbers, found = [], []
+    for key, value in measured.items():
+        number = integer(_PLACE, "measured: each mode number", key)
+        if number == 0:
+            raise ValueError(f"{_PLACE}: measured: modes are counted from 1, got 0")
+        numbers.append(number)
+        found.append(_measurement(number, unpacked(value)))
+    bare = [number for number, (_, spread) in zip(numbers, found, strict=True) if spread is None]
+    if bare and len(bare) < len(found):
+        raise ValueError(
+            f"{_PLACE}: measured[{bare[0]}] has no uncertainty, and others have; give that of all, as in {_FORM}, or of none"
+        )
+    speed = np.array([np.sign(k) * x for k, (x, _) in zip(numbers, found, strict=True)])
+    return np.array(numbers), speed, None if bare else np.array([spread for _, spread in found])
+
+
+def _measurement(number: int, value: Any) -> tuple[float, float | None]:
+    """A speed and its uncertainty, both positive, in rad/s."""
+    place, spread = f"{_PLACE}: measured[{number}]", None
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        if len(value) != 2:
+            raise ValueError(f"{place} must be a speed, or a pair of it and its uncertainty, as in {_FORM}, got {shown(value)}")
+        value, spread = value
+    size, is_period = _speed_or_period(place, "speed", value)
+    size = -size if number < 0 and not is_period else size
+    if not 0 < abs(size) < math.inf or (size < 0 and number > 0):
+        raise ValueError(f"{place}: speed must be positive and finite, got {shown(value)}")
+    size = abs(size)
+    speed = 2 * math.pi / size if is_period else size
+    if spread is None:
+        return speed, None
+    if isinstance(spread, str) and spread.strip().endswith("%"):
+        part = real(place, "rtol (the uncertainty)", spread)
+    else:
+        deviation, as_period = _speed_or_period(place, "uncertainty", spread)
+        if are_there(value) != are_there(spread) or as_period != is_period:
+            raise ValueError(f'{place}: give speed and uncertainty in the same unit, or "1 %", got {shown((value, spread))}')
+        part = deviation / size
+    if not 0 < part < math.inf:
+        raise ValueError(
+            f"{place}: uncertainty must be positive and finite, got {shown(spread)}; leave out those of all speeds if none "
+            "is known"
+        )
+    return speed, part * speed
+
+
+def _speed_or_period(place: str, name: str, value: Any) -> tuple[float, bool]:
+    """A number in rad/s or, where its unit is that of a time, in s."""
+    if are_there(value):
+        try:
+            return float(in_si(place, "period", value)), True
+        except (ValueError, TypeError):
+            return real(place, "angular_speed", value), False
+    return real(place, name, value), False

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What `revchain.fit` returns."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..systems.numbers import Floats, Whole, shown
+from .base import Field, Result
+from .sheet import Column, Sheet
+
+_MOST_LINES = 8
+
+
+class Fitted(Result):
+    """Which values of p data bring a system nearest to m measured speeds, and how uncertain they are; returned by `fit`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> crane = rc.Chain(mass=[2500, 400], length=[6, 24])
+    >>> found = rc.fit(crane, {1: ("10.87 s", "0.02 s"), 2: ("1.60 s", "0.01 s")}, vary=["length", "links[0].mass"])
+    >>> found
+    Fitted: 2 data to 2 speeds, success; chi-square 0 with 0 degrees of freedom
+    datum            value  standard uncertainty   before
+    length         29.9867              0.108299  30.0000
+    links[0].mass  2683.31               38.4727  2500.00
+    mode 1: measured 0.578030 rad/s, computed 0.578030, residual +0.0 standard uncertainties
+    mode 2: measured 3.92699 rad/s, computed 3.92699, residual +0.0 standard uncertainties
+    >>> round(found["length"], 4)
+    29.9867
+    >>> found.system.total_length == found["length"]
+    True
+    """
+
+    __slots__ = ()
+    status: Field[str] = Field(
+        "``'success'``; ``'undetermined'`` where the measurements cannot tell some data, see `undetermined`; "
+        "``'not_converged'`` where the search stopped before the least sum of squares.",
+        part=True,
+    )
+    vary: Field[tuple[str, ...]] = Field("Paths of the data, as in the question.", part=True)
+    system: Field[Any] = Field("The system with the values in place.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    value: Field[Floats] = Field(
+        "Values of the data, shape (p,); ``fitted[path]`` is one of them. Those in `undetermined` are some of many that fit "
+        "equally well.",
+        part=True,
+    )
+    standard_uncertainty: Field[Floats] = Field(
+        "Standard uncertainty of each value, shape (p,): roots of the variances. NaN where there is none.",
+        lambda f: np.sqrt(f.covariance.diagonal()),
+    )
+    covariance: Field[Floats] = Field(
+        "Of the values, shape (p, p), to first order. NaN for data in `undetermined`, and for all where no uncertainties "
+        "were given and no measurement is left over to estimate them.",
+        part=True,
+    )
+    correlation: Field[Floats] = Field(
+        "Covariance over both standard uncertainties, shape (p, p).",
+        lambda f: _over(f.covariance, np.outer(f.standard_uncertainty, f.standard_uncertainty)),
+    )
+    present: Field[Floats] = Field("The data as they were, shape (p,).", part=True)
+    number: Field[Whole] = Field("Numbers of the modes measured, shape (m,); negative: backward modes of a rig.", part=True)
+    measured: Field[Floats] = Field("Measured speeds, rad/s, shape (m,); of backward modes negative.", part=True)
+    measured_uncertainty: Field[Floats] = Field(
+        "Their standard uncertainties, rad/s, shape (m,): as given, else estimated from the residuals as one part of all "
+        "speeds; NaN where no measurement is left over for that.",
+        part=True,
+    )
+    computed: Field[Floats] = Field("Speeds of the modes of the new system, rad/s, shape (m,).", part=True)
+    residual: Field[Floats] = Field("Measured less computed, rad/s, shape (m,).", lambda f: f.measured - f.computed)
+    normalized_residual: Field[Floats] = Field(
+        "Residuals over the uncertainties of the measured speeds, shape (m,).",
+        lambda f: _over(f.residual, f.measured_uncertainty),
+    )
+    chi_square: Field[float | None] = Field(
+        "Sum of squares of the normalized residuals, about `degrees_of_freedom` where model and uncertainties are right; "
+        "None where no uncertainties were given.",
+        part=True,
+    )
+    degrees_of_freedom: Field[int] = Field(
+        "Number of measurements less that of data, m - p, and more by one for each combination of data that is not determined.",
+        part=True,
+    )
+    undetermined: Field[tuple[tuple[str, ...], ...]] = Field(
+        "Groups of paths that the measurements cannot tell: a path alone has no effect on the speeds measured, the effects "
+        "of several cancel.",
+        part=True,
+    )
+
+    def __getitem__(self, path: str) -> float:
+        """The value of a datum by its path."""
+        if path not in self.vary:
+            raise KeyError(f"path must be one of {', '.join(self.vary)}, got {shown(path)}")
+        return float(self.value[self.vary.index(path)])
+
+    def _lines(self) -> list[str]:
+        """Below the table: what cannot be told, and each measurement."""
+        lines = []
+        for group in self.undetermined:
+            if len(group) == 1:
+                lines.append(f"{group[0]} has no effect on the speeds measured: leave it out, or measure another mode")
+            else:
+                both = " and ".join(group)
+                lines.append(f"the speeds measured cannot tell {both} apart: leave one of them out, or measure more")
+        free = self.degrees_of_freedom
+        if self.chi_square is not None and free and self.chi_square > free + 5 * (2 * free) ** 0.5:  # five standard deviations
+            why = "start nearer, vary other data, or doubt the uncertainties"
+            lines.append(f"chi-square is far above its degrees of freedom: {why}")
+        for k, (number, measured, computed) in enumerate(zip(self.number, self.measured, self.computed, strict=True)):
+            if k == _MOST_LINES:
+                lines.append(f"and {len(self.number) - k} more measured speeds")
+                break
+            line = f"mode {number}: measured {measured:#.6g} rad/s, computed {computed:#.6g}"
+            off = round(float(self.normalized_residual[k]), 1) + 0.0
+            lines.append(f"{line}, residual {off:+.1f} standard uncertainties" if np.isfinite(off) else line)
+        return lines
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = [
+            Column("datum", list(self.vary), "datum", left=True),
+            Column("value", self.value, "value"),
+            Column("standard_uncertainty", self.standard_uncertainty, "standard uncertainty"),
+            Column("present", self.present, "before"),
+            Column("covariance", self.covariance, axes=("other_datum",)),
+            Column("correlation", self.correlation, axes=("other_datum",)),
+        ]
+        names = ["status", "gravity", "number", "measured", "measured_uncertainty", "computed", "residual"]
+        names += ["normalized_residual", "chi_square", "degrees_of_freedom", "undetermined"]
+        facts = {name: getattr(self, name) for name in names} | {"system": self.system.describe()}
+        chi = "" if self.chi_square is None else f"; chi-square {round(self.chi_square, 9):.3g} with {self._freedom()}"
+        p, m = len(self.vary), len(self.number)
+        what = f"{p} {'datum' if p == 1 else 'data'} to {m} speed{'s' * (m > 1)}"
+        heading = f"Fitted: {what}, {self.status.replace('_', ' ')}{chi}"
+        return Sheet("datum", heading, columns, facts, self._lines(), self.status == "success")
+
+    def _freedom(self) -> str:
+        return f"{self.degrees_of_freedom} degree{'s' * (self.degrees_of_freedom != 1)} of freedom"
+
+
+def _over(one: Floats, other: Floats) -> Floats:
+    """A quotient; NaN for 0 over 0, of a fit that leaves nothing over."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return one / other

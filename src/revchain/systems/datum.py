@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Paths to the data of a system, such as ``links[0].mass``: what is there, and the system with another number there."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .. import _core
+from .chain import Chain, checked, compiled
+from .cord import Cord
+from .held import Held
+from .numbers import Floats, shown
+from .rig import Rig
+
+_LENGTHS = ("length", "centroid", "radius_of_gyration", "length_in_proportion")
+
+
+@dataclass(frozen=True, slots=True)
+class Datum:
+    """One number of a system.
+
+    Attributes
+    ----------
+    path : str
+        Where it is.
+    present : float
+        What it is.
+    change : callable
+        The system with another value; a ValueError where it cannot have that.
+    typical : float
+        A value of ordinary size, positive.
+    floor : float or None
+        All values lie above it; None: they have either sign.
+    ceiling : float
+        Where a search for values of either sign ends, if the present one is not beyond it.
+    rate : (str, ndarray) or None
+        The field of the sensitivities of a `Chain` or a `Rig` that has its derivatives, and how much each link has part in
+        it; None where there is none.
+    link : int
+        The link that it is of, from 0 for the lowest; 0 where it is of none.
+    """
+
+    path: str
+    present: float
+    change: Callable[[float], Any]
+    typical: float
+    floor: float | None = 0.0
+    ceiling: float = math.inf
+    rate: tuple[str, Floats | float] | None = None
+    link: int = 0
+
+    @property
+    def quantity(self) -> str:
+        """What it is, by the name that its unit has."""
+        return self.path.rpartition(".")[2]
+
+    @property
+    def has_scale(self) -> bool:
+        """Whether a search in ratio can start where it is."""
+        return self.floor is None or self.floor < self.present < math.inf
+
+
+def read(place: str, system: Any, path: Any, gravity: float) -> Datum:
+    """The datum of a path; a ValueError for another, with those that there are."""
+    name, link = path, None
+    if isinstance(path, str) and (found := re.fullmatch(r"(links|flywheels|displaced)\[(\d+)\]\.(\w+)", path)):
+        name, link = f"{found[1]}[k].{found[3]}", int(found[2])
+    heavy, other = ("mass", "weight") if system.by_mass else ("weight", "mass")
+    known = _paths(system, heavy)
+    if not isinstance(name, str) or name not in known:
+        if isinstance(name, str) and name.replace(other, heavy) in known:
+            hint = str(path).replace(other, heavy)
+            raise ValueError(f'{place}: the {_kind(system)} was given by {heavy}: vary "{hint}", got {shown(path)}')
+        if isinstance(system, Chain) and name == heavy:
+            raise ValueError(
+                f'{place}: vary must not be "{heavy}" of a whole chain, whose speeds depend on ratios alone; vary '
+                f'"links[k].{heavy}" of a link, got {shown(path)}'
+            )
+        if name == "support.radius":
+            raise ValueError(
+                f"{place}: support.radius moves no speed of small oscillations; it has an effect on response and "
+                f"steady_shapes, got {shown(path)}"
+            )
+        listed = ", ".join(f'"{one}"' for one in known)
+        raise ValueError(f"{place}: vary must be one of {listed} of a {_kind(system)}, got {shown(path)}")
+    if link is not None and link >= system.size:
+        what = name.partition("[")[0]
+        raise ValueError(f"{place}: vary names {what}[{link}], and the highest is {what}[{system.size - 1}]")
+    if isinstance(system, Chain):
+        datum = _of_chain(place, system, path, link)
+    elif isinstance(system, Rig):
+        datum = _of_rig(place, system, path, link, gravity)
+    elif isinstance(system, Held):
+        datum = _of_held(place, system, path, link, gravity)
+    else:
+        datum = _of_cord(place, system, path)
+    return replace(datum, link=link or 0)
+
+
+def refuse_overlap(place: str, paths: Iterable[str]) -> None:
+    """A ValueError for two paths that change the same number."""
+    before: list[str] = []
+    for path in paths:
+        for other in before:
+            if path == other or any(_holds(*pair) for pair in ((path, other), (other, path))):
+                raise ValueError(
+                    f'{place}: vary has "{other}" and "{path}", which change the same number; leave one of them out'
+                )
+        before.append(path)
+
+
+def _holds(one: str, other: str) -> bool:
+    """Whether a change of `one` changes what `other` is."""
+    where, _, name = other.rpartition(".")
+    if one in ("mass", "weight", "length"):
+        return where.startswith("links") and (name == one or (one == "length" and name in _LENGTHS))
+    if one.endswith(".length_in_proportion"):
+        return where == one.rpartition(".")[0] and name in _LENGTHS
+    return one.endswith("].momentum") and where.startswith("flywheels") and name != "momentum"
+
+
+def _kind(system: Any) -> str:
+    return type(system).__name__ if not isinstance(system, Chain) else "chain"
+
+
+def _paths(system: Any, heavy: str) -> list[str]:
+    """The paths of a system, with k for the number of a link."""
+    if isinstance(system, Cord):
+        return ["length", heavy, f"tip_{heavy}"]
+    own = [f"links[k].{name}" for name in (heavy, *_LENGTHS)]
+    if isinstance(system, Chain):
+        return ["length", *own]
+    if isinstance(system, Held):
+        return ["length", heavy, *own, "tension"]
+    paths = ["length", heavy, *own, "support.stiffness", f"support.{heavy}", "flywheels[k].momentum"]
+    wheels = () if system.flywheels is None else system.flywheels._given
+    fluid = () if system.displaced is None else system.displaced._given
+    paths += [f"flywheels[k].{name}" for name in wheels if name not in ("momentum", "driven")]
+    return paths + [f"displaced[k].{name}" for name in fluid]
+
+
+def _of_chain(place: str, chain: Chain, path: str, link: int | None) -> Datum:
+    whole = compiled(place, chain).total_weight
+    if path in ("mass", "weight"):
+        column = np.broadcast_to(chain._compiled.weight, chain.size)
+        return Datum(path, whole, lambda x: _scaled(place, chain, x / whole, 1.0), whole, rate=("mass", column / whole))
+    long = chain.total_length
+    if path == "length":
+        share = chain.length / long
+        return Datum(path, long, lambda x: _scaled(place, chain, 1.0, x / long), long, rate=("length_in_proportion", share))
+    assert link is not None
+    name = path.rpartition(".")[2]
+    own = float(chain.length[link])
+    rate = ("mass" if name == "weight" else name, (np.arange(chain.size) == link).astype(float))
+
+    def change(x: float) -> Chain:
+        return _with_link(place, chain, link, name, x)
+
+    if name in ("mass", "weight"):
+        present = float(np.broadcast_to(chain._compiled.weight, chain.size)[link])
+        return Datum(path, present, change, present or whole, rate=rate)
+    present = own if name == "length_in_proportion" else float(getattr(chain, name)[link])
+    floor = None if name == "centroid" else 0.0
+    return Datum(path, present, change, own, floor, own if name in ("centroid", "radius_of_gyration") else math.inf, rate)
+
+
+def _scaled(place: str, chain: Chain, heavier: float, longer: float) -> Chain:
+    """All masses, all lengths times a factor."""
+    size, heavy, length, centroid, *rest = chain._compiled.__getstate__()
+    return _chain(place, chain, (size, heavier * heavy, longer * length, longer * centroid, *rest))
+
+
+def _with_link(place: str, chain: Chain, link: int, name: str, value: float) -> Chain:
+    size, *stored, form = chain._compiled.__getstate__()[:7]  # what follows is for chains that `tapered` made
+    heavy, length, centroid, ratio, low = (np.array(np.broadcast_to(column, size)) for column in stored)
+    if name in ("mass", "weight"):
+        heavy[link] = value
+    elif name == "centroid":
+        centroid[link] = value
+    elif name == "length_in_proportion":
+        hangs_low = centroid[link] == length[link]  # a point mass stays one
+        centroid[link] = value if hangs_low else centroid[link] * (value / length[link])
+        length[link] = value
+    else:
+        radius = value if name == "radius_of_gyration" else chain.radius_of_gyration[link]
+        length[link] = length[link] if name == "radius_of_gyration" else value
+        numbers = {"weight": 1.0, "length": length[link], "centroid": length[link], "radius_of_gyration": radius}
+        one = checked(place, False, _core.Chain, **{key: np.asarray(number) for key, number in numbers.items()})
+        ratio[link], low[link] = one.__getstate__()[4:6]
+    return _chain(place, chain, (size, heavy, length, centroid, ratio, low, form))
+
+
+def _chain(place: str, chain: Chain, state: tuple[Any, ...]) -> Chain:
+    made: Chain = checked(place, chain.by_mass, Chain._from_state, (state, chain.by_mass, chain.names))
+    return made
+
+
+def _of_rig(place: str, rig: Rig, path: str, link: int | None, gravity: float) -> Datum:
+    chain, support, wheels, fluid, *rest = rig._state()
+    where, _, name = path.rpartition(".")
+
+    def made(**new: Any) -> Rig:
+        fittings = {"chain": chain, "support": support, "flywheels": wheels, "displaced": fluid} | new
+        return Rig._from_state((*fittings.values(), *rest))
+
+    if where == "" or where.startswith("links"):
+        own = _of_chain(place, chain, path, link)
+        follows = fluid is not None and name in _LENGTHS and path != f"{where}.length"  # what is displaced may
+        return replace(own, change=lambda x: made(chain=own.change(x)), rate=None if follows else own.rate)
+    whole, long = chain._compiled.total_weight, chain.total_length
+    if where == "support":
+        present, typical = rig.support.carriage or 0.0, rig.support.carriage or whole
+        rate = "support_mass"
+        if name == "stiffness":
+            present, typical, rate = rig.support.stiffness, rig._force(gravity) * whole / long, "stiffness"
+        return Datum(path, present, lambda x: made(support={**support, name: x}), typical, rate=(rate, 1.0))
+    assert link is not None
+    here = np.arange(rig.size) == link
+    part = here.astype(float)
+    if name == "momentum":
+        kept = rig._force(gravity) * rig._momentum(gravity)
+        moment = 0.0 if rig.flywheels is None else rig.flywheels._about(gravity)[1]
+        typical = rig._force(gravity) * whole * long * math.sqrt(long / gravity)
+
+        def turning(x: float) -> Rig:
+            return made(flywheels={"momentum": np.where(here, x, kept), "axial_moment": moment})
+
+        return Datum(path, float(kept[link]), turning, typical, None, rate=("momentum", part))
+    what = where.partition("[")[0]
+    given = {"flywheels": wheels, "displaced": fluid}[what]
+    column = np.broadcast_to(given[name], rig.size)
+    present = float(column[link])
+
+    def change(x: float) -> Rig:
+        return made(**{what: {**given, name: np.where(here, x, column)}})
+
+    if name == "spin":
+        return Datum(path, present, change, max(abs(present), math.sqrt(gravity / long)), None, rate=("spin", part))
+    if name in ("centroid", "radius_of_gyration"):
+        length = float(chain.length[link])
+        return Datum(path, present, change, length, None if name == "centroid" else 0.0, length)
+    field = "added_mass" if name.startswith("added") else "displaced_mass"
+    typical = present or (whole * long**2 if name == "axial_moment" else whole)
+    return Datum(path, present, change, typical, rate=(field, part) if what == "displaced" else None)
+
+
+def _of_held(place: str, held: Held, path: str, link: int | None, gravity: float) -> Datum:
+    chain = held.system
+    assert isinstance(chain, Chain) and held.tension is not None
+    if path == "tension":
+        least = held._force(gravity) * chain._compiled.total_weight
+        return Datum(path, held.tension, lambda x: Held(chain, tension=x), held.tension, floor=least)
+    own = _of_chain(place, chain, path, link)
+    return replace(own, change=lambda x: Held(own.change(x), tension=held.tension), rate=None)
+
+
+def _of_cord(place: str, cord: Cord, path: str) -> Datum:
+    length, heavy, tip, kept, by_mass = cord._state()
+    if path == "length":
+        return Datum(path, length, lambda x: _longer(cord, x / length), length)
+    if path.startswith("tip"):
+        return Datum(path, tip, lambda x: Cord._from_state((length, heavy, x, kept, by_mass)), tip or heavy)
+    return Datum(path, heavy, lambda x: Cord._from_state((length, x, tip, kept, by_mass)), heavy)
+
+
+def _longer(cord: Cord, factor: float) -> Cord:
+    length, weight, tip, kept, by_mass = cord._state()
+    if not isinstance(kept, float):
+        pieces = kept[1].copy()
+        pieces[:, :2] *= factor
+        pieces[:, 3:] /= factor
+        kept = (factor * length, pieces)
+    return Cord._from_state((factor * length, weight, tip, kept, by_mass))
+
+
