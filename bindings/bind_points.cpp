@@ -121,8 +121,7 @@ class Points {
             if (!std::isnan(buoyancy_(i, m))) fluid.centroid = buoyancy_(i, m);
             if (spread_.given())
                 fluid.gyration_ratio = revchain::detail::gyration_from_radius<double>(
-                    "Rig", link.length,
-                    std::isnan(spread_(i, m)) ? revchain::radius_of_gyration(link) : spread_(i, m));
+                    "Rig", link.length, std::isnan(spread_(i, m)) ? revchain::radius_of_gyration(link) : spread_(i, m));
             with.displaced.push_back(fluid);
         }
         return Rig(chain, std::move(with));
@@ -227,8 +226,8 @@ py::tuple rig_modes(const Points& points, Index columns, Index first, Index coun
     Filled<bool> complete(points.size(), 1, false);
     const Numbers g("gravity", gravity, points.size());
     auto status = points.each(progress, [&](Index i) {
-        const auto modes = revchain::modes(points.rig(i),
-                                           {.first = first, .count = count, .gravity = g(i), .progress = progress});
+        const auto modes = revchain::modes(
+            points.rig(i), {.first = first, .count = count, .gravity = g(i), .other = false, .progress = progress});
         const Index available = std::max(modes.forward.available, modes.backward.available);
         if (first > std::max<Index>(1, available))
             revchain::detail::throw_invalid("modes", "there are fewer modes in a direction", available);
@@ -237,7 +236,7 @@ py::tuple rig_modes(const Points& points, Index columns, Index first, Index coun
             found[k++].row(i, sense->angular_speed), found[k++].row(i, sense->conical_height);
             found[k++].row(i, sense->error_bound), found[k++].row(i, sense->speed_error_bound);
         }
-        other(i, 0) = static_cast<std::int64_t>(modes.other.size()), complete(i, 0) = modes.complete;
+        other(i, 0) = static_cast<std::int64_t>(modes.other_available), complete(i, 0) = modes.complete;
         return modes.status == revchain::Status::success;
     });
     py::list tables;
@@ -304,8 +303,7 @@ py::tuple response(const Points& points, const Array& given, bool speeds, const 
                 largest = size > largest || std::isnan(size) ? size : largest;
                 if (std::isnan(size)) break;
             }
-            const double speed =
-                speeds ? at(i, k) : revchain::conical_pendulum::angular_speed<double>(at(i, k), g(i));
+            const double speed = speeds ? at(i, k) : revchain::conical_pendulum::angular_speed<double>(at(i, k), g(i));
             const std::array<double, 5> numbers{speed, moved.offset(k, 0), largest, moved.support_force[k],
                                                 moved.error_bound[k]};
             for (std::size_t q = 0; q < 5; ++q) found[q](i, k) = numbers[q];

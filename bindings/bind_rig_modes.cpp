@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <optional>
 #include <vector>
@@ -16,6 +17,12 @@ using revchain::Table;
 using revchain::Vector;
 using revchain::WhirlModes;
 
+/// The modes of one direction that a result holds.
+struct Kept {
+    Index first = 1, count = revchain::all_modes;
+    bool holds(Index number) const { return number >= first && number - first < count; }
+};
+
 /// Modes of a rig in both directions, slowest first; shapes are computed when read.
 struct FoundRigModes {
     RigModes modes;
@@ -26,9 +33,12 @@ struct FoundRigModes {
     std::vector<Place> order;
     Index pins;
 
-    FoundRigModes(RigModes found, Index pins_) : modes(std::move(found)), pins(pins_) {
-        for (Index j = 0; j < modes.forward.size(); ++j) order.push_back({true, j});
-        for (Index j = 0; j < modes.backward.size(); ++j) order.push_back({false, j});
+    FoundRigModes(RigModes found, Index pins_, const std::array<Kept, 2>& kept) : modes(std::move(found)), pins(pins_) {
+        for (const bool forward : {true, false}) {
+            const WhirlModes& sense = forward ? modes.forward : modes.backward;
+            for (Index j = 0; j < sense.size(); ++j)
+                if (kept[forward ? 0 : 1].holds(sense.first + j)) order.push_back({forward, j});
+        }
         std::stable_sort(order.begin(), order.end(), [this](const Place& x, const Place& y) {
             return of(x).conical_height[x.j] > of(y).conical_height[y.j];
         });
@@ -71,6 +81,20 @@ py::tuple nodes(const FoundRigModes& found) {
     for (std::size_t i = 0; i < found.order.size(); ++i)
         lists[i] = to_numpy(found.of(found.order[i]).nodes()[static_cast<std::size_t>(found.order[i].j)]);
     return lists;
+}
+
+py::object certificate(const FoundRigModes& found) {
+    if (found.modes.forward.certificate.lower.size() + found.modes.backward.certificate.lower.size() == 0)
+        return py::none();
+    const auto heights = [&](Vector<double> revchain::Certificate<double>::*part) {
+        return found.column<double>([&](const WhirlModes& m, Index j, bool) { return (m.certificate.*part)[j]; });
+    };
+    const auto counts = [&](Vector<Index> revchain::Certificate<double>::*part) {
+        return found.column<std::int64_t>([&](const WhirlModes& m, Index j, bool) { return (m.certificate.*part)[j]; });
+    };
+    using C = revchain::Certificate<double>;
+    return py::make_tuple(heights(&C::lower), heights(&C::upper), counts(&C::above_lower), counts(&C::above_upper),
+                          py::none(), py::none());
 }
 
 }  // namespace
@@ -118,30 +142,12 @@ void bind_rig_modes(py::module_& module) {
                 return f.column<double>([](const WhirlModes& m, Index j, bool) { return m.residual()[j]; });
             })
         .def_property_readonly("nodes", &nodes)
+        .def_property_readonly("certificate", &certificate)
         .def_property_readonly(
             "available",
             [](const Found& f) { return py::make_tuple(f.modes.forward.available, f.modes.backward.available); })
         .def_property_readonly("has_momentum", [](const Found& f) { return f.modes.has_momentum; })
-        .def_property_readonly("other_height",
-                               [](const Found& f) {
-                                   return Found::items<std::complex<double>>(
-                                       f.modes.other, [](const Other& x) { return x.conical_height; });
-                               })
-        .def_property_readonly("other_speed",
-                               [](const Found& f) {
-                                   return Found::items<std::complex<double>>(
-                                       f.modes.other, [](const Other& x) { return x.angular_speed; });
-                               })
-        .def_property_readonly("growth_rate",
-                               [](const Found& f) {
-                                   return Found::items<double>(f.modes.other,
-                                                               [](const Other& x) { return x.growth_rate; });
-                               })
-        .def_property_readonly("other_error_bound",
-                               [](const Found& f) {
-                                   return Found::items<double>(f.modes.other,
-                                                               [](const Other& x) { return x.error_bound; });
-                               })
+        .def_property_readonly("other_available", [](const Found& f) { return f.modes.other_available; })
         .def_property_readonly("slack_link",
                                [](const Found& f) {
                                    return Found::items<std::int64_t>(f.modes.slack,
@@ -155,18 +161,53 @@ void bind_rig_modes(py::module_& module) {
         .def_property_readonly("complete", [](const Found& f) { return f.modes.complete; })
         .def_property_readonly("method", [](const Found& f) { return f.modes.method; })
         .def_property_readonly("status", [](const Found& f) { return std::string(to_string(f.modes.status)); });
+    using Window = std::optional<std::pair<double, double>>;
     module.def(
         "rig_modes",
-        [](const Rig& rig, Index first, std::optional<Index> count, double gravity, revchain::Progress* progress,
-           Index threads) {
-            return without_lock([&] {
-                return Found(revchain::modes(rig, {.first = first,
-                                                   .count = count.value_or(revchain::all_modes),
+        [](const Rig& rig, Index first, std::optional<Index> count, const Window& heights, const Window& speeds,
+           std::optional<double> rtol, bool certify, double gravity, revchain::Progress* progress, Index threads,
+           std::optional<std::array<Index, 4>> kept) {
+            revchain::ModesOptions<double> options{.first = first,
+                                                   .rtol = rtol,
+                                                   .certify = certify,
                                                    .gravity = gravity,
+                                                   .other = false,
                                                    .threads = threads,
-                                                   .progress = progress}),
-                             rig.size() + 1);
-            });
+                                                   .progress = progress};
+            if (heights) options.conical_height = {heights->first, heights->second};
+            if (speeds) options.angular_speed = {speeds->first, speeds->second};
+            if (!heights && !speeds) options.count = count.value_or(revchain::all_modes);
+            std::array<Kept, 2> only;
+            if (kept) only = {Kept{(*kept)[0], (*kept)[1]}, Kept{(*kept)[2], (*kept)[3]}};
+            return without_lock([&] { return Found(revchain::modes(rig, options), rig.size() + 1, only); });
         },
-        "rig"_a, "first"_a, "count"_a, "gravity"_a, "progress"_a = nullptr, "threads"_a = 1);
+        "rig"_a, "first"_a, "count"_a, "conical_height"_a, "angular_speed"_a, "rtol"_a, "certify"_a, "gravity"_a,
+        "progress"_a = nullptr, "threads"_a = 1, "kept"_a = py::none());
+    module.def(
+        "other_rig_modes",
+        [](const Rig& rig, double gravity, const Found* found) {
+            const bool known = found && static_cast<Index>(found->modes.other.size()) == found->modes.other_available;
+            const auto other =
+                known ? found->modes.other
+                      : without_lock([&] { return revchain::modes(rig, {.count = 1, .gravity = gravity}).other; });
+            return py::make_tuple(
+                Found::items<std::complex<double>>(other, [](const Other& x) { return x.conical_height; }),
+                Found::items<std::complex<double>>(other, [](const Other& x) { return x.angular_speed; }),
+                Found::items<double>(other, [](const Other& x) { return x.growth_rate; }),
+                Found::items<double>(other, [](const Other& x) { return x.error_bound; }));
+        },
+        "rig"_a, "gravity"_a, "found"_a = nullptr);
+    module.def(
+        "count_rig_modes",
+        [](const Rig& rig, const Array& values, bool by_height, double gravity) {
+            py::array_t<std::int64_t> result(std::vector<py::ssize_t>(values.shape(), values.shape() + values.ndim()));
+            const py::gil_scoped_release release;
+            const revchain::RigModeCounter counter(rig, gravity);
+            std::transform(values.data(), values.data() + values.size(), result.mutable_data(), [&](double x) {
+                revchain::detail::look();
+                return by_height ? counter.above_height(x) : counter.below_speed(x);
+            });
+            return result;
+        },
+        "rig"_a, "values"_a, "by_height"_a, "gravity"_a);
 }

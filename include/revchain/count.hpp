@@ -62,6 +62,15 @@ ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& ab
     return {before + 1, std::max(all - before, Index(0))};
 }
 
+/// The same for speeds; `below(speed)` counts those slower than a speed.
+template <Real T, class Below>
+ModeRange modes_within(const SpeedWindow<T>& window, Index all, const Below& below) {
+    check_window("angular speed", window.low, window.high);
+    const Index before = window.low > T(0) ? below(window.low) : 0;
+    if (is_bounded(window.high)) all = below(window.high);
+    return {before + 1, std::max(all - before, Index(0))};
+}
+
 /// The window of heights that is a window of speeds.
 template <Real T>
 HeightWindow<T> window_of_heights(const SpeedWindow<T>& window, const T& gravity) {
@@ -109,11 +118,8 @@ class ModeCounter {
     /// The modes whose speeds lie in the window, by `below_speed`. Throws InvalidArgument unless 0 <= low < high and
     /// gravity is positive and finite.
     ModeRange within(const SpeedWindow<T>& window, const T& gravity) const {
-        detail::check_window("angular speed", window.low, window.high);
         detail::require_positive("modes", "gravity", gravity);
-        const Index before = window.low > T(0) ? below_speed(window.low, gravity) : 0;
-        const Index all = detail::is_bounded(window.high) ? below_speed(window.high, gravity) : mode_count_;
-        return {before + 1, std::max(all - before, Index(0))};
+        return detail::modes_within(window, mode_count_, [&](const T& speed) { return below_speed(speed, gravity); });
     }
 
     /// What it counts with.

@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct WhirlModes {
     Vector<double> error_bound{};        ///< (k,) of it, relative to the exact one of the stored numbers; proved
     Vector<double> angular_speed{};      ///< (k,) |n|, rad/s
     Vector<double> speed_error_bound{};  ///< (k,) of it, relative; proved
+    Certificate<double> certificate{};   ///< of the conical heights, with counts of this sense; empty unless asked for
     detail::LazyModeShapes<double> lazy_shapes{};  ///< behind the next four
 
     Index size() const { return conical_height.size(); }
@@ -56,44 +58,75 @@ struct SlackLink {
 
 /// Whirl modes of a rig.
 struct RigModes {
-    bool has_momentum = false;  ///< whether a flywheel has momentum of its own
-    WhirlModes forward;         ///< n > 0; without such momentum both directions are alike, and all modes are here
-    WhirlModes backward;        ///< n < 0; empty without such momentum
-    std::vector<OtherMode> other;
+    bool has_momentum = false;     ///< whether a flywheel has momentum of its own
+    WhirlModes forward;            ///< n > 0; without such momentum both directions are alike, and all modes are here
+    WhirlModes backward;           ///< n < 0; empty without such momentum
+    Index other_available = 0;     ///< number of solutions that are no steady motion, listed or not
+    std::vector<OtherMode> other;  ///< these, unless the option `other` is false and method is not "discs"
     std::vector<SlackLink> slack;  ///< slowest first: those between 0 and the fastest speed found in their direction
-    /// Whether `forward.available`, `backward.available` and `other`, if asked for, are proved to be all there are.
+    /// Whether `forward.available`, `backward.available` and `other_available` are proved to be all there are.
     bool complete = false;
     std::string method;               ///< "modes": as a plain chain; "counts"; "discs": dense eigenproblem
     Status status = Status::success;  ///< `tolerance_not_met` if a bound or `complete` could not be proved
 };
 
-/// Largest number of elements (links, plus 1 for a support that yields) for a dense eigenproblem of a rig.
-inline constexpr Index dense_rig_limit = 200;
-
 /// Whirl speeds of small amplitude of a rig: Greenhill (1908) §8 (21) with supports, standing links, floats and
 /// flywheels. The radius of a support that is carried round plays no part.
 ///
-/// Uses `first`, `count`, `gravity`, `other` and `progress` of the options; mode numbers beyond those available give no
-/// modes. A window or `certify` throws: rigs have neither yet. `rtol` and `method` are ignored: speeds are always found
-/// to full accuracy.
+/// Options mean what they do for a chain. With momentum `first`, `count` and windows are those of each sense, a window
+/// of speeds being one of |n|; mode numbers beyond those available give no modes. Speeds are found to full accuracy,
+/// whatever `rtol`; `method` is ignored.
 ///
 /// Without momentum: lambda K y = M y. All conical heights are real where K > 0 (every link hangs in net tension) or
 /// M >= 0 (no fluid that turns); counts number them (Sylvester), the positive ones as modes and the negative ones in
 /// `other`. With momentum: K + n G - (n^2/g) M. Where K > 0 and M >= 0 each of its eigenvalues passes through 0 at most
 /// once on the way to either side of n = 0, so that counts number the speeds, 2N real ones where M > 0. Else all
 /// heights, or all speeds, come from one dense eigenproblem, refined in double-double and enclosed in discs that hold
-/// one each: for at most `dense_rig_limit` elements.
+/// one each: for at most 200 elements.
 /// Accuracy, measured (tests/cpp/rig_modes.cpp): heights without momentum, speeds with it, within 0.501 ulp of
 /// the exact ones of the stored numbers, bounds 1 ulp by counts; shapes as those of chains. A rig that is a plain chain
 /// is solved as a chain.
 /// Cost: 0.03 microseconds per link and mode with shapes (AVX-512) where every stiffness is positive and no mass is
 /// negative, else 1 microsecond; O(N k) memory; discs take seconds at the limit.
-/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, windows, `certify`, and a dense
-/// eigenproblem beyond `dense_rig_limit`. A bound that could not be proved is infinite and the status
-/// `tolerance_not_met`.
+/// Throws InvalidArgument for mode numbers below 1, gravity that is not positive, a window that is empty by its ends,
+/// numbers together with a window, and discs for more than 200 links and supports that yield. A bound that could not be
+/// proved is infinite and the status `tolerance_not_met`.
 RigModes modes(const Rig& rig, const ModesOptions<double>& options = {});
 
-/// Throws InvalidArgument: modes of a rig cannot be counted yet.
+namespace detail {
+class RigRoots;
+}
+
+/// Counts the modes of one rig above a conical height or below a speed. The rig is assembled once; each count is one
+/// O(N) pass. By discs, see `modes`, all roots are found when the counter is made.
+///
+/// Counts are proved as those of `ModeCounter`, and ties are decided in the same way.
+class RigModeCounter {
+   public:
+    /// Throws InvalidArgument as `modes` does.
+    explicit RigModeCounter(const Rig& rig, double gravity = conical_pendulum::standard_gravity);
+
+    /// How many conical heights exceed `height`, of both senses where there is momentum. Throws InvalidArgument unless
+    /// it is positive and finite, and where rounding leaves the number in doubt.
+    Index above_height(double height) const;
+
+    /// How many whirl speeds lie between 0 and `angular_speed`, rad/s. Where there is momentum its sign is the sense;
+    /// else both are alike. Throws InvalidArgument unless it is finite and not 0, and where rounding leaves the number
+    /// in doubt.
+    Index below_speed(double angular_speed) const;
+
+   private:
+    double gravity_;
+    std::shared_ptr<const ModeCounter<double>> plain_;  ///< of a rig that is a chain; else null
+    std::shared_ptr<const detail::RigRoots> roots_;
+};
+
+/// The number of modes slower than a speed, proved: see `RigModeCounter`. Greenhill (1908) section 8 (21).
+///
+///     count_modes(rig, {.angular_speed = -5.0});  // backward modes between 0 and 5 rad/s
+///
+/// Cost: 0.1 microseconds a link; by discs that of `modes`. Throws InvalidArgument unless exactly one of conical height
+/// and angular speed is given, and as `RigModeCounter` does.
 Index count_modes(const Rig& rig, const CountOptions<double>& options);
 
 }  // namespace revchain

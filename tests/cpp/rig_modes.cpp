@@ -486,15 +486,6 @@ TEST_CASE("all modes under a spring: plummets, rods and bodies, with a carriage 
     CHECK(together >= 200);
 }
 
-TEST_CASE("rigs: questions without an answer yet say what to ask instead", "[linear]") {
-    const Rig rig(Chain<double>::uniform_rods(3), {.support = horizontal_spring(2.0)});
-    using Catch::Matchers::ContainsSubstring;
-    CHECK_THROWS_WITH(modes(rig, {.conical_height = {{0.1, 1.0}}}), ContainsSubstring("give first and count"));
-    CHECK_THROWS_WITH(modes(rig, {.angular_speed = {{1.0, 2.0}}}), ContainsSubstring("give first and count"));
-    CHECK_THROWS_WITH(modes(rig, {.certify = true}), ContainsSubstring("leave it out"));
-    CHECK_THROWS_WITH(count_modes(rig, {.angular_speed = 1.0}), ContainsSubstring("forward.available"));
-}
-
 TEST_CASE("rigs: shapes when they are asked for, and where they cross the axis", "[linear]") {
     const Rig rig(Chain<double>::uniform_rods(12), {.support = horizontal_spring(2.0)});
     const auto m = modes(rig).forward;

@@ -4,6 +4,7 @@ library: a matrix pencil of small offsets in mpmath or 80-bit floats (rigs.py), 
 
 import itertools
 import math
+import pickle
 
 import mpmath as mp
 import numpy as np
@@ -448,6 +449,55 @@ def test_what_was_asked():
             rc.modes(rig, **given_)
     with pytest.raises(ValueError, match="not both"):
         rc.modes(rig, 2, conical_height=(0.1, 0.2))
+    window = rc.modes(rig, angular_speed=(6.0, 20.0), certify=True, rtol=1e-9)
+    inside = (abs(all_of_them.angular_speed) >= 6.0) & (abs(all_of_them.angular_speed) < 20.0)
+    np.testing.assert_allclose(window.angular_speed, all_of_them.angular_speed[inside], rtol=EPS)
+    assert np.array_equal(window.number, all_of_them.number[inside]) and window.rtol == 1e-9
+    proof = window.certificate
+    assert np.all((proof.lower < window.conical_height) & (window.conical_height < proof.upper))
+    assert np.array_equal(proof.above_lower, window.number) and np.array_equal(proof.above_upper, window.number - 1)
+    again = pickle.loads(pickle.dumps(window))
+    assert again == window and np.array_equal(again.shape, window.shape)
+    assert len(rc.modes(rig, angular_speed=(0.0, 1e-3))) == 0
+
+
+@pytest.mark.parametrize("gravity", [G, 1.62])
+def test_counts_below_a_speed(gravity):
+    rng = np.random.default_rng(411)
+    chain = random_chain(rng, 9)
+    inverted = rng.random(9) < 0.4
+    for rig in (
+        rigged(chain, stiffness=3.0),
+        rigged(chain, inverted=inverted),
+        rigged(chain, momentum=0.2),
+        rigged(chain, momentum=0.2, inverted=inverted),
+        rigged(chain, displaced=chain.weight * rng.uniform(0, 1.8, 9), fluid="turning"),
+        rc.Rig(chain),
+    ):
+        every = rc.modes(rig, "all", gravity=gravity)
+        speeds = rng.uniform(0.5, 90, (3, 4))
+        for way in (1, -1):
+            sense = every.angular_speed[every.direction == (way if every.has_momentum else 1)]
+            count = rc.count_modes(rig, angular_speed=way * speeds, gravity=gravity)
+            assert count.shape == speeds.shape and count.dtype == np.int64
+            assert np.array_equal(count, (abs(sense)[:, None, None] < speeds).sum(axis=0))
+        heights = gravity / speeds**2
+        count = rc.count_modes(rig, conical_height=heights, gravity=gravity)
+        assert np.array_equal(count, (every.conical_height[:, None, None] > heights).sum(axis=0))
+    with pytest.raises(ValueError, match="angular speed must be finite and not 0, got 0"):
+        rc.count_modes(rig, angular_speed=[1.0, 0.0])
+
+
+def test_other_solutions_are_found_when_they_are_read():
+    rng = np.random.default_rng(412)
+    long = rigged(rc.Chain.uniform_rods(10000), inverted=rng.random(10000) < 0.4)
+    few = rc.modes(long, 3)
+    assert few.complete and few.other_available == long.inverted.sum() and "solutions are not steady" in repr(few)
+    assert "other" not in few._kept
+    short = rigged(rc.Chain.uniform_rods(20), inverted=rng.random(20) < 0.4)
+    few = rc.modes(short, 3)
+    assert len(few.other) == few.other_available == short.inverted.sum()
+    assert few.other == rc.modes(short, "all").other == pickle.loads(pickle.dumps(few)).other
 
 
 def test_picture():

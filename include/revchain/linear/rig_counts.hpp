@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <atomic>
+
 #include "revchain/count.hpp"
 #include "revchain/linear/aberth_heights.hpp"
 #include "revchain/linear/rig_pencil.hpp"
 #include "revchain/numeric/floating_point_state.hpp"
+#include "revchain/numeric/parallel.hpp"
 #include "revchain/pencil/certificate.hpp"
 #include "revchain/pencil/proved_roots.hpp"
 #include "revchain/pencil/signed_twisted.hpp"
@@ -68,7 +71,7 @@ class CountedRoots {
     }
 
     /// A proved count of the roots above x.
-    pencil::CertifiedCount certified(double x) const { return counted<1>({RigWord(x)})[0]; }
+    pencil::CertifiedCount certified(const RigWord& x) const { return counted<1>({x})[0]; }
 
     /// y with Q y = 0 at a root.
     std::vector<RigWord> vector(const RigWord& x) const {
@@ -105,6 +108,23 @@ class CountedRoots {
     Index base_, sign_;
     int side_;
 };
+
+/// The roots number `first` ... of a sense, one by one; `bracketed(done)` and `finished(done)` are told how many are.
+inline std::vector<FoundRoot> refined_roots(const CountedRoots& roots, Index first, Index count, double guess,
+                                            const std::function<void(Index)>& bracketed,
+                                            const std::function<void(Index)>& finished) {
+    const auto brackets = roots.brackets(first, count, guess, bracketed);
+    std::vector<FoundRoot> found(brackets.size());
+    std::atomic<Index> done = 0;
+    parallel_for(count, 1, [&](Index begin, Index end) {
+        for (Index j = begin; j < end; ++j) {
+            look();
+            found[static_cast<std::size_t>(j)] = roots.refined(first + j, brackets[static_cast<std::size_t>(j)]);
+            if (finished) finished(++done);
+        }
+    });
+    return found;
+}
 
 /// A root as it is given out.
 inline FoundRoot given_out(const pencil::ProvedRoot<double>& proved) {
@@ -147,7 +167,7 @@ inline std::optional<std::vector<FoundRoot>> roots_in_lanes(const pencil::Elemen
     if (elements.size() > most_in_lanes) return std::nullopt;
     const FloatingPointStateGuard quiet;
     const auto counter = pencil::rounded<double>(elements);
-    const auto certified = [&](double x) { return roots.certified(x); };
+    const auto certified = [&](double x) { return roots.certified(RigWord(x)); };
     const auto find = [&](auto spinning) {
         return pencil::proved_range<spinning.value>(elements, counter, certified, range.first - 1, range.count,
                                                     available, guess, worst_unrounded_root, finished);

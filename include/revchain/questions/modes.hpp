@@ -8,6 +8,7 @@
 #include "revchain/linear/mode_shapes.hpp"
 #include "revchain/models/for_modes.hpp"
 #include "revchain/modes.hpp"
+#include "revchain/questions/mode_certificate.hpp"
 #include "revchain/questions/mode_range.hpp"
 #include "revchain/system/converted.hpp"
 
@@ -29,9 +30,7 @@ Modes<T> room_for_modes(const ModeRange& range, const ModesOptions<T>& options) 
     result.first = range.first;
     result.conical_height.resize(range.count);
     result.error_bound.resize(range.count);
-    if (options.certify)
-        result.certificate = {Vector<T>(range.count), Vector<T>(range.count), Vector<Index>(range.count),
-                              Vector<Index>(range.count)};
+    if (options.certify) result.certificate = room_for_certificate<T>(range.count);
     return result;
 }
 
@@ -49,36 +48,13 @@ void set_height(Modes<T>& modes, Index j, const T& height, T bound, int exponent
     if (!(bound <= options.rtol.value_or(std::numeric_limits<T>::max()))) modes.status = Status::tolerance_not_met;
 }
 
-/// Proved counts at other numbers of T on either side of height `j`, as far away as its error bound
-/// says, and where rounding to T leaves that in doubt a little farther.
 template <Real T, Real P>
 void certify(Modes<T>& modes, Index j, const Pencils<P>& pencils, Index mode_count) {
-    using std::isfinite;
-    const T height = modes.conical_height[j], bound = modes.error_bound[j];
-    const Index before = modes.first - 1 + j;
-    modes.certificate.lower[j] = T(0);
-    modes.certificate.upper[j] = std::numeric_limits<T>::infinity();
-    modes.certificate.above_lower[j] = mode_count;
-    modes.certificate.above_upper[j] = 0;
-    if (!(bound < T(1))) return;
-    bool below = false, above = false;
-    T reach = height * std::max(bound, epsilon<T>() / T(2));
-    for (int attempt = 0; attempt < 8 && !(below && above); ++attempt, reach = reach + reach) {
-        const T lower = height - reach, upper = height + reach;
-        if (!(lower > T(0)) || !isfinite(upper)) return;
-        const auto count =
-            pencils.template certified_count<2>({pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
-        if (!below && count[0].proved && count[0].above > before) {
-            modes.certificate.lower[j] = lower;
-            modes.certificate.above_lower[j] = count[0].above;
-            below = true;
-        }
-        if (!above && count[1].proved && count[1].above <= before) {
-            modes.certificate.upper[j] = upper;
-            modes.certificate.above_upper[j] = count[1].above;
-            above = true;
-        }
-    }
+    certify(modes.certificate, j, modes.conical_height[j], modes.error_bound[j], modes.first - 1 + j, mode_count,
+            [&](const T& lower, const T& upper) {
+                return pencils.template certified_count<2>(
+                    {pencils.scaled(Wide<P>(lower)), pencils.scaled(Wide<P>(upper))});
+            });
 }
 
 template <Real T, Real P>

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "revchain/linear/mode_shapes.hpp"
-#include "revchain/linear/rig_counts.hpp"
+#include "revchain/linear/rig_roots.hpp"
 #include "revchain/linear/rig_shapes.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/pencil/complex/spectrum.hpp"
+#include "revchain/questions/mode_certificate.hpp"
 #include "revchain/questions/mode_range.hpp"
 #include "revchain/rig_modes.hpp"
 
@@ -19,9 +19,22 @@ namespace revchain {
 
 namespace detail {
 
-/// The range of mode numbers asked for of so many; fewer, or none, where there are not as many. How many there are of
-/// a sense is told by the result.
-inline ModeRange chosen(const ModesOptions<double>& options, Index available) {
+/// The mode numbers asked for in one sense, of so many; fewer, or none, where there are not as many. How many there are
+/// of a sense is told by the result.
+inline ModeRange chosen(const ModesOptions<double>& options, const RigRoots& roots, bool forward, Index available) {
+    if (options.conical_height || options.angular_speed)
+        return chosen(
+            available, options,
+            [&](const HeightWindow<double>& window) {
+                return modes_within(window, available, [&](double height) {
+                    return roots.above(roots.at_height(height), forward, "modes", height);
+                });
+            },
+            [&](const SpeedWindow<double>& window) {
+                return modes_within(window, available, [&](double speed) {
+                    return roots.above(roots.at_speed(speed), forward, "modes", speed);
+                });
+            });
     if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
     if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
     const Index left = std::max<Index>(0, available - options.first + 1);
@@ -54,9 +67,12 @@ inline bool set_mode(WhirlModes& modes, Index j, const RigPencil& rig, const pen
 }
 
 /// Finds the modes of one sense; reports progress from one share to another.
-inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& pencil, const CountedRoots& roots,
-                           Index available, const ModesOptions<double>& options, double from, double to) {
-    const ModeRange range = chosen(options, available);
+inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigRoots& all_roots, bool forward,
+                           const ModesOptions<double>& options, double from, double to) {
+    const RigPencil& pencil = all_roots.rig();
+    const auto& [roots, there] = all_roots.senses()[forward ? 0 : 1];
+    const Index available = there.count;
+    const ModeRange range = chosen(options, all_roots, forward, available);
     make_room(modes, range, available);
     if (range.count == 0) return true;
     const double all = static_cast<double>(range.count);
@@ -67,6 +83,10 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& p
     };
     bool proved = true;
     std::vector<RigWord> found;
+    const auto keep = [&](const FoundRoot& root) {
+        proved = set_mode(modes, static_cast<Index>(found.size()), pencil, roots.pencil(), root) && proved;
+        found.push_back(root.x);
+    };
     const auto keep_shapes = [&](std::shared_ptr<const pencil::ElementPencil<RigWord>> elements) {
         modes.lazy_shapes = LazyModeShapes<double>(
             RigShapeFinder(rig, pencil.idle, roots.pencil(), std::move(elements), std::move(found), options.threads));
@@ -76,22 +96,15 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& p
             auto several = roots_under_a_spring(rig, *elements, range, available);
             if (!several) several = roots_in_lanes(*elements, roots, range, available, guess, finished);
             if (several) {
-                for (Index j = 0; j < range.count; ++j) {
-                    const FoundRoot& root = (*several)[static_cast<std::size_t>(j)];
-                    proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
-                    found.push_back(root.x);
-                }
+                for (const FoundRoot& root : *several) keep(root);
                 keep_shapes(std::make_shared<const pencil::ElementPencil<RigWord>>(*std::move(elements)));
                 return proved;
             }
         }
-    const auto brackets = roots.brackets(range.first - 1, range.count, guess, finished);
-    for (Index j = 0; j < range.count; ++j) {
-        const FoundRoot root = roots.refined(range.first - 1 + j, brackets[static_cast<std::size_t>(j)]);
-        proved = set_mode(modes, j, pencil, roots.pencil(), root) && proved;
-        found.push_back(root.x);
-        advance(options.progress, from + (to - from) * (0.4 + 0.6 * static_cast<double>(j + 1) / all));
-    }
+    for (const FoundRoot& root : refined_roots(roots, range.first - 1, range.count, guess, finished, [&](Index done) {
+             advance(options.progress, from + (to - from) * (0.4 + 0.6 * static_cast<double>(done) / all));
+         }))
+        keep(root);
     keep_shapes(nullptr);
     return proved;
 }
@@ -100,20 +113,27 @@ inline bool count_modes_of(WhirlModes& modes, const Rig& rig, const RigPencil& p
 inline RigModes plain_modes(const Rig& rig, const ModesOptions<double>& options) {
     RigModes result;
     const Index available = rig.chain().mode_count();
-    const ModeRange range = chosen(options, available);
-    make_room(result.forward, range, available);
     result.complete = true, result.method = "modes";
-    if (range.count == 0) return result;
-    const Modes<double> plain = modes(
-        rig.chain(),
-        ModesOptions<double>{
-            .first = range.first, .count = range.count, .threads = options.threads, .progress = options.progress});
-    result.forward = {range.first,
+    ModesOptions<double> of_chain = options;
+    of_chain.method = ModesMethod::automatic;
+    if (!options.conical_height && !options.angular_speed) {  // numbers beyond the last give no modes
+        if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
+        if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
+        const Index left = available - options.first + 1;
+        if (left < 1) {
+            make_room(result.forward, {options.first, 0}, available);
+            return result;
+        }
+        of_chain.count = std::min(left, options.count.value_or(default_count));
+    }
+    const Modes<double> plain = modes(rig.chain(), of_chain);
+    result.forward = {plain.first,
                       available,
                       plain.conical_height,
                       plain.error_bound,
                       plain.angular_speed(options.gravity),
                       plain.error_bound,
+                      plain.certificate,
                       plain.lazy_shapes};
     for (double& bound : result.forward.speed_error_bound) bound = bound / 2 + 2 * epsilon<double>();
     result.status = plain.status;
@@ -140,88 +160,50 @@ inline OtherMode other_height(const RigPencil& rig, const std::complex<double>& 
     return mode;
 }
 
-/// Heights below 0, all of them, by counts: base + sign (negative eigenvalues of Q(-x)) of them exceed x in size.
-/// `known`: how many there are.
-inline bool negative_heights(RigModes& result, const Rig& rig, const RigPencil& pencil, Index base, Index sign,
-                             const std::optional<Index>& known, Index& count) {
-    const CountedRoots roots(pencil.pencil, pencil.pace, base, sign, -1);
-    const auto available = known ? CountedRoots::Available{*known, true} : roots.available();
-    count = available.count;
-    if (count <= 0) return available.proved;
+/// Heights below 0, all of them; false where one was not proved.
+inline bool list_negative_heights(RigModes& result, const Rig& rig, const RigPencil& pencil,
+                                  const CountedSense& negative) {
+    if (negative.available.count <= 0) return true;
     const double start = std::ldexp(rig.chain().total_length(), -pencil.units.length_exponent);
-    const auto brackets = roots.brackets(0, count, start, [](Index) {});
-    bool proved = available.proved;
-    for (Index j = 0; j < count; ++j) {
-        const FoundRoot root = roots.refined(j, brackets[static_cast<std::size_t>(j)]);
+    bool proved = true;
+    for (const FoundRoot& root : refined_roots(negative.roots, 0, negative.available.count, start, {}, {})) {
         result.other.push_back(other_height(pencil, -static_cast<double>(root.x), root.margin + 1e-30));
         proved = proved && std::isfinite(result.other.back().error_bound);
     }
     return proved;
 }
 
-/// Without momentum, where heights are real.
-inline RigModes counted_heights(const Rig& rig, const RigPencil& pencil, const ModesOptions<double>& options) {
+/// By counts.
+inline RigModes counted_modes(const Rig& rig, const RigRoots& roots, const ModesOptions<double>& options) {
     RigModes result;
-    result.method = "counts";
-    // Where K > 0, heights above h are the negative eigenvalues of hK - M. Where M >= 0 those of K - mu M, mu = 1/h,
-    // are these and besides as many as K has.
-    const Index before = pencil.stiffness_positive ? 0 : pencil.not_positive;
-    const CountedRoots roots(pencil.pencil, pencil.pace, -before, 1, 1);
-    // Just above h = 0 the form hK - M is negative where there is inertia; elsewhere it has the signs of K.
-    const MasslessForm& form = pencil.massless;
-    const bool ranked = pencil.mass_not_negative && form.certain && form.zero == 0;
-    const Index size = pencil.pencil.size();
-    const auto available =
-        ranked ? CountedRoots::Available{size - form.size + form.negative - before, true} : roots.available();
-    const bool modes_proved = count_modes_of(result.forward, rig, pencil, roots, available.count, options, 0, 0.9);
-    Index negative = 0;
-    bool others_proved = true;
-    if (options.other && pencil.stiffness_positive && !pencil.mass_not_negative)
-        others_proved = negative_heights(result, rig, pencil, size, -1, std::nullopt, negative);
-    else if (options.other && !pencil.stiffness_positive)
-        others_proved =
-            negative_heights(result, rig, pencil, before - pencil.neutral - size, 1,
-                             ranked ? std::optional(before - pencil.neutral - form.negative) : std::nullopt, negative);
-    result.complete = available.proved && others_proved && (pencil.stiffness_positive || pencil.stiffness_certain);
-    if (!modes_proved || !result.complete) result.status = Status::tolerance_not_met;
-    return result;
-}
-
-/// With momentum, K > 0 and M >= 0.
-inline RigModes counted_speeds(const Rig& rig, const RigPencil& pencil, const ModesOptions<double>& options) {
-    RigModes result;
-    result.has_momentum = true, result.method = "counts", result.complete = true;
-    for (const bool forward : {true, false}) {
-        const CountedRoots roots(forward ? pencil.pencil : pencil.pencil.reversed(), pencil.pace, 0, 1, 1);
-        // Just above x = 0 the form Q is negative where there is inertia; elsewhere it has the signs of G, and where
-        // that is 0, too, those of K > 0 and of a square.
-        const MasslessForm& form = pencil.massless;
-        const Index negative = forward ? form.negative : form.size - form.zero - form.negative;
-        const auto available = form.certain ? CountedRoots::Available{pencil.pencil.size() - form.size + negative, true}
-                                            : roots.available();
-        const bool proved = count_modes_of(forward ? result.forward : result.backward, rig, pencil, roots,
-                                           available.count, options, forward ? 0 : 0.5, forward ? 0.5 : 1);
-        result.complete = result.complete && available.proved;
-        if (!proved || !available.proved) result.status = Status::tolerance_not_met;
+    const RigPencil& pencil = roots.rig();
+    result.has_momentum = roots.has_momentum(), result.method = "counts";
+    result.complete = pencil.stiffness_positive || pencil.stiffness_certain;
+    bool proved = true;
+    const std::size_t senses = roots.senses().size();
+    for (std::size_t i = 0; i < senses; ++i) {
+        const double share = 0.9 / static_cast<double>(senses), from = share * static_cast<double>(i);
+        proved = count_modes_of(i == 0 ? result.forward : result.backward, rig, roots, i == 0, options, from,
+                                from + share) &&
+                 proved;
+        result.complete = result.complete && roots.senses()[i].available.proved;
     }
+    if (!roots.has_momentum())
+        if (const auto negative = counted_negative_heights(pencil)) {
+            result.other_available = std::max<Index>(0, negative->available.count);
+            result.complete = result.complete && negative->available.proved;
+            if (options.other) proved = list_negative_heights(result, rig, pencil, *negative) && proved;
+        }
+    if (!proved || !result.complete) result.status = Status::tolerance_not_met;
     return result;
 }
 
 /// Neither: all roots at once.
-inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const ModesOptions<double>& options) {
-    if (pencil.pencil.size() > dense_rig_limit)
-        throw_invalid(
-            "modes",
-            "a rig whose speeds may be complex (standing links with momentum, driven wheels, floats in a fluid that "
-            "turns with them) is solved for at most " +
-                std::to_string(dense_rig_limit) + " links and supports that yield",
-            pencil.pencil.size());
+inline RigModes enclosed_modes(const Rig& rig, const RigRoots& roots, const ModesOptions<double>& options) {
+    const RigPencil& pencil = roots.rig();
+    const pencil::ComplexSpectrum& spectrum = *roots.spectrum();
     RigModes result;
-    result.has_momentum = pencil.pencil.quadratic, result.method = "discs";
-    // A massless coordinate has a root x = 0, and two where no momentum acts on it.
-    const Index zeros = pencil.massless.size + (pencil.pencil.quadratic ? pencil.massless.zero : 0);
-    const pencil::ComplexSpectrum spectrum =
-        pencil::complex_spectrum(pencil.pencil, zeros, [&](double share) { advance(options.progress, 0.9 * share); });
+    result.has_momentum = roots.has_momentum(), result.method = "discs";
     result.complete = spectrum.proved;
     if (!spectrum.proved) result.status = Status::tolerance_not_met;
     std::vector<FoundRoot> forward, backward;
@@ -234,9 +216,9 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Mo
             // What is given out is rounded from x, and may be half an ulp from the disc's centre.
             (ahead ? forward : backward)
                 .push_back({ahead ? root.x.real : -root.x.real, bound + 1.01 * epsilon<double>()});
-        } else if (options.other && !result.has_momentum) {
+        } else if (!result.has_momentum) {
             result.other.push_back(other_height(pencil, root.value, bound));
-        } else if (options.other) {
+        } else {
             const double unit = std::ldexp(1.0, pencil.units.length_exponent);
             // In double words: std::complex divides by less accurate rules in some libraries.
             const std::complex<double> height(root.x * root.x), speed(pencil::ComplexWord(pencil.pace) / root.x);
@@ -244,22 +226,38 @@ inline RigModes enclosed_modes(const Rig& rig, const RigPencil& pencil, const Mo
                 {height * unit, speed, std::abs(speed.imag()), 2 * bound * (1 + bound) + 8 * epsilon<double>()});
         }
     }
+    result.other_available = static_cast<Index>(result.other.size());
     const auto store = [&](WhirlModes& modes, const std::vector<FoundRoot>& found, bool ahead) {
-        const ModeRange range = chosen(options, static_cast<Index>(found.size()));
+        const ModeRange range = chosen(options, roots, ahead, static_cast<Index>(found.size()));
         make_room(modes, range, static_cast<Index>(found.size()));
         auto sense = ahead ? pencil.pencil : pencil.pencil.reversed();
-        std::vector<RigWord> roots;
+        std::vector<RigWord> at;
         for (Index j = 0; j < range.count; ++j) {
             const FoundRoot& root = found[static_cast<std::size_t>(range.first - 1 + j)];
             set_mode(modes, j, pencil, sense, root);
-            roots.push_back(root.x);
+            at.push_back(root.x);
         }
         modes.lazy_shapes = LazyModeShapes<double>(
-            RigShapeFinder(rig, pencil.idle, std::move(sense), nullptr, std::move(roots), options.threads));
+            RigShapeFinder(rig, pencil.idle, std::move(sense), nullptr, std::move(at), options.threads));
     };
     store(result.forward, forward, true);
     if (result.has_momentum) store(result.backward, backward, false);
     return result;
+}
+
+/// Intervals and counts of every mode of a sense.
+inline void certify(WhirlModes& modes, const RigRoots& roots, bool forward) {
+    modes.certificate = room_for_certificate<double>(modes.size());
+    parallel_for(modes.size(), 1, [&](Index begin, Index end) {
+        for (Index j = begin; j < end; ++j) {
+            look();
+            certify(modes.certificate, j, modes.conical_height[j], modes.error_bound[j], modes.first - 1 + j,
+                    modes.available, [&](double lower, double upper) {
+                        return std::array{roots.count(roots.at_height(lower), forward),
+                                          roots.count(roots.at_height(upper), forward)};
+                    });
+        }
+    });
 }
 
 /// Where tension + n spin = 0 between n = 0 and the fastest speeds found.
@@ -288,37 +286,68 @@ inline std::vector<SlackLink> slack_links(const Rig& rig, const RigModes& modes)
 
 REVCHAIN_INLINE RigModes modes(const Rig& rig, const ModesOptions<double>& options) {
     detail::require_positive("modes", "gravity", options.gravity);
+    detail::check(options);
     const detail::Threads used("modes", options.threads);
-    if (options.conical_height || options.angular_speed)
-        detail::throw_invalid("modes", "a window needs counts, which rigs do not have yet; give first and count");
-    if (options.certify)
-        detail::throw_invalid("modes", "certify needs counts, which rigs do not have yet; leave it out");
     if (detail::has_nothing(rig)) return detail::plain_modes(rig, options);
-    const RigPencil pencil = rig_pencil(rig, options.gravity);
+    const detail::RigRoots roots("modes", rig, options.gravity,
+                                 [&](double share) { detail::advance(options.progress, 0.9 * share); });
     RigModes result;
-    if (pencil.pencil.size() == 0) {  // nothing to whirl
+    if (roots.rig().pencil.size() == 0) {  // nothing to whirl
         result.complete = true, result.method = "counts";
         for (WhirlModes* sense : {&result.forward, &result.backward}) {
-            detail::make_room(*sense, detail::chosen(options, 0), 0);
+            detail::make_room(*sense, detail::chosen(options, roots, true, 0), 0);
             sense->lazy_shapes = detail::LazyModeShapes<double>(detail::room_for_shapes(rig.chain(), 0));
         }
-    } else if (pencil.pencil.quadratic)
-        result = pencil.stiffness_positive && pencil.mass_not_negative ? detail::counted_speeds(rig, pencil, options)
-                                                                       : detail::enclosed_modes(rig, pencil, options);
-    else
-        result = pencil.stiffness_positive || pencil.mass_not_negative ? detail::counted_heights(rig, pencil, options)
-                                                                       : detail::enclosed_modes(rig, pencil, options);
-    if (options.other)
-        result.other.insert(result.other.begin(), static_cast<std::size_t>(pencil.neutral),
+    } else {
+        result =
+            roots.spectrum() ? detail::enclosed_modes(rig, roots, options) : detail::counted_modes(rig, roots, options);
+    }
+    const Index neutral = roots.rig().neutral;
+    result.other_available += neutral;
+    if (options.other || roots.spectrum())
+        result.other.insert(result.other.begin(), static_cast<std::size_t>(neutral),
                             {{std::numeric_limits<double>::infinity(), 0.0}, 0.0, 0, 0});
     if (result.has_momentum) result.slack = detail::slack_links(rig, result);
+    for (const bool forward : {true, false}) {
+        WhirlModes& sense = forward ? result.forward : result.backward;
+        if (options.certify) detail::certify(sense, roots, forward);
+        if (options.rtol && sense.size() > 0 && !(sense.error_bound.maxCoeff() <= *options.rtol))
+            result.status = Status::tolerance_not_met;
+    }
     detail::advance(options.progress, 1);
     return result;
 }
 
-REVCHAIN_INLINE Index count_modes(const Rig&, const CountOptions<double>&) {
-    detail::throw_invalid(
-        "count_modes", "modes of a Rig cannot be counted yet; ask modes(rig), whose forward.available counts them all");
+REVCHAIN_INLINE RigModeCounter::RigModeCounter(const Rig& rig, double gravity) : gravity_(gravity) {
+    detail::require_positive("count_modes", "gravity", gravity);
+    if (detail::has_nothing(rig))
+        plain_ = std::make_shared<const ModeCounter<double>>(rig.chain());
+    else
+        roots_ = std::make_shared<const detail::RigRoots>("count_modes", rig, gravity, [](double) {});
+}
+
+REVCHAIN_INLINE Index RigModeCounter::above_height(double height) const {
+    detail::require_positive("count_modes", "conical height", height);
+    if (plain_) return plain_->above_height(height);
+    const auto above = [&](bool forward) {
+        return roots_->above(roots_->at_height(height), forward, "count_modes: conical height", height);
+    };
+    return above(true) + (roots_->has_momentum() ? above(false) : 0);
+}
+
+REVCHAIN_INLINE Index RigModeCounter::below_speed(double angular_speed) const {
+    if (!std::isfinite(angular_speed) || angular_speed == 0)
+        detail::throw_invalid("count_modes", "angular speed must be finite and not 0", angular_speed);
+    if (plain_) return plain_->below_speed(std::abs(angular_speed), gravity_);
+    return roots_->above(roots_->at_speed(angular_speed), angular_speed > 0 || !roots_->has_momentum(),
+                         "count_modes: angular speed", angular_speed);
+}
+
+REVCHAIN_INLINE Index count_modes(const Rig& rig, const CountOptions<double>& options) {
+    detail::require_one_speed("count_modes", options);
+    const RigModeCounter counter(rig, options.gravity);
+    return options.conical_height ? counter.above_height(*options.conical_height)
+                                  : counter.below_speed(*options.angular_speed);
 }
 
 }  // namespace revchain

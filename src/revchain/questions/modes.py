@@ -44,7 +44,11 @@ def modes(
     count: int | Literal["all"] | None = ...,
     *,
     first: int = ...,
+    conical_height: Pair | None = ...,
+    angular_speed: Pair | None = ...,
+    rtol: float | None = ...,
     gravity: float = ...,
+    certify: bool = ...,
     threads: int = ...,
 ) -> RigModes: ...
 @overload
@@ -94,7 +98,8 @@ def modes(
         A chain of N links, by itself or rigged; a flexible cord; a chain held straight by a tension at both ends.
     count : int or "all", optional
         How many modes, slowest first: 10 if left out, or fewer where there are fewer. For a rig with flywheels, so many
-        in each direction of rotation. A cord has infinitely many.
+        in each direction of rotation; `first` and windows, of the sizes of speeds, choose in each, too. A cord has
+        infinitely many.
     first : int, optional
         Number of the first mode wanted; the slowest is 1. Slower ones are not computed.
     conical_height : (low, high), optional
@@ -104,7 +109,8 @@ def modes(
     rtol : float, optional
         Relative tolerance of the conical heights. The cheapest method whose bound keeps it is taken: closed form,
         Bessel zero, coarser chain, ... (`explain` says which and why); below 2 ulp it is double-double, whose heights
-        are ``conical_height + conical_height_low``. Full accuracy in double, 2 ulp, if left out.
+        are ``conical_height + conical_height_low``. Full accuracy in double, 2 ulp, if left out. Rigs are solved to
+        full accuracy whatever it is.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     method : str, optional
@@ -121,7 +127,7 @@ def modes(
         ``conical_height + conical_height_low``, two float64 arrays, is the height that `error_bound` is of (3e-29 for
         one link, 1e-24 for 2000), and shapes are float64.
     certify : bool
-        Whether to return with every height the interval that holds it and the counts that prove it.
+        Whether to return with every height the interval that holds it and the counts that prove it. Chains and rigs.
     threads : int, optional
         Chains and rigs: how many threads to use for heights and, when they are read, shapes; 0 for all processors. Results are
         bitwise the same whatever their number.
@@ -136,7 +142,7 @@ def modes(
     ------
     ValueError
         If the modes asked for are not there or are given twice, a window is none, `rtol` is NaN or negative, or
-        `method` or `precision` unknown. For a rig if anything but `count`, `first`, `gravity` and `threads` is given; for a rig of
+        `method` or `precision` unknown. For a rig if `method` or `precision` is given; for a rig of
         more than 200 links whose speeds may be complex (inverted links or driven wheels together with momentum,
         floats in fluid that turns). For a held system unless it is a chain under a tension that exceeds its weight.
     TypeError
@@ -221,20 +227,24 @@ def find_modes(
     if conical_height is not None or angular_speed is not None:
         _refuse_two_choices(place, conical_height, angular_speed, count, start)
     if isinstance(system, Rig):
-        asked = {"conical_height": conical_height, "angular_speed": angular_speed, "rtol": rtol, "method": method, "precision": precision, "certify": certify}
-        _refuse(place, asked, "is for a Chain; the modes of a Rig are chosen by count and first")
-        of_rig = _core.rig_modes(system._under(g), start, count_of(place, count, 10), g, progress, shared)
-        found = RigModes._made(of_rig, system=system, gravity=g)
-        if start > max(1, *found.available):
-            raise ValueError(f"{place}: first must be from 1 to {max(found.available)}, the number of modes in a direction, got {start}")
-        return found
-    heights = speeds = None
+        _refuse(place, {"method": method, "precision": precision}, "is for a Chain; a Rig has one method, in double")
+    heights = window = None
     if conical_height is not None:
         heights = _window(place, "conical_height", conical_height)
     elif angular_speed is not None:
-        speeds = (*_window(place, "angular_speed", angular_speed), g)
+        window = _window(place, "angular_speed", angular_speed)
     if rtol is not None:
         rtol = real(place, "rtol", rtol)
+    if certify is not False:
+        certify = boolean(place, "certify", certify)
+    if isinstance(system, Rig):
+        many = count_of(place, count, 10)
+        of_rig = _core.rig_modes(system._under(g), start, many, heights, window, rtol, certify, g, progress, shared)
+        found = RigModes._made(of_rig, system=system, gravity=g, rtol=rtol)
+        if start > max(1, *found.available):
+            raise ValueError(f"{place}: first must be from 1 to {max(found.available)}, the number of modes in a direction, got {start}")
+        return found
+    speeds = None if window is None else (*window, g)
     if not isinstance(system, Chain):
         asked = {"method": method, "precision": precision, "certify": certify}
         return _of_cord_or_held(place, system, count, start, heights, speeds, rtol, g, asked, progress)
@@ -244,8 +254,6 @@ def find_modes(
         wanted = how_many(place, count, start, core.mode_count)
     if precision is not _DOUBLE:
         checked_word(place, "precision", precision, _core.PRECISIONS)
-    if certify is not False:
-        certify = boolean(place, "certify", certify)
     if rtol is not None and 0 < rtol <= FULL and method is None and wanted and precision == "double" and not certify:
         method = "double-double"  # no method in double keeps it
     if method is not None and not (isinstance(method, str) and method in _core.METHODS[1:]):
@@ -376,11 +384,12 @@ def count_modes(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        A chain of N links, a cord, or a chain held straight by a tension. The modes of a rig are all found and counted.
+        A chain of N links, by itself or rigged, a cord, or a chain held straight by a tension.
     conical_height : array_like, optional
         Heights, m, positive, any shape.
     angular_speed : array_like, optional
-        Speeds in rad/s, positive, any shape. Give either this or `conical_height`.
+        Speeds in rad/s, positive, any shape. Give either this or `conical_height`. Of a rig with flywheels a negative
+        speed counts the backward modes between 0 and it.
     gravity : array_like, optional
         Acceleration of gravity, broadcast against `angular_speed`; standard gravity if left out. One number for a rig
         and for what is held.
@@ -388,18 +397,20 @@ def count_modes(
     Returns
     -------
     numpy.int64 or ndarray of int64
-        How many modes are slower than each speed given; shape of the argument. Of a rig with flywheels, those of both
-        directions.
+        How many modes are slower than each speed given; shape of the argument. Of a rig with flywheels, those in the
+        direction of the speed, or above a height those of both directions.
 
     Raises
     ------
     ValueError
-        If both or neither of height and speed are given, or for numbers out of their range.
+        If both or neither of height and speed are given, or for numbers out of their range. For a rig as `modes`, and
+        where rounding leaves the number in doubt.
 
     Notes
     -----
-    Chains: Sylvester's law of inertia, in rounded arithmetic with a proof, and in twice the digits where
-    the proof fails: the count is that of the numbers stored. Cost O(N) for each number. Cords: heights within the error
+    Chains and rigs: Sylvester's law of inertia, in rounded arithmetic with a proof, and in twice the digits where
+    the proof fails: the count is that of the numbers stored. Cost O(N) for each number. Rigs whose speeds may be complex:
+    all are found once, as by `modes`, and each speed is compared with those that are real. Cords: heights within the error
     bound of `modes` of the one given may be counted on either side.
 
     Examples
@@ -410,6 +421,9 @@ def count_modes(
     2
     >>> rc.count_modes(chain, conical_height=[0.3, 0.2, 0.04])
     array([0, 1, 2])
+    >>> top = rc.Rig(rc.Chain(mass=1.0, length=1.0), flywheels=rc.Flywheel(momentum=1.5))
+    >>> rc.count_modes(top, angular_speed=[3.0, -3.0])
+    array([0, 1])
     """
     place = "revchain.count_modes"
     if (conical_height is None) == (angular_speed is None):
@@ -426,6 +440,8 @@ def count_modes(
     g = one_positive(place, "gravity", gravity)
     if conical_height is not None:
         height = positive(place, "conical_height", conical_height)
+    elif isinstance(system, Rig):
+        return _core.count_rig_modes(system._under(g), floats(place, "angular_speed", angular_speed), False, g)[()]
     else:
         assert angular_speed is not None
         height = g / positive(place, "angular_speed", angular_speed) ** 2
@@ -434,8 +450,7 @@ def count_modes(
     if isinstance(system, Held):
         return _core.count_held_modes(straight(place, system, g), height)[()]
     if isinstance(system, Rig):
-        every = np.sort(modes(system, "all", gravity=g).conical_height)
-        return (every.size - np.searchsorted(every, height, side="right"))[()]
+        return _core.count_rig_modes(system._under(g), height, True, g)[()]
     raise no_system(place, system)
 
 

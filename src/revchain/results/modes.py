@@ -438,23 +438,21 @@ class RigModes(Modes):
     period: Field[Numbers] = Field("Time of one revolution, s, shape (k,).", lambda m: TURN64 / np.abs(m.angular_speed))
     speed_error_bound: Field[Floats] = Field("Bound of the relative error of each speed, shape (k,); proved.", part=True)
     conical_height_low: Field[Floats | None] = Field("Always None: heights are doubles.", lambda m: None)
-    certificate: Field[Certificate | None] = Field("Always None: `revchain.modes` certifies chains only.", lambda m: None)
+    certificate: Field[Certificate | None] = Field(
+        "What proves the error bounds, if ``certify=True`` was asked; counts are those of the mode's direction.",
+        lambda m: _certificate(m.number, m._found().certificate),
+        part=True,
+    )
     precision: Field[str] = Field("Always ``'double'``.", lambda m: "double")
-    rtol: Field[float | None] = Field("Always None: full accuracy.", lambda m: None)
+    rtol: Field[float | None] = Field("Relative tolerance asked, which is kept by full accuracy; None: none.", part=True)
     available: Field[tuple[int, int]] = Field("Number of modes forward and backward, found or not.", part=True)
     has_momentum: Field[bool] = Field(
         "Whether a flywheel has momentum of its own, so that the two directions differ.", part=True
     )
+    other_available: Field[int] = Field("Number of solutions that are not steady motions: counted, not found.", part=True)
     other: Field[OtherModes] = Field(
-        "The solutions that are not steady motions.",
-        lambda m: OtherModes._made(
-            None,
-            conical_height=m._found().other_height,
-            angular_speed=m._found().other_speed,
-            growth_rate=m._found().growth_rate,
-            error_bound=m._found().other_error_bound,
-        ),
-        part=True,
+        "The solutions that are not steady motions, found when first read: 1 microsecond for each and each link.",
+        lambda m: m._others(),
     )
     slack_link: Field[Whole] = Field(
         "Links, from 0, lowest first, whose effective tension, ``tension + n * momentum / length``, vanishes between 0 "
@@ -463,7 +461,7 @@ class RigModes(Modes):
     )
     slack_speed: Field[Floats] = Field("The speeds at which it does, rad/s, signed, slowest first.", part=True)
     complete: Field[bool] = Field(
-        "Whether the numbers of modes and the list of others are proved to be all there is.", part=True
+        "Whether the numbers of modes and of other solutions are proved to be all there is.", part=True
     )
 
     def uncertainty(
@@ -538,8 +536,19 @@ class RigModes(Modes):
     def _again(self) -> Any:
         if not len(self):
             return super()._again()
-        counts = [int((self.direction == way).sum()) for way in (1, -1)]
-        return _core.rig_modes(self.system._under(self.gravity), int(self.number.min()), max(counts), self.gravity)
+        first, last = int(self.number.min()), int(self.number.max())
+        each = [self.number[self.direction == way] for way in (1, -1)]
+        kept = [int(n) for numbers in each for n in (numbers.min(initial=last + 1), numbers.size)]
+        rig, certified = self.system._under(self.gravity), self.certificate is not None
+        return _core.rig_modes(
+            rig, first, last - first + 1, None, None, self.rtol, certified, self.gravity, kept=(kept[0], kept[1], kept[2], kept[3])
+        )
+
+    def _others(self) -> OtherModes:
+        known = self._core if isinstance(self._core, _core.RigModes) else None
+        names = ("conical_height", "angular_speed", "growth_rate", "error_bound")
+        found = _core.other_rig_modes(self.system._under(self.gravity), self.gravity, known)
+        return OtherModes._made(None, **dict(zip(names, found, strict=True)))
 
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
@@ -553,9 +562,12 @@ class RigModes(Modes):
             notes.append("negative speeds: backward, against wheels whose momentum is positive")
         slack = [f"links[{k}] goes slack at {at:.6g} rad/s" for k, at in zip(self.slack_link, self.slack_speed, strict=True)]
         notes += slack if len(slack) <= 5 else [*slack[:4], f"{len(slack) - 4} more go slack: slack_link, slack_speed"]
-        if len(self.other):
-            one = len(self.other) == 1
-            notes.append(f"{len(self.other)} solution{' is not a steady motion' if one else 's are not steady motions'}: other")
+        others = self.other_available
+        if others:
+            notes.append(f"{others:,} solution{' is not a steady motion' if others == 1 else 's are not steady motions'}: other")
+        if self.certificate is not None:
+            for column in self.certificate._sheet().columns[1:]:
+                columns.append(Column(f"certificate_{column.name}", column.values))
         total = sum(self.available)
         return Sheet(
             "mode",
@@ -563,7 +575,7 @@ class RigModes(Modes):
             columns,
             {
                 **{name: getattr(self, name) for name in ("gravity", "method", "status", "complete")},
-                "other": self.other.to_dict()["numbers"],
+                "other": [] if brief else self.other.to_dict()["numbers"],
                 "slack": [
                     {"link": int(link), "angular_speed": float(at)}
                     for link, at in zip(self.slack_link, self.slack_speed, strict=True)

@@ -46,11 +46,10 @@ def arguments(question: str, table: Table, system: System | None, numbers: Numbe
 
 
 _ALONE = (Chain, "a chain that hangs from a firm point, with nothing else")
-_NO_RIG = (Chain | Cord | Held, "systems without a support, inverted links, flywheels or a fluid")
 _HANGS = (Chain | Rig, "a chain that hangs")
 _ONLY: dict[tuple[str, str], tuple[Any, str]] = {
-    **{("modes", name): _ALONE for name in ("certify", "precision", "method")},
-    **{("modes", name): _NO_RIG for name in ("angular_speed", "conical_height", "rtol")},
+    **{("modes", name): _ALONE for name in ("precision", "method")},
+    ("modes", "certify"): _HANGS,
     ("shapes", "direction"): _HANGS,
     ("shapes", "hanging_only"): _HANGS,
     ("shapes", "max_half_waves"): (Held, "a chain held at both ends"),

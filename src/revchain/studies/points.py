@@ -487,7 +487,7 @@ def one_by_one(scene: Scene, find: tuple[str, ...]) -> tuple[dict[str, Any], boo
         if isinstance(modes, RigModes):
             for turn, which in (("forward", modes.direction > 0), ("backward", modes.direction < 0)):
                 found |= {f"{turn}_{name}": np.abs(getattr(modes, name)[which]) for name in _SPEED}
-            found |= {"other_modes": len(modes.other), "modes_complete": modes.complete}
+            found |= {"other_modes": modes.other_available, "modes_complete": modes.complete}
         else:
             found |= {name: getattr(modes, name) for name in _SPEED[:3]}
         good = modes.status == "success"
