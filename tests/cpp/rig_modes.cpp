@@ -456,7 +456,6 @@ TEST_CASE("chains stiffer than their spring by many decades", "[linear]") {
 TEST_CASE("all modes under a spring: plummets, rods and bodies, with a carriage and without", "[linear]") {
     Random random(66);
     double worst = 0;
-    int together = 0;
     for (int i = 0; i < 240; ++i) {
         const Index n = i % 8 == 0 ? 60 + i / 4 : 1 + i / 10;
         std::vector<Link<double>> links;
@@ -478,12 +477,8 @@ TEST_CASE("all modes under a spring: plummets, rods and bodies, with a carriage 
         CHECK(m.forward.size() == n + (i % 3 == 0 && carriage == 0 ? 0 : 1));
         CHECK(m.forward.error_bound.maxCoeff() <= 2.3e-16);
         worst = std::max(worst, worst_error(RigTruth(rig), m, n > 30 ? 7 : 1));
-        const auto elements = pencil::positive_elements(rig_pencil(rig).pencil);
-        REQUIRE(elements);
-        together += detail::roots_under_a_spring(rig, *elements, {1, m.forward.size()}, m.forward.size()) ? 1 : 0;
     }
     CHECK(worst <= 0.501);
-    CHECK(together >= 200);
 }
 
 TEST_CASE("rigs: shapes when they are asked for, and where they cross the axis", "[linear]") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/linear/aberth_heights.hpp"
 
+#include "revchain/linear/rig_counts.hpp"
 #include "revchain/modes.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
@@ -202,4 +203,25 @@ TEST_CASE("modes() takes them all together and falls back", "[linear]") {
                         {.count = revchain::all_modes, .rtol = 1e-14, .method = revchain::ModesMethod::aberth});
     CHECK(other.method != "aberth");
     CHECK(other.status == revchain::Status::success);
+}
+
+TEST_CASE("heights all together under a spring: nearly every rig is served", "[linear]") {
+    support::Random random(67);
+    int served = 0;
+    for (int i = 0; i < 240; ++i) {
+        const Index n = 1 + i / 2;
+        const auto chain = random_chain(random, n, i % 3);
+        const double carriage = i % 2 == 0 ? 0 : random.log_between(1e-3, 1e3);
+        const revchain::Rig rig(chain, {.support = {random.log_between(1e-3, 1e3), carriage, 0}});
+        const auto elements = revchain::pencil::positive_elements(revchain::rig_pencil(rig).pencil);
+        REQUIRE(elements);
+        const Index modes = n + (i % 3 == 0 && carriage == 0 ? 0 : 1);
+        const auto roots = revchain::detail::roots_under_a_spring(rig, *elements, {1, modes}, modes);
+        if (!roots) continue;
+        ++served;
+        REQUIRE(static_cast<Index>(roots->size()) == modes);
+        for (std::size_t j = 1; j < roots->size(); ++j) CHECK((*roots)[j].x < (*roots)[j - 1].x);
+        for (const auto& root : *roots) CHECK(root.margin <= 0x1p-52 * (1 + 0x1p-20));
+    }
+    CHECK(served >= 220);
 }
