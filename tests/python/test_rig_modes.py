@@ -508,3 +508,19 @@ def test_picture():
     assert len(labels) == 5 and labels[0] == "at rest"
     assert labels[1].startswith("mode 1 backward\n-0.") and labels[2].startswith("mode 1 forward\n")
     ax.figure.savefig("/dev/null", format="png")
+
+
+def test_long_rigs_whose_speeds_may_be_complex():
+    rng = np.random.default_rng(413)
+    chain = rc.Chain.uniform_rods(600, length=0.36)
+    rig = rigged(chain, inverted=rng.random(600) < 0.4, momentum=1e-7)
+    found = rc.modes(rig, "all", threads=2)
+    assert found.method == "discs" and found.complete and found.status == "success"
+    assert len(found) + len(found.other) == 1200 and np.all(found.error_bound < 1e-15)
+    assert found.other_available == len(found.other) and np.all(found.other.error_bound < 1e-14)
+    # the sum of all 1/n is that of -G K^-1, the elements' momentum over their stiffness
+    sizes = np.concatenate([1 / found.angular_speed, 1 / found.other.angular_speed])
+    tension, a = np.cumsum(chain.weight) - chain.weight / 2, chain.length
+    assert sizes.sum() == pytest.approx(-(1e-7 / a / tension).sum(), rel=1e-9, abs=1e-9 * np.abs(sizes).sum())
+    few = rc.modes(rig, 2)
+    assert np.array_equal(few.angular_speed, found.angular_speed[np.isin(found.number, [1, 2])])

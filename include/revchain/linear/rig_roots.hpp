@@ -64,7 +64,7 @@ inline CountedSense counted_speeds(const RigPencil& rig, bool forward) {
 }
 
 /// Largest number of elements whose roots are isolated in discs.
-inline constexpr Index most_isolated = 200;
+inline constexpr Index most_isolated = 20'000;
 
 /// What is known of the roots of a rig's pencil: counts in each sense or, where no count numbers them, all of them
 /// isolated in discs.

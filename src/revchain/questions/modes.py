@@ -143,7 +143,7 @@ def modes(
     ValueError
         If the modes asked for are not there or are given twice, a window is none, `rtol` is NaN or negative, or
         `method` or `precision` unknown. For a rig if `method` or `precision` is given; for a rig of
-        more than 200 links whose speeds may be complex (inverted links or driven wheels together with momentum,
+        more than 20,000 links whose speeds may be complex (inverted links or driven wheels together with momentum,
         floats in fluid that turns). For a held system unless it is a chain under a tension that exceeds its weight.
     TypeError
         If `system` is none of these.
@@ -155,7 +155,8 @@ def modes(
 
     Accuracy: the relative error bound is returned in ``error_bound`` (2 ulp by default, proved by counts). Cost of
     bisection O(N) for each halving, about 50 halvings a mode; shapes O(N) time and memory a mode when they are read.
-    Other Python threads run on meanwhile.
+    Other Python threads run on meanwhile. Rigs whose speeds may be complex: all speeds are found, in 0.3 microseconds
+    times the square of the number of links: 5000 links in 7 s.
 
     References
     ----------

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 // Proved counts of families whose numbers have any sign, against pivots in quadruple precision of the same elements,
-// closer and closer to an eigenvalue; discs of complex double words against quadruple precision.
+// closer and closer to an eigenvalue.
 #include "revchain/pencil/signed.hpp"
 
-#include "revchain/pencil/complex/complex_word.hpp"
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/truth.hpp"
@@ -84,38 +83,4 @@ TEST_CASE("errors of the entries withdraw a proof where they could change the co
         CHECK(revchain::pencil::certified_count<S, 1>(pencil, {S(x)})[0].proved == sure);
     pencil.elements[0].error.lower = std::nan("");
     CHECK(!revchain::pencil::certified_count<S, 1>(pencil, {S(3.0)})[0].proved);
-}
-
-TEST_CASE("discs hold what comes of any numbers in them", "[linalg]") {
-    using revchain::pencil::ComplexWord;
-    using revchain::pencil::Disc;
-    Random random(82);
-    struct Z {
-        Quad re, im;
-    };
-    const auto inside = [](const Disc& d, const Z& z) {
-        const Quad x = z.re - quad(d.centre.real), y = z.im - quad(d.centre.imag);
-        return sqrtq(x * x + y * y) <= Quad(d.radius);
-    };
-    for (int i = 0; i < 20'000; ++i) {
-        const auto make = [&](Z& z) {
-            const double scale = random.log_between(1e-5, 1e5), angle = random.between(0, 7),
-                         turn = random.between(0, 7);
-            const S re = S(scale * std::cos(angle)) + S(scale * 1e-17 * random()), im = S(scale * std::sin(angle));
-            const double radius = i % 3 == 0 ? 0 : scale * random.log_between(1e-33, 0.3);
-            z = {quad(re) + Quad(radius * 0.999999 * std::cos(turn)),
-                 quad(im) + Quad(radius * 0.999999 * std::sin(turn))};
-            return Disc(ComplexWord(re, im), radius);
-        };
-        Z a{}, b{};
-        const Disc x = make(a), y = make(b);
-        const Quad size = b.re * b.re + b.im * b.im;
-        REQUIRE(inside(x + y, {a.re + b.re, a.im + b.im}));
-        REQUIRE(inside(x - y, {a.re - b.re, a.im - b.im}));
-        REQUIRE(inside(x * y, {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}));
-        const Disc q = x / y;
-        REQUIRE(inside(q, {(a.re * b.re + a.im * b.im) / size, (a.im * b.re - a.re * b.im) / size}));
-        if (x.radius == 0 && y.radius == 0) CHECK((x * y).radius <= 1e-29 * size_of(x.centre) * size_of(y.centre));
-    }
-    CHECK(std::isinf((Disc(S(1.0)) / Disc(ComplexWord(S(1.0)), 1.0)).radius));
 }

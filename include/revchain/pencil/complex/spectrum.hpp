@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include <Eigen/Eigenvalues>  // seconds of compile time: only who solves densely includes this header
 #include <algorithm>
 #include <functional>
+#include <optional>
 
-#include "revchain/pencil/complex/complex_word.hpp"
-#include "revchain/pencil/signed.hpp"
+#include "revchain/pencil/complex/isolation.hpp"
 
 /// All x with det Q(x) = 0, real or not, of a family whose numbers have any sign: what counts cannot number.
 namespace revchain::pencil {
@@ -14,7 +13,7 @@ namespace revchain::pencil {
 /// An x, how far (in the plane) the exact one may be from it, and whether that is proved.
 struct EnclosedRoot {
     ComplexWord x{};                                          ///< to some 30 digits where roots are apart
-    std::complex<double> value{};                             ///< rounded; real where x is to 1e-22
+    std::complex<double> value{};                             ///< rounded
     double radius = std::numeric_limits<double>::infinity();  ///< about `value`; finite: an exact root lies within
     bool is_real = false;
 };
@@ -27,91 +26,35 @@ struct ComplexSpectrum {
 
 namespace detail {
 
-/// P'/P - zeros/x of P(x) = det Q(x): the sum of p'/p over the pivots. V: ComplexWord, or Disc with the entries'
-/// errors.
-template <class V, class Number>
-V log_derivative(const SignedPencil<Wide<double>>& pencil, const V& x, Index zeros, const Number& number) {
+/// P'/P - zeros/x of P(x) = det Q(x): the sum of p'/p over the pivots.
+inline ComplexWord log_derivative(const SignedPencil<Wide<double>>& pencil, const ComplexWord& x, Index zeros) {
     using S = Wide<double>;
+    using V = ComplexWord;
     const Factors<V> f = pencil.factors(x), g = pencil.slopes(x);
     V below = S(0.0), slope_below = S(0.0), sum = S(0.0);
     for (const SignedElement<S>& e : pencil.elements) {
-        const ElementError<double>& off = e.error;
-        const V k = number(e.stiffness, off.stiffness), s = number(e.spin, off.spin);
-        const V L = f.stiffness * k + f.spin * s, slope = g.stiffness * k + g.spin * s;
-        const V p = below + (L - number(e.lower, off.lower)), q = (L + number(e.cross, off.cross)) / p;
+        const V L = f.stiffness * V(e.stiffness) + f.spin * V(e.spin);
+        const V slope = g.stiffness * V(e.stiffness) + g.spin * V(e.spin);
+        const V p = below + (L - V(e.lower)), q = (L + V(e.cross)) / p;
         const V p_slope = slope_below + slope;
         sum = sum + p_slope / p;
-        below = (L - number(e.upper, off.upper)) - (L + number(e.cross, off.cross)) * q;
+        below = (L - V(e.upper)) - (L + V(e.cross)) * q;
         slope_below = slope - (q + q) * slope + q * q * p_slope;
     }
     return zeros == 0 ? sum : sum - V(S(static_cast<double>(zeros))) / x;
 }
 
-/// Elements without stiffness: det K is the product of all stiffnesses, and each that is 0 takes 1 from the degree of
-/// det Q.
-inline Index without_stiffness(const SignedPencil<Wide<double>>& pencil) {
-    Index count = 0;
-    for (const auto& e : pencil.elements) count += e.stiffness == Wide<double>(0.0) && e.error.stiffness == 0;
-    return count;
-}
-
-/// First values in double: the eigenvalues of K^-1 M, or of the companion of x^2 + x K^-1 G - K^-1 M, less the `zeros`
-/// smallest and, of elements without stiffness, the largest. K^-1 from the flexibilities, which add without
-/// cancellation where all are positive.
-inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<double>>& pencil, Index zeros) {
-    const Index n = pencil.size();
-    Matrix<double> M = Matrix<double>::Zero(n + 1, n + 1), G = M, F = Matrix<double>::Zero(n, n);
-    double largest = 0;
-    for (const auto& e : pencil.elements) largest = std::max(largest, std::abs(static_cast<double>(e.stiffness)));
-    if (largest == 0) largest = 1;
-    for (Index m = 0; m < n; ++m) {
-        const auto& e = pencil.elements[static_cast<std::size_t>(m)];
-        M(m, m) += static_cast<double>(e.lower), M(m + 1, m + 1) += static_cast<double>(e.upper);
-        M(m, m + 1) += static_cast<double>(e.cross), M(m + 1, m) += static_cast<double>(e.cross);
-        const double s = static_cast<double>(e.spin), k = static_cast<double>(e.stiffness);
-        G(m, m) += s, G(m + 1, m + 1) += s, G(m, m + 1) -= s, G(m + 1, m) -= s;
-        const double flexibility = 1 / (k == 0 ? 1e-16 * largest : k);
-        F.topLeftCorner(m + 1, m + 1).array() += flexibility;
-    }
-    const Matrix<double> mass = F * M.topLeftCorner(n, n);
-    Matrix<double> system = mass;
-    double pace = 1;  // unit of x in which the two halves of the companion are alike
-    if (pencil.quadratic) {
-        pace = std::sqrt(std::max(mass.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()));
-        system = Matrix<double>::Zero(2 * n, 2 * n);
-        system.topRightCorner(n, n).setIdentity();
-        system.bottomLeftCorner(n, n) = mass / (pace * pace);
-        system.bottomRightCorner(n, n) = F * G.topLeftCorner(n, n) / -pace;
-    }
-    const Eigen::EigenSolver<Matrix<double>> solver(system, false);
-    std::vector<std::complex<double>> roots;
-    for (Index i = 0; i < system.rows(); ++i) {
-        const std::complex<double> root = solver.eigenvalues()[i] * pace;
-        roots.push_back(std::isfinite(std::abs(root)) ? root : pace);  // a start is all that is wanted
-    }
-    std::sort(roots.begin(), roots.end(), [](const auto& x, const auto& y) { return std::abs(x) > std::abs(y); });
-    roots.erase(roots.begin(), roots.begin() + without_stiffness(pencil));
-    roots.resize(roots.size() - std::min(static_cast<std::size_t>(zeros), roots.size()));
-    for (std::size_t i = 0; i < roots.size(); ++i) {  // Aberth's method cannot part what is equal
-        if (std::abs(roots[i]) == 0) roots[i] = std::numeric_limits<double>::min();
-        if (i > 0 && roots[i] == roots[i - 1])
-            roots[i] *= std::complex<double>(1 + 1e-10 * static_cast<double>(i), 1e-10);
-    }
-    return roots;
-}
-
-/// All roots at once by Newton's method with the others divided out (Ehrlich, Aberth), each until it stands still.
+/// Those roots that are `meant`, by Newton's method in two words with all others divided out, until they stand still.
 inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::vector<ComplexWord>& roots,
-                   const std::function<void(double)>& advance) {
+                   const std::vector<bool>& meant, const std::function<void(double)>& advance) {
     using S = Wide<double>;
     constexpr int sweeps = 60;
     std::vector<double> last(roots.size(), std::numeric_limits<double>::infinity());
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         bool moved = false;
         for (std::size_t i = 0; i < roots.size(); ++i) {
-            if (last[i] == 0) continue;
-            ComplexWord rate =
-                log_derivative(pencil, roots[i], zeros, [](const S& x, double) { return ComplexWord(x); });
+            if (!meant[i] || last[i] == 0) continue;
+            ComplexWord rate = log_derivative(pencil, roots[i], zeros);
             for (std::size_t j = 0; j < roots.size(); ++j) {
                 if (j == i) continue;
                 const ComplexWord apart = roots[i] - roots[j];
@@ -125,84 +68,179 @@ inline void refine(const SignedPencil<Wide<double>>& pencil, Index zeros, std::v
             const bool stands = !finite || share < 1e-29 || (share < 1e-20 && share > last[i] / 4);
             last[i] = stands ? 0 : share;
             moved = moved || !stands;
+            advance(static_cast<double>(sweep) / sweeps);
         }
-        advance(static_cast<double>(sweep + 1) / sweeps);
         if (!moved) break;
     }
 }
 
-/// Discs that hold exactly one root each, by two facts about a polynomial of degree d with P'(c)/P(c) = w: some root
-/// lies within d/|w| of c, so that d discs that are apart hold one each, whatever less than d the degree were; and with
-/// all the others in discs of their own (c_j, r_j), the last is within 1/(|w| - sum 1/(|c - c_j| - r_j)). Returns
-/// whether the discs are apart.
-inline bool enclose(const SignedPencil<Wide<double>>& pencil, Index zeros, Index degree,
-                    std::vector<EnclosedRoot>& roots) {
+/// Roots as the polynomial has them, which is real: those within a share `flat` of the real axis on it, first; then
+/// pairs. Nothing where there are not as many above the axis as below.
+struct Conjugates {
+    std::vector<ComplexWord> roots;
+    std::size_t real = 0;
+};
+inline std::optional<Conjugates> conjugates(const std::vector<ComplexWord>& roots, double flat) {
+    Conjugates result;
+    std::vector<ComplexWord> above;
+    for (const ComplexWord& x : roots)
+        if (std::abs(x.imag.high) <= flat * size_of(x))
+            result.roots.push_back(x.real);
+        else if (x.imag.high > 0)
+            above.push_back(x);
+    result.real = result.roots.size();
+    if (result.real + 2 * above.size() != roots.size()) return std::nullopt;
+    for (const ComplexWord& x : above) result.roots.push_back(x), result.roots.push_back({x.real, -x.imag});
+    return result;
+}
+
+/// Discs that hold exactly one root each. With P of leading coefficient c and degree d and x_j the approximations, let
+/// w_j = P(x_j)/(c prod (x_j - x_k)). All roots lie within d |w_j| of the x_j, and where such discs are apart each
+/// holds one (Smith). Then x_j - root = w_j prod (x_j - x_k)/(x_j - root_k) is w_j within |w_j| (exp(s) - 1), s the sum
+/// of r_k/(|x_j - x_k| - r_k). Returns which discs meet others; `found` has the roots if none does.
+inline std::vector<bool> isolate(const SignedPencil<Wide<double>>& pencil, Index zeros, Conjugates& at,
+                                 std::vector<EnclosedRoot>& found, const std::function<void(double)>& advance) {
     using S = Wide<double>;
-    std::vector<double> least(roots.size()),
-        beside(roots.size(), 0.0);  // |P'/P| is at least that, so far from the value
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-        roots[i].radius = std::numeric_limits<double>::infinity();
-        for (const double share :
-             {0.0, 0x1p-64, 0x1p-56}) {  // at the very root, or where a pivot vanishes, P'/P is none
-            const ComplexWord at(roots[i].value), aside = at + at * ComplexWord(S(share));
-            const Disc rate = log_derivative(pencil, Disc(aside), zeros,
-                                             [](const S& x, double off) { return Disc(ComplexWord(x), off); });
-            least[i] = size_of(rate.centre) * (1 - 8 * epsilon<double>()) - rate.radius;
-            beside[i] = 1.01 * share * std::abs(roots[i].value);
-            const double radius = static_cast<double>(degree) / least[i] * (1 + 8 * epsilon<double>()) + beside[i];
-            if (!(least[i] > 0 && std::isfinite(radius))) continue;
-            roots[i].radius = radius;
-            break;
-        }
-    }
-    const auto apart = [&](std::size_t i, std::size_t j) {
-        return std::abs(roots[i].value - roots[j].value) * (1 - 8 * epsilon<double>());
+    constexpr double infinity = std::numeric_limits<double>::infinity(), slack = 1 + 0x1p-32;
+    const std::size_t n = at.roots.size(), heads = at.real + (n - at.real) / 2;
+    const auto place = [&](std::size_t head) { return head < at.real ? head : at.real + 2 * (head - at.real); };
+    const auto mirrored = [&](std::size_t head) {
+        ComplexWord& x = at.roots[place(head)];
+        if (head >= at.real) at.roots[place(head) + 1] = {x.real, -x.imag};
     };
-    bool disjoint = static_cast<Index>(roots.size()) == degree;
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-        disjoint = disjoint && roots[i].radius < std::abs(roots[i].value);
-        if (!roots[i].is_real) disjoint = disjoint && roots[i].radius < std::abs(roots[i].value.imag());
-        for (std::size_t j = 0; j < i; ++j) disjoint = disjoint && apart(i, j) > roots[i].radius + roots[j].radius;
+    std::vector<ScaledValue> values(heads + value_lanes), products(heads + value_lanes);
+    std::vector<double> nearest(heads + value_lanes), shares(heads + value_lanes);
+    const auto lanes_of = [&](const std::vector<std::size_t>& which, const auto& f) {
+        revchain::detail::parallel_for(which.size(), value_lanes, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t first = begin; first < end; first += value_lanes) {
+                advance(0.6);
+                std::size_t lane[value_lanes];
+                for (std::size_t i = 0; i < value_lanes; ++i) lane[i] = which[std::min(first + i, end - 1)];
+                f(lane, std::min(value_lanes, end - first));
+            }
+        });
+    };
+    std::vector<std::size_t> all(heads), left;
+    for (std::size_t i = 0; i < heads; ++i) all[i] = i;
+    left = all;
+    // At the very root, or where a pivot vanishes, nothing is proved: then beside it.
+    for (const double aside : {0.0, 0x1p-64, 0x1p-56, 0x1p-48, 0x1p-40}) {
+        for (const std::size_t i : left) {
+            ComplexWord& x = at.roots[place(i)];
+            x = x + x * ComplexWord(S(aside)), mirrored(i);
+        }
+        lanes_of(left, [&](const std::size_t* lane, std::size_t count) {
+            ComplexWord x[value_lanes];
+            ScaledValue found_here[value_lanes];
+            for (std::size_t i = 0; i < value_lanes; ++i) x[i] = at.roots[place(lane[i])];
+            simd([&](auto where) REVCHAIN_INLINED { values_in_lanes(where, pencil, x, found_here); });
+            for (std::size_t i = 0; i < count; ++i) values[lane[i]] = found_here[i];
+        });
+        std::erase_if(left, [&](std::size_t i) { return std::isfinite(values[i].error); });
+        if (left.empty()) break;
     }
-    if (!disjoint) return false;
-    std::vector<double> sharper(roots.size());
-    for (std::size_t i = 0; i < roots.size(); ++i) {
-        double others = 0;
-        for (std::size_t j = 0; j < roots.size(); ++j)
-            if (j != i) others += 1 / (apart(i, j) - roots[j].radius - beside[i]);
-        const double rest = least[i] - others * (1 + 2 * static_cast<double>(roots.size()) * epsilon<double>());
-        const double sharp = 1 / rest * (1 + 8 * epsilon<double>()) + beside[i];
-        sharper[i] = rest > 0 ? std::min(roots[i].radius, sharp) : roots[i].radius;
+    SplitWords split(at.roots);
+    const auto places = [&](const std::size_t* lane, std::size_t* of) {
+        for (std::size_t i = 0; i < value_lanes; ++i) of[i] = place(lane[i]);
+    };
+    lanes_of(all, [&](const std::size_t* lane, std::size_t count) {
+        std::size_t of[value_lanes];
+        ScaledValue found_here[value_lanes];
+        places(lane, of);
+        simd([&](auto where) REVCHAIN_INLINED { products_in_lanes(where, split, of, found_here); });
+        for (std::size_t i = 0; i < count; ++i) products[lane[i]] = found_here[i];
+    });
+    const ScaledValue leading = leading_term(pencil).coefficient;
+    std::vector<std::complex<double>> step(heads);
+    std::vector<double> blur(heads);
+    std::vector<bool> known(heads);
+    for (std::size_t i = 0; i < heads; ++i) {
+        ScaledValue under = products[i];
+        under.times(leading.fraction);
+        const std::complex<double> x(at.roots[place(i)]);
+        for (Index k = 0; k < zeros; ++k) under.times(x);
+        const double exponent = values[i].exponent - under.exponent - leading.exponent;
+        const auto shift = static_cast<int>(std::clamp(exponent, -3000.0, 3000.0));
+        const std::complex<double> ratio = values[i].fraction / under.fraction;
+        step[i] = {std::ldexp(ratio.real(), shift), i < at.real ? 0.0 : std::ldexp(ratio.imag(), shift)};
+        blur[i] =
+            (values[i].error + leading.error + under.error + static_cast<double>(16 * n + 64) * epsilon<double>()) *
+            slack;
+        const double radius = static_cast<double>(n) * std::abs(step[i]) * (1 + 2 * blur[i]) * slack;
+        known[i] = blur[i] < 0.25 && radius < infinity;
+        if (known[i]) split.radius[place(i)] = radius;
+        if (i >= at.real) split.radius[place(i) + 1] = split.radius[place(i)];
     }
-    for (std::size_t i = 0; i < roots.size(); ++i) roots[i].radius = sharper[i];
-    return true;
+    lanes_of(all, [&](const std::size_t* lane, std::size_t count) {
+        std::size_t of[value_lanes];
+        double near[value_lanes], sums[value_lanes];
+        places(lane, of);
+        simd([&](auto where) REVCHAIN_INLINED { distances_in_lanes(where, split, of, near, sums); });
+        for (std::size_t i = 0; i < count; ++i) nearest[lane[i]] = near[i], shares[lane[i]] = sums[i];
+    });
+    std::vector<bool> meets(n, false);
+    bool apart = true;
+    found.clear();
+    for (std::size_t i = 0; i < heads; ++i) {
+        const ComplexWord& x = at.roots[place(i)];
+        const double radius = split.radius[place(i)], size = size_of(x);
+        const bool alone = known[i] && nearest[i] > radius * slack && nearest[i] > 0x1p-46 * size &&
+                           radius < size / 2 && shares[i] < 0.5 && size > 0x1p-900 && size < 0x1p900;
+        apart = apart && alone;
+        meets[place(i)] = !alone;
+        if (i >= at.real) meets[place(i) + 1] = !alone;
+        EnclosedRoot root{x - ComplexWord(step[i])};
+        root.value = std::complex<double>(root.x);
+        root.is_real = i < at.real;
+        const double rounded = size_of(root.x - ComplexWord(root.value)), spread = shares[i] * (1 + shares[i]);
+        root.radius = ((spread + 2 * blur[i]) * (1 + spread) * std::abs(step[i]) + rounded) * slack + 0x1p-98 * size;
+        found.push_back(root);
+        if (root.is_real) continue;
+        root.x.imag = -root.x.imag, root.value = std::conj(root.value);
+        found.push_back(root);
+    }
+    if (apart) return {};
+    for (EnclosedRoot& root : found) root.radius = infinity;
+    return meets;
 }
 
 }  // namespace detail
 
 /// Every x with det Q(x) = 0, but for `zeros` that are surely at 0. Preconditions: at least one element.
 ///
-/// Method: dense eigenvalues in double, refined all at once in two words (Aberth), and enclosed in discs of complex
-/// double words that take in the entries' errors. A root whose disc meets the real axis alone is real, since the
-/// conjugate of one in it would be another. Cost O(N^3) for the first values; then 1 microsecond for each root, link
-/// and sweep. `advance(share)` is called after every sweep and may throw.
+/// Method: all roots at once in double (Ehrlich and Aberth, from the roots of either half of the chain), then one step
+/// in two words, with discs that are proved to hold one root each. Where discs meet, roots are first refined in two
+/// words. A disc about a real approximation holds a real root, since the conjugate of another would be in it, too.
+/// Cost, N elements (AVX-512): 0.15 microseconds N^2, with momentum 0.3. `advance(share)` is called after every sweep
+/// and may throw, on any thread.
 inline ComplexSpectrum complex_spectrum(const SignedPencil<Wide<double>>& pencil, Index zeros,
                                         const std::function<void(double)>& advance) {
-    std::vector<ComplexWord> words;
-    for (const std::complex<double>& root : detail::first_roots(pencil, zeros)) words.emplace_back(root);
-    detail::refine(pencil, zeros, words, advance);
+    const Index degree = detail::leading_term(pencil).degree - zeros;
     ComplexSpectrum result;
-    for (const ComplexWord& x : words) {
-        EnclosedRoot root{x, std::complex<double>(x)};
-        root.is_real = std::abs(root.value.imag()) <= 1e-22 * std::abs(root.value);
-        if (root.is_real) root.value = root.value.real(), root.x.imag = Wide<double>(0.0);
-        result.roots.push_back(root);
+    if (degree < 1) {
+        result.proved = degree == 0;
+        return result;
+    }
+    std::vector<ComplexWord> words;
+    for (const std::complex<double>& x : detail::first_roots(pencil, zeros, degree, advance)) words.emplace_back(x);
+    constexpr double most_work = 4e6;  // 4 seconds a sweep
+    for (const double flat : {0x1p-40, 1e-22}) {
+        std::vector<bool> meets(words.size(), true);
+        if (auto there = detail::conjugates(words, flat)) {
+            meets = detail::isolate(pencil, zeros, *there, result.roots, advance);
+            result.proved = meets.empty();
+            if (result.proved) break;
+            words = std::move(there->roots);
+            for (std::size_t i = 0; i < there->real; ++i)  // two that meet on the real axis may belong beside it
+                if (meets[i]) words[i].imag = words[i].real * Wide<double>(i % 2 == 0 ? 0x1p-44 : -0x1p-44);
+        }
+        const double work = static_cast<double>(std::count(meets.begin(), meets.end(), true) * pencil.size());
+        if (flat < 0x1p-40 || work > most_work) break;
+        detail::refine(pencil, zeros, words, meets, [&](double share) { advance(0.6 + 0.4 * share); });
     }
     std::sort(result.roots.begin(), result.roots.end(), [](const EnclosedRoot& x, const EnclosedRoot& y) {
         return std::pair(std::abs(x.value), x.value.imag()) > std::pair(std::abs(y.value), y.value.imag());
     });
-    const Index degree = (pencil.quadratic ? 2 : 1) * pencil.size() - zeros - detail::without_stiffness(pencil);
-    result.proved = detail::enclose(pencil, zeros, degree, result.roots);
     return result;
 }
 

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "revchain/numeric/parallel.hpp"
+#include "revchain/pencil/signed.hpp"
+#include "revchain/simd/pack.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+
+/// All roots of det Q(x) at once, in double, eight and more in the lanes of a pack: starts that prove nothing.
+namespace revchain::pencil {
+
+/// A complex number in each lane.
+template <class V>
+struct ComplexLanes {
+    V re{}, im{};
+
+    [[gnu::always_inline]] friend ComplexLanes operator+(const ComplexLanes& x, const ComplexLanes& y) {
+        return {x.re + y.re, x.im + y.im};
+    }
+    [[gnu::always_inline]] friend ComplexLanes operator-(const ComplexLanes& x, const ComplexLanes& y) {
+        return {x.re - y.re, x.im - y.im};
+    }
+    [[gnu::always_inline]] friend ComplexLanes operator*(const ComplexLanes& x, const ComplexLanes& y) {
+        return {x.re * y.re - x.im * y.im, x.re * y.im + x.im * y.re};
+    }
+    [[gnu::always_inline]] friend ComplexLanes operator*(const ComplexLanes& x, const V& y) {
+        return {x.re * y, x.im * y};
+    }
+    [[gnu::always_inline]] friend ComplexLanes operator+(const ComplexLanes& x, const V& y) { return {x.re + y, x.im}; }
+    [[gnu::always_inline]] friend ComplexLanes inverse(const ComplexLanes& x) {
+        const V square = x.re * x.re + x.im * x.im;
+        return {x.re / square, -(x.im / square)};
+    }
+};
+
+namespace detail {
+
+struct RoundedElement {
+    double stiffness, spin, lower, upper, cross, weight, determinant;
+};
+
+inline std::vector<RoundedElement> rounded_elements(const SignedPencil<Wide<double>>& pencil) {
+    std::vector<RoundedElement> rows;
+    rows.reserve(pencil.elements.size());
+    for (const auto& e : pencil.elements)
+        rows.push_back({static_cast<double>(e.stiffness), static_cast<double>(e.spin), static_cast<double>(e.lower),
+                        static_cast<double>(e.upper), static_cast<double>(e.cross), static_cast<double>(e.weight()),
+                        static_cast<double>(e.determinant())});
+    return rows;
+}
+
+/// P'/P of P = det Q at x: the sum of p'/p over the pivots, by the equation of `SignedCounter` and its derivative.
+/// `number(x)` is a number of an element in all lanes.
+template <bool quadratic, class Row, class V, class Number>
+[[gnu::always_inline]] inline ComplexLanes<V> log_derivative_in_lanes(const Row* rows, std::size_t count,
+                                                                      const ComplexLanes<V>& x, const Number& number) {
+    using Z = ComplexLanes<V>;
+    const Z square = x * x, twice = x + x;
+    Z below{}, slope_below{}, sum{};
+    for (std::size_t m = 0; m < count; ++m) {
+        const Row& e = rows[m];
+        const V k = number(e.stiffness), lower = number(e.lower), cross = number(e.cross);
+        Z L = x * k, slope{k, V{}};
+        if constexpr (quadratic) {
+            const V s = number(e.spin);
+            L = square * k + x * s;
+            slope = twice * k + s;
+        }
+        const Z inverse_pivot = inverse(below + (L + -lower));
+        const Z q = (L + cross) * inverse_pivot, rest = (below + -(lower + cross)) * inverse_pivot;
+        sum = sum + (slope_below + slope) * inverse_pivot;
+        slope_below = rest * rest * slope + q * q * slope_below;
+        below = ((L + -number(e.upper)) * below - (L * number(e.weight) + -number(e.determinant))) * inverse_pivot;
+    }
+    return sum;
+}
+
+/// Roots in double: real and imaginary parts apart, so that lanes load them.
+struct SplitRoots {
+    std::vector<double> re, im;
+
+    std::size_t size() const { return re.size(); }
+    void push_back(const std::complex<double>& x) { re.push_back(x.real()), im.push_back(x.imag()); }
+    std::complex<double> operator[](std::size_t i) const { return {re[i], im[i]}; }
+};
+
+/// Moves roots by up to a tenth of what is between neighbours: Aberth's method can neither part what is equal nor leave
+/// the real axis.
+inline void scatter(SplitRoots& roots) {
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+        const double turn = 4e-4 * static_cast<double>(i % 97 + 1) / static_cast<double>(roots.size());
+        const std::complex<double> x = roots[i] * std::complex<double>(1 + turn / 7, i % 2 == 0 ? turn : -turn);
+        roots.re[i] = x.real(), roots.im[i] = x.imag();
+    }
+}
+
+/// Newton steps with the other roots divided out (Ehrlich, Aberth) of the roots named by `active`, all from the same
+/// places: results do not depend on the number of threads.
+inline void aberth_steps(const RoundedElement* rows, std::size_t links, bool quadratic, Index zeros,
+                         const SplitRoots& roots, const std::vector<std::size_t>& active, SplitRoots& step) {
+    constexpr std::size_t L = 2 * most_doubles;
+    revchain::detail::parallel_for(active.size(), L, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t first = begin; first < end; first += L) {
+            revchain::detail::look();
+            alignas(64) double re[L], im[L];
+            for (std::size_t i = 0; i < L; ++i) {
+                const std::size_t at = active[std::min(first + i, end - 1)];
+                re[i] = roots.re[at], im[i] = roots.im[at];
+            }
+            simd([&](auto where) REVCHAIN_INLINED {
+                constexpr std::size_t width = decltype(where)::doubles;
+                using V = Pack<double, width, L / width>;
+                using Z = ComplexLanes<V>;
+                const Z x{V::load(re), V::load(im)};
+                const auto number = [](double y) REVCHAIN_INLINED { return V(y); };
+                const Z rate = quadratic ? log_derivative_in_lanes<true>(rows, links, x, number)
+                                         : log_derivative_in_lanes<false>(rows, links, x, number);
+                Z others = inverse(x) * V(static_cast<double>(zeros));
+                const V none(0.0);
+                for (std::size_t j = 0; j < roots.size(); ++j) {
+                    const Z apart{x.re - V(roots.re[j]), x.im - V(roots.im[j])};
+                    const V square = apart.re * apart.re + apart.im * apart.im;
+                    const V over = select(square > none, V(1.0) / square, none);
+                    others = {others.re + apart.re * over, others.im - apart.im * over};
+                }
+                const Z moved = inverse(rate - others);
+                moved.re.store(re), moved.im.store(im);
+            });
+            for (std::size_t i = 0; i < L && first + i < end; ++i)
+                step.re[active[first + i]] = re[i], step.im[active[first + i]] = im[i];
+        }
+    });
+}
+
+/// Moves roots until none moves by more than a share `finest` of itself, or further than before; how many sweeps.
+inline int aberth(const RoundedElement* rows, std::size_t links, bool quadratic, Index zeros, SplitRoots& roots,
+                  double finest, int most, const std::function<void()>& advance) {
+    std::vector<std::size_t> active(roots.size());
+    for (std::size_t i = 0; i < active.size(); ++i) active[i] = i;
+    std::vector<double> last(roots.size(), std::numeric_limits<double>::infinity());
+    SplitRoots step = roots;
+    int sweep = 0;
+    for (; sweep < most && !active.empty(); ++sweep) {
+        aberth_steps(rows, links, quadratic, zeros, roots, active, step);
+        std::vector<std::size_t> left;
+        for (const std::size_t i : active) {
+            const double share = std::abs(step[i]) / std::abs(roots[i]);
+            if (!std::isfinite(share)) continue;
+            roots.re[i] -= step.re[i], roots.im[i] -= step.im[i];
+            if (share > finest && !(share < 1e-8 && share > last[i] / 4)) left.push_back(i);
+            last[i] = share;
+        }
+        active = std::move(left);
+        if (advance) advance();
+    }
+    return sweep;
+}
+
+/// Real roots of one element: of x k = A, or of x^2 k + x s = A.
+inline SplitRoots roots_of(const RoundedElement& e, bool quadratic) {
+    SplitRoots roots;
+    if (e.stiffness == 0) {
+        if (quadratic && e.spin != 0) roots.push_back(e.lower / e.spin);
+    } else if (!quadratic) {
+        roots.push_back(e.lower / e.stiffness);
+    } else {
+        const std::complex<double> square =
+            std::sqrt(std::complex<double>(e.spin * e.spin + 4 * e.stiffness * e.lower));
+        const std::complex<double> far = (e.spin < 0 ? square - e.spin : -e.spin - square) / (2 * e.stiffness);
+        roots.push_back(far);
+        roots.push_back(std::abs(far) > 0 ? -e.lower / (e.stiffness * far) : far);
+    }
+    return roots;
+}
+
+/// Near the roots of `links` elements in double: first those of the two halves, each held at its upper end.
+inline SplitRoots halved_roots(const RoundedElement* rows, std::size_t links, bool quadratic,
+                               const std::function<void()>& advance) {
+    if (links == 1) return roots_of(rows[0], quadratic);
+    SplitRoots roots = halved_roots(rows, links / 2, quadratic, advance);
+    const SplitRoots above = halved_roots(rows + links / 2, links - links / 2, quadratic, advance);
+    for (std::size_t i = 0; i < above.size(); ++i) roots.push_back(above[i]);
+    scatter(roots);
+    aberth(rows, links, quadratic, 0, roots, 1e-3, 12, advance);
+    return roots;
+}
+
+/// All roots in double, `degree` of them, but for `zeros` at 0.
+inline std::vector<std::complex<double>> first_roots(const SignedPencil<Wide<double>>& pencil, Index zeros,
+                                                     Index degree, const std::function<void(double)>& advance) {
+    const auto rows = rounded_elements(pencil);
+    const std::size_t links = rows.size(), half = links / 2, wanted = static_cast<std::size_t>(degree);
+    std::vector<std::complex<double>> starts;
+    const auto add = [&](const SplitRoots& part) {
+        for (std::size_t i = 0; i < part.size(); ++i) starts.push_back(part[i]);
+    };
+    const auto look = [&] { advance(0.1); };
+    if (half > 0) add(halved_roots(rows.data(), half, pencil.quadratic, look));
+    add(halved_roots(rows.data() + half, links - half, pencil.quadratic, look));
+    // The smallest stand for those that are 0.
+    std::sort(starts.begin(), starts.end(), [](const auto& x, const auto& y) { return std::abs(x) > std::abs(y); });
+    if (starts.empty()) starts.emplace_back(1.0);
+    while (starts.size() < wanted) starts.push_back(starts.back() / 2.0);
+    starts.resize(wanted);
+    SplitRoots roots;
+    for (const auto& x : starts) roots.push_back(std::isfinite(std::abs(x)) && std::abs(x) > 0 ? x : 1.0);
+    scatter(roots);
+    aberth(rows.data(), links, pencil.quadratic, zeros, roots, 1e-13, 100, [&] { advance(0.3); });
+    for (std::size_t i = 0; i < wanted; ++i) starts[i] = roots[i];
+    return starts;
+}
+
+}  // namespace detail
+}  // namespace revchain::pencil
+
+#pragma GCC diagnostic pop
