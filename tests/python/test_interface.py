@@ -116,7 +116,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "swing": {"rig": "ask its modes", "cord": "ask its chain: cord.chain", "held": "ask its modes"},
     "tune": {"rig": "vary must be .*support.stiffness", "held": "change its system"},
     "explain": {"held, span": "is bent", "held cord": "cut it into links"},
-    "stability": {"rig": "is for shapes of a Chain", "cord": r"cord\.chain", "held cord": r"cord\.chain"},
+    "stability": {"cord": r"cord\.chain", "held cord": r"cord\.chain"},
     "sensitivity": {"cord": r"cord\.chain", "held": "is for a Chain", "held, span": "is bent", "held cord": "cut it"},
     "uncertainty": {
         "rig": "take sensitivity",
