@@ -65,6 +65,12 @@ void bind_finite(py::module_& module) {
         .def_readonly("cells", &SteadyShapes::cells)
         .def_property_readonly("undecided", ranges);
     using revchain::Stability;
+    const auto each = [](std::vector<double> Stability::*member) {
+        return [member](const Stability& s) {
+            const auto& of = s.*member;
+            return frozen(py::array_t<double>(static_cast<py::ssize_t>(of.size()), of.data()));
+        };
+    };
     py::class_<Stability>(module, "Stability", "What becomes of a small disturbance of a steady shape.")
         .def_property_readonly("verdict", [](const Stability& s) { return std::string(to_string(s.verdict)); })
         .def_property_readonly("exponents",
@@ -72,6 +78,8 @@ void bind_finite(py::module_& module) {
                                    return frozen(py::array_t<std::complex<double>>(
                                        static_cast<py::ssize_t>(s.exponents.size()), s.exponents.data()));
                                })
+        .def_property_readonly("internal_damping", each(&Stability::internal_damping))
+        .def_property_readonly("external_damping", each(&Stability::external_damping))
         .def_readonly("growth_rate", &Stability::growth_rate)
         .def_readonly("margin", &Stability::margin)
         .def_readonly("negative_directions", &Stability::negative_directions);
@@ -102,6 +110,14 @@ void bind_finite(py::module_& module) {
         },
         "chain"_a, "angular_speed"_a, "gravity"_a, "budget"_a, "hanging_only"_a, "threads"_a = 1);
     using revchain::Rig;
+    module.def(
+        "stability_of_rig",
+        [](const Rig& rig, const SteadyShape& shape, bool driven, int sense, double gravity) {
+            const auto frame = driven ? revchain::StabilityFrame::driven : revchain::StabilityFrame::free;
+            const revchain::RigStabilityOptions options{.frame = frame, .direction = sense, .gravity = gravity};
+            return aside(rig.chain(), nullptr, [=](const Chain&) { return revchain::stability(rig, shape, options); });
+        },
+        "rig"_a, "shape"_a, "driven"_a, "sense"_a, "gravity"_a);
     module.def(
         "steady_shapes_of_rig",
         [](const Rig& rig, double height, long budget, bool hanging_only, int sense, double gravity, Index threads) {

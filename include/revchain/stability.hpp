@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "revchain/chain.hpp"
+#include "revchain/conical_pendulum.hpp"
 
 /// Stability of a steady shape: whether a small disturbance grows.
 ///
@@ -18,6 +19,7 @@ namespace revchain {
 
 struct SteadyShape;  // revchain/steady_shapes.hpp
 struct HeldShape;    // revchain/held.hpp
+class Rig;           // revchain/rig.hpp
 
 /// How a chain can move when it is disturbed.
 enum class StabilityFrame {
@@ -46,6 +48,11 @@ struct Stability {
     double growth_rate = 0;         ///< largest real part of an exponent; at least 0
     double margin = 0;              ///< a growth rate up to this may be rounding error
     Index negative_directions = 0;  ///< negative eigenvalues of the energy's Hessian (free: amended, no rotation)
+    /// What a small damping c does to each exponent, to first order: times g c it is added to the real part of s n. NaN
+    /// where two exponents coincide. Internal: c is the moment at every pin over the rate at which its links turn
+    /// against one another, seen from the turning chain; in 1/(weight length^2). External: c is the drag of still air
+    /// on a link over its length and its velocity in space; in length/weight.
+    std::vector<double> internal_damping, external_damping;
 };
 
 /// Returns what becomes of a small disturbance of a steady shape of `chain`.
@@ -55,19 +62,49 @@ struct Stability {
 /// mass matrix and B the gyroscopic coupling. So no double zero blurs the exponents. Links are rods without inertia
 /// about their own axes. N links have 4 N - 2 exponents if free, 2 N if driven; fewer where links have no weight,
 /// because two links that meet in a pin without mass stay in line.
-/// Accuracy: exponents to about 1e-13 of the largest where they are simple. Cost (4 N)^3: 1 ms for 10 links, a second
-/// for 100. N = 1: omega = n sqrt(1 + 3 cos^2 d) free, n sin d driven (section 7 (6)).
+/// No damping is modelled in exponents and verdict. What is a minimum stays stable with friction at the pins. What is
+/// only spectrally stable is held by gyroscopic forces: friction makes the motions of negative energy grow (Kelvin,
+/// Tait, Chetaev; Merkin 1997, Kirillov 2013). `internal_damping` and `external_damping` say what grows, to first
+/// order; what balances the mean drag of the air counts in second order only. Drag in proportion to mass, in place of
+/// length, would add -1/2 of drag over mass to each growth rate, whatever the shape.
+/// Accuracy: exponents to about 1e-13 of the largest where they are simple. Cost (4 N)^3/2: 0.5 ms for 20 links, 4 ms
+/// for 40, less where every motion out of the plane has positive energy. N = 1: omega = n sqrt(1 + 3 cos^2 d) free,
+/// n sin d driven (section 7 (6)).
 /// Throws InvalidArgument if chain and shape differ in the number or the lengths of links; weights are not compared.
 Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame = StabilityFrame::free);
 
 /// Returns what becomes of a small disturbance of a shape with both ends held. Both ends stay where they are. N links
 /// have 4 N - 8 exponents if free, 2 N - 4 if driven, in units of n, with and without gravity.
-/// Accuracy: exponents to 1e-13 of the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3.
+/// Accuracy: exponents to 1e-13 of the largest where simple (tests/cpp/finite/stability/held.cpp). Cost (4 N)^3/2.
 /// Throws InvalidArgument as above, and for a free pin that carries no mass.
 Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame = StabilityFrame::free);
+
+/// How a rig is disturbed, and how the shape of it was found.
+struct RigStabilityOptions {
+    StabilityFrame frame = StabilityFrame::free;
+    int direction = 1;                                    ///< of rotation, 1 or -1: it matters to flywheels
+    double gravity = conical_pendulum::standard_gravity;  ///< it matters to flywheels
+};
+
+/// Returns what becomes of a small disturbance of a steady shape of `rig`; exponents, damping, accuracy and cost as of
+/// a chain.
+///
+/// A support on the axis, firm or not, passes no torque about it in the free frame: angular momentum is kept, as that
+/// of a chain. One that is carried round keeps its speed, and no rotation is left out: N links have 4 N exponents, the
+/// energy is that in the frame that turns at this speed. A support that yields is free to move to either side (driven:
+/// in the plane), which adds 4 exponents (2); where it and the link below have no mass at that pin, out of the plane it
+/// has none.
+/// Free, each link keeps the angular momentum about its own axis, its wheel's included, on free bearings or driven:
+/// ball joints pass no torque along a link. Driven, the links turn with the plane, and wheels on free bearings keep
+/// theirs.
+/// Still fluid: buoyancy and added mass, in every direction of motion.
+/// Throws InvalidArgument as above; for weight displaced of a fluid that turns, since its own motion around a disturbed
+/// link is not modelled; for a pin or a motion without mass; for a flywheel that acts on a massless upper end.
+Stability stability(const Rig& rig, const SteadyShape& shape, const RigStabilityOptions& options = {});
 
 }  // namespace revchain
 
 #if !defined(REVCHAIN_COMPILED)
+#include "revchain/finite/stability/rig_stability.hpp"
 #include "revchain/finite/stability/stability.hpp"
 #endif

@@ -118,7 +118,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "tune": {"held, span": "is bent", "held cord": "cut it into links"},
     "fit": {"held, span": "is bent", "held cord": "cut it into links"},
     "explain": {"held, span": "is bent", "held cord": "cut it into links"},
-    "stability": {"rig": "is for shapes of a Chain", "cord": r"cord\.chain", "held cord": r"cord\.chain"},
+    "stability": {"cord": r"cord\.chain", "held cord": r"cord\.chain"},
     "sensitivity": {"cord": r"cord\.chain", "held": "is for a Chain", "held, span": "is bent", "held cord": "cut it"},
     "uncertainty": {
         "cord": r"is for a Chain or a Rig, got a Cord; cut a cord: cord\.chain",

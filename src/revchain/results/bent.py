@@ -14,7 +14,7 @@ from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import Floats, floats, numbers, refuse_where
 from .base import Field
-from .shapes import Shape, Stability, SteadyShapes, at_speed, forced, is_driven
+from .shapes import Shape, Stability, SteadyShapes, at_speed, forced, is_driven, judged
 from .sheet import Column, Sheet
 
 
@@ -278,7 +278,8 @@ class HeldShape(_HeldShape):
         -------
         Stability
             Of N links ``4 N - 8`` exponents in the free frame, ``2 N - 4`` in the driven one, to about 1e-13
-            of the largest where they are simple. Cost ``(4 N)**3``.
+            of the largest where they are simple. Cost ``(4 N)**3 / 2``. No damping is modelled; what little of it does is
+            in `Stability.internal_damping` and `Stability.external_damping`.
 
         Raises
         ------
@@ -293,7 +294,7 @@ class HeldShape(_HeldShape):
         ['minimum', 'spectrally stable']
         """
         driven = is_driven("revchain.HeldShape.stability", frame)
-        return Stability._made(_core.held_stability(self.system.system._compiled, self._found(), driven), frame=frame)
+        return judged(_core.held_stability(self.system.system._compiled, self._found(), driven), frame, self)
 
     def _places(self) -> list[Column]:
         return [Column("pin", np.arange(len(self.offset)), "pin")]

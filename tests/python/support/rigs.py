@@ -160,10 +160,11 @@ def pivots(rig, speeds):
 class Motion:
     """Unit vectors e of the links, from upper to lower pin: kinetic energy is quadratic in their rates with constant
     coefficients, gravity is linear in them, and a wheel adds -p e x e'. The support may be carried, or slide;
-    `to_and_fro` along x only."""
+    `to_and_fro` along x only. `friction` is that at the pins, N m s."""
 
-    def __init__(self, rig, speed, axial=None, to_and_fro=False):
+    def __init__(self, rig, speed, axial=None, to_and_fro=False, friction=0.0):
         assert rig.fluid == "still"
+        self.friction = friction
         self.rig, self.speed, self.size, given = rig, speed, len(rig), columns(rig)
         self.slides, self.plane = math.isfinite(rig.support.stiffness), not to_and_fro
         size, both = self.size, self.size + 1  # the last place is the support's
@@ -188,6 +189,13 @@ class Motion:
         force = np.zeros((both, 3))
         force[:size, 2] = -self.pull
         force[:size] -= self.axial[:, None] * np.cross(e, f)
+        if self.friction:
+            given, left, support = turning(e, np.cross(e, f), self.rig.support.radius == 0)
+            given[-1] -= 0 if self.rig.support.radius == 0 else n * support
+            about = np.linalg.lstsq(left, -given.ravel(), rcond=None)[0]
+            moment = self.friction * (given.ravel() + left @ about).reshape(size, 3)
+            moment[1:] -= moment[:-1].copy()  # from the pin above, less that from the pin below
+            force[:size] -= np.cross(moment, e)
         rest = self.rig.support.radius * np.array([math.cos(n * t), self.plane * math.sin(n * t), 0.0])
         if self.slides:
             force[size] -= self.rig.support.stiffness * (place[size] - rest)
@@ -228,6 +236,132 @@ class Motion:
         x, angle = np.append(np.sin(inclination), offset_of_support), self.speed * time
         down = np.append(-np.cos(inclination), 0.0)
         return float(np.abs(end - np.column_stack([x * math.cos(angle), x * math.sin(angle), down])).max())
+
+
+def turning(e, across, swivels):
+    """At each pin the lower link's rate of turning less the upper one's, that across the links given; how it depends on
+    their rates about themselves (and on that of a support that swivels) that are still to be had; the vertical."""
+    size, up = len(e), np.array([0.0, 0.0, 1.0])
+    left = np.zeros((size, 3, size + swivels))
+    for m in range(size):
+        left[m, :, m] = e[m]
+        if m:
+            left[m - 1, :, m] = -e[m]
+    if swivels:
+        left[-1, :, size] = -up
+    given = across - np.vstack([across[1:], np.zeros(3)])
+    return given, left.reshape(3 * size, -1), up
+
+
+def small_motions(rig, shape, frame="free"):
+    """M, G, K of small motions about a shape, M a'' + G a' + K a = 0, from second differences of Lagrange's function in
+    60 digits; friction at pins of 1 N m s; drag of 1 N s/m^2 as D a' + N a. Coordinates: inclinations in the plane, those
+    out of it, then the support's offsets if it yields. In the free frame links keep what turns about their own axes; in
+    the driven one, without motions out of the plane, they turn with it."""
+    with mp.workdps(60):
+        given, size = columns(rig), len(rig)
+        rows = [[mp.mpf(float(column[m])) for column in vars(given).values()] for m in range(size)]
+        g, slides, free = mp.mpf(G), math.isfinite(rig.support.stiffness), frame == "free"
+        n = shape.direction * mp.sqrt(g / mp.mpf(float(shape.conical_height)))
+        rest = [mp.mpf(float(x)) for x in shape.inclination]
+        top, b = mp.mpf(float(shape.offset[-1])), mp.mpf(rig.support.radius)
+        mass, stiffness = mp.mpf(rig.support.carriage) or mp.mpf(10) ** -16, mp.mpf(rig.support.stiffness)
+        count = (size + slides) * (1 + free)
+
+        def placed(a, rate):
+            """Unit vectors, the support, and their rates seen from the turning frame."""
+            inside, out = a[: size + slides], a[size + slides :] if free else [mp.mpf(0)] * (size + slides)
+            inward, outward = rate[: size + slides], rate[size + slides :] if free else [mp.mpf(0)] * (size + slides)
+            vectors, rates = [], []
+            for m in range(size):
+                s, c, so, co = *(f(rest[m] + inside[m]) for f in (mp.sin, mp.cos)), mp.sin(out[m]), mp.cos(out[m])
+                vectors.append((s * co, so, -c * co))
+                u, v = inward[m], outward[m]
+                rates.append((c * co * u - s * so * v, co * v, s * co * u + c * so * v))
+            x, y, u, v = (inside[-1], out[-1], inward[-1], outward[-1]) if slides else [mp.mpf(0)] * 4
+            return [*vectors, (top + x, y, mp.mpf(0))], [*rates, (u, v, mp.mpf(0))]
+
+        def in_space(place, rate):
+            return (rate[0] - n * place[1], rate[1] + n * place[0], rate[2])
+
+        def along(m, depth, vectors):
+            total = list(vectors[size])
+            for r, length in [(m, depth), *((r, rows[r][1]) for r in range(m + 1, size))]:
+                total = [x + length * y for x, y in zip(total, vectors[r], strict=True)]
+            return total
+
+        def square(vector):
+            return sum(x * x for x in vector)
+
+        def lagrangian(a, rate):
+            e, f = placed(a, rate)
+            total = mp.mpf(0)
+            for m, (w, _, h, rho, p, c, fluid, hf, rf, added) in enumerate(rows):
+                for moves, bears, depth, turn in ((w, w, h, rho), (added, -fluid, hf, rf)):
+                    speed = square(in_space(along(m, depth, e), along(m, depth, f)))
+                    total += moves / (2 * g) * (speed + turn**2 * square(in_space(e[m], f[m])))
+                    total -= bears * along(m, depth, e)[2]
+                x, y, z = e[m]
+                if not free:
+                    total += -p * n * z + c / (2 * g) * (n * z) ** 2
+                elif p or c:
+                    kept = p + c / g * n * mp.cos(rest[m])
+                    total -= kept * z * ((x * f[m][1] - y * f[m][0]) / (x * x + y * y) + n)
+            if slides:
+                x, y, _ = e[size]
+                total += mass / (2 * g) * square(in_space(e[size], f[size])) - stiffness / 2 * ((x - b) ** 2 + y**2)
+            return total
+
+        step, zero = mp.mpf(10) ** -18, [mp.mpf(0)] * count
+
+        def moved(i, by):
+            return [mp.mpf(by) * step if j == i else x for j, x in enumerate(zero)]
+
+        def second(function, i, j, both):
+            total = mp.mpf(0)
+            for p, q in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+                one, other = moved(i, p), moved(j, q)
+                total += p * q * (function([x + y for x, y in zip(one, other, strict=True)]) if both else function(one, other))
+            return total / (4 * step * step)
+
+        inert, turn, stiff = (mp.zeros(count) for _ in range(3))
+        for i in range(count):
+            for j in range(count):
+                inert[i, j] = second(lambda rate: lagrangian(zero, rate), i, j, True)
+                stiff[i, j] = -second(lambda a: lagrangian(a, zero), i, j, True)
+                turn[i, j] = second(lambda rate, a: lagrangian(a, rate), i, j, False)
+        turn = turn - turn.T
+
+        def drag(a, rate):
+            e, f = placed(a, rate)
+            tangents = [placed(a, [mp.mpf(i == j) for j in range(count)])[1] for i in range(count)]
+            total = [mp.mpf(0)] * count
+            for m in range(size):
+                length = rows[m][1]
+                for share in ((1 - 1 / mp.sqrt(3)) / 2, (1 + 1 / mp.sqrt(3)) / 2):
+                    speed = in_space(along(m, share * length, e), along(m, share * length, f))
+                    for i, tangent in enumerate(tangents):
+                        moves = along(m, share * length, tangent)
+                        total[i] += length / 2 * sum(x * y for x, y in zip(speed, moves, strict=True))
+            return total
+
+        slope = [[[(x - y) / (2 * step) for x, y in zip(drag(*up), drag(*down), strict=True)] for up, down in pairs]
+                 for pairs in ([((zero, moved(j, 1)), (zero, moved(j, -1))) for j in range(count)],
+                               [((moved(j, 1), zero), (moved(j, -1), zero)) for j in range(count)])]  # fmt: skip
+        vectors = np.array([[float(x) for x in each] for each in placed(zero, zero)[0][:size]])
+        seen = []
+        for i in range(count):
+            rates = placed(zero, [mp.mpf(i == j) for j in range(count)])[1][:size]
+            across = np.cross(vectors, np.array([[float(x) for x in each] for each in rates]))
+            relative, left, _ = turning(vectors, across, free and rig.support.radius == 0)
+            left[:, :size] *= given.c == 0
+            relative = relative.ravel()
+            seen.append(relative + left @ np.linalg.lstsq(left, -relative, rcond=None)[0])
+        bend = np.array(seen) @ np.array(seen).T
+    return SimpleNamespace(
+        inertia=inert, turn=turn, stiffness=stiff, friction=bend, speed=n, placed=placed,
+        drag=np.array(slope[0], float).T, follow=np.array(slope[1], float).T,
+    )  # fmt: skip
 
 
 def figure_moments(rig, shape, sense=1):

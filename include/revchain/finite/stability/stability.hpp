@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
-#include "revchain/finite/balance/links.hpp"
 #include "revchain/finite/held/shape.hpp"
+#include "revchain/finite/stability/disturbed.hpp"
 #include "revchain/numeric/compiled.hpp"
 #include "revchain/pencil/complex/gyroscopic.hpp"
 #include "revchain/stability.hpp"
@@ -11,128 +11,94 @@
 namespace revchain {
 namespace finite {
 
-/// Directions at right angles to the columns of a matrix.
-inline Matrix<double> beside(const Matrix<double>& columns) {
-    const Matrix<double> whole = Eigen::HouseholderQR<Matrix<double>>(columns).householderQ();
-    return whole.rightCols(columns.rows() - columns.cols());
+/// Whether the mode of a square of an exponent can be told from every other.
+inline bool is_simple(const Vector<std::complex<double>>& square, Index j) {
+    const double near = 1e-10 * square.cwiseAbs().maxCoeff();
+    return ((square.array() - square[j]).abs() <= near).count() == 1;
 }
 
-/// A shape as its links, their inclinations, lambda times the pull along each, and the offsets of their lower pins.
-struct PulledLinks {
-    std::vector<Link<double>> links;
-    std::vector<double> inclination, pull, offset;
-};
-
-/// The chain disturbed from a shape by angles q of the links in its plane and offsets y of the pins out of it, time in
-/// 1/n:
-///     A q'' - 2 B y' + (diag(a P) - X'MX) q = 0,
-///     M y'' + 2 B' q' + (K(P/a) - M) y = 0,
-/// P lambda times the pull along each link, X q and Z q the pins' motions across and along the axis,
-/// A = X'MX + Z'MZ, B = X'M.
-struct Disturbed {
-    Matrix<double> inertia, coupling, mass;  // A, B, M
-    Matrix<double> in_plane, out_of_plane;   // both stiffnesses times lambda
-    Matrix<double> ends;                     // how the lower end moves with q, across the axis and along it
-    Vector<double> offset;                   // the shape: out of plane, a rotation
-
-    explicit Disturbed(const PulledLinks& shape) {
-        const auto n = static_cast<Index>(shape.links.size());
-        Matrix<double> across = Matrix<double>::Zero(n, n), along = across;
-        mass = in_plane = out_of_plane = across;
-        offset = Eigen::Map<const Vector<double>>(shape.offset.data(), n);
-        for (Index m = 0; m < n; ++m) {
-            const auto i = static_cast<std::size_t>(m);
-            const Link<double>& link = shape.links[i];
-            const double a = link.length, pull = shape.pull[i];
-            across.col(m).head(m + 1).setConstant(a * std::cos(shape.inclination[i]));
-            along.col(m).head(m + 1).setConstant(a * std::sin(shape.inclination[i]));
-            in_plane(m, m) = pull * a;
-            const auto element = [&](Matrix<double>& to, double lower, double mixed, double upper) {
-                to(m, m) += lower;
-                if (m + 1 < n) to(m, m + 1) += mixed, to(m + 1, m) += mixed, to(m + 1, m + 1) += upper;
-            };
-            const double at_lower = link.moment - link.cross, at_upper = link.rest - link.cross;
-            element(mass, at_lower, link.cross, at_upper);
-            element(out_of_plane, pull / a - at_lower, -pull / a - link.cross, pull / a - at_upper);
-        }
-        ends.resize(n, 2);
-        ends << across.row(0).transpose(), along.row(0).transpose();
-        const Matrix<double> swept = mass * across, centrifugal = across.transpose() * swept;
-        coupling = swept.transpose();
-        inertia = centrifugal + along.transpose() * mass * along;
-        in_plane -= centrifugal;
+/// The verdict on a disturbed shape of so many links. To first order damping c (F, H) changes an exponent by
+///     ds = - c (s^2 q'F q - Y'H Y) / (2 (s^2 q'A q - Y'M Y - 2 q'B Y)),    Y = s y,
+/// since (q, -y) is the mode on the left; drag in space has -2 q'X'E Y above besides, X'E the `drag_coupling`.
+inline Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units) {
+    const bool free = frame == StabilityFrame::free, rotates = free && d.turns_freely;
+    const Index n = d.in_plane.rows(), links = d.ends.rows();
+    Matrix<double> in_plane = d.in_plane,
+                   others = Matrix<double>::Identity(d.offset.size(), free ? d.offset.size() : 0);
+    Vector<double> b = Vector<double>::Zero(n);
+    if (rotates) {
+        const Vector<double> momentum = d.mass * d.offset;
+        others = beside(momentum);  // offsets at right angles to the rotation, in the masses
+        b = d.coupling * d.offset / std::sqrt(d.offset.dot(momentum));
+        in_plane += 4 * b * b.transpose();
+    } else if (!free) {
+        in_plane -= d.turned;
     }
+    const Matrix<double> across = others.transpose() * d.out_of_plane * others;
+    const pencil::MirroredModes modes = pencil::mirrored_modes(
+        {d.inertia, d.coupling * others, others.transpose() * d.mass * others, in_plane, across});
 
-    /// Leaves angles that keep both ends where they are, and offsets of the free pins.
-    void hold_lower_end() {
-        const Matrix<double> kept = beside(ends);
-        const Index pins = offset.size() - 1;
-        inertia = (kept.transpose() * inertia * kept).eval(), in_plane = (kept.transpose() * in_plane * kept).eval();
-        coupling = (kept.transpose() * coupling.rightCols(pins)).eval();
-        mass = mass.bottomRightCorner(pins, pins).eval(), offset = offset.tail(pins).eval();
-        out_of_plane = out_of_plane.bottomRightCorner(pins, pins).eval();
-    }
-};
-
-/// The verdict on  M x'' + G x' + K x = 0  of a chain of so many links.
-inline Stability judged(StabilityFrame frame, Index links, const Matrix<double>& mass, const Matrix<double>& gyroscopic,
-                        const Matrix<double>& stiffness) {
     Stability result;
     result.frame = frame;
-    result.exponents = pencil::gyroscopic_exponents(mass, gyroscopic, stiffness);
-    std::sort(result.exponents.begin(), result.exponents.end(), [](const auto& x, const auto& y) {
-        return x.imag() != y.imag() ? x.imag() < y.imag() : x.real() < y.real();
-    });
+    const double pins = std::ldexp(1.0, -units.weight_exponent - 2 * units.length_exponent),
+                 air = std::ldexp(1.0, units.length_exponent - units.weight_exponent);
+    Matrix<std::complex<double>> y = others * modes.y;
+    if (rotates) y -= d.offset / std::sqrt(d.offset.dot(d.mass * d.offset)) * (2 * b.transpose() * modes.x);
+    struct Mode {
+        std::complex<double> exponent;
+        double internal, external;
+    };
+    std::vector<Mode> list;
     double largest = 0;
-    for (const auto& s : result.exponents) {
-        result.growth_rate = std::max(result.growth_rate, s.real());
+    for (Index j = 0; j < modes.square.size(); ++j) {
+        const std::complex<double> square = modes.square[j], s = std::sqrt(square);
+        const Vector<std::complex<double>> q = modes.x.col(j), Y = y.col(j);
+        const auto form = [&](const Matrix<double>& A, const Matrix<double>& M) {
+            const std::complex<double> in = (q.transpose() * A * q).value(), out = (Y.transpose() * M * Y).value();
+            return square * in - out;
+        };
+        const auto mixed = [&](const Matrix<double>& B) { return (q.transpose() * B * Y).value(); };
+        std::complex<double> norm = 2.0 * (form(d.inertia, d.mass) - 2.0 * mixed(d.coupling));
+        if (!is_simple(modes.square, j)) norm = std::numeric_limits<double>::quiet_NaN();
+        const double inner = -pins * std::real(form(d.bending, d.swivelling) / norm);
+        const double outer =
+            -air * std::real((form(d.drag_in_plane, d.drag_across) - 2.0 * mixed(d.drag_coupling)) / norm);
+        list.push_back({s, inner, outer}), list.push_back({0.0 - s, inner, outer});
+        result.growth_rate = std::max(result.growth_rate, std::abs(s.real()));
         largest = std::max(largest, std::abs(s));
     }
-    const pencil::Inertia sign = pencil::inertia(stiffness);
-    result.negative_directions = sign.negative;
-    const double rounding = 1e-14 * static_cast<double>(links) * stiffness.cwiseAbs().maxCoeff();
+    std::sort(list.begin(), list.end(), [](const Mode& x, const Mode& z) {
+        const auto &s = x.exponent, &t = z.exponent;
+        return s.imag() != t.imag() ? s.imag() < t.imag() : s.real() < t.real();
+    });
+    for (const Mode& mode : list) {
+        result.exponents.push_back(mode.exponent);
+        result.internal_damping.push_back(mode.internal), result.external_damping.push_back(mode.external);
+    }
+    const pencil::Inertia inside = pencil::inertia(in_plane), outside = pencil::inertia(across);
+    const double stiffness =
+        std::max(in_plane.cwiseAbs().maxCoeff(), across.size() ? across.cwiseAbs().maxCoeff() : 0.0);
+    const double rounding = 1e-14 * static_cast<double>(links) * stiffness;
+    const double least = std::min(inside.least, outside.least);
+    result.negative_directions = inside.negative + outside.negative;
     result.margin = 1e-7 * largest;  // what two exponents that meet may be torn apart by
-    if (sign.least > rounding)
+    if (least > rounding)
         result.verdict = Verdict::minimum;
     else if (result.growth_rate > result.margin)
         result.verdict = Verdict::unstable;
-    else if (result.growth_rate < 1e-4 * result.margin && sign.least < -rounding)
+    else if (result.growth_rate < 1e-4 * result.margin && least < -rounding)
         result.verdict = Verdict::spectrally_stable;
     return result;
 }
 
-inline Stability judged(StabilityFrame frame, const Disturbed& d) {
-    const Index n = d.in_plane.rows(), links = d.ends.rows(), k = d.offset.size() - 1;
-    if (frame == StabilityFrame::driven) return judged(frame, links, d.inertia, Matrix<double>::Zero(n, n), d.in_plane);
-    const Vector<double> momentum = d.mass * d.offset, b = d.coupling * d.offset;
-    const Matrix<double> others = beside(momentum);  // offsets at right angles to the rotation, in the masses
-    Matrix<double> mass = Matrix<double>::Zero(n + k, n + k), stiffness = mass, gyroscopic = mass;
-    mass.topLeftCorner(n, n) = d.inertia;
-    mass.bottomRightCorner(k, k) = others.transpose() * d.mass * others;
-    stiffness.topLeftCorner(n, n) = d.in_plane + 4 / d.offset.dot(momentum) * b * b.transpose();
-    stiffness.bottomRightCorner(k, k) = others.transpose() * d.out_of_plane * others;
-    gyroscopic.topRightCorner(n, k) = -2 * d.coupling * others;
-    gyroscopic.bottomLeftCorner(k, n) = -gyroscopic.topRightCorner(n, k).transpose();
-    return judged(frame, links, mass, gyroscopic, stiffness);
-}
-
-/// Links and shape without the pins that carry no mass, those of links without weight: the two links that meet in one
-/// stay in line, and are one.
 inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadyShape& shape) {
     const double unit = std::ldexp(1.0, -chain.units.length_exponent);
-    PulledLinks result;
-    Index i = -1;
+    PulledLinks result(chain.units);
+    Index i = 0;
     for (const Link<double>& link : rounded<double>(chain.links)) {
-        if (++i > 0) {
-            Link<double>& below = result.links.back();
-            if (below.rest == 0 && below.cross == 0 && link.moment == 0 && link.cross == 0) {
-                below.length += link.length, below.rest = link.rest;
-                continue;
-            }
-        }
-        result.links.push_back(link);
-        result.inclination.push_back(shape.inclination[i]), result.offset.push_back(shape.offset[i] * unit);
-        result.pull.push_back(shape.conical_height * unit * link.pull / std::cos(shape.inclination[i]));
+        const double delta = shape.inclination[i];
+        result.add(link, delta, shape.conical_height * unit * link.pull / std::cos(delta), shape.offset[i] * unit);
+        ++i;
     }
     return result;
 }
@@ -140,7 +106,9 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const SteadySh
 inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShape& shape) {
     const auto length = [&](double x) { return std::ldexp(x, -chain.units.length_exponent); };
     const auto moment = [&](double x) { return std::ldexp(length(x), -chain.units.weight_exponent); };
-    PulledLinks result{rounded<double>(chain.links), {}, {}, {}};
+    PulledLinks result(chain.units);
+    result.links = rounded<double>(chain.links), result.held = true;
+    result.momentum.resize(result.links.size()), result.axial.resize(result.links.size());
     double H = moment(-shape.lower_pull[0]);
     const double height = length(shape.conical_height), tau = moment(shape.lower_pull[1]);
     for (Index m = 0; m < shape.inclination.size(); ++m) {
@@ -154,12 +122,13 @@ inline PulledLinks pulled_links(const Links<Wide<double>>& chain, const HeldShap
     return result;
 }
 
+/// Throws InvalidArgument unless a shape has the links of a chain.
 template <class Shape>
-Disturbed disturbed(const Chain<double>& chain, const Shape& shape) {
+void require_shape_of(const Chain<double>& chain, const Shape& shape) {
     if (shape.inclination.size() != chain.size())
         revchain::detail::throw_invalid("stability", "the shape is not of this chain; its links number",
                                         shape.inclination.size());
-    const double rounding = 1e-12 * chain.total_length();
+    const double rounding = 1e-12 * (chain.total_length() + std::abs(shape.offset[chain.size()]));
     for (Index m = 0; m < chain.size(); ++m) {
         const double length = std::hypot(shape.offset[m] - shape.offset[m + 1], shape.height[m] - shape.height[m + 1]);
         if (!(std::abs(length - chain.length()[m]) <= rounding))
@@ -167,27 +136,34 @@ Disturbed disturbed(const Chain<double>& chain, const Shape& shape) {
                 "stability", "the shape is not of this chain; in it links[" + std::to_string(m) + "] is as long as",
                 length);
     }
-    return Disturbed(pulled_links(links_of(chain), shape));
+}
+
+inline void require_mass(const Disturbed& d, Index first) {
+    for (Index m = 0; m < d.mass.rows(); ++m)
+        if (!(d.mass.row(m).cwiseAbs().maxCoeff() > 0))
+            revchain::detail::throw_invalid("stability", "pins must have mass; one that has none is number", m + first);
 }
 
 }  // namespace finite
 
 REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const SteadyShape& shape, StabilityFrame frame) {
-    return finite::judged(frame, finite::disturbed(chain, shape));
+    finite::require_shape_of(chain, shape);
+    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
+    return finite::judged(frame, finite::Disturbed(links), links.units);
 }
 
 REVCHAIN_INLINE Stability stability(const Chain<double>& chain, const HeldShape& shape, StabilityFrame frame) {
-    finite::Disturbed d = finite::disturbed(chain, shape);
+    finite::require_shape_of(chain, shape);
+    const finite::PulledLinks links = pulled_links(finite::links_of(chain), shape);
+    finite::Disturbed d(links);
     d.hold_lower_end();
-    for (Index m = 0; m < d.mass.rows(); ++m)
-        if (!(d.mass.row(m).cwiseAbs().maxCoeff() > 0))
-            detail::throw_invalid("stability", "pins must have mass; one that has none is number", m + 1);
+    finite::require_mass(d, 1);
     if (d.in_plane.size() == 0) {  // two links: nothing can move but by rotation
         Stability still;
         still.frame = frame, still.verdict = Verdict::minimum;
         return still;
     }
-    return finite::judged(frame, d);
+    return finite::judged(frame, d, links.units);
 }
 
 }  // namespace revchain

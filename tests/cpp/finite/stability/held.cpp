@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/stability.hpp"
 
-#include "revchain/pencil/complex/gyroscopic.hpp"
+#include <Eigen/Eigenvalues>
+
 #include "support/catch.hpp"
 #include "support/chains.hpp"
 #include "support/held.hpp"
@@ -12,6 +13,27 @@ using revchain::Index;
 using revchain::Matrix;
 
 namespace {
+
+/// Exponents s of  M x'' + G x' + K x = 0  as eigenvalues of the first-order system, all of it.
+std::vector<std::complex<double>> gyroscopic_exponents(const Matrix<double>& M, const Matrix<double>& G,
+                                                       const Matrix<double>& K) {
+    const Index n = M.rows();
+    const Eigen::LLT<Matrix<double>> factor(M);
+    const auto reduced = [&](const Matrix<double>& A) {
+        const Matrix<double> half = factor.matrixL().solve(A);
+        return Matrix<double>(factor.matrixL().solve(half.transpose()).transpose());
+    };
+    const Matrix<double> stiffness = reduced(K);
+    const double pace = std::sqrt(stiffness.cwiseAbs().rowwise().sum().maxCoeff());
+    Matrix<double> system = Matrix<double>::Zero(2 * n, 2 * n);
+    system.topRightCorner(n, n).setIdentity();
+    system.bottomLeftCorner(n, n) = -stiffness / (pace * pace);
+    system.bottomRightCorner(n, n) = -reduced(G) / pace;
+    const Eigen::EigenSolver<Matrix<double>> solver(system, false);
+    std::vector<std::complex<double>> exponents;
+    for (Index i = 0; i < 2 * n; ++i) exponents.push_back(solver.eigenvalues()[i] * pace);
+    return exponents;
+}
 
 /// Exponents of plummets as points in space, three coordinates each, their threads as constraints whose forces are the
 /// tensions, less the two of the rotation; in the plane alone if driven.
@@ -46,8 +68,8 @@ std::vector<std::complex<double>> by_points(const Chain<double>& chain, const He
     }
     const Matrix<double> whole = Eigen::HouseholderQR<Matrix<double>>(threads).householderQ();
     const Matrix<double> free = whole.rightCols(d * pins - n);
-    auto exponents = revchain::pencil::gyroscopic_exponents(
-        free.transpose() * mass * free, free.transpose() * spin * free, free.transpose() * stiffness * free);
+    auto exponents = gyroscopic_exponents(free.transpose() * mass * free, free.transpose() * spin * free,
+                                          free.transpose() * stiffness * free);
     std::sort(exponents.begin(), exponents.end(), [](auto x, auto y) { return std::abs(x) < std::abs(y); });
     if (!driven) exponents.erase(exponents.begin(), exponents.begin() + 2);
     return exponents;
@@ -84,6 +106,11 @@ TEST_CASE("held at both ends: exponents of small disturbances against points in 
                                     for (const auto& t : result.exponents) nearest = std::min(nearest, std::abs(s - t));
                                     largest = std::max(largest, std::abs(s)), off = std::max(off, nearest);
                                 }
+                                Index grow = 0;  // motions of negative energy, with friction
+                                for (const double rate : result.internal_damping) grow += rate > 0;
+                                if (result.verdict == revchain::Verdict::spectrally_stable)
+                                    CHECK(grow == result.negative_directions);
+                                if (result.verdict == revchain::Verdict::minimum) CHECK(grow == 0);
                                 ++shapes;
                                 unstable += result.verdict == revchain::Verdict::unstable;
                                 gyroscopic += result.verdict == revchain::Verdict::spectrally_stable;
