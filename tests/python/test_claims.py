@@ -304,6 +304,9 @@ def test_a_held_plummet():
         held = plummet.held_plummet(*given)
         assert (held.upper_taut, held.lower_taut) == (exact[2][0] > 0, exact[3][0] > 0)
         for found, (number, term) in zip(held, exact, strict=False):
+            if not number and not term:  # no pull on a slack thread, no radius where it hangs straight down
+                assert found == 0
+                continue
             allowed = 3 * ULP * abs(number) + mp.mpf(10) ** -29 * term
             worst.note("plummet", off(found, number) / allowed, given)
     worst.check()

@@ -52,8 +52,8 @@ class ShapeSensitivity(Result):
     Notes
     -----
     The moments about the pins stay 0: a linear equation for the change of the inclinations, with the second derivatives
-    of the effective energy as its matrix (implicit function theorem). Accuracy about 1e-15 times `SteadyShape.condition`,
-    relative to the largest of a row; cost O(N^3), 10 ms for 200 links, and memory for some ten N-by-N arrays.
+    of the effective energy as its matrix (implicit function theorem). Relative to the largest of their kind, derivatives
+    are good to 1e-12, or to 1e-13 times `SteadyShape.condition` where that is more; cost O(N^3), 10 ms for 200 links, and memory for some ten N-by-N arrays.
 
     Examples
     --------
