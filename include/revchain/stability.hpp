@@ -105,6 +105,5 @@ Stability stability(const Rig& rig, const SteadyShape& shape, const RigStability
 }  // namespace revchain
 
 #if !defined(REVCHAIN_COMPILED)
-#include "revchain/finite/stability/rig_stability.hpp"
 #include "revchain/finite/stability/stability.hpp"
 #endif

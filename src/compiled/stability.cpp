@@ -1,3 +1,2 @@
 // SPDX-License-Identifier: MPL-2.0
 #include "revchain/finite/stability/stability.hpp"
-#include "revchain/finite/stability/rig_stability.hpp"
