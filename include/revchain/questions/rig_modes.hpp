@@ -11,9 +11,10 @@
 #include "revchain/linear/rig_roots.hpp"
 #include "revchain/linear/rig_shapes.hpp"
 #include "revchain/numeric/compiled.hpp"
-#include "revchain/questions/mode_certificate.hpp"
 #include "revchain/questions/mode_range.hpp"
 #include "revchain/rig_modes.hpp"
+// after the modes of chains, which need it before their templates are used
+#include "revchain/questions/mode_certificate.hpp"
 
 namespace revchain {
 
