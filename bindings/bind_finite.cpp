@@ -65,19 +65,15 @@ void bind_finite(py::module_& module) {
         .def_readonly("cells", &SteadyShapes::cells)
         .def_property_readonly("undecided", ranges);
     using revchain::Stability;
-    const auto each = [](std::vector<double> Stability::*member) {
+    const auto each = []<class T>(std::vector<T> Stability::*member) {
         return [member](const Stability& s) {
             const auto& of = s.*member;
-            return frozen(py::array_t<double>(static_cast<py::ssize_t>(of.size()), of.data()));
+            return frozen(py::array_t<T>(static_cast<py::ssize_t>(of.size()), of.data()));
         };
     };
     py::class_<Stability>(module, "Stability", "What becomes of a small disturbance of a steady shape.")
         .def_property_readonly("verdict", [](const Stability& s) { return std::string(to_string(s.verdict)); })
-        .def_property_readonly("exponents",
-                               [](const Stability& s) {
-                                   return frozen(py::array_t<std::complex<double>>(
-                                       static_cast<py::ssize_t>(s.exponents.size()), s.exponents.data()));
-                               })
+        .def_property_readonly("exponents", each(&Stability::exponents))
         .def_property_readonly("internal_damping", each(&Stability::internal_damping))
         .def_property_readonly("external_damping", each(&Stability::external_damping))
         .def_readonly("growth_rate", &Stability::growth_rate)

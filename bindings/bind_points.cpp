@@ -121,7 +121,8 @@ class Points {
             if (!std::isnan(buoyancy_(i, m))) fluid.centroid = buoyancy_(i, m);
             if (spread_.given())
                 fluid.gyration_ratio = revchain::detail::gyration_from_radius<double>(
-                    "Rig", link.length, std::isnan(spread_(i, m)) ? revchain::radius_of_gyration(link) : spread_(i, m));
+                    "Rig", link.length,
+                    std::isnan(spread_(i, m)) ? revchain::radius_of_gyration(link) : spread_(i, m));
             with.displaced.push_back(fluid);
         }
         return Rig(chain, std::move(with));
@@ -303,7 +304,8 @@ py::tuple response(const Points& points, const Array& given, bool speeds, const 
                 largest = size > largest || std::isnan(size) ? size : largest;
                 if (std::isnan(size)) break;
             }
-            const double speed = speeds ? at(i, k) : revchain::conical_pendulum::angular_speed<double>(at(i, k), g(i));
+            const double speed =
+                speeds ? at(i, k) : revchain::conical_pendulum::angular_speed<double>(at(i, k), g(i));
             const std::array<double, 5> numbers{speed, moved.offset(k, 0), largest, moved.support_force[k],
                                                 moved.error_bound[k]};
             for (std::size_t q = 0; q < 5; ++q) found[q](i, k) = numbers[q];

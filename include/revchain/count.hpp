@@ -62,7 +62,7 @@ ModeRange modes_within(const HeightWindow<T>& window, Index all, const Above& ab
     return {before + 1, std::max(all - before, Index(0))};
 }
 
-/// The same for speeds; `below(speed)` counts those slower than a speed.
+/// The modes in a window of speeds, of `all` there are; `below(speed)` counts the modes slower than a speed.
 template <Real T, class Below>
 ModeRange modes_within(const SpeedWindow<T>& window, Index all, const Below& below) {
     check_window("angular speed", window.low, window.high);

@@ -48,8 +48,8 @@ struct Stability {
     double growth_rate = 0;         ///< largest real part of an exponent; at least 0
     double margin = 0;              ///< a growth rate up to this may be rounding error
     Index negative_directions = 0;  ///< negative eigenvalues of the energy's Hessian (free: amended, no rotation)
-    /// What a small damping c does to each exponent, to first order: times g c it is added to the real part of s n. NaN
-    /// where two exponents coincide. Internal: c is the moment at every pin over the rate at which its links turn
+    /// The effect of a small damping c on each exponent, to first order: times g c it is added to the real part of s n.
+    /// NaN where two exponents coincide. Internal: c is the moment at every pin over the rate at which its links turn
     /// against one another, seen from the turning chain; in 1/(weight length^2). External: c is the drag of still air
     /// on a link over its length and its velocity in space; in length/weight.
     std::vector<double> internal_damping, external_damping;

@@ -113,9 +113,9 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
 inline bool is_not_negative(const RigElement& e) {
     const pencil::ElementError<double>& off = e.error;
     const auto high = [](const Wide<double>& x) { return static_cast<double>(x); };
-    const auto vanish = [](const Wide<double>& x, double error) { return x == Wide<double>(0.0) && error == 0; };
-    if (vanish(e.cross, off.cross) && vanish(e.upper, off.upper)) return high(e.lower) >= off.lower;
-    if (vanish(e.cross, off.cross) && vanish(e.lower, off.lower)) return high(e.upper) >= off.upper;
+    using pencil::vanishes;
+    if (vanishes(e.cross, off.cross) && vanishes(e.upper, off.upper)) return high(e.lower) >= off.lower;
+    if (vanishes(e.cross, off.cross) && vanishes(e.lower, off.lower)) return high(e.upper) >= off.upper;
     const double A = high(e.lower), B = high(e.upper), X = std::abs(high(e.cross));
     const double error = (A * off.upper + B * off.lower + 2 * X * off.cross) * 1.001 + 1e-29 * (A * B + X * X);
     return A > off.lower && B > off.upper && high(e.lower * e.upper - e.cross * e.cross) > error;

@@ -66,8 +66,8 @@ inline CountedSense counted_speeds(const RigPencil& rig, bool forward) {
 /// Largest number of elements whose roots are isolated in discs.
 inline constexpr Index most_isolated = 20'000;
 
-/// What is known of the roots of a rig's pencil: counts in each sense or, where no count numbers them, all of them
-/// isolated in discs.
+/// The roots of a rig's pencil. They are counted in each sense or, where counts do not number them, all isolated in
+/// discs.
 class RigRoots {
    public:
     /// Throws what `rig_pencil` throws, and InvalidArgument for more than `most_isolated` elements whose roots have to
@@ -116,8 +116,9 @@ class RigRoots {
         return sense.roots.certified(x);
     }
 
-    /// The same, or InvalidArgument. A root within 2^20 roundings counts as equal, so that it is not larger; numbers
-    /// beyond 2^-400 and 2^400 units of length count as these. `place`, `value`: for the message.
+    /// How many modes of a sense have a larger x. Throws InvalidArgument where that is not proved. A root within 2^20
+    /// roundings of x counts as equal to it, not as larger. Numbers beyond 2^-400 and 2^400 units of length are taken
+    /// as those limits. `place` and `value` are for the message.
     Index above(const RigWord& x, bool forward, std::string_view place, double value) const {
         if (rig_.pencil.size() == 0) return 0;
         const RigWord least(std::ldexp(1.0, has_momentum() ? -200 : -400)), most = RigWord(1.0) / least;

@@ -61,6 +61,12 @@ struct SignedPencil {
     }
 };
 
+/// Whether a number of an element is 0 for certain.
+template <Real S>
+bool vanishes(const S& x, const Narrow<S>& error) {
+    return x == S(Narrow<S>(0)) && error == Narrow<S>(0);
+}
+
 /// Converts to an `ElementPencil`. Returns nothing if the error of a number exceeds 1e-20 of its size.
 /// Precondition: every stiffness is positive, and no mass is negative.
 template <Real S>

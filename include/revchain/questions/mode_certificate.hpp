@@ -7,7 +7,7 @@
 #include "revchain/modes.hpp"
 #include "revchain/pencil/sturm.hpp"
 
-/// The proofs that `certify` asks for.
+/// The certificates that modes carry where the option `certify` is set.
 namespace revchain::detail {
 
 template <Real T>

@@ -20,8 +20,15 @@ namespace revchain {
 
 namespace detail {
 
-/// The mode numbers asked for in one sense, of so many; fewer, or none, where there are not as many. How many there are
-/// of a sense is told by the result.
+/// The mode numbers asked for, of those available; fewer, or none, where there are not as many.
+inline ModeRange numbered(const ModesOptions<double>& options, Index available) {
+    if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
+    if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
+    const Index left = std::max<Index>(0, available - options.first + 1);
+    return {options.first, std::min(left, options.count.value_or(default_count))};
+}
+
+/// The mode numbers of one sense that numbers or a window ask for.
 inline ModeRange chosen(const ModesOptions<double>& options, const RigRoots& roots, bool forward, Index available) {
     if (options.conical_height || options.angular_speed)
         return chosen(
@@ -36,10 +43,7 @@ inline ModeRange chosen(const ModesOptions<double>& options, const RigRoots& roo
                     return roots.above(roots.at_speed(speed), forward, "modes", speed);
                 });
             });
-    if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
-    if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
-    const Index left = std::max<Index>(0, available - options.first + 1);
-    return {options.first, std::min(left, options.count.value_or(default_count))};
+    return numbered(options, available);
 }
 
 inline void make_room(WhirlModes& modes, const ModeRange& range, Index available) {
@@ -118,14 +122,12 @@ inline RigModes plain_modes(const Rig& rig, const ModesOptions<double>& options)
     ModesOptions<double> of_chain = options;
     of_chain.method = ModesMethod::automatic;
     if (!options.conical_height && !options.angular_speed) {  // numbers beyond the last give no modes
-        if (options.first < 1) throw_invalid("modes", "first must be at least 1", options.first);
-        if (options.count && *options.count < 1) throw_invalid("modes", "count must be at least 1", *options.count);
-        const Index left = available - options.first + 1;
-        if (left < 1) {
-            make_room(result.forward, {options.first, 0}, available);
+        const ModeRange range = numbered(options, available);
+        if (range.count == 0) {
+            make_room(result.forward, range, available);
             return result;
         }
-        of_chain.count = std::min(left, options.count.value_or(default_count));
+        of_chain.count = range.count;
     }
     const Modes<double> plain = modes(rig.chain(), of_chain);
     result.forward = {plain.first,

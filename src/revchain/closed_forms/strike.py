@@ -50,22 +50,26 @@ class _Pair:
 
         return rates
 
+    def inertia(self, angle: float) -> float:
+        """Moment of inertia of both about the axle, the clapper at rest at this angle in the bell."""
+        return self.bell_inertia + self.clapper_inertia + 2 * self.coupling * math.cos(angle)
+
     def together(self, angle: float, state: Floats) -> float:
-        inertia = self.bell_inertia + self.clapper_inertia + 2 * self.coupling * math.cos(angle)
-        return -self.moment(angle, float(state[0])) / inertia
+        """Angular acceleration of both as one body."""
+        return -self.moment(angle, float(state[0])) / self.inertia(angle)
 
     def moment(self, angle: float, theta: float) -> float:
-        """Of gravity on both together, backwards."""
+        """Moment of gravity about the axle on both as one body; positive where it drives the bell to smaller angles."""
         return self.bell_moment * math.sin(theta) + self.clapper_moment * math.sin(theta + angle)
 
     def push(self, angle: float, state: Floats) -> float:
-        """What the side of the bell gives the clapper that rests on it, as a moment, towards larger angles."""
+        """Moment that the side of the bell exerts on the clapper resting on it, positive towards larger angles."""
         turn, (theta, _, spin, _) = self.together(angle, state), state
         inertia = self.clapper_inertia + self.coupling * math.cos(angle)
         return float(inertia * turn + self.coupling * math.sin(angle) * spin**2 + self.clapper_moment * math.sin(theta + angle))
 
     def balance(self, angle: float) -> float:
-        """Where both together, the clapper resting, are balanced mouth up."""
+        """Angle of the bell at which both as one body are balanced, mouth up."""
         return float(brentq(lambda theta: self.moment(angle, theta), math.pi / 2, 3 * math.pi / 2, xtol=1e-15))
 
 
@@ -84,9 +88,8 @@ def first_strike(
     side = 1.0 if amplitude is None else -1.0  # on which the clapper rests at first, in clearances
     if amplitude is None:
         theta = pair.balance(clearance) - _NEAR
-        inertia = pair.bell_inertia + pair.clapper_inertia + 2 * pair.coupling * math.cos(clearance)
         slope = -(pair.bell_moment * math.cos(theta) + pair.clapper_moment * math.cos(theta + clearance))
-        spin = -_NEAR * math.sqrt(slope / inertia)
+        spin = -_NEAR * math.sqrt(slope / pair.inertia(clearance))
         state = np.array([theta, theta + clearance, spin, spin])
     elif amplitude > clearance:
         state = np.array([amplitude, amplitude - clearance, 0.0, 0.0])
@@ -105,7 +108,6 @@ def first_strike(
                 time, state = found.t[-1], found.y[:, -1]
                 if not found.t_events[0].size:
                     break
-        leaves_from = side
         touch = [_event(lambda _, state, at=at: state[1] - state[0] - at * clearance, at) for at in (-1.0, 1.0)]
         found = solve_ivp(pair.free, (time, end), state, events=[*touch, turns], **precise)
         time, state = found.t[-1], found.y[:, -1]
@@ -114,8 +116,7 @@ def first_strike(
             break
         per_second = math.sqrt(gravity)
         speed = -(state[3] - state[2]) * per_second
-        if struck == leaves_from and abs(speed) < 1e-6 * per_second:
-            side = struck
+        if struck == side and abs(speed) < 1e-6 * per_second:
             continue
         return True, "leading" if struck < 0 else "trailing", -float(state[0]), float(speed), float(time / per_second)
     return False, "", math.nan, math.nan, math.nan

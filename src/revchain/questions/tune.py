@@ -209,8 +209,7 @@ def _formed(rig: Rig, datum: Datum, mode: int, speed: float, gravity: float) -> 
         of = lambda: per * _core.momentum_for_speed(under, link, speed, gravity)  # noqa: E731
     elif datum.quantity == "spin":
         assert rig.flywheels is not None
-        given = rig.flywheels._given
-        inertia = np.broadcast_to(given.get("mass", given.get("weight")) * given["radius_of_gyration"] ** 2, rig.size)[link]
+        inertia = np.broadcast_to(rig.flywheels._inertia, rig.size)[link]
         if not inertia:
             raise ValueError(f"{_PLACE}: flywheels[{link}] has no moment of inertia: its spin moves no speed; vary another's")
         of = lambda: gravity / inertia * _core.momentum_for_speed(under, link, speed, gravity)  # noqa: E731

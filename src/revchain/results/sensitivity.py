@@ -38,12 +38,17 @@ class _ByDatum(Result):
         return getattr(self, quantity)  # type: ignore[no-any-return]
 
     def _columns(self) -> list[Column]:
-        columns = [Column("mode", self.number, "mode")]
-        for name in self._known:
-            values = self[name]
-            of_links = {"axes": ("link",), "shown": values[:, 0]} if values.ndim == 2 else {}
-            columns.append(Column(name, values, f"{name} of links[0]" if of_links else name, **of_links))  # type: ignore[arg-type]
-        return columns
+        return [Column("mode", self.number, "mode"), *datum_columns(self, self._known)]
+
+
+def datum_columns(result: Result, names: tuple[str, ...]) -> list[Column]:
+    """A column for each field; of those with a number for each link the lowest link's is shown."""
+    columns = []
+    for name in names:
+        values = getattr(result, name)
+        of_links = {"axes": ("link",), "shown": values[:, 0]} if values.ndim == 2 else {}
+        columns.append(Column(name, values, f"{name} of links[0]" if of_links else name, **of_links))
+    return columns
 
 
 class Derivatives(_ByDatum):
@@ -386,8 +391,7 @@ def rig_derivatives(rig: Rig, speeds: Any, shapes: Any, gravity: float) -> dict[
     else:
         columns = [np.empty((0, rig.size))] * (len(names) - 2) + [np.empty(0)] * 2
     found = dict(zip(names, columns, strict=True))
-    wheels = {} if rig.flywheels is None else rig.flywheels._given
-    inertia = wheels.get("mass", wheels.get("weight", 0.0)) * wheels.get("radius_of_gyration", 0.0) ** 2
+    inertia = 0.0 if rig.flywheels is None else rig.flywheels._inertia
     per = rig._force(gravity)
     spin = found["momentum"] * (inertia / gravity)
     return found | {"spin": spin, "momentum": found["momentum"] / per, "stiffness": found["stiffness"] / per}

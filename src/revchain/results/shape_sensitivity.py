@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..systems.numbers import Floats, refuse_beyond_memory
+from ..systems.rig import Rig, Support
 from .base import Field, Result
-from .sensitivity import DATA
+from .sensitivity import DATA, datum_columns
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
@@ -36,12 +37,9 @@ class ShapeDerivatives(Result):
     support_radius: Field[Floats] = Field("With respect to the radius in which a support is carried, (M,).", part=True)
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [Column("index", np.arange(len(self.angular_speed)), "index")]
-        columns += [Column(name, getattr(self, name), name) for name in ("angular_speed", "support_radius")]
-        for name in DATA:
-            values = getattr(self, name)
-            columns.append(Column(name, values, f"{name} of links[0]", axes=("link",), shown=values[:, 0]))
-        return Sheet("index", "Derivatives by datum; those for the lowest link are shown", columns)
+        rows = Column("index", np.arange(len(self.angular_speed)), "index")
+        columns = datum_columns(self, ("angular_speed", "support_radius", *DATA))
+        return Sheet("index", "Derivatives by datum; those for the lowest link are shown", [rows, *columns])
 
 
 class ShapeSensitivity(Result):
@@ -53,21 +51,29 @@ class ShapeSensitivity(Result):
     -----
     The moments about the pins stay 0: a linear equation for the change of the inclinations, with the second derivatives
     of the effective energy as its matrix (implicit function theorem). Relative to the largest of their kind, derivatives
-    are good to 1e-12, or to 1e-13 times `SteadyShape.condition` where that is more; cost O(N^3), 10 ms for 200 links, and memory for some ten N-by-N arrays.
+    are good to 1e-12, or to 1e-13 times `SteadyShape.condition` where that is more. Cost O(N^3), 20 ms for 200 links, and
+    memory for some ten N-by-N arrays.
 
     Examples
     --------
-    How much farther out does the mass at the tip fly for each rad/s more?
+    How much farther out does the mass at the tip fly for each rad/s more? And the seat of a carousel for each metre of its
+    arm?
 
     >>> import revchain as rc
     >>> shape = rc.steady_shapes(rc.Chain(mass=[1.0, 3.0], length=1.0), angular_speed=4.0)[0]
     >>> round(float(shape.sensitivity.offset.angular_speed[0]), 4)
     0.1859
+    >>> seat = rc.Rig(rc.Chain(mass=80.0, length=5.0), support=rc.Support(radius=4.0))
+    >>> out = rc.steady_shapes(seat, angular_speed="8 rpm")[0]
+    >>> round(float(out.sensitivity.offset.support_radius[0]), 4)
+    1.3859
     """
 
     __slots__ = ()
     inclination: Field[ShapeDerivatives] = Field("Of the inclination of each link, rad; M = N.", part=True)
-    offset: Field[ShapeDerivatives] = Field("Of the distance of each pin from the axis, m; row 0: the tip. M = N + 1.", part=True)
+    offset: Field[ShapeDerivatives] = Field(
+        "Of the distance of each pin from the axis, m; row 0: the tip. M = N + 1.", part=True
+    )
     tension: Field[ShapeDerivatives] = Field(
         "Of the reaction at the upper pin of each link, N or in the unit of the weights; M = N.", part=True
     )
@@ -85,7 +91,14 @@ class ShapeSensitivity(Result):
 def shape_sensitivity(shape: SteadyShape) -> ShapeSensitivity:
     """See `SteadyShape.sensitivity`."""
     system = shape.system
-    chain = getattr(system, "chain", system)
+    if isinstance(system, Rig):
+        is_firm = system.support == Support(radius=system.support.radius)
+        if not is_firm or system.flywheels is not None or system.displaced is not None or system.inverted.any():
+            raise ValueError(
+                "revchain.SteadyShape.sensitivity: is for shapes of a Chain, or of a Rig with a firm support; "
+                "ask steady_shapes of the changed rig"
+            )
+    chain = system.chain if isinstance(system, Rig) else system
     n = chain.size
     refuse_beyond_memory("revchain.SteadyShape.sensitivity", "the number of links", n, 80 * n)
     W, a, h, rho = (

@@ -14,7 +14,7 @@ from .. import _core
 from ..systems.chain import Chain
 from ..systems.held import Held
 from ..systems.numbers import Floats, shown
-from ..systems.rig import Rig, Support
+from ..systems.rig import Rig
 from .base import Field, Result, Results
 from .diagrams import ForceDiagram
 from .shape_sensitivity import ShapeSensitivity, shape_sensitivity
@@ -226,6 +226,11 @@ class SteadyShape(Shape):
         forced("effective_energy"),
         part=True,
     )
+    sensitivity: Field[ShapeSensitivity] = Field(
+        "Derivatives of inclinations, offsets and tensions by the speed and by every datum; see `ShapeSensitivity`. A "
+        "ValueError for a `Rig` with more than a support carried round.",
+        shape_sensitivity,
+    )
     angular_momentum: Field[float] = Field(
         "About the axis, kg m^2/s, or in the unit of the weights; for a `Rig` with what its flywheels keep, negative "
         "where all that turns the other way.",
@@ -283,32 +288,6 @@ class SteadyShape(Shape):
         else:
             found = _core.stability(self._chain("stability"), self._found(), driven)
         return judged(found, frame, self)
-
-    @property
-    def sensitivity(self) -> ShapeSensitivity:
-        """Derivatives of inclinations, offsets and tensions by the speed and by every datum; see `ShapeSensitivity`.
-
-        Raises
-        ------
-        ValueError
-            If the shape is that of a `Rig` with more than a support carried round.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> seat = rc.Rig(rc.Chain(mass=80.0, length=5.0), support=rc.Support(radius=4.0))
-        >>> shape = rc.steady_shapes(seat, angular_speed="8 rpm")[0]
-        >>> round(float(shape.sensitivity.offset.support_radius[0]), 4)
-        1.3859
-        """
-        if isinstance(self.system, Rig):
-            rig, plain = self.system, Support(radius=self.system.support.radius)
-            if rig.support != plain or rig.flywheels is not None or rig.displaced is not None or rig.inverted.any():
-                raise ValueError(
-                    "revchain.SteadyShape.sensitivity: is for shapes of a Chain, or of a Rig with a firm support; "
-                    "ask steady_shapes of the changed rig"
-                )
-        return shape_sensitivity(self)
 
     def force_diagram(self) -> ForceDiagram:
         """Return the graphical construction of the shape: force diagram and funicular polygon.

@@ -210,6 +210,16 @@ class Flywheel(_Fitting):
             raise ValueError(f"{place}: driven goes with mass, radius_of_gyration and spin; with momentum give axial_moment")
         self._given["driven"] = read_only(flags)
 
+    @property
+    def _inertia(self) -> Floats:
+        """Moment of inertia of each wheel about its axis; 0 where the momentum was given instead."""
+        given = self._given
+        if "spin" not in given:
+            return _NOTHING
+        radius = given["radius_of_gyration"]
+        with np.errstate(over="ignore", invalid="ignore"):
+            return np.asarray(given.get("mass", given.get("weight")) * radius * radius)
+
     def _about(self, gravity: float) -> tuple[Floats, Floats]:
         """Momentum and axial moment; of wheels given by mass, the momentum is over gravity."""
         given = self._given
@@ -217,8 +227,8 @@ class Flywheel(_Fitting):
             return given["momentum"], given.get("axial_moment", _NOTHING)
         place = "revchain.Flywheel"
         heavy, radius = given.get("mass", given.get("weight")), given["radius_of_gyration"]
+        moment = self._inertia
         with np.errstate(over="ignore", invalid="ignore"):
-            moment = np.asarray(heavy * radius * radius)
             long = np.asarray(heavy, np.longdouble) * radius * radius * given["spin"] / gravity  # rounded once, to double
             momentum = np.asarray(long.astype(np.float64))
         wrong = ~(np.isfinite(moment) & np.isfinite(momentum))

@@ -10,7 +10,7 @@
 /// finite/balance/link_equation.hpp, for packs.
 namespace revchain::finite::detail {
 
-/// What a choice between packs is written in, for numbers.
+/// `any` and `if_less` for numbers, so that one text serves numbers and packs.
 inline bool any(bool yes) { return yes; }
 template <Real T>
 const T& if_less(const T& x, const T& y, const T& a, const T& b) {

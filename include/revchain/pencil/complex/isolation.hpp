@@ -8,7 +8,7 @@
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
 
-/// What proves all roots of det Q at once: its values, and distances between approximations.
+/// Values of det Q with error bounds, and distances between approximate roots: with them all roots are proved at once.
 namespace revchain::pencil::detail {
 
 inline constexpr std::size_t value_lanes = most_doubles;
@@ -28,7 +28,7 @@ struct ScaledValue {
     }
 };
 
-/// The same in each lane, without errors: 4 ulp for each factor.
+/// A product of complex numbers in each lane, scaled as `ScaledValue` is. Its error, 4 ulp a factor, is not tracked.
 template <class V>
 struct ProductInLanes {
     ComplexLanes<V> fraction{V(1.0), V(0.0)};
@@ -179,9 +179,6 @@ template <class Where>
                        });
     least.store(nearest), sum.store(shares);
 }
-
-/// Whether a number of an element is 0 for certain.
-inline bool vanishes(const Wide<double>& x, double error) { return x == Wide<double>(0.0) && error == 0; }
 
 /// The degree of det Q and its leading coefficient, with an error of infinity where the degree may be less. Elements
 /// that stiffen with x hold their pins together; the others have the masses between them.

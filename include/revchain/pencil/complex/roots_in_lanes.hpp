@@ -59,19 +59,18 @@ inline std::vector<RoundedElement> rounded_elements(const SignedPencil<Wide<doub
 }
 
 /// P'/P of P = det Q at x: the sum of p'/p over the pivots, by the equation of `SignedCounter` and its derivative.
-/// `number(x)` is a number of an element in all lanes.
-template <bool quadratic, class Row, class V, class Number>
-[[gnu::always_inline]] inline ComplexLanes<V> log_derivative_in_lanes(const Row* rows, std::size_t count,
-                                                                      const ComplexLanes<V>& x, const Number& number) {
+template <bool quadratic, class V>
+[[gnu::always_inline]] inline ComplexLanes<V> log_derivative_in_lanes(const RoundedElement* rows, std::size_t count,
+                                                                      const ComplexLanes<V>& x) {
     using Z = ComplexLanes<V>;
     const Z square = x * x, twice = x + x;
     Z below{}, slope_below{}, sum{};
     for (std::size_t m = 0; m < count; ++m) {
-        const Row& e = rows[m];
-        const V k = number(e.stiffness), lower = number(e.lower), cross = number(e.cross);
+        const RoundedElement& e = rows[m];
+        const V k(e.stiffness), lower(e.lower), cross(e.cross);
         Z L = x * k, slope{k, V{}};
         if constexpr (quadratic) {
-            const V s = number(e.spin);
+            const V s(e.spin);
             L = square * k + x * s;
             slope = twice * k + s;
         }
@@ -79,7 +78,7 @@ template <bool quadratic, class Row, class V, class Number>
         const Z q = (L + cross) * inverse_pivot, rest = (below + -(lower + cross)) * inverse_pivot;
         sum = sum + (slope_below + slope) * inverse_pivot;
         slope_below = rest * rest * slope + q * q * slope_below;
-        below = ((L + -number(e.upper)) * below - (L * number(e.weight) + -number(e.determinant))) * inverse_pivot;
+        below = ((L + -V(e.upper)) * below - (L * V(e.weight) + -V(e.determinant))) * inverse_pivot;
     }
     return sum;
 }
@@ -121,9 +120,8 @@ inline void aberth_steps(const RoundedElement* rows, std::size_t links, bool qua
                 using V = Pack<double, width, L / width>;
                 using Z = ComplexLanes<V>;
                 const Z x{V::load(re), V::load(im)};
-                const auto number = [](double y) REVCHAIN_INLINED { return V(y); };
-                const Z rate = quadratic ? log_derivative_in_lanes<true>(rows, links, x, number)
-                                         : log_derivative_in_lanes<false>(rows, links, x, number);
+                const Z rate = quadratic ? log_derivative_in_lanes<true>(rows, links, x)
+                                         : log_derivative_in_lanes<false>(rows, links, x);
                 Z others = inverse(x) * V(static_cast<double>(zeros));
                 const V none(0.0);
                 for (std::size_t j = 0; j < roots.size(); ++j) {
