@@ -32,6 +32,8 @@ TARGETS = {  # of N = 2 ... 12, 20 ... 100, 300 ... 3000
     "random bodies, all modes with shapes": (1.3, 8, 20),
     "plummets, heights alone": (1, 5, 8),
     "plummets, three slowest with shapes": (1.3, 3, 10),
+    "plummets, full accuracy against 1e-14": (0.5, 0.5, None),
+    "rods, full accuracy against 1e-14": (0.5, 0.5, None),
     "rigs with springs": (2, 10, 30),
     "rigs with flywheels": (2, 10, 30),
     "ten slowest of a million, heights alone": (None, None, 400),
@@ -91,9 +93,9 @@ def symmetrised(links):
 # ---- revchain: heights, shapes
 
 
-def ours(count, shapes=True):
+def ours(count, shapes=True, **options):
     def modes(links):
-        found = rc.modes(links.chain(), count)
+        found = rc.modes(links.chain(), count, **options)
         return (found.conical_height, found.shape) if shapes else (found.conical_height, None)
 
     return modes
@@ -184,6 +186,10 @@ JOBS = {
     "plummets, three slowest with shapes": ("plummets", lambda links: ours(min(3, len(links.weight)))(links), {
         "numpy eigh": numpy_eigh, "scipy eigh(K, M)": lambda links: generalised(links, min(3, len(links.weight))),
         "scipy eigh_tridiagonal": lambda links: tridiagonal(links, min(3, len(links.weight)))}),
+    "plummets, full accuracy against 1e-14": ("plummets", ours("all", shapes=False), {
+        "revchain, rtol=1e-14": ours("all", shapes=False, rtol=1e-14)}),
+    "rods, full accuracy against 1e-14": ("rods", ours("all", shapes=False), {
+        "revchain, rtol=1e-14": ours("all", shapes=False, rtol=1e-14)}),
     "rigs with springs": ("plummets", our_rig, {"scipy eigh(M, K)": on_spring}),
     "rigs with flywheels": ("plummets", our_wheels, {"scipy eig, first order": first_order}),
 }
