@@ -84,17 +84,19 @@ struct Bisection {
     }
     double cost(const ChainKind& kind, const Question& question) const {
         const double count = detail::real(question.count);
-        if (!is_loose(kind, question)) return full_cost(kind, count);
+        if (!is_loose(kind, question)) return full_cost(kind, question);
         // A tolerance next to full accuracy takes as many counts as that takes steps in all.
         return std::min(
-            full_cost(kind, count),
+            full_cost(kind, question),
             3e-7 + 2e-7 * count + detail::real(kind.size) * detail::loose_cost(question.rtol, question.count, 7e-9));
     }
-    static double full_cost(const ChainKind& kind, double count) {
-        if (kind.size > most_in_lanes) return 4e-7 + 4e-7 * count + detail::real(kind.size) * (1.6e-7 + 2.9e-7 * count);
-        const double beyond_cache = kind.size > 1500 ? 1.35 : 1;
-        const double eight = kind.point_masses ? 1.25e-7 : 1.6e-7;
-        return 1.5e-6 + detail::real(kind.size) * (7e-8 + eight * std::ceil(count / 8)) * beyond_cache;
+    static double full_cost(const ChainKind& kind, const Question& question) {
+        const double count = detail::real(question.count), links = detail::real(kind.size);
+        if (kind.size > most_in_lanes) return 4e-7 + 4e-7 * count + links * (1.6e-7 + 2.9e-7 * count);
+        const double beyond_cache = kind.size > 3000 ? 1.35 : 1;
+        const double brackets = kind.size >= pencil::least_for_groups * question.last() ? 0 : 7e-8;
+        const double eight = kind.point_masses ? 1.15e-7 : 1.45e-7;
+        return 1.5e-6 + links * (brackets + eight * std::ceil(count / 8)) * beyond_cache;
     }
     template <std::same_as<double> T>
     Answer solve(const Chain<T>& chain, const ChainKind&, const Question& question) const {

@@ -76,6 +76,43 @@ TEST_CASE("roots eight at a time: every family, all of them and some", "[pencil]
     }
 }
 
+// Brackets come from groups of elements here.
+TEST_CASE("roots eight at a time: a few of many, every family", "[pencil]") {
+    for (const auto& family : support::families()) {
+        Seen seen;
+        for (const Index n : {100, 350, 1000}) {
+            CAPTURE(family.name, n);
+            const Chain<double> chain = family.make(n);
+            if (!chain.has_one_weight_unit()) continue;
+            compare(chain, 0, 1, seen);
+            compare(chain, 0, 3, seen);
+            if (n >= 350) compare(chain, 2, 8, seen);
+        }
+        CAPTURE(family.name, seen.proved, seen.unproved, seen.worst);
+        CHECK(seen.unproved == 0);
+    }
+}
+
+TEST_CASE("roots eight at a time: a few of many, random chains", "[pencil]") {
+    support::Random random(21);
+    Seen seen;
+    for (int i = 0; i < 200; ++i) {
+        const Index n = 100 + static_cast<Index>(random() * 400);
+        const double spread = random.between(0, 2);
+        const bool points = random() < 0.5;
+        const Chain<double> chain = support::chain_of(n, [&](Index) {
+            const double weight = std::pow(10.0, spread * random.between(-1, 1)),
+                         a = std::pow(10.0, spread * random.between(-0.5, 0.5));
+            return points ? revchain::plummet<double>(weight, a) : revchain::uniform_rod<double>(weight, a);
+        });
+        const Index last = n / revchain::pencil::least_for_groups, first = static_cast<Index>(random() * double(last));
+        CAPTURE(i, n, spread, points, first, last);
+        compare(chain, first, last - first, seen);
+    }
+    CAPTURE(seen.proved, seen.unproved, seen.worst);
+    CHECK(seen.unproved == 0);
+}
+
 TEST_CASE("roots eight at a time: random chains", "[pencil]") {
     support::Random random(19);
     Seen seen;
@@ -128,6 +165,7 @@ TEST_CASE("roots eight at a time: roots that lie close together are left open, n
         if (!roots || !std::isfinite((*roots)[0].off) || !std::isfinite((*roots)[1].off)) ++open;
         Seen seen;
         compare(chain, 0, 2, seen);
+        compare(chain, 0, 1, seen);
         // and whatever happens here, the heights given out are right
         const auto given = revchain::detail::heights_in_lanes(pencils, {1, 2}, 2, pencils.scaled(2.0), {});
         if (!given) continue;
