@@ -44,6 +44,6 @@ for k, mass in enumerate((0, 40, 80, 120, 130)):
         style = "-" if branch.birth == "rest" else "--"
         label = f"rider of {mass} kg" if branch.birth == "rest" else None
         axes.plot(rpm(branch.angular_speed), branch.tip_radius, style, color=COLOURS[k % len(COLOURS)], label=label)
-axes.set(xlabel="turns a minute", ylabel="chair from the axis, m", title="dashed: inwards, born in pairs", ylim=(-40, 40))
+axes.set(xlabel="turns a minute", ylabel="chair from the axis, m", title="dashed: inwards, born in pairs", ylim=(-20, 40))
 axes.legend()
 save(figure)
