@@ -271,4 +271,5 @@ SteadyShape steady_shape(const System&, const SteadyShapeOptions&) {
 
 #if !defined(REVCHAIN_COMPILED)
 #include "revchain/finite/branch/branches.hpp"
+#include "revchain/finite/branch/diagram.hpp"
 #endif

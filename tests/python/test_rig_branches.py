@@ -89,7 +89,8 @@ def test_windows_of_stability_of_a_rig():
 
 def test_flywheels_tell_directions_apart():
     rig = rigged(rc.Chain(weight=[1.0, 2.0], length=[0.5, 0.7]), momentum=[0.05, 0.1])
-    speeds = {1: rc.modes(rig).angular_speed[rc.modes(rig).direction == 1], -1: rc.modes(rig).angular_speed[rc.modes(rig).direction == -1]}
+    modes = rc.modes(rig)
+    speeds = {direction: modes.angular_speed[modes.direction == direction] for direction in (1, -1)}
     for direction in (1, -1):
         branch = rc.branch(rig, 1, max_angular_speed=8.0, direction=direction)
         assert branch.direction == direction and branch.birth == "vertical"
@@ -162,3 +163,32 @@ def test_wrong_calls():
     sprung = rigged(rc.Chain(weight=1.0, length=1.0), stiffness=30.0)
     with pytest.raises(ValueError, match="mode must be from 1 to the number of modes"):
         rc.branch(sprung, 7, max_angular_speed=9.0)
+
+
+def test_rigs_of_every_posture_balance_all_along():
+    """Links that stand or lean against their loads, in the axis and off it; some branches begin towards slower speeds."""
+    rng = np.random.default_rng(1)
+    rising = points = 0
+    for k in range(60):
+        size = int(rng.integers(1, 4))
+        chain = rc.Chain(weight=np.exp(rng.uniform(-0.7, 0.7, size)), length=np.exp(rng.uniform(-0.7, 0.7, size)))
+        whole, length = chain.weight.sum(), chain.length.sum()
+        rig = rigged(
+            chain,
+            stiffness=rng.uniform(20, 200) * whole / length if k % 3 == 0 else math.inf,
+            radius=0.1 if k % 5 == 0 else 0.0,
+            momentum=rng.uniform(-0.3, 0.3, size) * whole * length if k % 2 else None,
+            inverted=rng.random(size) < 0.4,
+            displaced=chain.weight * rng.uniform(0, 1.5, size) if k % 7 == 0 else None,
+        )
+        modes = rc.modes(rig)
+        forward = modes.conical_height[modes.direction == 1]
+        for branch in rc.branches(rig, min_conical_height=0.3 * max(forward, default=1.0)):
+            rising += branch.birth == "vertical" and len(branch) > 1 and branch.conical_height[1] > branch.conical_height[0]
+            if branch.end == "slack":  # its links come to the horizontal
+                continue
+            for point in range(1, len(branch), max(1, len(branch) // 4)):
+                shape = branch.shape(point)
+                points += 1
+                assert figure_moments(rig, shape) <= 1e-12 * (1 + abs(shape.offset[-1]) / length)
+    assert rising > 0 and points > 100

@@ -69,7 +69,8 @@ def branch(
     Branch
         The first point is the straight chain, alone if no double tells the end from it (``end`` is then
         ``stuck``). The branch from rest begins at a tenth of the first critical speed of the rig with its support in
-        the axis, or of the speed given if that is slower. Numbers to about 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, mostly an ulp.
+        the axis, or of the speed given if that is slower. Numbers to about 1e-12; folds to 1e-6 of the arc, their
+        heights to 1e-13, mostly an ulp.
 
     Raises
     ------
@@ -127,8 +128,8 @@ def branches(
     Parameters
     ----------
     system : Chain or Rig
-        The chain of N links, by itself or rigged; few, as all shapes are listed (`steady_shapes`), those of a rig in its
-        own posture.
+        The chain of N links, by itself or rigged; few, as all shapes are listed (`steady_shapes`), those of a rig in
+        its own posture.
     max_angular_speed : float
         The speed up to which to go, rad/s.
     min_conical_height : float
@@ -289,10 +290,9 @@ def steady_shape(
     Raises
     ------
     ValueError
-        If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is neither
-        1 nor -1, if
-        `min_conical_height` is not below the height of the mode, if the branch does not exist yet at that speed, or,
-        unless `all`, if what is given is not met on it.
+        If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
+        neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
+        at that speed, or, unless `all`, if what is given is not met on it.
     TypeError
         If `all` is not a bool.
 

@@ -4,29 +4,11 @@
 #include <functional>
 
 #include "revchain/branches.hpp"
-#include "revchain/finite/branch/diagram.hpp"
 #include "revchain/finite/branch/shape_on_branch.hpp"
 #include "revchain/finite/branch/trace.hpp"
 #include "revchain/numeric/compiled.hpp"
 
 namespace revchain {
-
-namespace finite {
-
-/// The conical height down to which to follow branches, given as it is or as a speed.
-template <class Options>
-double lowest_height(std::string_view place, const Options& options) {
-    if (options.min_conical_height.has_value() == options.max_angular_speed.has_value())
-        revchain::detail::throw_invalid(place, "give either min_conical_height or max_angular_speed");
-    const double height = options.min_conical_height
-                              ? *options.min_conical_height
-                              : conical_pendulum::height(*options.max_angular_speed, options.gravity);
-    revchain::detail::require_positive(
-        place, options.min_conical_height ? "min_conical_height" : "gravity / max_angular_speed^2", height);
-    return height;
-}
-
-}  // namespace finite
 
 REVCHAIN_INLINE SteadyShape Branch::shape(std::size_t point) const {
     if (point >= size())
@@ -132,13 +114,6 @@ REVCHAIN_INLINE Branch branch(const Rig& rig, const BranchOptions& options) { re
 namespace finite {
 
 template <class System>
-Branches diagram_of(const System& system, const BranchesOptions& options) {
-    const double lowest = lowest_height("branches", options);
-    if (options.lists < 1) revchain::detail::throw_invalid("branches", "lists must be at least 1", options.lists);
-    return Diagram<System>(system, lowest, options).run();
-}
-
-template <class System>
 SteadyShape first_on_branch(const System& system, const SteadyShapeOptions& options) {
     SteadyShapeOptions first = options;
     first.max_shapes = 1;
@@ -159,12 +134,6 @@ SteadyShape first_on_branch(const System& system, const SteadyShapeOptions& opti
 
 }  // namespace finite
 
-REVCHAIN_INLINE Branches branches(const Chain<double>& chain, const BranchesOptions& options) {
-    return finite::diagram_of(chain, options);
-}
-REVCHAIN_INLINE Branches branches(const Rig& rig, const BranchesOptions& options) {
-    return finite::diagram_of(rig, options);
-}
 REVCHAIN_INLINE ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options) {
     return finite::search_branch<ShapesOnBranch>(chain, options);
 }

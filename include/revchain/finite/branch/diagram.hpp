@@ -7,6 +7,7 @@
 #include "revchain/finite/branch/diagram_proof.hpp"
 #include "revchain/finite/branch/trace.hpp"
 #include "revchain/finite/shapes/list.hpp"
+#include "revchain/numeric/compiled.hpp"
 #include "revchain/steady_shapes.hpp"
 
 namespace revchain::finite {
@@ -325,4 +326,22 @@ class Diagram {
     Branches result_;
 };
 
+template <class System>
+Branches diagram_of(const System& system, const BranchesOptions& options) {
+    const double lowest = lowest_height("branches", options);
+    if (options.lists < 1) revchain::detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    return Diagram<System>(system, lowest, options).run();
+}
+
 }  // namespace revchain::finite
+
+namespace revchain {
+
+REVCHAIN_INLINE Branches branches(const Chain<double>& chain, const BranchesOptions& options) {
+    return finite::diagram_of(chain, options);
+}
+REVCHAIN_INLINE Branches branches(const Rig& rig, const BranchesOptions& options) {
+    return finite::diagram_of(rig, options);
+}
+
+}  // namespace revchain

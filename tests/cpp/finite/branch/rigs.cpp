@@ -4,6 +4,7 @@
 #include "revchain/branches.hpp"
 
 #include "revchain/finite/branch/enclosed_diagram.hpp"
+#include "revchain/rig_modes.hpp"
 #include "revchain/stability_windows.hpp"
 #include "support/rig_shapes.hpp"
 
