@@ -77,6 +77,7 @@ PUBLIC = {
     "analytic.hpp": "",
 }
 UMBRELLAS = {name for name, home in PUBLIC.items() if not home}
+FURTHER = {"branches.hpp": {"finite/branch/diagram.hpp"}}  # more files that define what a public header declares
 MACROS = {"numeric/compiled.hpp"}  # declares nothing but a macro
 # A scene pays for what it holds: these read nothing of what a chain can be rigged with.
 PLAIN = {"chain.hpp", "modes.hpp", "batch.hpp", "finite/cord/continuous_chain.hpp"}
@@ -196,7 +197,7 @@ def check_cycles(graph: dict[str, list[str]], what: str) -> None:
 def implementations(name: str) -> set[str]:
     """The files that define what a public header declares."""
     home = PUBLIC.get(name, "")
-    return {f"{home}/{name}", f"{home}/rig_{name}"} if home else set()
+    return {f"{home}/{name}", f"{home}/rig_{name}"} | FURTHER.get(name, set()) if home else set()
 
 
 def reached_from(start: str, graph: dict[str, list[str]]) -> set[str]:

@@ -14,7 +14,7 @@ import revchain as rc
 SCENES = Path(__file__).resolve().parents[1] / "scenes"
 NAMES = [
     *("rods_on_threads", "ball_on_chain", "clamped_bell", "jointed_rod", "carriage_on_springs"),
-    *("bell_on_soft_frame", "swing_carousel"),
+    *("bell_on_soft_frame", "swing_carousel", "chair_o_plane"),
     *("bicycle_wheels", "two_gyrostats", "moored_floats", "stokes_float", "broomstick", "acrobat"),
     *("troposkien", "plucked_chain"),
 ]

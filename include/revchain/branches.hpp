@@ -29,8 +29,7 @@
 namespace revchain {
 
 namespace finite {
-template <class F>
-struct Links;
+struct BranchSystem;
 struct BranchOnset;
 }  // namespace finite
 
@@ -45,10 +44,24 @@ enum class BranchEnd {
     closed,    ///< at the point it started from
     budget,    ///< after so many points
     stuck,     ///< no step could be taken that passes every check
+    slow,      ///< at a tenth of the slower of the first critical speed and the speed asked for: on the way to rest
+    slack,     ///< where flywheels take the effective tension from a link, which comes to the horizontal
+    loose,     ///< where the spring at the support no longer holds the whole: it is drawn out a thousand lengths
 };
 inline std::string_view to_string(BranchEnd end) {
-    constexpr std::string_view names[]{"height", "vertical", "closed", "budget", "stuck"};
+    constexpr std::string_view names[]{"height", "vertical", "closed", "budget", "stuck", "slow", "slack", "loose"};
     return names[static_cast<std::size_t>(end)];
+}
+
+/// Where a branch comes from.
+enum class BranchBirth {
+    vertical,  ///< it leaves the straight chain at the critical speed of a mode
+    rest,      ///< it begins at rest: how a rig whose support is off the axis hangs when it starts to turn
+    fold,      ///< isolated: two shapes are born at a speed, a fold, or it is closed
+};
+inline std::string_view to_string(BranchBirth birth) {
+    constexpr std::string_view names[]{"vertical", "rest", "fold"};
+    return names[static_cast<std::size_t>(birth)];
 }
 
 /// A branch of steady shapes, point by point along its arc, in the units of the chain.
@@ -56,7 +69,8 @@ inline std::string_view to_string(BranchEnd end) {
 /// The arc s has no unit: ds^2 = (mean of dtau^2 over the links) + (d log(conical height))^2, where tau is given by
 /// tan(inclination) = sinh(tau).
 struct Branch {
-    Index mode = 0;  ///< the mode at which it leaves the vertical; 0: an isolated one
+    Index mode = 0;  ///< the mode at which it leaves the vertical; 1: from rest; 0: an isolated one
+    BranchBirth birth = BranchBirth::vertical;
     /// For each point. `tip_inclination`: of the lowest link, rad; `tip_radius`: offset of the free end; `top_tension`:
     /// size of the reaction at the support; the others as in SteadyShape.
     std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension, moment_of_inertia,
@@ -79,9 +93,9 @@ struct Branch {
     std::vector<SteadyShape> shapes_at(double conical_height) const;
 
     // Data of `shape` and `shapes_at`.
-    std::shared_ptr<const finite::Links<Wide<double>>> links;
+    std::shared_ptr<const finite::BranchSystem> system;
     std::vector<finite::BranchPoint> points;
-    std::shared_ptr<const finite::BranchOnset> onset;  ///< of the mode; null for an isolated branch
+    std::shared_ptr<const finite::BranchOnset> onset;  ///< of the mode; null for other branches
 };
 
 /// Which branch, and how far to follow it. Give either `min_conical_height` or `max_angular_speed`.
@@ -92,6 +106,7 @@ struct BranchOptions {
     std::size_t max_points = 10'000;
     double max_step = 0.1;  ///< along the arc
     double gravity = conical_pendulum::standard_gravity;
+    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
 };
 
 /// The branch of steady shapes that leaves the vertical at a mode, followed by its arc through every fold until it
@@ -108,6 +123,18 @@ struct BranchOptions {
 /// is given, positive and finite, and for a height that is not below that of the mode.
 Branch branch(const Chain<double>& chain, const BranchOptions& options);
 
+/// The branch of a mode of a rig, or, where its support is off the axis, the branch from rest.
+///
+/// In the axis modes are numbered as by `modes` in the direction of rotation. Off the axis no shape is straight and no
+/// branch leaves the vertical: the branch from rest, `mode` 1, begins at a tenth of the slower of the first critical
+/// speed (of the rig with its support in the axis) and the speed given. `branches` finds the others, which are born in
+/// folds. Where links stand or lean against their load, a branch may begin towards slower speeds; it is followed up to
+/// a tenth of the speed of its mode. Along a branch every link keeps its posture.
+/// The arc counts the stretch of a spring at the support, over the length of the chain, as the tau of one link more.
+/// Accuracy and cost: as of chains (tests/cpp/finite/branch/rigs.cpp).
+/// Throws InvalidArgument as for chains, and off the axis for a `mode` other than 1.
+Branch branch(const Rig& rig, const BranchOptions& options);
+
 /// How far to follow all branches, and what a proof may cost. Give either `min_conical_height` or `max_angular_speed`.
 struct BranchesOptions {
     std::optional<double> min_conical_height{};
@@ -118,12 +145,14 @@ struct BranchesOptions {
     long budget = 3'000'000;        ///< of each list, see SteadyShapesOptions
     long proof_budget = 1'000'000;  ///< links to look at to prove that no branch is missing, 0.1 to 1 microsecond each
     double gravity = conical_pendulum::standard_gravity;
+    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
 };
 
 /// All branches found above one conical height.
 struct Branches {
-    std::vector<Branch> branches;  ///< those of the modes, slowest first, then isolated ones by where they are born
-    double conical_height = 0;     ///< lowest conical height of the diagram
+    /// Those of the modes, slowest first, or the one from rest; then isolated ones by where they are born.
+    std::vector<Branch> branches;
+    double conical_height = 0;  ///< lowest conical height of the diagram
     /// Every branch ends at that height or is closed, and at every height looked at the branches cross each shape of
     /// the proved list once and nothing else.
     bool consistent = false;
@@ -150,6 +179,17 @@ struct Branches {
 /// 1.
 Branches branches(const Chain<double>& chain, const BranchesOptions& options);
 
+/// The whole diagram of a rig in its own posture: the branches of its modes, or where its support is off the axis the
+/// one from rest, and those born in folds. Method and proof are those of chains.
+///
+/// The proof covers rigs whose links all hang in tension, each at one inclination for its load, at every speed up to
+/// the one given: on springs, on an arm, with flywheels, in fluids. Below the first critical speed there is then one
+/// shape (in the axis none): in the sines of the inclinations the energy in the turning frame is convex. A spring
+/// cannot hold the whole where its stiffness times the conical height is less than the weight that moves: at such
+/// heights the diagram is not proved, and `remark` says so.
+/// Throws InvalidArgument as for chains, and where a link's effective tension vanishes at a height looked at.
+Branches branches(const Rig& rig, const BranchesOptions& options);
+
 /// Which shape on a branch. Give exactly one of the five numbers from `conical_height` to `top_tension`.
 struct SteadyShapeOptions {
     Index mode = 1;  ///< at which the branch leaves the vertical
@@ -159,6 +199,7 @@ struct SteadyShapeOptions {
     std::optional<double> tip_radius{};       ///< of the free end from the axis
     std::optional<double> top_tension{};      ///< size of the reaction at the support
     double gravity = conical_pendulum::standard_gravity;
+    int direction = 1;  ///< of rotation, 1 or -1: it matters to flywheels
     /// Lowest conical height searched. Absent: 1e-6 of the mode's height, or half of the given height (or g/n^2).
     std::optional<double> min_conical_height{};
     std::size_t max_shapes = std::numeric_limits<std::size_t>::max();  ///< of `shapes_on_branch`
@@ -169,6 +210,7 @@ struct ShapesOnBranch {
     std::vector<SteadyShape> shapes;
     BranchEnd end = BranchEnd::height;  ///< why the search ended; `budget`: after 100,000 steps
     double searched_to = 0;             ///< the conical height at which it ended
+    bool from_rest = false;             ///< the branch begins at rest: the support is off the axis
 };
 
 /// The first shape along the branch of a mode at which one number is as given: conical height, speed, tip inclination,
@@ -186,31 +228,41 @@ struct ShapesOnBranch {
 /// below the height of the mode, for a speed not above the mode's critical speed, and where the number is not met.
 SteadyShape steady_shape(const Chain<double>& chain, const SteadyShapeOptions& options);
 
+/// The first shape along a branch of a rig at which one number is as given. In the axis `mode` is that of the rig; off
+/// the axis it must be 1: the branch is followed from rest, from a ten-thousandth of the first critical speed, or from
+/// slower than the speed given.
+///
+/// The tip inclination is that of the lowest link, of its size, off the axis outwards; between pi/2 and pi where that
+/// link stands. The top tension is that at the topmost pin of the chain, as `SteadyShape::tension`.
+/// Accuracy and cost as of chains. Throws InvalidArgument as there, and where a link has no effective tension.
+SteadyShape steady_shape(const Rig& rig, const SteadyShapeOptions& options);
+
 /// All shapes on the branch at which the number is as given, in the order of the arc, at most `max_shapes` of them. It
 /// returns none, and does not throw, where the number is not met. Otherwise as `steady_shape`.
 ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOptions& options);
+ShapesOnBranch shapes_on_branch(const Rig& rig, const SteadyShapeOptions& options);
 
 namespace detail {
 template <class System>
-concept OtherThanChain = std::same_as<System, Rig> || std::same_as<System, Cord> ||
-    std::same_as<System, Held<Chain<double>>> || std::same_as<System, Held<Cord>>;
+concept WithoutBranches =
+    std::same_as<System, Cord> || std::same_as<System, Held<Chain<double>>> || std::same_as<System, Held<Cord>>;
 [[noreturn]] inline void throw_no_branches(std::string_view place) {
     throw_invalid(place,
-                  "branches are followed for a Chain alone, not yet for a Rig, a Cord or a Held; ask steady_shapes of "
+                  "branches are followed for a Chain or a Rig, not yet for a Cord or a Held; ask steady_shapes of "
                   "it at each speed");
 }
 }  // namespace detail
 
 /// Throw InvalidArgument: branches of these systems cannot be followed yet.
-template <detail::OtherThanChain System>
+template <detail::WithoutBranches System>
 Branch branch(const System&, const BranchOptions&) {
     detail::throw_no_branches("branch");
 }
-template <detail::OtherThanChain System>
+template <detail::WithoutBranches System>
 Branches branches(const System&, const BranchesOptions&) {
     detail::throw_no_branches("branches");
 }
-template <detail::OtherThanChain System>
+template <detail::WithoutBranches System>
 SteadyShape steady_shape(const System&, const SteadyShapeOptions&) {
     detail::throw_no_branches("steady_shape");
 }
@@ -219,4 +271,5 @@ SteadyShape steady_shape(const System&, const SteadyShapeOptions&) {
 
 #if !defined(REVCHAIN_COMPILED)
 #include "revchain/finite/branch/branches.hpp"
+#include "revchain/finite/branch/diagram.hpp"
 #endif

@@ -21,7 +21,8 @@
 ///     const revchain::Rig sprung(chain, {.support = revchain::horizontal_spring(500.0, 10.0)});
 ///
 /// Forces are in the unit of the weights, a stiffness in that unit over the unit of length. Numbers are kept exactly as
-/// given. The questions about a rig: `modes` (rig_modes.hpp), `steady_shapes`, `response` and `sensitivity`.
+/// given. The questions about a rig: `modes` (rig_modes.hpp), `steady_shapes`,
+/// `branches`, `stability`, `response` and `sensitivity`.
 /// Greenhill (1908) sections 2, 7 and 8.
 namespace revchain {
 

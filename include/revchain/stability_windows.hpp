@@ -42,6 +42,10 @@ struct StabilityWindowsOptions {
 std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
                                                const StabilityWindowsOptions& options = {});
 
+/// The same of a branch of a rig, in the direction of rotation of the branch.
+std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
+                                               const StabilityWindowsOptions& options = {});
+
 }  // namespace revchain
 
 #if !defined(REVCHAIN_COMPILED)

@@ -716,6 +716,8 @@ class Branch:
     @property
     def mode(self) -> int: ...
     @property
+    def birth(self) -> str: ...
+    @property
     def arc(self) -> _Floats: ...
     @property
     def conical_height(self) -> _Floats: ...
@@ -750,16 +752,69 @@ class Branches:
     @property
     def remark(self) -> str: ...
 
-def branch(chain: Chain, mode: int, height: float, max_points: int, max_step: float) -> Branch: ...
-def branches(chain: Chain, height: float, lists: int, budget: int, proof_budget: int) -> Branches: ...
+@typing.overload
+def branch(
+    system: Chain, mode: int, height: float, max_points: int, max_step: float, gravity: float, direction: int
+) -> Branch: ...
+@typing.overload
+def branch(
+    system: Rig, mode: int, height: float, max_points: int, max_step: float, gravity: float, direction: int
+) -> Branch: ...
+@typing.overload
+def branches(
+    system: Chain, height: float, lists: int, budget: int, proof_budget: int, gravity: float, direction: int
+) -> Branches: ...
+@typing.overload
+def branches(
+    system: Rig, height: float, lists: int, budget: int, proof_budget: int, gravity: float, direction: int
+) -> Branches: ...
+@typing.overload
 def shapes_on_branch(
-    chain: Chain, mode: int, name: str, value: float, gravity: float, min_conical_height: float | None
+    system: Chain,
+    mode: int,
+    name: str,
+    value: float,
+    gravity: float,
+    direction: int,
+    min_conical_height: float | None,
 ) -> list[SteadyShape]: ...
+@typing.overload
+def shapes_on_branch(
+    system: Rig,
+    mode: int,
+    name: str,
+    value: float,
+    gravity: float,
+    direction: int,
+    min_conical_height: float | None,
+) -> list[SteadyShape]: ...
+@typing.overload
 def steady_shape(
-    chain: Chain, mode: int, name: str, value: float, gravity: float, min_conical_height: float | None
+    system: Chain,
+    mode: int,
+    name: str,
+    value: float,
+    gravity: float,
+    direction: int,
+    min_conical_height: float | None,
 ) -> SteadyShape: ...
+@typing.overload
+def steady_shape(
+    system: Rig,
+    mode: int,
+    name: str,
+    value: float,
+    gravity: float,
+    direction: int,
+    min_conical_height: float | None,
+) -> SteadyShape: ...
+@typing.overload
 def stability_windows(
-    chain: Chain, branch: Branch, driven: bool, tolerance: float, samples: int
+    system: Chain, branch: Branch, driven: bool, tolerance: float, samples: int
+) -> list[tuple[float, float, float, float, str]]: ...
+@typing.overload
+def stability_windows(
+    system: Rig, branch: Branch, driven: bool, tolerance: float, samples: int
 ) -> list[tuple[float, float, float, float, str]]: ...
 
 _Flags = numpy.typing.NDArray[numpy.bool_]

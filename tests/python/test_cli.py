@@ -156,11 +156,11 @@ def test_all_that_a_scene_asks(run):
 
 def test_what_cannot_be_answered_does_not_stop_the_rest(run):
     Path("a.toml").write_text(WATCH.replace("count = 4", "method = 'dense'") + "[ask.branches]\nmax_angular_speed = 3\n[support]\nradius = 1\n")
-    Path("b.toml").write_text("[[links]]\nmass = 1\nlength = 1\n[support]\nradius = 1\n[ask.branches]\nmax_angular_speed = 3\n[ask.response]\nangular_speed = 1\n")
+    Path("b.toml").write_text("[[links]]\nmass = 1\nlength = 1\n[support]\nradius = 1\n[ask.swing]\noffset = [0.1]\n[ask.response]\nangular_speed = 1\n")
     assert run("run", "a.toml")[0] == ExitCode.SCENE_INVALID
     code, out, err = run("run", "b.toml")
     assert code == ExitCode.WRONG_USAGE and "carried round" in out
-    assert "b.toml: branches: no answer for a chain with a support" in err and files_in(Path("out/b")) == ["response" + k for k in (".csv", ".json", ".png", ".txt")]
+    assert "b.toml: swing: no answer for a chain with a support" in err and files_in(Path("out/b")) == ["response" + k for k in (".csv", ".json", ".png", ".txt")]
 
 
 def test_options_go_before_the_scene(run):

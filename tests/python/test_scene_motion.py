@@ -127,7 +127,7 @@ LINK = "[[links]]\nmass = 1\nlength = 0.5\nrepeat = 3\n"
 CORD = "[cord]\nlength = 1\nmass = 1\n"
 KINDS = {  # what hangs, and the questions it has no answer for
     "chain": (LINK, ""),
-    "rig": (LINK + "[support]\nstiffness = 50\n", "swing branches"),
+    "rig": (LINK + "[support]\nstiffness = 50\n", "swing"),
     "cord": (CORD, "response swing branches"),
     "bent chain": (LINK + "[held]\nspan = 1\n", "run modes explain response swing branches"),
     "bent cord": (CORD + "[held]\nspan = 0.8\n", "run modes explain response swing branches"),

@@ -42,27 +42,27 @@ struct RigPencil {
 namespace detail {
 
 /// What of a link's mass is held: nothing, one combination of its pins' offsets, or both.
-enum class Held { nothing, lower, upper, one, both };
+enum class HeldPins { nothing, lower, upper, one, both };
 
-inline Held held_by(const Rig& rig, Index m) {
+inline HeldPins held_by(const Rig& rig, Index m) {
     const Link<double> link = rig.chain().link(m);
     const Displaced fluid = rig.displaced(m);
     const bool turning = rig.fluid() == Fluid::turning;
     const double moved = turning ? fluid.weight : fluid.added_weight;
     const Wide<double> none(0.0);
-    if (rig.flywheel(m).axial_moment > 0) return Held::both;
-    if (turning && rig.fills_its_link(m) && link.weight == moved) return Held::nothing;
-    if (link.weight > 0 && moved > 0 && fluid.centroid != link.centroid) return Held::both;
+    if (rig.flywheel(m).axial_moment > 0) return HeldPins::both;
+    if (turning && rig.fills_its_link(m) && link.weight == moved) return HeldPins::nothing;
+    if (link.weight > 0 && moved > 0 && fluid.centroid != link.centroid) return HeldPins::both;
     if ((link.weight > 0 && link.gyration_ratio > none) || (moved > 0 && fluid.gyration_ratio > none))
-        return Held::both;
-    if (!(link.weight > 0) && !(moved > 0)) return Held::nothing;
+        return HeldPins::both;
+    if (!(link.weight > 0) && !(moved > 0)) return HeldPins::nothing;
     const double h = link.weight > 0 ? link.centroid : fluid.centroid;
-    return h == 0 ? Held::upper : h == link.length ? Held::lower : Held::one;
+    return h == 0 ? HeldPins::upper : h == link.length ? HeldPins::lower : HeldPins::one;
 }
 
 /// The form sum of c (y_m - y_{m+1})^2 over the elements, on the motions that carry no inertia; c is an element's
 /// stiffness or, in a quadratic family, its spin. Coordinates are eliminated by intervals, from the free end up.
-inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<Held>& held) {
+inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& pencil, const std::vector<HeldPins>& held) {
     using S = Wide<double>;
     using I = Interval<S>;
     const auto is_zero = [](const I& x) { return x.low == S(0.0) && x.high == S(0.0); };
@@ -82,29 +82,30 @@ inline MasslessForm massless_form(const pencil::SignedPencil<Wide<double>>& penc
     bool free = true;  // whether this pin moves unnoticed
     // Where every pin has inertia, which is nearly always, there is no such motion.
     bool at_liberty = true, plain = true;
-    for (const Held each : held) {
-        plain = plain && each != Held::one && !(at_liberty && (each == Held::nothing || each == Held::upper));
-        at_liberty = each == Held::nothing || each == Held::lower;
+    for (const HeldPins each : held) {
+        plain =
+            plain && each != HeldPins::one && !(at_liberty && (each == HeldPins::nothing || each == HeldPins::upper));
+        at_liberty = each == HeldPins::nothing || each == HeldPins::lower;
     }
     if (plain) return form;
     for (std::size_t m = 0; m < held.size(); ++m) {
         const auto& e = pencil.elements[m];
         const auto& off = e.error;
         const I c = pencil.quadratic ? around(e.spin, off.spin) : around(e.stiffness, off.stiffness);
-        if (held[m] == Held::one) {  // lower pin = -cross/lower times the upper pin
+        if (held[m] == HeldPins::one) {  // lower pin = -cross/lower times the upper pin
             const I ratio = -around(e.cross, off.cross) / around(e.lower, off.lower);
             below = sum(product(below, square(ratio)), product(c, square(ratio - I(S(1.0)))));
             continue;
         }
         I carried = c;  // to the upper pin, where the lower one does not move
-        if (free && (held[m] == Held::nothing || held[m] == Held::upper)) {
+        if (free && (held[m] == HeldPins::nothing || held[m] == HeldPins::upper)) {
             const I pivot = sum(below, c);
             eliminate(pivot);
             form.certain = form.certain && (!is_zero(pivot) || is_zero(c));
             carried = is_zero(below) || is_zero(c) ? I() : c * below / pivot;
         }
         below = carried;
-        free = held[m] == Held::nothing || held[m] == Held::lower;
+        free = held[m] == HeldPins::nothing || held[m] == HeldPins::lower;
     }
     return form;
 }
@@ -173,7 +174,7 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
     result.pace = sqrt(S(std::ldexp(gravity, -result.units.length_exponent)));
     result.stiffness_positive = result.stiffness_certain = result.mass_not_negative = true;
     result.not_positive = 0;
-    std::vector<detail::Held> held;
+    std::vector<detail::HeldPins> held;
     const auto add = [&](const RigElement& e, bool mass_not_negative) {
         result.pencil.elements.push_back(e);
         const double k = static_cast<double>(e.stiffness), off = e.error.stiffness;
@@ -197,7 +198,7 @@ inline RigPencil rig_pencil(const Rig& rig, double gravity = conical_pendulum::s
     }
     if (const auto support = support_element(rig)) {
         add(*support, true);
-        held.push_back(rig.support().carriage_weight > 0 ? detail::Held::lower : detail::Held::nothing);
+        held.push_back(rig.support().carriage_weight > 0 ? detail::HeldPins::lower : detail::HeldPins::nothing);
     }
     result.massless = detail::massless_form(result.pencil, held);
     return result;

@@ -250,7 +250,7 @@ _NO_ANSWER = {  # by question, and what hangs
     "shapes": {},
     "response": {"cord": _CUT, "bent": _SHAPES, "held cord": _SHAPES, "weightless": _SHAPES, "held": _MODES},
     "swing": {"rig": _MODES, "cord": _CUT, "bent": _SHAPES, "held cord": _CUT, "weightless": _SHAPES, "held": _MODES},
-    "branches": dict.fromkeys(("rig", "bent", "held cord", "weightless", "held"), _SHAPES) | {"cord": _CUT},
+    "branches": dict.fromkeys(("bent", "held cord", "weightless", "held"), _SHAPES) | {"cord": _CUT},
 }
 _NAMES = {
     "rig": "a chain with a support, standing links, flywheels or a fluid",

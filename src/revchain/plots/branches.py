@@ -30,7 +30,7 @@ BY_WEIGHT = {
     "moment_of_inertia": "moment of inertia (weight x length^2)",
     "effective_energy": "effective energy (weight x length)",
 }
-CLOSEST = 0.03  # of the width, between births that are written out
+CLOSEST = 0.03  # of the width, between births whose speeds are written out
 
 
 def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, quantity: str, place: str) -> Axes:
@@ -50,29 +50,11 @@ def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, 
         if branch.mode is not None:
             ax.plot(speed[0], value[0], "o", color=colour, markersize=5.0)
         folds = branch.folds
-        ax.plot(speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="white", zorder=3)
+        ax.plot(speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="none", zorder=3)
         if branch.mode is None and folds.size:
             born = int(folds[np.argmin(speed[folds])])
             births.append((float(speed[born]), colour))
-    left, right = ax.get_xlim()
-    last = -np.inf
-    for at, colour in sorted(births):
-        ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
-        if at - last < CLOSEST * (right - left):
-            continue
-        last = at
-        ax.text(
-            at,
-            0.5,
-            f"pair born at {at:.5g}",
-            transform=ax.get_xaxis_transform(),
-            rotation=90,
-            ha="center",
-            va="center",
-            fontsize="small",
-            color=colour,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
-        )
+    _mark_births(ax, births)
     by_mass = all(branch.system.by_mass for branch in branches)
     label = QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
     ax.set(xlabel="speed over the first critical speed", ylabel=label)
@@ -83,6 +65,23 @@ def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, 
         order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # what was there before: last
         ax.legend([handles[i] for i in order], [labels[i] for i in order], loc="upper left", bbox_to_anchor=(1.01, 1.0))
     return ax
+
+
+def _mark_births(ax: Axes, births: list[tuple[float, str]]) -> None:
+    """Dotted lines at speeds where pairs are born, written above the frame, where they hide no loop however small."""
+    left, right = ax.get_xlim()
+    last = -np.inf
+    ticks: list[float] = []
+    for at, colour in sorted(births):
+        ax.axvline(at, color=colour, linestyle=":", linewidth=0.8, zorder=1)
+        if at - last >= CLOSEST * (right - left):
+            ticks.append(at)
+            last = at
+    if not ticks:
+        return
+    above = ax.secondary_xaxis("top")
+    above.set_xticks(ticks, [f"{at:.5g}" for at in ticks], rotation=90, fontsize="small")
+    above.set_xlabel("pairs born at", fontsize="small")
 
 
 def _values(branch: Branch, quantity: str) -> Floats:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, overload
+from typing import Any, Literal, overload
 
 from .. import _core
 from ..results.branches import Branch, Branches, branches_made
@@ -17,26 +17,28 @@ from ..systems.numbers import (
     count,
     exactly_one,
     height_of,
+    integer,
     limit,
     one_positive,
+    shown,
 )
 from ..systems.rig import Rig
 from .refuse import refuse_other
 
 _OTHERS = {
-    Rig: "ask steady_shapes at the speeds wanted",
     Cord: "ask the branches of its chain: cord.chain(10)",
     Held: "ask steady_shapes at the speeds wanted",
 }
 
 
 def branch(
-    system: Chain,
+    system: Chain | Rig,
     mode: int,
     *,
     max_angular_speed: float | None = None,
     min_conical_height: float | None = None,
     gravity: float = STANDARD_GRAVITY,
+    direction: int = 1,
     max_points: int = 10_000,
     max_step: float = 0.1,
 ) -> Branch:
@@ -44,16 +46,19 @@ def branch(
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links.
+    system : Chain or Rig
+        The chain of N links, by itself or rigged. Along the branch of a rig every link keeps its posture.
     mode : int
-        Number of the mode, from 1, the slowest.
+        Number of the mode, from 1, the slowest. Of a rig whose support is off the axis no branch leaves the vertical:
+        give 1, the branch from rest; `branches` finds those that are born in folds.
     max_angular_speed : float
         Where to stop: at the first point of this speed, rad/s, above that of the mode.
     min_conical_height : float
         Instead of `max_angular_speed`: the conical height at which to stop, m.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
+    direction : {1, -1}, optional
+        Of rotation; it matters to a rig with flywheels.
     max_points : int, optional
         After which to stop in any case.
     max_step : float, optional
@@ -63,13 +68,16 @@ def branch(
     -------
     Branch
         The first point is the straight chain, alone if no double tells the end from it (``end`` is then
-        ``stuck``). Numbers to about 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, mostly an ulp.
+        ``stuck``). The branch from rest begins at a tenth of the first critical speed of the rig with its support in
+        the axis, or of the speed given if that is slower. Numbers to about 1e-12; folds to 1e-6 of the arc, their
+        heights to 1e-13, mostly an ulp.
 
     Raises
     ------
     ValueError
-        If there is no such mode, if not exactly one of `max_angular_speed` and `min_conical_height` is given, or if
-        the speed is not above that of the mode.
+        If there is no such mode (of a support off the axis: if `mode` is not 1), if not exactly one of
+        `max_angular_speed` and `min_conical_height` is given, if the speed is not above that of the mode, or if
+        `direction` is neither 1 nor -1.
 
     Notes
     -----
@@ -84,24 +92,33 @@ def branch(
     >>> branch = rc.branch(rc.Chain.uniform_plummets(3, length=3.0), 3, min_conical_height=0.04)
     >>> branch.conical_height[[0, -1]].round(6), set(branch.half_waves.tolist())
     (array([0.158984, 0.04    ]), {3})
+
+    A chair on an arm of 1 m, from rest to 3 rad/s:
+
+    >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
+    >>> chair = rc.branch(carousel, 1, max_angular_speed=3.0)
+    >>> chair.birth, chair.tip_radius[[0, -1]].round(4)
+    ('rest', array([1.0101, 4.9048]))
     """
     place = "revchain.branch"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Rig), _OTHERS)
     number = count(place, "mode", mode)
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     points = count(place, "max_points", max_points)
     step = one_positive(place, "max_step", max_step)
     asked = (number, height, points, step)
-    found = _core.branch(compiled(place, system), *asked)
-    return Branch._made(found, system=system, gravity=one_positive(place, "gravity", gravity), asked=asked)
+    g, turns = one_positive(place, "gravity", gravity), _direction(place, direction)
+    found = _core.branch(_system(place, system, g), *asked, g, turns)
+    return Branch._made(found, system=system, gravity=g, direction=turns, asked=asked)
 
 
 def branches(
-    system: Chain,
+    system: Chain | Rig,
     *,
     max_angular_speed: float | None = None,
     min_conical_height: float | None = None,
     gravity: float = STANDARD_GRAVITY,
+    direction: int = 1,
     lists: int = 16,
     budget: int = 2_000_000,
     proof_budget: int = 1_000_000,
@@ -110,14 +127,17 @@ def branches(
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links; few, as all shapes are listed (`steady_shapes`).
+    system : Chain or Rig
+        The chain of N links, by itself or rigged; few, as all shapes are listed (`steady_shapes`), those of a rig in
+        its own posture.
     max_angular_speed : float
         The speed up to which to go, rad/s.
     min_conical_height : float
         Instead of `max_angular_speed`: the conical height down to which to go, m.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
+    direction : {1, -1}, optional
+        Of rotation; it matters to a rig with flywheels.
     lists : int, optional
         At how many speeds to list all shapes and bring them together with the branches.
     budget : int, optional
@@ -128,13 +148,14 @@ def branches(
     Returns
     -------
     Branches
-        A sequence of `Branch`: those that leave the vertical, slowest first, then those that are born in a
-        fold, slowest first.
+        A sequence of `Branch`: those that leave the vertical, slowest first (of a rig whose support is off the axis the
+        one from rest), then those that are born in a fold, slowest first.
 
     Raises
     ------
     ValueError
-        If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range.
+        If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if
+        a link of a rig has no effective tension at a speed looked at.
 
     Notes
     -----
@@ -146,6 +167,12 @@ def branches(
     one curve through a branch that is known; loops found so are followed. ``complete`` is true where
     no part resists. Links that could hang at several inclinations are left out: there it is false. It rests on
     `branch`: that a branch that was followed is where it seems to be is checked at every step, not proved.
+
+    Of rigs the proof covers those whose links all hang in tension at every speed up to the one given: on springs, on an
+    arm, with flywheels, in fluids. Below the first critical speed one shape is then all there is (in the axis none). A
+    spring too soft to hold the whole (stiffness times conical height below the weight that moves) leaves the speeds
+    beyond unproved; ``remark`` says which.
+
     Measured, at heights of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms; eight equal plummets to
     5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s.
 
@@ -158,20 +185,30 @@ def branches(
     >>> born = diagram[3]
     >>> round(born.angular_speed[born.folds[0]], 10)
     np.float64(3.9037621569)
+
+    A carousel: the way from rest outwards, and the pair of shapes inwards that is born at a fold:
+
+    >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
+    >>> diagram = rc.branches(carousel, max_angular_speed=4.0)
+    >>> [each.birth for each in diagram], diagram.complete
+    (['rest', 'fold'], True)
+    >>> round(float(diagram[1].angular_speed.min()), 4)
+    2.2878
     """
     place = "revchain.branches"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Rig), _OTHERS)
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     at = min(count(place, "lists", lists), 10**6)
     most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
     asked = (height, at, most, most_of_proof)
-    found = _core.branches(compiled(place, system), *asked)
-    return branches_made(found, system, one_positive(place, "gravity", gravity), asked)
+    g, turns = one_positive(place, "gravity", gravity), _direction(place, direction)
+    found = _core.branches(_system(place, system, g), *asked, g, turns)
+    return branches_made(found, system, g, turns, asked)
 
 
 @overload
 def steady_shape(
-    system: Chain,
+    system: Chain | Rig,
     *,
     mode: int = ...,
     conical_height: float | None = ...,
@@ -180,12 +217,13 @@ def steady_shape(
     tip_radius: float | None = ...,
     top_tension: float | None = ...,
     gravity: float = ...,
+    direction: int = ...,
     all: Literal[False] = ...,
     min_conical_height: float | None = ...,
 ) -> SteadyShape: ...
 @overload
 def steady_shape(
-    system: Chain,
+    system: Chain | Rig,
     *,
     mode: int = ...,
     conical_height: float | None = ...,
@@ -194,11 +232,12 @@ def steady_shape(
     tip_radius: float | None = ...,
     top_tension: float | None = ...,
     gravity: float = ...,
+    direction: int = ...,
     all: Literal[True],
     min_conical_height: float | None = ...,
 ) -> tuple[SteadyShape, ...]: ...
 def steady_shape(
-    system: Chain,
+    system: Chain | Rig,
     *,
     mode: int = 1,
     conical_height: float | None = None,
@@ -207,6 +246,7 @@ def steady_shape(
     tip_radius: float | None = None,
     top_tension: float | None = None,
     gravity: float = STANDARD_GRAVITY,
+    direction: int = 1,
     all: bool = False,
     min_conical_height: float | None = None,
 ) -> SteadyShape | tuple[SteadyShape, ...]:
@@ -214,22 +254,26 @@ def steady_shape(
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links, up to 100,000 and more.
+    system : Chain or Rig
+        The chain of N links, up to 100,000 and more, by itself or rigged.
     mode : int, optional
-        At which the branch leaves the vertical, from 1, the slowest.
+        At which the branch leaves the vertical, from 1, the slowest. Of a rig whose support is off the axis the branch
+        from rest, 1; shapes of other branches: `Branch.at` of those that `branches` finds.
     conical_height : float
         Conical height of the speed, less than that of the mode.
     angular_speed : float
         Instead: the speed in rad/s.
     tip_inclination : float
-        Instead: that of the lowest link, rad, above 0 and below pi/2; its size, whatever the sign.
+        Instead: that of the lowest link, rad, above 0 and below pi/2 (of one that stands: above that and below pi); its
+        size, whatever the sign; outwards if the support is off the axis.
     tip_radius : float
         Instead: the free end's distance from the axis, its size too.
     top_tension : float
-        Instead: the size of the reaction at the support, more than the weight of the chain.
+        Instead: the size of the reaction at the topmost pin, more than the weight that it bears.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
+    direction : {1, -1}, optional
+        Of rotation; it matters to a rig with flywheels.
     all : bool, optional
         All states met along the branch, in a tuple, not the first from the vertical alone; the tuple
         is empty where none is met.
@@ -246,9 +290,9 @@ def steady_shape(
     Raises
     ------
     ValueError
-        If there is no such mode, if not exactly one number is given or it is out of its range, if
-        `min_conical_height` is not below the height of the mode, if the branch does not exist yet at that speed, or,
-        unless `all`, if what is given is not met on it.
+        If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
+        neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
+        at that speed, or, unless `all`, if what is given is not met on it.
     TypeError
         If `all` is not a bool.
 
@@ -266,9 +310,15 @@ def steady_shape(
     >>> again = rc.steady_shape(chain, mode=2, tip_radius=shape.offset[0])
     >>> round((9.80665 / again.conical_height) ** 0.5, 9)
     20.0
+
+    The speed at which a chair of a carousel is 2.5 m from the axis:
+
+    >>> carousel = rc.Rig(rc.Chain(mass=80.0, length=4.0), support=rc.Support(radius=1.0))
+    >>> round(rc.steady_shape(carousel, tip_radius=2.5).angular_speed, 4)
+    1.2597
     """
     place = "revchain.steady_shape"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Rig), _OTHERS)
     number = count(place, "mode", mode)
     name, value = exactly_one(
         place,
@@ -279,19 +329,25 @@ def steady_shape(
         top_tension=top_tension,
     )
     g = one_positive(place, "gravity", gravity)
+    turns = _direction(place, direction)
     if name == "top_tension":
-        least = system._force(g) * system._compiled.total_weight
-        if not value > least:
+        if isinstance(system, Chain) and not value > (least := system._force(g) * system._compiled.total_weight):
             raise ValueError(f"{place}: top_tension must be more than the weight {least:.6g} of the chain, got {value:g}")
         value /= system._force(g)
     every = boolean(place, "all", all)
     lowest = None if min_conical_height is None else one_positive(place, "min_conical_height", min_conical_height)
-    core = compiled(place, system)
-    if not every:
-        return _shape(_core.steady_shape(core, number, name, value, g, lowest), system, g)
-    found = _core.shapes_on_branch(core, number, name, value, g, lowest)
-    return tuple(_shape(shape, system, g) for shape in found)
+    asked = (_system(place, system, g), number, name, value, g, turns, lowest)
+    found = _core.shapes_on_branch(*asked) if every else [_core.steady_shape(*asked)]
+    shapes = tuple(SteadyShape._made(shape, system=system, gravity=g, direction=turns) for shape in found)
+    return shapes if every else shapes[0]
 
 
-def _shape(found: _core.SteadyShape, system: Chain, gravity: float) -> SteadyShape:
-    return SteadyShape._made(found, system=system, gravity=gravity, direction=1)
+def _direction(place: str, direction: int) -> int:
+    if integer(place, "direction", direction) not in (1, -1):
+        raise ValueError(f"{place}: direction must be 1 or -1, got {shown(direction)}")
+    return int(direction)
+
+
+def _system(place: str, system: Chain | Rig, gravity: float) -> Any:
+    """The compiled chain or rig."""
+    return system._under(gravity) if isinstance(system, Rig) else compiled(place, system)

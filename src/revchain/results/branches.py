@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from .. import _core
 from ..systems.chain import Chain
 from ..systems.numbers import Floats, Whole, count, height_of, integer, one_positive
+from ..systems.rig import Rig
 from .base import Field, Result, Results
 from .shapes import SteadyShape, forced, is_driven
 from .sheet import Column, Sheet
@@ -53,11 +55,17 @@ class Branch(Result):
     """
 
     __slots__ = ()
-    system: Field[Chain] = Field("The chain.", part=True)
+    system: Field[Chain | Rig] = Field("The chain or rig.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    direction: Field[int] = Field("1 or -1: of the rotation; it matters to flywheels.", part=True)
     mode: Field[int | None] = Field(
-        "Number of the mode at which it leaves the vertical; None for an isolated branch.",
+        "Number of the mode at which it leaves the vertical; 1 from rest; None for an isolated branch.",
         lambda b: b._found().mode or None,
+        part=True,
+    )
+    birth: Field[str] = Field(
+        "``'vertical'``: it leaves the straight chain at a critical speed; ``'rest'``: it begins at rest, the support being "
+        "off the axis; ``'fold'``: it is isolated, two shapes are born in a fold.",
         part=True,
     )
     arc: Field[Floats] = Field(
@@ -70,12 +78,13 @@ class Branch(Result):
     tip_inclination: Field[Floats] = Field(
         "Inclination of the lowest link to the vertical, rad. Of the two mirror images the branch is followed in one: that "
         "in which `modes` gives the mode; an isolated branch in that with the free end at a positive offset where it "
-        "begins. Where the sign changes along the branch the link hangs vertically.",
+        "begins. Where the sign changes along the branch the link hangs vertically. If the support is off the axis there "
+        "are no mirror images: outwards is positive.",
         part=True,
     )
     tip_radius: Field[Floats] = Field("Distance of the free end from the axis, m.", part=True)
     top_tension: Field[Floats] = Field(
-        "Size of the reaction at the support, N or in the unit of the weights.", forced("top_tension"), part=True
+        "Size of the reaction at the topmost pin, N or in the unit of the weights.", forced("top_tension"), part=True
     )
     moment_of_inertia: Field[Floats] = Field(
         "About the axis, kg m^2; of a chain given by weight, weight times length squared.", part=True
@@ -90,7 +99,8 @@ class Branch(Result):
     end: Field[str] = Field(
         "Why it was not followed farther: ``'height'``: at the one asked for; ``'closed'``: back where it began; "
         "``'vertical'``: back at the straight chain; ``'budget'``: after `max_points`; ``'stuck'``: no step passed every "
-        "check.",
+        "check; ``'slow'``: on the way to rest; ``'slack'``: flywheels take the tension from a link, which comes to the "
+        "horizontal; ``'loose'``: the spring at the support no longer holds the whole.",
         part=True,
     )
     asked: Field[tuple[Any, ...]] = Field("The numbers it was asked with, for shapes that are asked for later.", part=True)
@@ -142,7 +152,7 @@ class Branch(Result):
         angular_speed : float
             Instead of `conical_height`: the speed in rad/s, positive.
         gravity : float, optional
-            In m/s^2; that of the branch if left out.
+            In m/s^2; that of the branch if left out. A rig has no other: what springs and wheels do depends on it.
 
         Returns
         -------
@@ -162,8 +172,11 @@ class Branch(Result):
         >>> [shape.half_waves for shape in branch.at(conical_height=0.2)]
         [1]
         """
-        g = self.gravity if gravity is None else one_positive("revchain.Branch.at", "gravity", gravity)
-        height = height_of("revchain.Branch.at", conical_height, angular_speed, g)
+        place = "revchain.Branch.at"
+        g = self.gravity if gravity is None else one_positive(place, "gravity", gravity)
+        if isinstance(self.system, Rig) and g != self.gravity:
+            raise ValueError(f"{place}: gravity must be that of the rig's branch, {self.gravity:g}, got {g:g}; follow it anew")
+        height = height_of(place, conical_height, angular_speed, g)
         return tuple(self._shape(found, g) for found in self._found().states_at(height))
 
     def stability_windows(
@@ -205,7 +218,7 @@ class Branch(Result):
         driven = is_driven(place, frame)
         wide = one_positive(place, "tolerance", tolerance)
         places = min(count(place, "samples", samples), 10**6)
-        found = _core.stability_windows(self.system._compiled, self._found(), driven, wide, places)
+        found = _core.stability_windows(self._compiled(), self._found(), driven, wide, places)
         return [StabilityWindow._made(None, verdict=verdict, conical_height=(h0, h1), arc=(s0, s1)) for s0, s1, h0, h1, verdict in found]
 
     def plot(self, ax: Axes | None = None, *, quantity: str = "tip_inclination") -> Axes:
@@ -238,7 +251,7 @@ class Branch(Result):
         """
         from ..plots.branches import plot_branches
 
-        return plot_branches([self], _first_height(self.system), ax, quantity=quantity, place="revchain.Branch.plot")
+        return plot_branches([self], _first_height([self]), ax, quantity=quantity, place="revchain.Branch.plot")
 
     @property
     def _per(self) -> float:
@@ -248,14 +261,19 @@ class Branch(Result):
         return int(self.arc.size)
 
     def _shape(self, found: _core.SteadyShape, gravity: float) -> SteadyShape:
-        return SteadyShape._made(found, system=self.system, gravity=gravity, direction=1)
+        return SteadyShape._made(found, system=self.system, gravity=gravity, direction=self.direction)
+
+    def _compiled(self) -> Any:
+        return self.system._under(self.gravity) if isinstance(self.system, Rig) else self.system._compiled
 
     def _again(self) -> _core.Branch:
-        core = self.system._compiled
+        core = self._compiled()
         if len(self.asked) == 4:
-            return _core.branch(core, *self.asked)
-        diagram = _core.branches(core, *self.asked[:-1])
-        found: _core.Branch = diagram.branches[self.asked[-1]]
+            found: _core.Branch = _core.branch(core, *self.asked, self.gravity, self.direction)
+            return found
+        height, lists, budget, proof_budget, place = self.asked
+        diagram = _core.branches(core, height, lists, budget, proof_budget, self.gravity, self.direction)
+        found = diagram.branches[place]
         return found
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -274,19 +292,24 @@ class Branch(Result):
             Column("effective_energy", self.effective_energy),
             Column("arc", self.arc),
         ]
-        name = "isolated" if self.mode is None else f"of mode {self.mode}"
+        name = "from rest" if self.birth == "rest" else "isolated" if self.mode is None else f"of mode {self.mode}"
         folds = f", {self.folds.size} fold{'s' * (self.folds.size != 1)}" if self.folds.size else ""
         heading = f"Branch {name}: {len(self)} points{folds}, ends at {self.end}"
-        facts = {"mode": self.mode, "end": self.end, "gravity": self.gravity}
+        names = ("mode", "birth", "end", "gravity", "direction")
+        facts = {each: getattr(self, each) for each in names}
         return Sheet("point", heading, columns, facts, spread=True)
 
 
 class Branches(Results[Branch]):
-    """All branches found down to one conical height: those of the modes, slowest first, then isolated ones."""
+    """All branches found down to one conical height: those of the modes, slowest first, then isolated ones.
+
+    Of a rig whose support is off the axis: the one from rest, then those born in folds.
+    """
 
     __slots__ = ()
-    system: Field[Chain] = Field("The chain.", part=True)
+    system: Field[Chain | Rig] = Field("The chain or rig.", part=True)
     gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    direction: Field[int] = Field("1 or -1: of the rotation; it matters to flywheels.", part=True)
     consistent: Field[bool] = Field(
         "Whether at every speed looked at each shape of the proved list was met by a branch, and met once.", part=True
     )
@@ -328,7 +351,7 @@ class Branches(Results[Branch]):
         """
         from ..plots.branches import plot_branches
 
-        ax = plot_branches(self, _first_height(self.system), ax, quantity=quantity, place="revchain.Branches.plot")
+        ax = plot_branches(self, _first_height(self), ax, quantity=quantity, place="revchain.Branches.plot")
         if not self:
             ax.set_title("no shape at or above this conical height")
         else:
@@ -338,7 +361,7 @@ class Branches(Results[Branch]):
     def _sheet(self, brief: bool = False) -> Sheet:
         columns = [
             Column("branch", np.arange(len(self)), "branch"),
-            Column("mode", ["isolated" if each.mode is None else str(each.mode) for each in self], "mode"),
+            Column("mode", [_born(each) for each in self], "mode"),
             Column("points", [len(each) for each in self], "points"),
             Column("folds", [int(each.folds.size) for each in self], "folds"),
             Column("lowest_speed", [float(each.angular_speed.min()) for each in self], "lowest speed (rad/s)"),
@@ -346,19 +369,32 @@ class Branches(Results[Branch]):
             Column("end", [each.end for each in self], "ends at"),
         ]
         isolated = sum(each.mode is None for each in self)
-        heading = f"Branches: {len(self) - isolated} from the vertical, {isolated} isolated; {self.remark}"
-        names = ("gravity", "consistent", "complete", "remark", "looked_at")
+        begin = "from rest" if self and self[0].birth == "rest" else "from the vertical"
+        heading = f"Branches: {len(self) - isolated} {begin}, {isolated} isolated; {self.remark}"
+        names = ("gravity", "direction", "consistent", "complete", "remark", "looked_at")
         return Sheet("branch", heading, columns, {name: getattr(self, name) for name in names}, good=self.complete)
 
 
-def branches_made(found: _core.Branches, system: Chain, gravity: float, asked: tuple[Any, ...]) -> Branches:
+def branches_made(
+    found: _core.Branches, system: Chain | Rig, gravity: float, direction: int, asked: tuple[Any, ...]
+) -> Branches:
     """A list around compiled branches."""
-    given: dict[str, Any] = {"system": system, "gravity": gravity}
+    given: dict[str, Any] = {"system": system, "gravity": gravity, "direction": direction}
     items = tuple(Branch._made(each, asked=(*asked, k), **given) for k, each in enumerate(found.branches))
     return Branches._made(found, _items=items, **given)
 
 
-def _first_height(chain: Chain) -> float:
-    """The conical height of the slowest mode."""
-    found = _core.modes(chain._compiled, 1, 1, None, None, None, False, "double", "auto")
+def _born(branch: Branch) -> str:
+    return "rest" if branch.birth == "rest" else "isolated" if branch.mode is None else str(branch.mode)
+
+
+def _first_height(of: Sequence[Branch] | Branches) -> float:
+    """The conical height of the slowest mode; of a rig that has none the greatest height of a branch."""
+    one = of if isinstance(of, Branches) else of[0]
+    system = one.system
+    if isinstance(system, Rig):
+        modes = _core.rig_modes(system._under(one.gravity), 1, 1, None, None, None, False, one.gravity)
+        heights = modes.conical_height[modes.direction == (one.direction if modes.has_momentum else 1)]
+        return float(heights[0]) if heights.size else max(float(each.conical_height.max()) for each in of)
+    found = _core.modes(system._compiled, 1, 1, None, None, None, False, "double", "auto")
     return float(found.conical_height[0])

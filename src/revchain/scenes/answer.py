@@ -51,6 +51,7 @@ _ONLY: dict[tuple[str, str], tuple[Any, str]] = {
     **{("modes", name): _ALONE for name in ("precision", "method")},
     ("modes", "certify"): _HANGS,
     ("shapes", "direction"): _HANGS,
+    ("branches", "direction"): _HANGS,
     ("shapes", "hanging_only"): _HANGS,
     ("shapes", "max_half_waves"): (Held, "a chain held at both ends"),
 }
@@ -167,7 +168,7 @@ def _swing(table: AskSwing, system: System | None, numbers: Numbers) -> Given:
 
 def _branches(table: AskBranches, system: System | None, numbers: Numbers) -> Given:
     name, value = _one_speed(table, ("max_angular_speed", "min_conical_height"), numbers)
-    return {name: numbers.value(name, value, name, "positive")}
+    return {name: numbers.value(name, value, name, "positive"), "direction": table.direction}
 
 
 _ARGUMENTS: dict[str, Any] = {

@@ -78,6 +78,7 @@ class AskBranches(Table, frozen=True):
 
     max_angular_speed: Annotated[MaybePositive, says("The speed (rad/s); or min_conical_height.")] = UNSET
     min_conical_height: Annotated[MaybePositive, says("Instead: down to this one (m).")] = UNSET
+    direction: Annotated[Literal[1, -1], says("Of the rotation; it matters to flywheels.")] = 1
 
 
 class AskExplain(Table, frozen=True):

@@ -158,6 +158,13 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
 
 }  // namespace detail
 
+/// What flywheels keep: momentum over length of each link, and n sqrt(lambda), n the speed.
+template <class S>
+struct KeptMomentum {
+    std::vector<S> spin;
+    S speed;
+};
+
 /// The upward sweep over a cell of the lowest link's tangent (D = 1), or of lambda times that and of lambda (D = 2).
 /// Each link but the lowest has one inclination under its load.
 ///
@@ -172,17 +179,23 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
 /// problems", in: Computational Ordinary Differential Equations (1992), uses such frames for differential equations.
 /// Intervals of the slopes that are handed on from link to link are computed as well: they are the narrower ones where
 /// links turn far within the cell.
-template <class T, std::size_t D>
+/// `spins` (with D = 2): flywheels keep momentum, and the pull of link m is  pull + n spin[m].
+template <class T, std::size_t D, bool spins = false>
 class CellSweep {
     using I = Interval<T>;
 
    public:
     /// From the tangent `t` of the lowest link. `height` is lambda over the cell.
     [[gnu::always_inline]] CellSweep(const EnclosedLinks<Lane<T>>& links, const Cell<T, D>& cell, const I& height,
-                                     const I& centre_height, const Taylor<T, D>& t)
-        : cell_(cell), height_(height), centre_height_(centre_height) {
+                                     const I& centre_height, const Taylor<T, D>& t,
+                                     const KeptMomentum<Interval<Lane<T>>>* kept = nullptr)
+        : cell_(cell), height_(height), centre_height_(centre_height), kept_(kept) {
+        if constexpr (spins) {
+            const I speed = spread(kept->speed);
+            speed_ = speed / sqrt(height), centre_speed_ = speed / sqrt(centre_height);
+        }
         start(detail::in_lanes<T>(links[0]), is_zero(links[0].cross), is_zero(links[0].rest), t);
-        for (std::size_t m = 1; m < links.size(); ++m) pass(detail::in_lanes<T>(links[m]), is_zero(links[m].cross));
+        for (std::size_t m = 1; m < links.size(); ++m) pass(m, detail::in_lanes<T>(links[m]), is_zero(links[m].cross));
     }
     /// Offset of the topmost pin, and H there.
     [[gnu::always_inline]] Taylor<T, D> offset() const {
@@ -197,12 +210,43 @@ class CellSweep {
         I offset, sum;
     };
 
+    [[gnu::always_inline]] static I spread(const Interval<Lane<T>>& x) {
+        if constexpr (IsPack<T>)
+            return I(T(x.low), T(x.high));
+        else
+            return x;
+    }
+    /// The pull of a link, `whole`; the derivative of lambda times it along lambda, `growing`, and the next, `bend`.
+    /// Over the cell, and at its centre.
+    struct Pull {
+        I whole, centre_whole, growing, centre_growing, bend;
+    };
+    [[gnu::always_inline]] Pull pull_of(std::size_t m, const I& tension) const {
+        if constexpr (spins) {
+            const I spin = spread(kept_->spin[m]), half(T(0.5)), kept = speed_ * spin,
+                    centre_kept = centre_speed_ * spin;
+            return {tension + kept, tension + centre_kept, tension + half * kept, tension + half * centre_kept,
+                    I(T(-0.25)) * kept / height_};
+        } else {
+            return {tension, tension, tension, tension, I(T(0))};
+        }
+    }
+
     [[gnu::always_inline]] void start(const Link<I>& link, bool is_plummet, bool ends_in_mass, const Taylor<T, D>& t) {
         const auto s = cell_.centred(detail::sine_at(t));
-        const I weight = D == 1 ? height_ * link.pull : link.pull;
+        const Pull pull = pull_of(0, link.pull);
+        const I weight = D == 1 ? height_ * link.pull : pull.whole;
         Taylor<T, D> R;
         R.value = weight * cell_.range(0), R.centre_value = weight * cell_.centre(0);
         R.slope[0] = R.centre_slope[0] = weight;
+        if constexpr (spins) {  // pull(lambda) x
+            const I fall = I(T(2)) * pull.bend,
+                    centre_fall = (pull.centre_growing - pull.centre_whole) / centre_height_;
+            R.centre_value = pull.centre_whole * cell_.centre(0), R.centre_slope[0] = pull.centre_whole;
+            R.slope[1] = fall * cell_.range(0), R.centre_slope[1] = centre_fall * cell_.centre(0);
+            R.bend[1] = fall, R.bend[2] = I(T(-1.5)) * fall / height_ * cell_.range(0);
+            R = cell_.centred(R);
+        }
         if (!is_plummet) R = R + link.length * link.cross * s;
         const auto y = cell_.centred(R / link.moment) - link.length * s;
         const auto H = ends_in_mass ? R : R + link.rest * y;
@@ -211,18 +255,20 @@ class CellSweep {
         offset_slope_ = y.slope, sum_slope_ = H.slope;
     }
 
-    [[gnu::always_inline]] void pass(const Link<I>& link, bool is_plummet) {
+    [[gnu::always_inline]] void pass(std::size_t m, const Link<I>& link, bool is_plummet) {
         const I R_p = p_.sum + link.moment * p_.offset, R_q = q_.sum + link.moment * q_.offset;
         std::array<I, D> R_slope;
         for (std::size_t i = 0; i < D; ++i) R_slope[i] = sum_slope_[i] + link.moment * offset_slope_[i];
         const auto R = narrowed(
             framed(R_p, R_q, sum_ + link.moment * offset_, centre_sum_ + link.moment * centre_offset_), R_slope);
         // over the cell, and at its centre
-        const std::array<I, 2> heights{height_, centre_height_}, loads{R.value, R.centre_value};
+        const Pull pull = pull_of(m, link.pull);
+        const std::array<I, 2> heights{height_, centre_height_}, loads{R.value, R.centre_value},
+            pulls{pull.whole, pull.centre_whole};
         std::array<I, 2> tangent, sine, growth, along;
         I bend;
         for (std::size_t which = 2; which-- > 0;) {
-            const I stiffness = heights[which] * link.pull, turning = link.length * link.cross;
+            const I stiffness = heights[which] * pulls[which], turning = link.length * link.cross;
             tangent[which] =
                 is_plummet ? loads[which] / stiffness : detail::tangent_of(stiffness, turning, loads[which]);
             const detail::Sine<T> s(tangent[which]);
@@ -235,14 +281,15 @@ class CellSweep {
         // s_i = along load_i,   s_ij = along load_ij + bend t_i t_j
         Derivatives<T, D> load = R, N;
         if constexpr (D == 2) {
-            load.slope[1] = load.slope[1] - link.pull * t;
-            load.centre_slope[1] = load.centre_slope[1] - link.pull * centre_t;
+            load.slope[1] = load.slope[1] - pull.growing * t;
+            load.centre_slope[1] = load.centre_slope[1] - pull.centre_growing * centre_t;
         }
         std::array<I, D> slope;
         for (std::size_t i = 0; i < D; ++i) slope[i] = load.slope[i] / growth[0];
         if constexpr (D == 2) {
-            load.bend[1] = load.bend[1] - link.pull * slope[0];
-            load.bend[2] = load.bend[2] - I(T(2)) * link.pull * slope[1];
+            load.bend[1] = load.bend[1] - pull.growing * slope[0];
+            load.bend[2] = load.bend[2] - I(T(2)) * pull.growing * slope[1];
+            if constexpr (spins) load.bend[2] = load.bend[2] - pull.bend * t;
         }
         const I beyond = along[0] - k, centre_beyond = along[1] - k;
         for (std::size_t i = 0; i < D; ++i)
@@ -250,10 +297,11 @@ class CellSweep {
         each_pair<D>([&](std::size_t n, std::size_t i, std::size_t j)
                          REVCHAIN_INLINED { N.bend[n] = beyond * load.bend[n] + bend * product(slope, i, j); });
         if constexpr (D == 2) {
-            N.slope[1] = N.slope[1] - k * (link.pull * t);
-            N.centre_slope[1] = N.centre_slope[1] - k * (link.pull * centre_t);
-            N.bend[1] = N.bend[1] - k * (link.pull * slope[0]);
-            N.bend[2] = N.bend[2] - k * (I(T(2)) * link.pull * slope[1]);
+            N.slope[1] = N.slope[1] - k * (pull.growing * t);
+            N.centre_slope[1] = N.centre_slope[1] - k * (pull.centre_growing * centre_t);
+            N.bend[1] = N.bend[1] - k * (pull.growing * slope[0]);
+            N.bend[2] = N.bend[2] - k * (I(T(2)) * pull.growing * slope[1]);
+            if constexpr (spins) N.bend[2] = N.bend[2] - k * (pull.bend * t);
         }
         const I a_p = link.length * R_p, a_q = link.length * R_q;
         u_.combine(u_, N, [&](const I& x, const I& n) REVCHAIN_INLINED { return x - a_q * n; });
@@ -299,6 +347,8 @@ class CellSweep {
 
     const Cell<T, D>& cell_;
     const I &height_, &centre_height_;
+    const KeptMomentum<Interval<Lane<T>>>* kept_;
+    I speed_, centre_speed_;  // n
     Side p_{I(T(1)), I(T(0))}, q_{I(T(0)), I(T(1))};
     Derivatives<T, D> u_, v_;
     I offset_, centre_offset_, sum_, centre_sum_;  // of the pin, over the cell and at its centre
@@ -317,8 +367,10 @@ Taylor<T, 1> support_offset(const EnclosedLinks<T>& links, const Interval<T>& he
 
 /// Offset of the support over a cell of x = lambda t, t the tangent of the lowest link, and of heights lambda: zero for
 /// every steady shape. NaN where a link may have several inclinations. T: a number or a pack of them.
-template <class T>
-[[gnu::always_inline]] inline Taylor<T, 2> support_offset(const EnclosedLinks<Lane<T>>& links, const Cell<T, 2>& cell) {
+template <class T, bool spins = false>
+[[gnu::always_inline]] inline CellSweep<T, 2, spins> swept_cell(const EnclosedLinks<Lane<T>>& links,
+                                                                const Cell<T, 2>& cell,
+                                                                const KeptMomentum<Interval<Lane<T>>>* kept = nullptr) {
     const auto over = [](const Interval<T>& x, const Interval<T>& height) REVCHAIN_INLINED {  // x/lambda and its slopes
         const Interval<T> slope = Interval<T>(T(1)) / height, value = x * slope;
         return std::array{value, slope, -(value * slope)};
@@ -329,7 +381,11 @@ template <class T>
     t.value = value, t.slope = {by_x, by_height};
     t.centre_value = centre_value, t.centre_slope = {centre_by_x, centre_by_height};
     t.bend = {Interval<T>(T(0)), -square(by_x), Interval<T>(T(2)) * value * square(by_x)};
-    return CellSweep<T, 2>(links, cell, cell.range(1), cell.centre(1), cell.centred(t)).offset();
+    return CellSweep<T, 2, spins>(links, cell, cell.range(1), cell.centre(1), cell.centred(t), kept);
+}
+template <class T>
+[[gnu::always_inline]] inline Taylor<T, 2> support_offset(const EnclosedLinks<Lane<T>>& links, const Cell<T, 2>& cell) {
+    return swept_cell<T>(links, cell).offset();
 }
 
 }  // namespace revchain::finite

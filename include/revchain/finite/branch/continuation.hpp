@@ -26,6 +26,7 @@ class BranchWalk {
         return walk;
     }
 
+    const BranchLinks<double>& links() const { return corrector_->links(); }
     const BranchPoint& before() const { return before_; }
     const BranchPoint& here() const { return here_; }
     double longest = 0.5;    ///< along the arc

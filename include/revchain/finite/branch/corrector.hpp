@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "revchain/finite/branch/border.hpp"
+#include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/state.hpp"
 
 namespace revchain::finite {
@@ -36,22 +37,25 @@ inline double largest_rise(const BranchState& x) {
 /// Newton's method on the whole chain and its height, held to a plane across a direction. In double.
 class Corrector {
    public:
-    explicit Corrector(std::vector<Link<double>> links)
+    explicit Corrector(BranchLinks<double> links)
         : links_(std::move(links)),
           border_(links_.size()),
           sine_(links_.size()),
           growth_(links_.size()),
           pull_(links_.size()),
+          along_(links_.size()),
           stiffness_(links_.size()),
           left_(links_.size()),
           row_(links_.size()),
           reach_(links_.size()) {
-        for (const Link<double>& link : links_) half_waves_are_kept_ = half_waves_are_kept_ && !(link.cross < 0);
+        half_waves_are_kept_ = links_.plain && std::none_of(links_.links.begin(), links_.links.end(),
+                                                            [](const Link<double>& link) { return link.cross < 0; });
     }
+    explicit Corrector(std::vector<Link<double>> chain) : Corrector(BranchLinks<double>(std::move(chain))) {}
     std::size_t size() const { return links_.size(); }
-    const std::vector<Link<double>>& links() const { return links_; }
-    /// Whether the number of half waves is the same all along a branch: where l <= a for all links. A pin on the axis
-    /// has then its neighbours on opposite sides, so that no sign change can come or go.
+    const BranchLinks<double>& links() const { return links_; }
+    /// Whether the number of half waves is the same all along a branch: in a chain where l <= a for all links. A pin on
+    /// the axis has then its neighbours on opposite sides, so that no sign change can come or go.
     bool half_waves_are_kept() const { return half_waves_are_kept_; }
 
     struct Change {
@@ -65,8 +69,9 @@ class Corrector {
         Change change{{std::vector<double>(n), 0}, {std::vector<double>(n), 0}};
         balance_at(at, height);
         for (std::size_t m = 0; m < n; ++m) row_[m] = share * across.rise[m] * growth_[m];
-        border_.factor([&](std::size_t m) { return stiffness_[m]; }, links_, [&](std::size_t m) { return pull_[m]; },
-                       [&](std::size_t m) { return row_[m]; }, across.log_height);
+        border_.factor([&](std::size_t m) { return stiffness_[m]; }, links_.links,
+                       [&](std::size_t m) { return along_[m]; }, [&](std::size_t m) { return row_[m]; },
+                       across.log_height);
         const auto in_rise = [&](BranchState& direction) {
             for (std::size_t m = 0; m < n; ++m) direction.rise[m] = reach_[m] * growth_[m];
         };
@@ -104,10 +109,10 @@ class Corrector {
 
     /// Sign changes of the offsets, and one; 0 where rounding leaves a sign open.
     int half_waves(const BranchState& at) const {
-        double y = 0, last = 0, reached = 0;
+        double y = links_.radius, last = 0, reached = std::abs(y);
         int waves = 1;
         for (std::size_t m = links_.size(); m-- > 0;) {
-            const double d = links_[m].length * std::tanh(at.rise[m]);
+            const double d = links_.links[m].length * links_.inclined(m, at.rise[m]).sine;
             y += d, reached += std::abs(d);
             if (!(std::abs(y) > 1e-13 * reached)) return 0;
             waves += y * last < 0;
@@ -120,17 +125,17 @@ class Corrector {
     /// Forces left, in sums from the free end, and stiffnesses.
     void balance_at(const BranchState& at, double height) {
         const std::size_t n = links_.size();
-        double y = 0;
+        const double speed = links_.speed_at(height);
+        double y = links_.radius;
         for (std::size_t m = n; m-- > 0;) {
-            const Link<double>& link = links_[m];
-            // sinh and cosh from e^|tau| - 1: small inclinations keep their digits
-            const double e = std::expm1(std::abs(at.rise[m])), inverse = 0.5 / (1 + e), secant = 1 + e * e * inverse;
-            const double tangent = std::copysign(e * (e + 2) * inverse, at.rise[m]), sine = tangent / secant;
-            const double pull = height * link.pull * tangent;
-            sine_[m] = link.length * sine;
-            growth_[m] = secant * secant / link.length;
+            const Link<double>& link = links_.links[m];
+            const Inclined here = links_.inclined(m, at.rise[m]);
+            const double factor = height * links_.pull(m, speed), pull = factor * here.tangent;
+            sine_[m] = link.length * here.sine;
+            growth_[m] = 1 / (link.length * here.slope);
             pull_[m] = pull;
-            stiffness_[m] = height * link.pull * growth_[m] * secant + link.cross;
+            along_[m] = links_.spin.empty() ? pull : height * links_.growing_pull(m, speed) * here.tangent;
+            stiffness_[m] = factor / link.length * here.steepening + link.cross;
             left_[m] = -pull - link.cross * sine_[m];
             const double upper = y;
             y += sine_[m];
@@ -144,9 +149,9 @@ class Corrector {
         }
     }
 
-    std::vector<Link<double>> links_;
+    BranchLinks<double> links_;
     BorderedChain border_;
-    std::vector<double> sine_, growth_, pull_, stiffness_, left_, row_, reach_;
+    std::vector<double> sine_, growth_, pull_, along_, stiffness_, left_, row_, reach_;
     bool half_waves_are_kept_ = true;
 };
 

@@ -24,30 +24,31 @@ struct TipInclinationMeasure {
 
 /// The free end's offset.
 struct TipRadiusMeasure {
-    const std::vector<Link<double>>* links;
+    const BranchLinks<double>* links;
     double wanted;
     Measured operator()(const BranchPoint& p) const {
-        Measured result{-wanted, 0};
+        Measured result{links->radius - wanted, 0};
         for (std::size_t m = 0; m < links->size(); ++m) {
-            const double a = (*links)[m].length, s = std::tanh(p.state.rise[m]), c = 1 / std::cosh(p.state.rise[m]);
-            result.value += a * s, result.slope += a * c * c * p.tangent.rise[m];
+            const double a = links->links[m].length;
+            const Inclined at = links->inclined(m, p.state.rise[m]);
+            result.value += a * at.sine, result.slope += a * at.slope * p.tangent.rise[m];
         }
         return result;
     }
 };
 
-/// The sideways reaction at the support, of either sign.
+/// The sideways reaction at the topmost pin, of either sign.
 struct TopPullMeasure {
-    const std::vector<Link<double>>* links;
+    const BranchLinks<double>* links;
     double wanted;
     Measured operator()(const BranchPoint& p) const {
-        double y = 0, along = 0, sum = 0, slope = 0;
+        double y = links->radius, along = 0, sum = 0, slope = 0;
         for (std::size_t m = links->size(); m-- > 0;) {
-            const Link<double>& link = (*links)[m];
-            const double s = std::tanh(p.state.rise[m]), c = 1 / std::cosh(p.state.rise[m]);
+            const Link<double>& link = links->links[m];
+            const Inclined at = links->inclined(m, p.state.rise[m]);
             sum += link.rest * y, slope += link.rest * along;
-            y += link.length * s, along += link.length * c * c * p.tangent.rise[m];
-            sum += link.moment * y, slope += link.moment * along;
+            y += link.length * at.sine, along += link.length * at.slope * p.tangent.rise[m];
+            if (!links->is_spring(m)) sum += link.moment * y, slope += link.moment * along;
         }
         const double height = std::exp(p.state.log_height), sign = sum < 0 ? -1 : 1;
         return {sign * sum / height - wanted, sign * (slope - sum * p.tangent.log_height) / height};

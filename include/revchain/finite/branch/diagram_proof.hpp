@@ -5,15 +5,11 @@
 #include <optional>
 
 #include "revchain/finite/branch/crossing.hpp"
+#include "revchain/finite/branch/enclosed_diagram.hpp"
 #include "revchain/finite/shapes/isolation.hpp"
 #include "revchain/numeric/progress.hpp"
 
 namespace revchain::finite {
-
-/// A point of the diagram: x = lambda times the tangent of the lowest link, and lambda.
-struct DiagramPoint {
-    double x, height;
-};
 
 /// A cell of such points.
 struct Rectangle {
@@ -23,14 +19,14 @@ struct Rectangle {
     Interval<double> height() const { return {height_low, height_high}; }
 };
 
-/// x of a point of a branch, lambda |sinh tau| of the lowest link.
+/// x of a point of a branch, lambda sinh tau of the lowest link, seen from a side; its size where `side` is 0.
 struct XMeasure {
     double wanted;
+    int side = 0;
     Measured operator()(const BranchPoint& p) const {
         const double height = std::exp(p.state.log_height), rise = p.state.rise[0],
-                     x = height * std::abs(std::sinh(rise));
-        return {x - wanted,
-                x * p.tangent.log_height + std::copysign(height * std::cosh(rise), rise) * p.tangent.rise[0]};
+                     turned = side != 0 ? side : std::copysign(1.0, rise), x = turned * height * std::sinh(rise);
+        return {x - wanted, x * p.tangent.log_height + turned * height * std::cosh(rise) * p.tangent.rise[0]};
     }
 };
 
@@ -43,9 +39,10 @@ struct DiagramProof {
 
 /// Shows that every connected piece of the diagram is known: of the zeros of y(x, lambda), the offset of the support,
 /// with x = lambda tan(inclination of the lowest link) > 0. Pieces that come down to the lowest height are left to a
-/// list there.
+/// list there. A rig: y is the function of EnclosedDiagram, and off the axis each sign of x is shown by itself.
 ///
-/// Any other piece either goes to the vertical or has a highest point, and there y = y_x = 0. Rectangles of (x, lambda)
+/// Any other piece goes to the vertical (off the axis: up to rest) or has a highest point, and there y = y_x = 0.
+/// Above the highest height there is no shape, or off the axis the one from rest alone. Rectangles of (x, lambda)
 /// are split until in each
 ///   y or y_x keeps its sign, so that no such point is in it; or
 ///   y_lambda keeps its sign over it and over heights beyond it as far as the slope |y_x/y_lambda| can lead within its
@@ -55,8 +52,10 @@ struct DiagramProof {
 /// 0 ... 1 and y_x lambda over 0 ... x: the graph then goes on to the vertical.
 class DiagramProver {
    public:
-    explicit DiagramProver(std::vector<Link<Interval<double>>> links, long budget)
-        : links_(std::move(links)), budget_(budget / static_cast<long>(links_.size())) {}
+    DiagramProver(EnclosedDiagram diagram, long budget)
+        : diagram_(std::move(diagram)), budget_(budget / static_cast<long>(diagram_.size())) {}
+    DiagramProver(EnclosedLinks<double> chain, long budget)
+        : DiagramProver(EnclosedDiagram(std::move(chain)), budget) {}
 
     /// From the highest height down to the lowest, x from 0 to `last`. `known(point, rectangle)`: whether a branch that
     /// is known goes through the rectangle, or, if not, one is found through that point, where there is a shape.
@@ -99,7 +98,7 @@ class DiagramProver {
     template <class Known>
     bool settled(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof, Known&& known) {
         ++proof.rectangles;
-        const bool from_zero = part.low == 0;
+        const bool from_zero = goes_to_vertical(part);
         if ((!from_zero && !y.value.may_vanish()) || !y.slope[0].may_vanish()) return true;
         if (const auto graph = graph_over(part, y, proof)) {
             if (from_zero) return true;
@@ -113,6 +112,12 @@ class DiagramProver {
     /// Over several rectangles, side by side in registers.
     std::array<Taylor<double, 2>, batch> offsets_over(const std::array<Rectangle, batch>& parts,
                                                       std::size_t count) const {
+        if (diagram_.spins()) {
+            std::array<Taylor<double, 2>, batch> result;
+            for (std::size_t i = 0; i < count; ++i)
+                result[i] = diagram_.spinning_over(Cell<double, 2>(parts[i].x(), parts[i].height()));
+            return result;
+        }
         return simd([&]<class Registers>(Registers) REVCHAIN_INLINED {
             using V = Pack<double, Registers::doubles>;
             std::array<Taylor<double, 2>, batch> result;
@@ -126,7 +131,7 @@ class DiagramProver {
                                     lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.high; })),
                     height(lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_low; }),
                            lanes([](const Rectangle&part) REVCHAIN_INLINED { return part.height_high; }));
-                const auto y = support_offset(links_, Cell<V, 2>(x, height));
+                const auto y = diagram_.over(Cell<V, 2>(x, height));
                 for (std::size_t i = 0; i < std::min(V::size, count - first); ++i) {
                     const auto lane = [&](const Interval<V>& of)
                                           REVCHAIN_INLINED { return Interval<double>(of.low[i], of.high[i]); };
@@ -141,14 +146,12 @@ class DiagramProver {
         });
     }
     Taylor<double, 2> offset_over(const Rectangle& part) const { return offsets_over({part}, 1).front(); }
-    int sign(double x, double height) const {
-        const Interval<double> lambda(height);
-        return detail::support_offset(links_, lambda, Interval<double>(x) / lambda).sign();
-    }
+    int sign(double x, double height) const { return diagram_.sign(x, height); }
+    bool goes_to_vertical(const Rectangle& part) const { return part.low == 0 && diagram_.is_symmetric(); }
 
     /// The part with heights added above and below, if all zeros in it lie on one graph lambda(x) that stays in those.
     std::optional<Rectangle> graph_over(const Rectangle& part, const Taylor<double, 2>& y, DiagramProof& proof) const {
-        const bool from_zero = part.low == 0;
+        const bool from_zero = goes_to_vertical(part);
         const auto rise = [&](const Taylor<double, 2>& f) {
             const Interval<double>& along = from_zero ? f.bend[1] : f.slope[1];
             const Interval<double> most(from_zero ? f.bend[0].size() : f.slope[0].size()), width(part.high - part.low);
@@ -180,14 +183,14 @@ class DiagramProver {
 
     /// Across the direction in which y_x varies the more; false where that would show no more.
     bool split(const Rectangle& part, const Taylor<double, 2>& y) {
-        const bool from_zero = part.low == 0;
+        const bool from_zero = goes_to_vertical(part), at_zero = part.low == 0;
         const double width = part.high - part.low, height = part.height_high - part.height_low;
         double by_x = y.bend[0].size() * width, by_height = y.bend[1].size() * height;
         if (!(by_x < 1e300 && by_height < 1e300))
-            by_x = from_zero ? 1 : std::log(part.high / part.low),
+            by_x = at_zero ? 1 : std::log(part.high / part.low),
             by_height = std::log(part.height_high / part.height_low);
         const bool thin = !(width > 1e-13 * part.high), low = !(height > 1e-13 * part.height_high);
-        if ((thin && low) || (from_zero && part.high < 1e-30) ||
+        if ((thin && low) || (at_zero && part.high < 1e-30) ||
             detail::rounding_rules(from_zero ? y.slope[0] : y.value, from_zero ? y.centre_slope[0] : y.centre_value))
             return false;
         Rectangle first = part, second = part;
@@ -200,18 +203,20 @@ class DiagramProver {
         return true;
     }
 
-    std::vector<Link<Interval<double>>> links_;
+    EnclosedDiagram diagram_;
     long budget_;
     std::vector<Rectangle> stack_;
     detail::Cutting<double> cutting_;
 };
 
 /// Whether a branch goes through a rectangle in which all shapes lie on one graph lambda(x), `at` being one of them: a
-/// point of it is in the rectangle, or it crosses there the x of `at`.
+/// point of it is in the rectangle, or it crosses there the x of `at`. `side`: see EnclosedDiagram.
 template <class Branch>
-bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within) {
+bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint& at, const Rectangle& within,
+                  int side = 0) {
+    const auto turned = [&](double rise) { return side == 0 ? std::abs(rise) : side * rise; };
     const auto inside = [&](const BranchState& state) {  // with what the points of a branch may be off, and more
-        const double height = std::exp(state.log_height), x = height * std::abs(std::sinh(state.rise[0]));
+        const double height = std::exp(state.log_height), x = height * std::sinh(turned(state.rise[0]));
         constexpr double off = 1e-10;
         return x > within.low * (1 + off) && x < within.high * (1 - off) && height > within.height_low * (1 + off) &&
                height < within.height_high * (1 - off);
@@ -224,9 +229,9 @@ bool goes_through(const Branch& branch, Corrector& corrector, const DiagramPoint
         const BranchPoint &before = branch.points[i], &here = branch.points[i + 1];
         const double reach = 2 * (here.arc - before.arc);
         if (std::abs(here.state.log_height - log_height) > reach ||
-            std::abs(std::abs(here.state.rise[0]) - rise) > reach * std::sqrt(links))
+            std::abs(turned(here.state.rise[0]) - rise) > reach * std::sqrt(links))
             continue;
-        const auto crossings = crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x});
+        const auto crossings = crossings_of(BranchWalk::between(corrector, before, here), XMeasure{at.x, side});
         if (std::any_of(crossings.begin(), crossings.end(), [&](const WithinStep& each) {
                 const double height = std::exp(each.point.state.log_height);
                 return within.height_low < height && height < within.height_high;

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <memory>
+
 #include "revchain/finite/branch/corrector.hpp"
 #include "revchain/finite/branch/polish.hpp"
+#include "revchain/linear/modes_of_one_sense.hpp"
 #include "revchain/linear/one_mode.hpp"
 
 namespace revchain::finite {
 
 /// The branch near the vertical, to leading order in its amplitude: with phi the mode, lambda_k its height,
 ///     y = A phi,   lambda = lambda_k/(1 + A^2 curvature),   curvature = sum sigma d^4/a^3 / (2 sum sigma d^2/a).
+/// sigma is the effective pull; in the lower sum, its derivative along log lambda with it. The spring at a support is a
+/// link in the lower sum alone. Where links stand or lean against their loads the curvature may be negative: the branch
+/// then begins towards slower speeds.
 struct BranchOnset {
     std::vector<double> reach;  ///< a sin delta of each link over A: differences of the mode
     double height = 0;          ///< lambda_k
@@ -18,27 +24,30 @@ struct BranchOnset {
 
     /// `mode`: offsets of the N + 1 pins, free end first.
     template <class Offsets>
-    BranchOnset(const std::vector<Link<double>>& links, const Offsets& mode, double height_of_mode)
-        : height(height_of_mode) {
+    BranchOnset(const BranchLinks<double>& links, const Offsets& mode, double height_of_mode) : height(height_of_mode) {
+        const double speed = links.speed_at(height);
         double second = 0, fourth = 0, last = 0;
         for (std::size_t m = 0; m < links.size(); ++m) {
             const auto i = static_cast<Index>(m);
-            const double d = mode[i] - mode[i + 1], s = d / links[m].length;
+            const double d = links.is_spring(m) ? mode[i] : mode[i] - mode[i + 1], s = d / links.links[m].length;
             reach.push_back(d);
-            second += links[m].pull * d * s, fourth += links[m].pull * d * s * s * s;
+            second += links.growing_pull(m, speed) * d * s;
+            if (!links.is_spring(m)) fourth += links.pull(m, speed) * d * s * s * s;
             steepest = std::max(steepest, std::abs(s));
             half_waves += mode[i] * last < 0;
             if (mode[i] != 0) last = mode[i] < 0 ? -1 : 1;
         }
         curvature = fourth / (2 * second);
     }
+    /// Whether the branch begins towards greater heights than that of the mode.
+    bool rises() const { return curvature < 0; }
     double amplitude_at(double conical_height) const {
         return std::sqrt((height - conical_height) / (conical_height * curvature));
     }
-    BranchState state(const std::vector<Link<double>>& links, double amplitude) const {
+    BranchState state(const BranchLinks<double>& links, double amplitude) const {
         BranchState result;
         for (std::size_t m = 0; m < links.size(); ++m)
-            result.rise.push_back(std::atanh(amplitude * reach[m] / links[m].length));
+            result.rise.push_back(links.tau_of_reach(m, amplitude * reach[m]));
         result.log_height = std::log(height) - std::log1p(amplitude * amplitude * curvature);
         return result;
     }
@@ -49,7 +58,7 @@ struct BranchOnset {
         result.arc = normalise(result.tangent);
         return result;
     }
-    BranchPoint point(const std::vector<Link<double>>& links, double amplitude) const {
+    BranchPoint point(const BranchLinks<double>& links, double amplitude) const {
         return point(state(links, amplitude), amplitude);
     }
     /// A point of the branch with the largest inclination about `steepness`; smaller where that does not do.
@@ -57,7 +66,7 @@ struct BranchOnset {
         for (; steepness > 1e-7; steepness /= 4) {
             const BranchPoint near = point(corrector.links(), steepness / steepest);
             auto found = corrector.corrected(near.state, near.tangent, 0.1 * near.arc);
-            if (!found || found->state.log_height >= std::log(height)) continue;
+            if (!found || (found->state.log_height >= std::log(height)) != rises()) continue;
             // modes close to one another: the neighbour's branch
             if (corrector.half_waves_are_kept() && found->half_waves != 0 && found->half_waves != half_waves) continue;
             if (inner(found->tangent, near.tangent) < 0.8) continue;
@@ -72,33 +81,34 @@ struct BranchOnset {
 /// The amplitude at a conical height, to leading order; 0 where there is no such state. Next to that of the mode the
 /// difference of the two takes more than double: the mode's height is then told in double-double, from a state inclined
 /// by 1e-6 balanced with the height free (to 1e-24 relative).
-inline double amplitude_at(const Links<Wide<double>>& chain, const BranchOnset& onset, const Wide<double>& height) {
+inline double amplitude_at(const BranchSystem& system, const BranchOnset& onset, const Wide<double>& height) {
     using S = Wide<double>;
     const double narrow = static_cast<double>(height);
-    if (onset.height - narrow > 1e-6 * onset.height) return onset.amplitude_at(narrow);
+    if (std::abs(onset.height - narrow) > 1e-6 * onset.height)
+        return (narrow > onset.height) == onset.rises() ? onset.amplitude_at(narrow) : 0.0;
     const double small = 1e-6 / onset.steepest;
-    const BranchPoint at = onset.point(rounded<double>(chain.links), small);
-    const auto found = polished(chain.links, at.state, GivenPlace<S>(at));
+    const BranchPoint at = onset.point(rounded(system.links), small);
+    const auto found = polished(system.links, at.state, GivenPlace<S>(at));
     S critical(onset.height);
     if (found.shape.converged) critical = found.height + found.height * S(small * small * onset.curvature);
     const double gap = static_cast<double>((critical - height) / height);
-    return gap > 0 ? std::sqrt(gap / onset.curvature) : 0.0;
+    return gap / onset.curvature > 0 ? std::sqrt(gap / onset.curvature) : 0.0;
 }
 
 /// The state at a height so near that of the mode that double tells it badly from the vertical: from the onset's law,
 /// balanced in double-double. None where that does not lead to it.
-inline std::optional<BranchPoint> near_vertical(const Links<Wide<double>>& chain, const BranchOnset& onset,
+inline std::optional<BranchPoint> near_vertical(const BranchSystem& system, const BranchOnset& onset,
                                                 const Wide<double>& height) {
     using S = Wide<double>;
-    const double amplitude = amplitude_at(chain, onset, height);
+    const double amplitude = amplitude_at(system, onset, height);
     if (!(amplitude > 0)) return std::nullopt;
-    BranchState state = onset.state(rounded<double>(chain.links), amplitude);
-    const auto found = polished(chain.links, state, GivenHeight<S>(height));
+    BranchState state = onset.state(rounded(system.links), amplitude);
+    const auto found = polished(system.links, state, GivenHeight<S>(height));
     if (!found.shape.converged) return std::nullopt;
     double along = 0, whole = 0;
-    for (std::size_t m = 0; m < chain.links.size(); ++m) {
+    for (std::size_t m = 0; m < system.links.size(); ++m) {
         const S d = found.shape.offset[m] - found.shape.offset[m + 1];
-        const double rise = std::atanh(static_cast<double>(d / chain.links[m].length));
+        const double rise = system.links.tau_of_reach(m, static_cast<double>(d));
         along += rise * state.rise[m], whole += state.rise[m] * state.rise[m];
         state.rise[m] = rise;
     }
@@ -107,23 +117,70 @@ inline std::optional<BranchPoint> near_vertical(const Links<Wide<double>>& chain
     return onset.point(std::move(state), amplitude);
 }
 
-/// The mode a branch starts from, and its links.
+/// Where a branch starts: at a mode or, where the support is off the axis, from rest.
 struct BranchRoot {
-    Links<Wide<double>> chain;
+    std::shared_ptr<const BranchSystem> system;
     Corrector corrector;
-    BranchOnset onset;
-    double height;  ///< of the mode, in the chain's unit
+    std::optional<BranchOnset> onset;  ///< none from rest
+    double height;                     ///< of the mode (from rest: of the first one in the axis), in the chain's unit
 
-    static BranchRoot of(std::string_view place, const Chain<double>& chain, Index mode) {
-        if (mode < 1 || mode > chain.mode_count())
-            revchain::detail::throw_invalid(
-                place, "mode must be from 1 to the number of modes, " + std::to_string(chain.mode_count()), mode);
+    static BranchRoot of(std::string_view place, const Chain<double>& chain, Index mode, double, int) {
+        require_mode(place, mode, chain.mode_count());
         const auto found = revchain::detail::one_mode(chain, mode);
-        auto links = links_of(chain);
-        const double height = found.conical_height, unit = std::ldexp(1.0, -links.units.length_exponent);
-        auto narrow = rounded<double>(links.links);
-        BranchOnset onset(narrow, found.shape, height * unit);
-        return {std::move(links), Corrector(std::move(narrow)), std::move(onset), height};
+        return from(std::make_shared<const BranchSystem>(chain), found.conical_height, &found.shape);
+    }
+    static BranchRoot of(std::string_view place, const Rig& rig, Index mode, double gravity, int direction) {
+        require_turning(place, gravity, direction);
+        if (rig.support().radius > 0) {
+            if (mode != 1)
+                revchain::detail::throw_invalid(place,
+                                                "with a support off the axis mode must be 1, the branch from rest; "
+                                                "branches lists those born in folds",
+                                                mode);
+            return from(std::make_shared<const BranchSystem>(rig, gravity, direction),
+                        first_height(place, rig, gravity, direction), nullptr);
+        }
+        const revchain::detail::ModesOfOneSense modes(place, rig, gravity, direction);
+        require_mode(place, mode, modes.count());
+        const auto found = modes.found(mode, 1).front();
+        const Vector<double> shape = modes.shape(found);
+        return from(std::make_shared<const BranchSystem>(rig, gravity, direction), found.conical_height, &shape);
+    }
+    /// Conical height of the slowest mode of a rig whose support is in the axis; its length where it has none.
+    static double first_height(std::string_view place, const Rig& rig, double gravity, int direction) {
+        const revchain::detail::ModesOfOneSense modes(place, rig, gravity, direction);
+        return modes.count() > 0 ? modes.found(1, 1).front().conical_height : rig.chain().total_length();
+    }
+
+    /// The state of the slowly turning rig, which hangs almost straight from its arm, at a log of height or above it.
+    std::optional<BranchPoint> at_rest(double log_height) {
+        const double unit = std::ldexp(1.0, -system->units.length_exponent);
+        log_height = std::max(log_height, std::log(height * unit));
+        for (int round = 0; round < 12; ++round, log_height += 2) {
+            BranchState straight{std::vector<double>(corrector.size(), 0.0), log_height}, faster = straight;
+            faster.log_height = -1;
+            auto found = corrector.corrected(straight, faster, 0.1);
+            if (found) return found;
+        }
+        return std::nullopt;
+    }
+
+   private:
+    static void require_turning(std::string_view place, double gravity, int direction) {
+        revchain::detail::require_positive(place, "gravity", gravity);
+        if (direction != 1 && direction != -1)
+            revchain::detail::throw_invalid(place, "direction must be 1 or -1", direction);
+    }
+    static void require_mode(std::string_view place, Index mode, Index count) {
+        if (mode < 1 || mode > count)
+            revchain::detail::throw_invalid(
+                place, "mode must be from 1 to the number of modes, " + std::to_string(count), mode);
+    }
+    static BranchRoot from(std::shared_ptr<const BranchSystem> system, double height, const Vector<double>* mode) {
+        auto narrow = rounded(system->links);
+        std::optional<BranchOnset> onset;
+        if (mode) onset.emplace(narrow, *mode, std::ldexp(height, -system->units.length_exponent));
+        return {std::move(system), Corrector(std::move(narrow)), std::move(onset), height};
     }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "revchain/finite/balance/newton.hpp"
+#include "revchain/finite/branch/branch_links.hpp"
 #include "revchain/finite/branch/corrector.hpp"
 
 namespace revchain::finite {
@@ -12,7 +13,7 @@ template <class S>
 struct Condition {
     virtual ~Condition() = default;
     /// What is left of it, given minus there, at offsets of the pins; fills `row`, returns its share of log lambda too.
-    virtual std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& offset, const S& height,
+    virtual std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& offset, const S& height,
                                       std::vector<double>& row) const = 0;
     /// What a relative change 1 of the number given leaves of it; 0 where none is given.
     virtual double size(const S& height) const = 0;
@@ -24,7 +25,7 @@ template <class S>
 struct GivenHeight : Condition<S> {
     S wanted;
     explicit GivenHeight(S height) : wanted(std::move(height)) {}
-    std::pair<S, double> left(const std::vector<Link<S>>&, const std::vector<S>&, const S& height,
+    std::pair<S, double> left(const BranchLinks<S>&, const std::vector<S>&, const S& height,
                               std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
         return {(wanted - height) / wanted, static_cast<double>(height / wanted)};
@@ -46,11 +47,11 @@ struct GivenTipInclination : Condition<S> {
         const double high = static_cast<double>(x);
         return S(high) + S(static_cast<double>(x - static_cast<long double>(high)));
     }
-    std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& y, const S&,
+    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S&,
                               std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 0.0);
-        const S d = y[0] - y[1], s = d / links[0].length, c = detail::cosine_of(links[0].length, d);
-        row[0] = static_cast<double>((cosine + s * sine / c) / links[0].length);
+        const S &a = links.links[0].length, d = y[0] - y[1], s = d / a, c = detail::cosine_of(a, d);
+        row[0] = static_cast<double>((cosine + s * sine / c) / a);
         return {sine * c - s * cosine, 0.0};
     }
     double size(const S&) const override { return angle; }
@@ -61,7 +62,7 @@ template <class S>
 struct GivenTipRadius : Condition<S> {
     S wanted;
     explicit GivenTipRadius(S radius) : wanted(std::move(radius)) {}
-    std::pair<S, double> left(const std::vector<Link<S>>&, const std::vector<S>& y, const S&,
+    std::pair<S, double> left(const BranchLinks<S>&, const std::vector<S>& y, const S&,
                               std::vector<double>& row) const override {
         std::fill(row.begin(), row.end(), 1.0);
         return {wanted - y[0], 0.0};
@@ -69,22 +70,24 @@ struct GivenTipRadius : Condition<S> {
     double size(const S&) const override { return static_cast<double>(wanted); }
 };
 
-/// The size of the reaction at the support: sum of weights times centroids' offsets = lambda sqrt(T^2 - W^2), of either
-/// sign.
+/// The size of the reaction at the topmost pin: sum of weights times centroids' offsets = lambda sqrt(T^2 - W^2), of
+/// either sign.
 template <class S>
 struct GivenTopTension : Condition<S> {
     S across;      ///< the sideways part, positive
     double share;  ///< its relative change for one of the whole
     GivenTopTension(S sideways, double sensitivity) : across(std::move(sideways)), share(sensitivity) {}
-    std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& y, const S& height,
+    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S& height,
                               std::vector<double>& row) const override {
         S sum(0);
         double weights = 0;
-        for (std::size_t m = 0; m < links.size(); ++m) {
-            sum = sum + links[m].moment * y[m] + links[m].rest * y[m + 1];
-            row[m] = weights + static_cast<double>(links[m].moment);
-            weights = row[m] + static_cast<double>(links[m].rest);
+        for (std::size_t m = 0; m < links.bodies(); ++m) {
+            const Link<S>& link = links.links[m];
+            sum = sum + link.moment * y[m] + link.rest * y[m + 1];
+            row[m] = weights + static_cast<double>(link.moment);
+            weights = row[m] + static_cast<double>(link.rest);
         }
+        if (links.spring) row.back() = weights;
         const S pull = sum < S(0) ? -(height * across) : height * across;
         return {pull - sum, -static_cast<double>(pull)};
     }
@@ -96,15 +99,16 @@ template <class S>
 struct GivenPlace : Condition<S> {
     const BranchPoint* point;
     explicit GivenPlace(const BranchPoint& p) : point(&p) {}
-    std::pair<S, double> left(const std::vector<Link<S>>& links, const std::vector<S>& y, const S& height,
+    std::pair<S, double> left(const BranchLinks<S>& links, const std::vector<S>& y, const S& height,
                               std::vector<double>& row) const override {
         double sum = 0;
         const double share = 1 / static_cast<double>(links.size());
         for (std::size_t m = 0; m < links.size(); ++m) {
-            const S d = y[m] - y[m + 1], c = detail::cosine_of(links[m].length, d),
-                    growth = S(1) / (links[m].length * c * c);
-            row[m] = share * point->tangent.rise[m] * static_cast<double>(growth);
-            const double tangent = static_cast<double>(d / (links[m].length * c));
+            const S &a = links.links[m].length, d = y[m] - y[m + 1],
+                    c = links.is_spring(m) ? S(1) : detail::cosine_of(a, d);
+            const double tangent = static_cast<double>(d / (a * c)), length = static_cast<double>(a),
+                         slope = links.is_spring(m) ? std::hypot(1, tangent) : static_cast<double>(c * c);
+            row[m] = share * point->tangent.rise[m] / (length * slope);
             sum += share * point->tangent.rise[m] * (point->state.rise[m] - std::asinh(tangent));
         }
         const double log_off = point->state.log_height - std::log(static_cast<double>(height));
@@ -128,7 +132,7 @@ struct Polished {
 /// `Polished::condition`, by the factors at a shape: forces of the sizes given in a few patterns of signs, and a
 /// relative change 1 of the number given, which leaves `given` of the condition. `growth`: 1/(a cos^2) of the links.
 template <class S>
-double condition_of(const std::vector<Link<S>>& links, BorderedChain& border, const std::vector<double>& size,
+double condition_of(const BranchLinks<S>& links, BorderedChain& border, const std::vector<double>& size,
                     const std::vector<double>& growth, double given) {
     const std::size_t n = links.size();
     std::vector<double> left(n), reach(n);
@@ -142,45 +146,59 @@ double condition_of(const std::vector<Link<S>>& links, BorderedChain& border, co
             left[m] = pattern < 4 ? total : 0.0;
         }
         border.solve([&](std::size_t m) { return left[m]; }, pattern < 4 ? 0.0 : given, reach);
-        for (std::size_t m = 0; m < n; ++m)
-            worst = std::max(worst, std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links[m].length)));
+        for (std::size_t m = 0; m < links.bodies(); ++m)
+            worst =
+                std::max(worst, std::abs(reach[m]) * std::sqrt(growth[m] / static_cast<double>(links.links[m].length)));
     }
     return worst;
+}
+
+/// Offsets of the pins of a state, the firm end of the support last.
+template <class S>
+std::vector<S> offsets_of(const BranchLinks<S>& links, const BranchState& state) {
+    std::vector<S> y(links.size() + 1);
+    y.back() = links.radius;
+    for (std::size_t m = links.size();
+         m-- > 0;) {  // a - a sin, not a sin, told in double: it may be all but horizontal
+        const double tau = state.rise[m];
+        const S &a = links.links[m].length, d = a * (S(1) - S(2) / (S(1) + S(std::exp(2 * std::abs(tau)))));
+        const bool small = links.is_spring(m) || std::abs(tau) < 0.1;
+        y[m] = y[m + 1] + (small ? a * S(links.is_spring(m) ? std::sinh(tau) : std::tanh(tau)) : tau < 0 ? -d : d);
+    }
+    return y;
 }
 
 /// Newton's method on all pins and the height at once, the balance in S, its derivative in double: see `balance`,
 /// beside which the height is free and one condition given. Cost O(N) a step.
 template <class S>
-Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start, const Condition<S>& condition) {
+Polished<S> polished(const BranchLinks<S>& links, const BranchState& start, const Condition<S>& condition) {
     using std::abs;
     const std::size_t n = links.size();
-    Polished<S> result{{std::vector<S>(n + 1), {}}, S(std::exp(start.log_height))};
+    Polished<S> result{{offsets_of(links, start), {}}, S(std::exp(start.log_height))};
     std::vector<S>& y = result.shape.offset;
     S& height = result.height;
-    for (std::size_t m = n; m-- > 0;) {  // a - a sin, not a sin, told in double: the link may be all but horizontal
-        const double tau = start.rise[m];
-        const S d = links[m].length * (S(1) - S(2) / (S(1) + S(std::exp(2 * std::abs(tau)))));
-        y[m] = y[m + 1] + (std::abs(tau) < 0.1 ? links[m].length * S(std::tanh(tau)) : tau < 0 ? -d : d);
-    }
     BorderedChain border(n);
-    std::vector<double> stiffness(n), pull(n), left(n), size(n), row(n), reach(n), growth(n);
+    std::vector<double> stiffness(n), pull(n), along(n), left(n), size(n), row(n), reach(n), growth(n);
     double last = 1;
     for (int round = 0; round < 40; ++round) {
         S sum(0), before(0);
+        const S speed = links.speed_at(height);
         double below_size = 0;
         result.residual = 0;
         for (std::size_t m = 0; m < n; ++m) {
-            const Link<S>& link = links[m];
+            const Link<S>& link = links.links[m];
             const S d = y[m] - y[m + 1];
-            if (!(abs(d) < link.length)) return result;
-            const S cosine = detail::cosine_of(link.length, d),
-                    pulled = height * link.pull * d / (link.length * cosine), turn = link.cross * d,
-                    at_lower = link.moment * y[m], at_upper = link.rest * y[m + 1];
+            if (!links.is_spring(m) && !(abs(d) < link.length)) return result;
+            const S cosine = links.is_spring(m) ? S(1) : detail::cosine_of(link.length, d),
+                    factor = height * links.pull(m, speed), tangent = d / (link.length * cosine),
+                    pulled = factor * tangent, turn = link.cross * d, at_lower = link.moment * y[m],
+                    at_upper = link.rest * y[m + 1];
             const S whole = sum + at_lower - pulled - turn;
             const double c = static_cast<double>(cosine), a = static_cast<double>(link.length);
-            left[m] = static_cast<double>(whole), pull[m] = static_cast<double>(pulled);
+            left[m] = static_cast<double>(whole), pull[m] = along[m] = static_cast<double>(pulled);
+            if (!links.spin.empty()) along[m] = static_cast<double>(height * links.growing_pull(m, speed) * tangent);
             growth[m] = 1 / (a * c * c);
-            stiffness[m] = static_cast<double>(height * link.pull) * growth[m] / c + static_cast<double>(link.cross);
+            stiffness[m] = static_cast<double>(factor) / (a * c * c * c) + static_cast<double>(link.cross);
             const double parts = std::abs(pull[m]) + static_cast<double>(abs(turn));
             size[m] = below_size + parts + static_cast<double>(abs(at_lower));
             below_size = parts + static_cast<double>(abs(at_upper));
@@ -190,7 +208,7 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
             sum = sum + at_lower + at_upper;
         }
         const auto [open, row_height] = condition.left(links, y, height, row);
-        border.factor([&](std::size_t m) { return stiffness[m]; }, links, [&](std::size_t m) { return pull[m]; },
+        border.factor([&](std::size_t m) { return stiffness[m]; }, links.links, [&](std::size_t m) { return along[m]; },
                       [&](std::size_t m) { return row[m]; }, row_height);
         if (result.shape.converged) break;  // what is left has been told, the factors are those of the result
         const double log_change =
@@ -205,7 +223,7 @@ Polished<S> polished(const std::vector<Link<S>>& links, const BranchState& start
                          there = std::abs(static_cast<double>(y[m] - y[m + 1])) * growth[m],
                          told = std::max({there, 1e-18 * growth[m] * std::max(lower, upper), 1e-280}),
                          change = std::abs(reach[m]) * growth[m];
-            largest = std::max(largest, change / std::min(1.0, told));
+            largest = std::max(largest, change / (links.is_spring(m) ? told : std::min(1.0, told)));
             steepest = std::max(steepest, there), farthest = std::max(farthest, change);
             x += reach[m];
             y[m] = y[m] + S(x);

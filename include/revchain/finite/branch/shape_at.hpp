@@ -7,18 +7,28 @@
 
 namespace revchain::finite {
 
+/// A shape that Newton's method found at a height, with what `verified` proves of it at heights within `within`.
+inline SteadyShape verified_shape(const BranchSystem& system, const Wide<double>& height, const Interval<Far>& within,
+                                  Balanced<Wide<double>> found, bool height_is_given) {
+    if (!system.rig)
+        return verified_shape(system.chain, enclosed<Far>(system.chain.links), height, within, std::move(found),
+                              height_is_given);
+    const RiggedLinks rig = system.rigged_at(height);
+    found.offset.resize(rig.links.size() + 1);  // without the firm end of a spring
+    found.posture = rig.posture;
+    return verified_shape(rig, folded_links(rig), height, within, std::move(found), height_is_given);
+}
+
 /// The shape next to a point of a branch at which one condition holds: at a given height with what `verified` proves.
 /// Where the height is found from something else that is proved of the shape at that height, and the bound adds what
 /// Newton's method left of the balance, times the condition; where nothing is proved, as at a fold, it is that alone.
-inline std::optional<SteadyShape> shape_at(const Links<Wide<double>>& chain, const BranchState& near,
+inline std::optional<SteadyShape> shape_at(const BranchSystem& system, const BranchState& near,
                                            const Condition<Wide<double>>& condition) {
-    auto found = polished(chain.links, near, condition);
+    auto found = polished(system.links, near, condition);
     if (!found.shape.converged) return std::nullopt;
     const bool given = condition.gives_height();
-    const auto height =
-        given ? enclosed<DoubleDouble>(found.height) : Interval<DoubleDouble>(DoubleDouble(found.height));
-    SteadyShape shape =
-        verified_shape(chain, enclosed<DoubleDouble>(chain.links), found.height, height, std::move(found.shape), given);
+    const auto height = given ? enclosed<Far>(found.height) : Interval<Far>(Far(found.height));
+    SteadyShape shape = verified_shape(system, found.height, height, std::move(found.shape), given);
     const bool proved = shape.error_bound < 1;
     if (given && proved) return shape;
     shape.condition = found.condition;

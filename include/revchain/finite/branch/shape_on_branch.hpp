@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MPL-2.0
 #pragma once
 
+#include <numbers>
+
 #include "revchain/finite/branch/crossing.hpp"
 #include "revchain/finite/branch/onset.hpp"
 #include "revchain/finite/branch/shape_at.hpp"
+#include "revchain/finite/branch/trace.hpp"
 
 namespace revchain::finite {
 
@@ -17,13 +20,16 @@ class BranchSearch {
         : root_(root), measure_(measure), condition_(condition), amplitude_(amplitude) {}
 
     /// Down to a log of conical height, at most `max_shapes` states.
-    Found run(double log_end, std::size_t max_shapes) {
+    Found run(double log_end, std::size_t max_shapes, double log_wanted) {
         Found result;
         result.searched_to = root_.height;
-        const BranchOnset& onset = root_.onset;
+        result.from_rest = !root_.onset;
+        if (result.from_rest) return run_from_rest(std::move(result), log_end, max_shapes, log_wanted);
+        const BranchOnset& onset = *root_.onset;
         constexpr double small = 0.02;
         double from = 0.1;
-        if (amplitude_ * onset.steepest < small) {  // so near the vertical that the onset is known to 1e-3
+        const bool beside = amplitude_ > 0 || !onset.rises();  // on the side of the mode on which the branch begins
+        if (beside && amplitude_ * onset.steepest < small) {   // so near the vertical that the onset is known to 1e-3
             const BranchState near = onset.state(root_.corrector.links(), amplitude_);
             if (auto shape = close(near, amplitude_ * onset.steepest)) {
                 result.shapes.push_back(std::move(*shape));
@@ -34,7 +40,7 @@ class BranchSearch {
             // along
             from = result.shapes.empty() ? 0.1 * amplitude_ * onset.steepest
                                          : std::max(1e-5, 4 * amplitude_ * onset.steepest);
-        } else {
+        } else if (beside) {
             from = std::min(from, 0.25 * amplitude_ * onset.steepest);
         }
         // from nearer to the vertical where nothing is met before no step passes: see `branch`
@@ -44,7 +50,7 @@ class BranchSearch {
                 result.end = End::stuck;
                 return result;
             }
-            Found walked = walked_from(*start, result, log_end, max_shapes);
+            Found walked = walked_from(*start, start->arc, result, log_end, max_shapes);
             if (walked.end != End::stuck || walked.shapes.size() > result.shapes.size() || !(from > 1e-6))
                 return walked;
         }
@@ -52,12 +58,26 @@ class BranchSearch {
 
    private:
     static constexpr int max_steps = 100'000;
+    static constexpr double slow = 18.4;  ///< log of heights over that of the mode: a ten-thousandth of its speed
 
-    Found walked_from(const BranchPoint& start, Found result, double log_end, std::size_t max_shapes) {
-        BranchWalk walk(root_.corrector, start, start.arc);
+    /// From a state slower than the one wanted.
+    Found run_from_rest(Found result, double log_end, std::size_t max_shapes, double log_wanted) {
+        const double top = std::log(std::ldexp(root_.height, -root_.system->units.length_exponent)) + slow;
+        const auto start = root_.at_rest(std::max(top, log_wanted + 1));
+        if (start) return walked_from(*start, 0.5, std::move(result), log_end, max_shapes);
+        result.end = End::stuck;
+        return result;
+    }
+
+    Found walked_from(const BranchPoint& start, double first_step, Found result, double log_end,
+                      std::size_t max_shapes) {
+        BranchWalk walk(root_.corrector, start, first_step);
         const HeightMeasure to_end{log_end};
         for (int step = 0; step < max_steps; ++step) {
             if (!walk.advance()) return stopped(result, walk, End::stuck);
+            if (walk.here().state.log_height > start.state.log_height + 2 * slow)
+                return stopped(result, walk, End::slow);
+            if (is_loose(root_.corrector.links(), walk.here().state)) return stopped(result, walk, End::loose);
             const auto last = crossings_of(walk, to_end);
             for (const WithinStep& each : crossings_of(walk, measure_)) {
                 if (!last.empty() && each.share > last.front().share + 1e-9) break;
@@ -74,21 +94,26 @@ class BranchSearch {
 
     Found stopped(Found& result, const BranchWalk& walk, End end) const {
         result.end = end;
-        result.searched_to = std::ldexp(std::exp(walk.here().state.log_height), root_.chain.units.length_exponent);
+        result.searched_to = std::ldexp(std::exp(walk.here().state.log_height), root_.system->units.length_exponent);
         return std::move(result);
     }
     /// The state of the condition next to one of the branch: no link farther from it than `farthest`, rad.
     std::optional<SteadyShape> close(const BranchState& near, double farthest) const {
-        auto shape = shape_at(root_.chain, near, condition_);
+        const auto& links = root_.corrector.links();
+        auto shape = shape_at(*root_.system, near, condition_);
         // next to the vertical the height is rounded to that of the mode, itself rounded
-        if (!shape || !(shape->conical_height <= root_.height * (1 + 0x1p-50))) return std::nullopt;
-        if (root_.corrector.half_waves_are_kept() && shape->half_waves != root_.onset.half_waves) return std::nullopt;
-        double same = 0, mirrored = 0;  // the shape is given with its free end at a positive offset
-        for (std::size_t m = 0; m < near.rise.size(); ++m) {
-            const double here = shape->inclination[static_cast<Index>(m)], there = std::atan(std::sinh(near.rise[m]));
+        if (!shape || (links.plain && !(shape->conical_height <= root_.height * (1 + 0x1p-50)))) return std::nullopt;
+        if (root_.corrector.half_waves_are_kept() && shape->half_waves != root_.onset->half_waves) return std::nullopt;
+        double same = 0, mirrored = 0;  // in the axis the shape is given with its free end at a positive offset
+        for (std::size_t m = 0; m < links.bodies(); ++m) {
+            const auto i = static_cast<Index>(m);
+            const bool stands = root_.system->stands(m);
+            const double inclination = shape->inclination[i], there = std::atan(std::sinh(near.rise[m])),
+                         here = stands ? -std::remainder(inclination, std::numbers::pi) : inclination;
             same = std::max(same, std::abs(here - there)), mirrored = std::max(mirrored, std::abs(here + there));
         }
-        if (!(std::min(same, mirrored) <= 0.3 * farthest)) return std::nullopt;
+        const double off = links.is_symmetric() ? std::min(same, mirrored) : same;
+        if (!(off <= 0.3 * farthest)) return std::nullopt;
         return shape;
     }
 
@@ -101,17 +126,87 @@ class BranchSearch {
 /// The amplitude at which, to leading order, a number that grows with it in proportion is as wanted.
 template <class Measure>
 double amplitude_of(const BranchRoot& root, Measure measure, double wanted) {
-    const double small = 1e-4 / root.onset.steepest;
-    const BranchState state = root.onset.state(root.corrector.links(), small);
+    if (!root.onset) return 0;
+    const double small = 1e-4 / root.onset->steepest;
+    const BranchState state = root.onset->state(root.corrector.links(), small);
     return small * wanted / std::abs(measure({state, state}).value + wanted);
 }
 
+/// The reach of a system: its free end cannot be farther from the axis.
+inline double reach_of(const Chain<double>& chain) { return chain.total_length(); }
+inline double reach_of(const Rig& rig) {
+    return rig.support().is_firm() ? rig.support().radius + rig.chain().total_length()
+                                   : std::numeric_limits<double>::infinity();
+}
+
+/// The height given, as it is or as a speed.
+template <class Options>
+Wide<double> height_given(std::string_view place, const Options& given) {
+    using revchain::detail::require_positive;
+    if (given.conical_height) {
+        require_positive(place, "conical height", *given.conical_height);
+        return Wide<double>(*given.conical_height);
+    }
+    require_positive(place, "angular speed", *given.angular_speed);
+    require_positive(place, "gravity", given.gravity);
+    const Wide<double> height = height_at_speed(*given.angular_speed, given.gravity);
+    require_positive(place, "gravity / angular speed^2", static_cast<double>(height));
+    return height;
+}
+
+/// The states on the branch at which a number that is not the height is met.
+template <class Search, class System, class Options>
+auto search_by_number(std::string_view place, const System& system, const BranchRoot& root, const Options& given,
+                      const Search& search) {
+    using revchain::detail::require_positive, revchain::detail::throw_invalid;
+    using S = Wide<double>;
+    const ChainUnits& units = root.system->units;
+    const double unit = std::ldexp(1.0, -units.length_exponent);
+    const auto* links = &root.corrector.links();
+    if (given.tip_inclination) {
+        const bool stands = root.system->stands(0);
+        const double angle = stands ? std::numbers::pi - *given.tip_inclination : *given.tip_inclination;
+        if (!(angle > 0 && angle < 1.5707963267948966))
+            throw_invalid(place,
+                          stands ? "tip inclination must lie between pi/2 and pi, since the lowest link stands"
+                                 : "tip inclination must lie between 0 and pi/2",
+                          *given.tip_inclination);
+        const double rise = std::asinh(std::tan(angle));
+        const TipInclinationMeasure measure{rise};
+        return search(measure, GivenTipInclination<S>(angle), amplitude_of(root, measure, rise));
+    }
+    if (given.tip_radius) {
+        require_positive(place, "tip radius", *given.tip_radius);
+        if (!(*given.tip_radius < reach_of(system)))
+            throw_invalid(place,
+                          root.system->rig ? "tip radius must be less than the radius of the support and the length"
+                                           : "tip radius must be less than the length of the chain",
+                          *given.tip_radius);
+        const TipRadiusMeasure measure{links, *given.tip_radius * unit};
+        return search(measure, GivenTipRadius<S>(S(*given.tip_radius * unit)),
+                      amplitude_of(root, measure, measure.wanted));
+    }
+    using std::sqrt;
+    const double tension = *given.top_tension;
+    const S size = ldexp(S(tension), -units.weight_exponent), bearing = root.system->bearing;
+    if (!(size > bearing && size > -bearing) || !std::isfinite(tension))
+        throw_invalid(place,
+                      root.system->rig
+                          ? "top tension must be finite and more than the weight that the topmost pin bears"
+                          : "top tension must be finite and more than the weight of the chain",
+                      tension);
+    const S pull = sqrt((size - bearing) * (size + bearing));
+    const double narrow = static_cast<double>(pull);
+    const TopPullMeasure measure{links, narrow};
+    const double share = std::pow(static_cast<double>(size) / narrow, 2);
+    return search(measure, GivenTopTension<S>(pull, share), amplitude_of(root, measure, narrow));
+}
+
 /// The states on the branch at which the number given is met.
-template <class Found, class Options>
-Found search_branch(const Chain<double>& chain, const Options& given) {
+template <class Found, class System, class Options>
+Found search_branch(const System& system, const Options& given) {
     using revchain::detail::in_digits, revchain::detail::require_positive, revchain::detail::throw_invalid;
     constexpr std::string_view place = "steady_shape";
-    const Index mode = given.mode;
     using S = Wide<double>;
     const int count = given.conical_height.has_value() + given.angular_speed.has_value() +
                       given.tip_inclination.has_value() + given.tip_radius.has_value() + given.top_tension.has_value();
@@ -121,68 +216,34 @@ Found search_branch(const Chain<double>& chain, const Options& given) {
                       "tension; given were",
                       count);
     if (given.min_conical_height) require_positive(place, "min_conical_height", *given.min_conical_height);
-    BranchRoot root = BranchRoot::of(place, chain, mode);
-    if (given.min_conical_height && !(*given.min_conical_height < root.height))
+    BranchRoot root = BranchRoot::of(place, system, given.mode, given.gravity, given.direction);
+    const bool falls = root.onset && !root.onset->rises();
+    if (falls && given.min_conical_height && !(*given.min_conical_height < root.height))
         throw_invalid(place,
                       "min_conical_height must be less than the conical height of the mode, " + in_digits(root.height),
                       *given.min_conical_height);
-    const double unit = std::ldexp(1.0, -root.chain.units.length_exponent);
-    const double lowest = given.min_conical_height.value_or(1e-6 * root.height) * unit;
-    const auto* links = &root.corrector.links();
-    const auto search = [&](const auto& measure, const auto& condition, double amplitude, double log_end) {
+    const double unit = std::ldexp(1.0, -root.system->units.length_exponent);
+    const auto run = [&](const auto& measure, const auto& condition, double amplitude, double end, double wanted) {
         using Search = BranchSearch<Found, std::decay_t<decltype(measure)>>;
-        return Search(root, measure, condition, amplitude).run(log_end, given.max_shapes);
+        return Search(root, measure, condition, amplitude).run(end, given.max_shapes, wanted);
     };
-    if (given.conical_height || given.angular_speed) {
-        S height;
-        if (given.conical_height) {
-            require_positive(place, "conical height", *given.conical_height);
-            height = S(*given.conical_height);
-        } else {
-            require_positive(place, "angular speed", *given.angular_speed);
-            require_positive(place, "gravity", given.gravity);
-            height = height_at_speed(*given.angular_speed, given.gravity);
-            require_positive(place, "gravity / angular speed^2", static_cast<double>(height));
-        }
-        const double near = static_cast<double>(height);
-        if (!(near < root.height))
-            throw_invalid(place,
-                          "mode " + std::to_string(mode) + " leaves the vertical at the conical height " +
-                              in_digits(root.height) +
-                              " and has no shape at one that is not less (it turns too slowly)",
-                          near);
-        const double log_wanted = std::log(near * unit);
-        return search(HeightMeasure{log_wanted}, GivenHeight<S>(height * S(unit)),
-                      amplitude_at(root.chain, root.onset, height * S(unit)),
-                      std::min(log_wanted, std::log(given.min_conical_height.value_or(near / 2) * unit)));
-    }
-    const double log_end = std::log(lowest);
-    if (given.tip_inclination) {
-        if (!(*given.tip_inclination > 0 && *given.tip_inclination < 1.5707963267948966))
-            throw_invalid(place, "tip inclination must lie between 0 and pi/2", *given.tip_inclination);
-        const double rise = std::asinh(std::tan(*given.tip_inclination));
-        const TipInclinationMeasure measure{rise};
-        return search(measure, GivenTipInclination<S>(*given.tip_inclination), amplitude_of(root, measure, rise),
-                      log_end);
-    }
-    if (given.tip_radius) {
-        require_positive(place, "tip radius", *given.tip_radius);
-        if (!(*given.tip_radius < chain.total_length()))
-            throw_invalid(place, "tip radius must be less than the length of the chain", *given.tip_radius);
-        const TipRadiusMeasure measure{links, *given.tip_radius * unit};
-        return search(measure, GivenTipRadius<S>(S(*given.tip_radius * unit)),
-                      amplitude_of(root, measure, measure.wanted), log_end);
-    }
-    const double tension = *given.top_tension;
-    const S weight = chain.weight_below(chain.size());
-    if (!(S(tension) > weight) || !std::isfinite(tension))
-        throw_invalid(place, "top tension must be finite and more than the weight of the chain", tension);
-    using std::sqrt;
-    const S pull = ldexp(sqrt((S(tension) - weight) * (S(tension) + weight)), -root.chain.units.weight_exponent);
-    const double narrow = static_cast<double>(pull);
-    const TopPullMeasure measure{links, narrow};
-    const double share = std::pow(std::ldexp(tension, -root.chain.units.weight_exponent) / narrow, 2);
-    return search(measure, GivenTopTension<S>(pull, share), amplitude_of(root, measure, narrow), log_end);
+    if (!given.conical_height && !given.angular_speed)
+        return search_by_number(place, system, root, given,
+                                [&](const auto& measure, const auto& condition, double amplitude) {
+                                    const double lowest = given.min_conical_height.value_or(1e-6 * root.height);
+                                    return run(measure, condition, amplitude, std::log(lowest * unit), -1e300);
+                                });
+    const S height = height_given(place, given);
+    const double near = static_cast<double>(height);
+    if (falls && !(near < root.height))
+        throw_invalid(place,
+                      "mode " + std::to_string(given.mode) + " leaves the vertical at the conical height " +
+                          in_digits(root.height) + " and has no shape at one that is not less (it turns too slowly)",
+                      near);
+    const double wanted = std::log(near * unit);
+    return run(HeightMeasure{wanted}, GivenHeight<S>(height * S(unit)),
+               root.onset ? amplitude_at(*root.system, *root.onset, height * S(unit)) : 0.0,
+               std::min(wanted, std::log(given.min_conical_height.value_or(near / 2) * unit)), wanted);
 }
 
 }  // namespace revchain::finite

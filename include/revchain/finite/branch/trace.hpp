@@ -7,29 +7,46 @@
 
 namespace revchain::finite {
 
-/// Appends a point, with what is told of it, to a branch.
+/// The conical height down to which to follow branches, given as it is or as a speed.
+template <class Options>
+double lowest_height(std::string_view place, const Options& options) {
+    if (options.min_conical_height.has_value() == options.max_angular_speed.has_value())
+        revchain::detail::throw_invalid(place, "give either min_conical_height or max_angular_speed");
+    const double height = options.min_conical_height
+                              ? *options.min_conical_height
+                              : conical_pendulum::height(*options.max_angular_speed, options.gravity);
+    revchain::detail::require_positive(
+        place, options.min_conical_height ? "min_conical_height" : "gravity / max_angular_speed^2", height);
+    return height;
+}
+
+/// Appends a point, with what is told of it, to a branch. Numbers are those of `described`.
 template <class Branch>
 void append(Branch& branch, const BranchPoint& point) {
-    const auto& chain = *branch.links;
-    const auto length = [&](double x) { return std::ldexp(x, chain.units.length_exponent); };
-    const auto weight = [&](double x) { return std::ldexp(x, chain.units.weight_exponent); };
+    const BranchSystem& system = *branch.system;
+    const auto& links = system.links;
+    const auto length = [&](double x) { return std::ldexp(x, system.units.length_exponent); };
+    const auto weight = [&](double x) { return std::ldexp(x, system.units.weight_exponent); };
     const double height = std::exp(point.state.log_height);
-    double y = 0, sideways = 0, weights = 0, inertia = 0, energy = 0;
-    for (std::size_t m = chain.links.size(); m-- > 0;) {
-        const auto& link = chain.links[m];
+    const Wide<double> speed = links.speed_at(Wide<double>(height));
+    double y = static_cast<double>(links.radius), sideways = 0, inertia = system.axial, energy = 0;
+    for (std::size_t m = links.size(); m-- > 0;) {
+        const auto& link = links.links[m];
+        const Inclined at = links.inclined(m, point.state.rise[m]);
         const double a = static_cast<double>(link.length), moment = static_cast<double>(link.moment),
-                     rest = static_cast<double>(link.rest), d = a * std::tanh(point.state.rise[m]);
-        const double upper = y;
+                     rest = static_cast<double>(link.rest), pull = static_cast<double>(links.pull(m, speed)),
+                     d = a * at.sine, upper = y;
         y += d;
-        sideways += moment * y + rest * upper, weights += moment + rest;
         inertia += moment * y * y + rest * upper * upper - static_cast<double>(link.cross) * d * d;
-        energy -= static_cast<double>(link.pull) * a / std::cosh(point.state.rise[m]);
+        if (!links.is_spring(m)) sideways += moment * y + rest * upper;
+        energy += links.is_spring(m) ? pull * a * at.sine * at.sine / 2 : -pull * a / at.secant;
     }
     branch.arc.push_back(point.arc), branch.conical_height.push_back(length(height));
-    branch.tip_inclination.push_back(std::atan(std::sinh(point.state.rise[0])));
+    const double inclination = std::atan(std::sinh(point.state.rise[0]));
+    branch.tip_inclination.push_back(system.stands(0) ? detail::beyond(-inclination, inclination < 0) : inclination);
     branch.tip_radius.push_back(length(y)), branch.half_waves.push_back(point.half_waves);
-    branch.top_tension.push_back(weight(std::hypot(weights, sideways / height)));
-    branch.moment_of_inertia.push_back(weight(std::ldexp(inertia, 2 * chain.units.length_exponent)));
+    branch.top_tension.push_back(weight(std::hypot(static_cast<double>(system.bearing), sideways / height)));
+    branch.moment_of_inertia.push_back(weight(std::ldexp(inertia, 2 * system.units.length_exponent)));
     branch.effective_energy.push_back(weight(length(energy - inertia / (2 * height))));
     branch.points.push_back(point);
 }
@@ -54,16 +71,33 @@ inline bool mirrored(const BranchPoint& before, const BranchPoint& here) {
     return sum < 0;
 }
 
-/// Goes on with a branch until it first comes down to `log_end`; folds are put in where they lie.
+/// Whether flywheels all but take the effective tension from a link.
+inline bool is_slack(const BranchLinks<double>& links, double log_height) {
+    const double speed = links.speed_at(std::exp(log_height));
+    for (std::size_t m = 0; m < links.bodies(); ++m)
+        if (std::abs(links.pull(m, speed)) < 1e-5 * std::abs(links.links[m].pull)) return true;
+    return false;
+}
+
+/// Whether the spring at the support is drawn out by a thousand lengths.
+template <class S>
+bool is_loose(const BranchLinks<S>& links, const BranchState& at) {
+    return links.spring && std::abs(at.rise.back()) > 7.6;  // arsinh 1000
+}
+
+/// Goes on with a branch until it first comes down to `log_end`, or up to `log_top` where that is finite; folds are put
+/// in where they lie.
 template <class Branch>
-auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_points) {
+auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_points,
+            double log_top = std::numeric_limits<double>::infinity()) {
     using End = decltype(Branch::end);
     const HeightMeasure to_end{log_end};
     const BranchPoint start = walk.here();
+    const bool passes_vertical = branch.system->links.is_symmetric();
     while (branch.size() < max_points) {
-        if (!walk.advance()) return End::stuck;
+        if (!walk.advance()) return is_slack(walk.links(), walk.here().state.log_height) ? End::slack : End::stuck;
         const BranchPoint &before = walk.before(), &here = walk.here();
-        if (mirrored(before, here)) return End::vertical;
+        if (passes_vertical && mirrored(before, here)) return End::vertical;
         auto crossings = crossings_of(walk, to_end);
         std::erase_if(crossings, [](const WithinStep& each) { return each.point.tangent.log_height > 0; });
         const double until = crossings.empty() ? 1.0 : crossings.front().share;
@@ -85,6 +119,8 @@ auto follow(Branch& branch, BranchWalk& walk, double log_end, std::size_t max_po
             return End::closed;
         }
         append(branch, here);
+        if (here.state.log_height > log_top) return End::slow;
+        if (is_loose(branch.system->links, here.state)) return End::loose;
     }
     return End::budget;
 }
@@ -95,22 +131,24 @@ template <class Branch>
 std::vector<SteadyShape> states_at(const Branch& branch, Corrector& corrector, double conical_height) {
     std::vector<SteadyShape> found;
     if (branch.size() == 0) return found;
-    const auto& chain = *branch.links;
-    const Wide<double> height = ldexp(Wide<double>(conical_height), -chain.units.length_exponent);
+    const BranchSystem& system = *branch.system;
+    const Wide<double> height = ldexp(Wide<double>(conical_height), -system.units.length_exponent);
     const HeightMeasure measure{std::log(static_cast<double>(height))};
     const GivenHeight<Wide<double>> condition(height);
     const auto off = [&](std::size_t i) { return (branch.conical_height[i] - conical_height) / conical_height; };
     const auto take = [&](const BranchState& near) {
-        if (auto shape = shape_at(chain, near, condition)) found.push_back(std::move(*shape));
+        if (auto shape = shape_at(system, near, condition)) found.push_back(std::move(*shape));
     };
     const bool from_vertical = branch.onset && largest_rise(branch.points[0].state) == 0;
-    if (from_vertical && !(off(0) > 0) && branch.size() < 2) return found;
-    const double there = from_vertical && off(0) > 0 ? std::min(1e-9, 0.01 * off(0)) : 1e-9;
+    const double side = from_vertical && branch.onset->rises() ? -1 : 1;  // where the branch lies of its mode
+    const bool within = from_vertical && side * off(0) > 0;
+    if (from_vertical && !within && branch.size() < 2) return found;
+    const double there = within ? std::min(1e-9, 0.01 * side * off(0)) : 1e-9;
     const std::size_t last = branch.size() - 1;
     for (std::size_t i = from_vertical ? 1 : 0; i <= last; ++i) {
         const double a = off(i);
-        if (i == 1 && from_vertical && off(0) > 0 && a <= -there)
-            if (const auto point = near_vertical(chain, *branch.onset, height)) take(point->state);
+        if (i == 1 && within && side * a <= -there)
+            if (const auto point = near_vertical(system, *branch.onset, height)) take(point->state);
         if (std::abs(a) < there) {  // the point itself: an end, or a crossing
             if (i == 0 || i == last || (off(i - 1) > 0) != (off(i + 1) > 0)) take(branch.points[i].state);
         } else if (i < last && std::abs(off(i + 1)) >= there && (a > 0) != (off(i + 1) > 0)) {

@@ -254,7 +254,9 @@ Shape verified_shape(const AnyLinks& chain, const EnclosedLinks<Far>& enclosed_l
     }
     turn_outwards(found, support);
     Shape shape = described<Shape>(chain, height, found);
-    shape.error_bound = proved.inclination_error + off + 0x1p-52;  // and two roundings of an angle below pi/2
+    const bool stands = std::find(found.posture.begin(), found.posture.end(), Posture::stands) != found.posture.end();
+    // and two roundings of an angle below pi/2, or below pi
+    shape.error_bound = proved.inclination_error + off + (stands ? 0x1p-51 : 0x1p-52);
     shape.condition = proved.condition;
     return shape;
 }

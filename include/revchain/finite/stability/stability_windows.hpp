@@ -17,36 +17,51 @@ struct JudgedPlace {
     Verdict verdict;
 };
 
+/// The verdict on a shape of a system, turning as its branch does.
+inline Verdict verdict_on(const Chain<double>& chain, const Branch&, const SteadyShape& shape, StabilityFrame frame) {
+    return stability(chain, shape, frame).verdict;
+}
+inline Verdict verdict_on(const Rig& rig, const Branch& branch, const SteadyShape& shape, StabilityFrame frame) {
+    return stability(rig, shape,
+                     {.frame = frame, .direction = branch.system->direction, .gravity = branch.system->gravity})
+        .verdict;
+}
+
 /// Judges a branch at an arc beyond point `index` and not beyond the next.
-inline JudgedPlace judged_at(const Chain<double>& chain, const Branch& branch, Corrector& corrector, std::size_t index,
-                             double arc, StabilityFrame frame) {
+template <class System>
+JudgedPlace judged_at(const System& system, const Branch& branch, Corrector& corrector, std::size_t index, double arc,
+                      StabilityFrame frame) {
     revchain::detail::look();
     const BranchPoint& from = branch.points[index];
     std::optional<BranchPoint> point;
     if (arc > from.arc) point = corrector.corrected(moved(from.state, arc - from.arc, from.tangent), from.tangent, 1.0);
     const BranchPoint& here = point ? *point : from;
-    if (const auto shape = shape_at(*branch.links, here.state, GivenPlace<Wide<double>>(here)))
-        return {arc, shape->conical_height, stability(chain, *shape, frame).verdict};
-    return {arc, std::ldexp(std::exp(here.state.log_height), branch.links->units.length_exponent), Verdict::undecided};
+    if (const auto shape = shape_at(*branch.system, here.state, GivenPlace<Wide<double>>(here)))
+        return {arc, shape->conical_height, verdict_on(system, branch, *shape, frame)};
+    return {arc, std::ldexp(std::exp(here.state.log_height), branch.system->units.length_exponent), Verdict::undecided};
 }
 
-}  // namespace finite
-
-REVCHAIN_INLINE std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
-                                                               const StabilityWindowsOptions& options) {
+template <class System>
+std::vector<StabilityWindow> windows_of(const System& system, const Branch& branch,
+                                        const StabilityWindowsOptions& options) {
     constexpr std::string_view place = "stability_windows";
-    detail::require_positive(place, "tolerance", options.tolerance);
-    if (options.samples < 1) detail::throw_invalid(place, "samples must be at least 1", options.samples);
-    if (branch.links && branch.links->links.size() != static_cast<std::size_t>(chain.size()))
-        detail::throw_invalid(place, "the branch is not of this chain; its links number", branch.links->links.size());
+    revchain::detail::require_positive(place, "tolerance", options.tolerance);
+    if (options.samples < 1) revchain::detail::throw_invalid(place, "samples must be at least 1", options.samples);
+    constexpr bool is_rig = std::is_same_v<System, Rig>;
+    if (branch.system && (branch.system->rig.has_value() != is_rig ||
+                          branch.system->links.bodies() != static_cast<std::size_t>(system.size())))
+        revchain::detail::throw_invalid(place,
+                                        is_rig ? "the branch is not of this rig; its links number"
+                                               : "the branch is not of this chain; its links number",
+                                        branch.system->links.bodies());
     std::vector<StabilityWindow> windows;
     std::size_t first = 0;
-    while (first < branch.size() && finite::largest_rise(branch.points[first].state) == 0) ++first;
+    while (branch.onset && first < branch.size() && largest_rise(branch.points[first].state) == 0) ++first;
     if (first >= branch.size()) return windows;
-    using Judged = finite::JudgedPlace;
-    finite::Corrector corrector(finite::rounded<double>(branch.links->links));
+    using Judged = JudgedPlace;
+    Corrector corrector(rounded(branch.system->links));
     const auto judge = [&](std::size_t index, double arc) {
-        return finite::judged_at(chain, branch, corrector, index, arc, options.frame);
+        return judged_at(system, branch, corrector, index, arc, options.frame);
     };
     Judged last = judge(first, branch.arc[first]);
     windows.push_back({last.arc, last.arc, last.height, last.height, last.verdict});
@@ -80,6 +95,17 @@ REVCHAIN_INLINE std::vector<StabilityWindow> stability_windows(const Chain<doubl
         extend(i, judge(i + 1, branch.arc[i + 1]));
     }
     return windows;
+}
+
+}  // namespace finite
+
+REVCHAIN_INLINE std::vector<StabilityWindow> stability_windows(const Chain<double>& chain, const Branch& branch,
+                                                               const StabilityWindowsOptions& options) {
+    return finite::windows_of(chain, branch, options);
+}
+REVCHAIN_INLINE std::vector<StabilityWindow> stability_windows(const Rig& rig, const Branch& branch,
+                                                               const StabilityWindowsOptions& options) {
+    return finite::windows_of(rig, branch, options);
 }
 
 }  // namespace revchain

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A chair-o-plane on a mast that yields: how the chair hangs, up to which speed, and how stably, by the rider's mass.
+
+python chair_o_plane.py [FOLDER]
+"""
+
+from pathlib import Path
+
+import numpy as np
+from _picture import COLOURS, save
+from matplotlib.figure import Figure
+
+import revchain as rc
+
+SCENE = rc.load_scene(Path(__file__).resolve().parents[1] / "scenes" / "chair_o_plane.toml").system()
+CHAIR = 8.0  # kg, without the rider
+LIMIT = "22 rpm"
+
+
+def with_rider(mass):
+    chain = SCENE.chain
+    shape = {"length": chain.length, "centroid": chain.centroid, "radius_of_gyration": chain.radius_of_gyration}
+    return rc.Rig(rc.Chain(mass=[CHAIR + mass, chain.mass[1]], **shape), support=SCENE.support)
+
+
+def rpm(speed):
+    return 30 / np.pi * speed
+
+
+axes = (figure := Figure(figsize=(7, 4), dpi=100, layout="constrained")).subplots()
+print("rider (kg)  chair at 12 rpm (m)  pull (N)  lets go at (rpm)  inwards from (rpm)  inwards")
+for k, mass in enumerate((0, 40, 80, 120, 130)):
+    rig = with_rider(mass)
+    shape = rc.steady_shape(rig, angular_speed="12 rpm")
+    assert shape.stability().verdict == "minimum"
+    loose = rpm(np.sqrt(rig.support.stiffness / (rig.chain.total_mass + rig.support.carriage)))
+    diagram = rc.branches(rig, max_angular_speed=LIMIT)
+    assert diagram.complete
+    inwards = [branch for branch in diagram if branch.birth == "fold"]
+    born = f"{rpm(inwards[0].angular_speed.min()):.2f}" if inwards else "-"
+    verdicts = ", ".join(dict.fromkeys(w.verdict for b in inwards for w in b.stability_windows()))
+    print(f"{mass:10} {shape.offset[0]:20.3f} {shape.tension[-1]:9.1f} {loose:17.2f} {born:>19}  {verdicts or '-'}")
+    for branch in diagram:
+        style = "-" if branch.birth == "rest" else "--"
+        label = f"rider of {mass} kg" if branch.birth == "rest" else None
+        axes.plot(rpm(branch.angular_speed), branch.tip_radius, style, color=COLOURS[k % len(COLOURS)], label=label)
+axes.set(xlabel="turns a minute", ylabel="chair from the axis, m", title="dashed: inwards, born in pairs", ylim=(-20, 40))
+axes.legend()
+save(figure)

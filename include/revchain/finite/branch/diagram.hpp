@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include <functional>
+
+#include "revchain/branches.hpp"
+#include "revchain/finite/branch/diagram_proof.hpp"
+#include "revchain/finite/branch/trace.hpp"
+#include "revchain/finite/shapes/list.hpp"
+#include "revchain/numeric/compiled.hpp"
+#include "revchain/steady_shapes.hpp"
+
+namespace revchain::finite {
+
+/// The branch through a state, followed from there on the side of `across`, a direction it does not lie across, until
+/// it comes back or down to `log_end`.
+inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const BranchState& at, const BranchState& across,
+                          int half_waves, double log_end, double log_top, const BranchesOptions& options) {
+    Branch result;
+    result.system = std::move(system), result.birth = BranchBirth::fold;
+    Corrector corrector(rounded(result.system->links));
+    auto start = corrector.corrected(at, across, 0.1);
+    if (!start) {
+        result.end = BranchEnd::stuck;
+        return result;
+    }
+    if (start->half_waves == 0) start->half_waves = half_waves;
+    append(result, *start);
+    BranchWalk walk(corrector, *start, 0.02);
+    walk.longest = options.max_step;
+    result.end = follow(result, walk, log_end, options.max_points, log_top);
+    return result;
+}
+
+/// What a diagram asks of a chain.
+class ChainQuestions {
+   public:
+    ChainQuestions(const Chain<double>& chain, const BranchesOptions& options)
+        : system(std::make_shared<const BranchSystem>(chain)), chain_(chain), options_(options) {}
+
+    std::shared_ptr<const BranchSystem> system;
+
+    SteadyShapes list(double height) const {
+        return steady_shapes(chain_, {.conical_height = height, .budget = options_.budget});
+    }
+    /// Heights of the modes above one, the slowest first.
+    std::vector<double> modes_above(double height) const {
+        std::vector<double> found;
+        const Index count = count_modes(chain_, {.conical_height = height});
+        for (Index mode = 1; mode <= count; ++mode) {
+            const double each = revchain::detail::one_mode(chain_, mode, false).conical_height;
+            if (each > height) found.push_back(each);  // at the very height of a mode, as rounded, it has no branch yet
+        }
+        return found;
+    }
+    bool is_settled_at(double height) const { return count_modes(chain_, {.conical_height = height}) == 0; }
+    /// Above the first mode there is no shape: see steady_shapes.
+    std::optional<double> settled_above() const { return revchain::detail::one_mode(chain_, 1, false).conical_height; }
+    std::string not_provable(double lowest) const {
+        const bool single = single_valued(enclosed<double>(system->chain.links), Interval<double>(lowest));
+        return single ? "" : "links hang at several inclinations";
+    }
+
+   private:
+    const Chain<double>& chain_;
+    const BranchesOptions& options_;
+};
+
+/// What a diagram asks of a rig.
+class RigQuestions {
+   public:
+    RigQuestions(const Rig& rig, const BranchesOptions& options)
+        : system(std::make_shared<const BranchSystem>(rig, options.gravity, options.direction)),
+          rig_(rig),
+          options_(options),
+          modes_("branches", rig, options.gravity, options.direction),
+          found_(modes_.found(1, modes_.count())) {}
+
+    std::shared_ptr<const BranchSystem> system;
+
+    SteadyShapes list(double height) const {
+        return steady_shapes(rig_, {.conical_height = height,
+                                    .budget = options_.budget,
+                                    .direction = options_.direction,
+                                    .gravity = options_.gravity});
+    }
+    std::vector<double> modes_above(double height) const {
+        std::vector<double> found;
+        for (const auto& mode : found_)
+            if (mode.conical_height > height) found.push_back(mode.conical_height);
+        return found;
+    }
+    /// The first mode, if it is proved that slower there is one shape, or where the support is in the axis none: all
+    /// links hang in tension. In the sines s of the inclinations the energy in the turning frame, times lambda, has the
+    /// second derivative  lambda diag(pull a sec^3) - M  (and the spring's), not less than that of the straight chain.
+    /// That is positive definite at rest and singular at no speed below the first critical one.
+    std::optional<double> settled_above() const {
+        if (!modes_.complete() || found_.empty()) return std::nullopt;
+        const double first = found_[0].conical_height;
+        if (!hangs_in_tension(std::ldexp(first, -system->units.length_exponent))) return std::nullopt;
+        return first * (1 + found_[0].error_bound);
+    }
+    bool is_settled_at(double height) const { return settled_above().value_or(height) < height; }
+    /// Why the proof of a diagram down to a height does not cover the rig; empty if it does.
+    std::string not_provable(double lowest) const {
+        if (!settled_above()) return "the proof is for rigs whose links all hang in tension";
+        if (!hangs_in_tension(lowest)) return "flywheels take the tension from links";
+        if (!single_valued(swept_links<double>(system->rigged_at(Wide<double>(lowest))), Interval<double>(lowest)))
+            return "links hang at several inclinations";
+        return "";
+    }
+
+   private:
+    /// From rest up to the speed at a height; the pulls are linear in the speed.
+    bool hangs_in_tension(double height) const {
+        const Wide<double> fastest = system->links.speed_at(Wide<double>(height));
+        for (std::size_t m = 0; m < system->links.bodies(); ++m) {
+            if (rig_.stands(static_cast<Index>(m)) || !enclosed<Far>(system->links.links[m].moment).positive())
+                return false;
+            for (const Wide<double>& n : {Wide<double>(0.0), fastest})
+                if (!(system->links.pull(m, n) > system->bearing * Wide<double>(1e-20))) return false;
+        }
+        return true;
+    }
+
+    const Rig& rig_;
+    const BranchesOptions& options_;
+    revchain::detail::ModesOfOneSense modes_;
+    std::vector<revchain::detail::ModesOfOneSense::Mode> found_;
+};
+
+inline ChainQuestions questions(const Chain<double>& chain, const BranchesOptions& options) { return {chain, options}; }
+inline RigQuestions questions(const Rig& rig, const BranchesOptions& options) { return {rig, options}; }
+
+/// Branches and proved lists of shapes brought together.
+template <class System>
+class Diagram {
+   public:
+    Diagram(const System& system, double lowest, const BranchesOptions& options)
+        : of_(system),
+          options_(options),
+          ask_(questions(system, options)),
+          unit_(std::ldexp(1.0, -ask_.system->units.length_exponent)),
+          log_end_(std::log(lowest * unit_)),
+          corrector_(rounded(ask_.system->links)) {
+        result_.conical_height = lowest;
+        result_.consistent = true;
+    }
+
+    Branches run() {
+        const double lowest = result_.conical_height;
+        const bool from_rest = !ask_.system->links.is_symmetric();
+        const auto settled = ask_.settled_above();
+        const std::vector<double> heights = from_rest ? std::vector<double>{} : ask_.modes_above(lowest);
+        const double top = settled.value_or(of_length());
+        log_top_ = std::log(100 * std::max(lowest, top) * unit_);
+        if (!from_rest && settled && heights.empty()) {
+            result_.complete = ask_.is_settled_at(lowest);
+            result_.remark = "no shape leaves the vertical at this height or above";
+            return std::move(result_);
+        }
+        const auto roots = static_cast<Index>(from_rest ? 1 : heights.size());
+        for (Index mode = 1; mode <= roots; ++mode) follow_from(mode);
+        // from the end upwards: an isolated branch is met first where most of it is to be seen
+        const double first = std::max(lowest, heights.empty() ? top : std::max(top, heights[0]));
+        const int lists = first > lowest ? options_.lists : 1;
+        for (int i = 0; i < lists; ++i) look(lowest * std::pow(first / lowest, double(i) / lists));
+        prove(settled);
+        std::sort(result_.looked_at.begin(), result_.looked_at.end(), std::greater<>());
+        std::stable_sort(result_.branches.begin() + roots, result_.branches.end(),
+                         [](const auto& x, const auto& y) { return highest(x) > highest(y); });
+        return std::move(result_);
+    }
+
+   private:
+    double of_length() const {
+        double reach = 0;
+        for (std::size_t m = 0; m < ask_.system->links.bodies(); ++m)
+            reach += static_cast<double>(ask_.system->links.links[m].length);
+        return reach / unit_;
+    }
+    static double highest(const Branch& branch) {
+        return *std::max_element(branch.conical_height.begin(), branch.conical_height.end());
+    }
+    void follow_from(Index mode) {
+        result_.branches.push_back(branch(of_, {.mode = mode,
+                                                .min_conical_height = result_.conical_height,
+                                                .max_points = options_.max_points,
+                                                .max_step = options_.max_step,
+                                                .gravity = options_.gravity,
+                                                .direction = options_.direction}));
+        settle(result_.branches.back().end);
+    }
+    void settle(BranchEnd end) {
+        result_.consistent = result_.consistent && (end == BranchEnd::height || end == BranchEnd::closed ||
+                                                    end == BranchEnd::slow || end == BranchEnd::loose);
+    }
+    Branch from_here(const BranchState& at, const BranchState& across, int half_waves) const {
+        return branch_from(ask_.system, at, across, half_waves, log_end_, log_top_, options_);
+    }
+    BranchState state_of(const SteadyShape& shape, double height) const {
+        const auto& links = ask_.system->links;
+        BranchState at;
+        for (Index m = 0; m < shape.inclination.size(); ++m) {
+            const double tangent = std::tan(shape.inclination[m]);
+            at.rise.push_back(std::asinh(ask_.system->stands(at.rise.size()) ? -tangent : tangent));
+        }
+        if (links.spring)
+            at.rise.push_back(links.tau_of_reach(
+                at.rise.size(), shape.offset[shape.offset.size() - 1] * unit_ - static_cast<double>(links.radius)));
+        at.log_height = std::log(height * unit_);
+        return at;
+    }
+    /// Every shape at one height must be met by a branch; where one is not, its branch is followed both ways.
+    void look(double height) {
+        const auto list = ask_.list(height);
+        result_.looked_at.push_back(height);
+        result_.consistent = result_.consistent && list.complete;
+        std::vector<int> met(list.shapes.size(), 0);
+        std::size_t crossings = 0;
+        const auto meet = [&](const Branch& branch) {
+            for (const SteadyShape& state : states_at(branch, corrector_, height)) {
+                ++crossings;
+                for (std::size_t j = 0; j < met.size(); ++j)
+                    met[j] += (list.shapes[j].inclination - state.inclination).cwiseAbs().maxCoeff() < 1e-9;
+            }
+        };
+        for (const Branch& branch : result_.branches) meet(branch);
+        for (std::size_t j = 0; j < met.size(); ++j) {
+            if (met[j] > 0) continue;
+            BranchState up;
+            up.rise.assign(corrector_.size(), 0.0), up.log_height = 1;
+            Branch loop = from_here(state_of(list.shapes[j], height), up, list.shapes[j].half_waves);
+            if (loop.size() < 2) {
+                result_.consistent = false;
+                continue;
+            }
+            settle(loop.end);
+            meet(loop);
+            result_.branches.push_back(std::move(loop));
+        }
+        result_.consistent = result_.consistent && crossings == list.shapes.size() &&
+                             std::all_of(met.begin(), met.end(), [](int each) { return each == 1; });
+    }
+
+    /// Proves that no loop is missing between the heights looked at; loops met on the way are added.
+    void prove(const std::optional<double>& settled) {
+        result_.remark = "branches and lists of all shapes do not agree, or a list is not proved complete";
+        const double lowest = result_.conical_height * unit_;
+        const std::string reason = ask_.not_provable(lowest);
+        const auto explained = [&] { return reason.empty() ? std::string() : ": " + reason; };
+        if (!result_.consistent) {
+            result_.remark += explained();
+            return;
+        }
+        result_.remark =
+            "every proved list of all shapes is accounted for; isolated loops that lie wholly between two "
+            "of the heights looked at are not excluded" +
+            explained();
+        if (!reason.empty()) return;
+        DiagramProof proof;
+        const double first = *settled * unit_ * (1 + 1e-9);
+        if (first > lowest) proof = proved_between(lowest, first);
+        result_.complete = proof.complete && result_.consistent;
+        if (result_.complete)
+            result_.remark = "proved complete: no branch is missing";
+        else if (!result_.consistent)
+            result_.remark = "a loop was found that lists of all shapes do not agree with";
+        else
+            result_.remark += ", between the heights " + revchain::detail::in_digits(proof.open_low / unit_) + " and " +
+                              revchain::detail::in_digits(proof.open_high / unit_);
+    }
+    /// Off the axis for both signs of the lowest link's tangent.
+    DiagramProof proved_between(double lowest, double first) {
+        DiagramProof whole;
+        for (const int side : {1, -1}) {
+            const EnclosedDiagram diagram(*ask_.system, side);
+            const double tight = std::max(lowest, 1.001 * diagram.loosest_height());
+            const auto note = [&](double low, double high) {
+                whole.open_low = whole.complete ? low : std::min(whole.open_low, low);
+                whole.open_high = std::max(whole.open_high, high);
+                whole.complete = false;
+            };
+            if (tight > lowest) note(lowest, std::min(tight, first));
+            if (!(tight < first)) break;
+            DiagramProver prover(diagram, options_.proof_budget);
+            const auto proof =
+                prover.run(tight, first, diagram.last(tight) * (1 + 1e-12),
+                           [&](const DiagramPoint& at, const Rectangle& within) { return known(diagram, at, within); });
+            if (!proof.complete) note(proof.open_low, proof.open_high);
+            if (diagram.is_symmetric()) break;
+        }
+        return whole;
+    }
+    bool known(const EnclosedDiagram& diagram, const DiagramPoint& at, const Rectangle& within) {
+        if (std::any_of(result_.branches.begin(), result_.branches.end(),
+                        [&](const Branch& each) { return goes_through(each, corrector_, at, within, diagram.side()); }))
+            return true;
+        if (stuck_ >= 20) return false;
+        const BranchState state = diagram.state_at(at);
+        BranchState across;
+        across.rise.assign(state.rise.size(), 0.0);
+        across.rise[0] = std::sqrt(static_cast<double>(state.rise.size()));
+        Branch found = from_here(state, across, 1);
+        // one that comes to the vertical is that of a mode; one that comes to the lowest height is in the list there,
+        // and one that comes to slow speeds is the one from rest
+        if (found.end == BranchEnd::vertical || found.end == BranchEnd::height || found.end == BranchEnd::slow)
+            return true;
+        if (found.end != BranchEnd::closed && found.end != BranchEnd::loose) {
+            ++stuck_;
+            return false;
+        }
+        const double top = highest(found),
+                     bottom = *std::min_element(found.conical_height.begin(), found.conical_height.end());
+        result_.branches.push_back(std::move(found));
+        look(std::sqrt(top * bottom));  // must agree
+        return true;
+    }
+
+    const System& of_;
+    const BranchesOptions& options_;
+    decltype(questions(std::declval<const System&>(), std::declval<const BranchesOptions&>())) ask_;
+    double unit_, log_end_, log_top_ = std::numeric_limits<double>::infinity();
+    Corrector corrector_;
+    int stuck_ = 0;  ///< traces that came to nothing
+    Branches result_;
+};
+
+template <class System>
+Branches diagram_of(const System& system, const BranchesOptions& options) {
+    const double lowest = lowest_height("branches", options);
+    if (options.lists < 1) revchain::detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    return Diagram<System>(system, lowest, options).run();
+}
+
+}  // namespace revchain::finite
+
+namespace revchain {
+
+REVCHAIN_INLINE Branches branches(const Chain<double>& chain, const BranchesOptions& options) {
+    return finite::diagram_of(chain, options);
+}
+REVCHAIN_INLINE Branches branches(const Rig& rig, const BranchesOptions& options) {
+    return finite::diagram_of(rig, options);
+}
+
+}  // namespace revchain
