@@ -192,16 +192,16 @@ ShapesOnBranch shapes_on_branch(const Chain<double>& chain, const SteadyShapeOpt
 
 namespace detail {
 template <class System>
-concept OtherThanChain = std::same_as<System, Rig> || std::same_as<System, Cord> ||
-    std::same_as<System, Held<Chain<double>>> || std::same_as<System, Held<Cord>>;
+concept OtherThanChain = std::same_as<System, Rig> || std::same_as<System, Held<Chain<double>>> ||
+    std::same_as<System, Held<Cord>>;
 [[noreturn]] inline void throw_no_branches(std::string_view place) {
     throw_invalid(place,
-                  "branches are followed for a Chain alone, not yet for a Rig, a Cord or a Held; ask steady_shapes of "
+                  "branches are followed for a Chain and a Cord, not yet for a Rig or a Held; ask steady_shapes of "
                   "it at each speed");
 }
 }  // namespace detail
 
-/// Throw InvalidArgument: branches of these systems cannot be followed yet.
+/// Throw InvalidArgument: branches of these systems cannot be followed yet. Those of a `Cord` are in cord.hpp.
 template <detail::OtherThanChain System>
 Branch branch(const System&, const BranchOptions&) {
     detail::throw_no_branches("branch");

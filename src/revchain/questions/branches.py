@@ -6,7 +6,9 @@ from __future__ import annotations
 from typing import Literal, overload
 
 from .. import _core
+from ..results.bent import CordShape
 from ..results.branches import Branch, Branches, branches_made
+from ..results.cord_branches import CordBranch, CordBranches
 from ..results.shapes import SteadyShape
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
@@ -21,17 +23,39 @@ from ..systems.numbers import (
     one_positive,
 )
 from ..systems.rig import Rig
+from .cords import cord_branch, cord_branches, cord_shapes_on_branch
 from .refuse import refuse_other
 
 _OTHERS = {
     Rig: "ask steady_shapes at the speeds wanted",
-    Cord: "ask the branches of its chain: cord.chain(10)",
     Held: "ask steady_shapes at the speeds wanted",
 }
 
 
+@overload
 def branch(
     system: Chain,
+    mode: int,
+    *,
+    max_angular_speed: float | None = ...,
+    min_conical_height: float | None = ...,
+    gravity: float = ...,
+    max_points: int = ...,
+    max_step: float = ...,
+) -> Branch: ...
+@overload
+def branch(
+    system: Cord,
+    mode: int,
+    *,
+    max_angular_speed: float | None = ...,
+    min_conical_height: float | None = ...,
+    gravity: float = ...,
+    max_points: int = ...,
+    max_step: float = ...,
+) -> CordBranch: ...
+def branch(
+    system: Chain | Cord,
     mode: int,
     *,
     max_angular_speed: float | None = None,
@@ -39,13 +63,13 @@ def branch(
     gravity: float = STANDARD_GRAVITY,
     max_points: int = 10_000,
     max_step: float = 0.1,
-) -> Branch:
+) -> Branch | CordBranch:
     """Follow the branch of shapes that leaves the vertical at one critical speed, through every fold.
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links.
+    system : Chain or Cord
+        The chain of N links, or a flexible cord.
     mode : int
         Number of the mode, from 1, the slowest.
     max_angular_speed : float
@@ -61,7 +85,7 @@ def branch(
 
     Returns
     -------
-    Branch
+    Branch or CordBranch
         The first point is the straight chain, alone if no double tells the end from it (``end`` is then
         ``stuck``). Numbers to about 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, mostly an ulp.
 
@@ -76,7 +100,7 @@ def branch(
     Continuation by arc on all links and the height at once. A step is kept only if Newton's method
     contracts at once, the direction turns little, the middle of the step lies on the branch too, and, where no
     link has ``pendulum_length > length``, the half waves stay the same; else half of it is tried. That is a check,
-    not a proof.
+    not a proof. Of a cord: on the line on which its crossing of the axis number `mode` is at the support.
 
     Examples
     --------
@@ -86,18 +110,42 @@ def branch(
     (array([0.158984, 0.04    ]), {3})
     """
     place = "revchain.branch"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Cord), _OTHERS)
     number = count(place, "mode", mode)
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     points = count(place, "max_points", max_points)
     step = one_positive(place, "max_step", max_step)
     asked = (number, height, points, step)
+    if isinstance(system, Cord):
+        return cord_branch(system, one_positive(place, "gravity", gravity), asked)
     found = _core.branch(compiled(place, system), *asked)
     return Branch._made(found, system=system, gravity=one_positive(place, "gravity", gravity), asked=asked)
 
 
+@overload
 def branches(
     system: Chain,
+    *,
+    max_angular_speed: float | None = ...,
+    min_conical_height: float | None = ...,
+    gravity: float = ...,
+    lists: int = ...,
+    budget: int = ...,
+    proof_budget: int = ...,
+) -> Branches: ...
+@overload
+def branches(
+    system: Cord,
+    *,
+    max_angular_speed: float | None = ...,
+    min_conical_height: float | None = ...,
+    gravity: float = ...,
+    lists: int = ...,
+    budget: int = ...,
+    proof_budget: int = ...,
+) -> CordBranches: ...
+def branches(
+    system: Chain | Cord,
     *,
     max_angular_speed: float | None = None,
     min_conical_height: float | None = None,
@@ -105,13 +153,13 @@ def branches(
     lists: int = 16,
     budget: int = 2_000_000,
     proof_budget: int = 1_000_000,
-) -> Branches:
+) -> Branches | CordBranches:
     """Find the whole diagram of branches up to a speed, isolated ones too, and prove that none is missing.
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links; few, as all shapes are listed (`steady_shapes`).
+    system : Chain or Cord
+        The chain of N links; few, as all shapes are listed (`steady_shapes`). Or a flexible cord.
     max_angular_speed : float
         The speed up to which to go, rad/s.
     min_conical_height : float
@@ -121,15 +169,15 @@ def branches(
     lists : int, optional
         At how many speeds to list all shapes and bring them together with the branches.
     budget : int, optional
-        Work allowed for each list; see `steady_shapes`.
+        Work allowed for each list; see `steady_shapes`. Cords have none.
     proof_budget : int, optional
         Links to look at for the proof, 0.1 to 1 microsecond each; 0: no proof.
 
     Returns
     -------
-    Branches
+    Branches or CordBranches
         A sequence of `Branch`: those that leave the vertical, slowest first, then those that are born in a
-        fold, slowest first.
+        fold, slowest first. Of a cord ``complete`` is true where a theorem counts the shapes (see `steady_shapes`).
 
     Raises
     ------
@@ -160,9 +208,11 @@ def branches(
     np.float64(3.9037621569)
     """
     place = "revchain.branches"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Cord), _OTHERS)
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     at = min(count(place, "lists", lists), 10**6)
+    if isinstance(system, Cord):
+        return cord_branches(system, one_positive(place, "gravity", gravity), (height, at))
     most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
     asked = (height, at, most, most_of_proof)
     found = _core.branches(compiled(place, system), *asked)
@@ -197,8 +247,36 @@ def steady_shape(
     all: Literal[True],
     min_conical_height: float | None = ...,
 ) -> tuple[SteadyShape, ...]: ...
+@overload
 def steady_shape(
-    system: Chain,
+    system: Cord,
+    *,
+    mode: int = ...,
+    conical_height: float | None = ...,
+    angular_speed: float | None = ...,
+    tip_inclination: float | None = ...,
+    tip_radius: float | None = ...,
+    top_tension: float | None = ...,
+    gravity: float = ...,
+    all: Literal[False] = ...,
+    min_conical_height: float | None = ...,
+) -> CordShape: ...
+@overload
+def steady_shape(
+    system: Cord,
+    *,
+    mode: int = ...,
+    conical_height: float | None = ...,
+    angular_speed: float | None = ...,
+    tip_inclination: float | None = ...,
+    tip_radius: float | None = ...,
+    top_tension: float | None = ...,
+    gravity: float = ...,
+    all: Literal[True],
+    min_conical_height: float | None = ...,
+) -> tuple[CordShape, ...]: ...
+def steady_shape(
+    system: Chain | Cord,
     *,
     mode: int = 1,
     conical_height: float | None = None,
@@ -209,13 +287,13 @@ def steady_shape(
     gravity: float = STANDARD_GRAVITY,
     all: bool = False,
     min_conical_height: float | None = None,
-) -> SteadyShape | tuple[SteadyShape, ...]:
+) -> SteadyShape | CordShape | tuple[SteadyShape, ...] | tuple[CordShape, ...]:
     """Find the shape on the branch of one mode at a speed, or the speed at which the shape is as wanted.
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links, up to 100,000 and more.
+    system : Chain or Cord
+        The chain of N links, up to 100,000 and more; or a flexible cord.
     mode : int, optional
         At which the branch leaves the vertical, from 1, the slowest.
     conical_height : float
@@ -223,7 +301,7 @@ def steady_shape(
     angular_speed : float
         Instead: the speed in rad/s.
     tip_inclination : float
-        Instead: that of the lowest link, rad, above 0 and below pi/2; its size, whatever the sign.
+        Instead: that of the lowest link or of the free end, rad, above 0 and below pi/2; its size, whatever the sign.
     tip_radius : float
         Instead: the free end's distance from the axis, its size too.
     top_tension : float
@@ -239,7 +317,7 @@ def steady_shape(
 
     Returns
     -------
-    SteadyShape or tuple of SteadyShape
+    SteadyShape, CordShape or tuple of them
         Inclinations to 2.3e-16 at a given height or speed (measured), and within ``error_bound``, proved but at
         a fold. That the state is on this branch is checked at every step, see `branch`.
 
@@ -268,7 +346,7 @@ def steady_shape(
     20.0
     """
     place = "revchain.steady_shape"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Cord), _OTHERS)
     number = count(place, "mode", mode)
     name, value = exactly_one(
         place,
@@ -280,17 +358,28 @@ def steady_shape(
     )
     g = one_positive(place, "gravity", gravity)
     if name == "top_tension":
-        least = system._force(g) * system._compiled.total_weight
+        least = system._force(g) * _weight(system)
         if not value > least:
-            raise ValueError(f"{place}: top_tension must be more than the weight {least:.6g} of the chain, got {value:g}")
+            what = "cord" if isinstance(system, Cord) else "chain"
+            raise ValueError(f"{place}: top_tension must be more than the weight {least:.6g} of the {what}, got {value:g}")
         value /= system._force(g)
     every = boolean(place, "all", all)
     lowest = None if min_conical_height is None else one_positive(place, "min_conical_height", min_conical_height)
+    if isinstance(system, Cord):
+        shapes = cord_shapes_on_branch(system, number, name, value, g, lowest, every)
+        return shapes if every else shapes[0]
     core = compiled(place, system)
     if not every:
         return _shape(_core.steady_shape(core, number, name, value, g, lowest), system, g)
     found = _core.shapes_on_branch(core, number, name, value, g, lowest)
     return tuple(_shape(shape, system, g) for shape in found)
+
+
+def _weight(system: Chain | Cord) -> float:
+    """Of all that hangs, in the unit of the weights or masses given."""
+    if isinstance(system, Cord):
+        return system._compiled.weight + system._compiled.tip_weight
+    return system._compiled.total_weight
 
 
 def _shape(found: _core.SteadyShape, system: Chain, gravity: float) -> SteadyShape:

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _core
 from ..systems.chain import Chain
+from ..systems.cord import Cord
 from ..systems.numbers import Floats, Whole, count, height_of, integer, one_positive
 from .base import Field, Result, Results
 from .shapes import SteadyShape, forced, is_driven
@@ -358,7 +359,9 @@ def branches_made(found: _core.Branches, system: Chain, gravity: float, asked: t
     return Branches._made(found, _items=items, **given)
 
 
-def _first_height(chain: Chain) -> float:
+def _first_height(system: Any) -> float:
     """The conical height of the slowest mode."""
-    found = _core.modes(chain._compiled, 1, 1, None, None, None, False, "double", "auto")
+    if isinstance(system, Cord):
+        return float(_core.cord_modes(system._compiled, 1, 1, None, None, None).conical_height[0])
+    found = _core.modes(system._compiled, 1, 1, None, None, None, False, "double", "auto")
     return float(found.conical_height[0])
