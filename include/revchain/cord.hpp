@@ -88,7 +88,7 @@ Index count_modes(const Cord& cord, const CountOptions<double>& options);
 ///
 /// Method: continuation by arc in the plane of the free end's inclination and the conical height, on the line on which
 /// crossing `mode` of the cord's path is at the support. A step is kept only if it passes the checks of
-/// finite::BranchLineWalk: a check, not a proof. A uniform cord without a tip has no fold (Kolodner 1955).
+/// finite::BranchLineWalk: a check, not a proof. Where a theorem counts the shapes there are no folds.
 /// Accuracy: points within 1e-13; folds within 1e-7 of the arc, their heights within 1e-13
 /// (tests/cpp/cord_branches.cpp).
 /// Cost: some 5 paths a point, three times that with a tip or a density; see `steady_shapes` for a path.
@@ -100,7 +100,8 @@ CordBranch branch(const Cord& cord, const BranchOptions& options);
 ///
 /// Method: `branch` from every mode. Where no theorem counts the shapes, lists of shapes (`steady_shapes`) at `lists`
 /// heights are brought together with the branches. A shape that no branch meets lies on an isolated branch, which is
-/// followed both ways. `complete` is true where a theorem counts the shapes: a uniform cord without a tip, or one mode.
+/// followed both ways. `complete` is true where a theorem counts the shapes (finite/cord/continuous_chain.hpp): a
+/// uniform cord, a power s^p without a tip or with p below 0, and one mode.
 /// Accuracy: as of `branch`. Throws InvalidArgument as `branch` does, and for `lists` below 1.
 CordBranches branches(const Cord& cord, const BranchesOptions& options);
 
@@ -126,8 +127,10 @@ CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& 
 /// grow, so that what is left out, of high frequency, stays as it is. `internal_damping` is NaN: friction of bending
 /// needs a stiffness that a flexible cord has not. `external_damping`: the drag of still air on a length of cord over
 /// its length and velocity, as of a chain.
-/// Accuracy: exponents to 1e-9 where the shape is moderate; `chain` of N links differ from them as 1/N^2
-/// (tests/cpp/cord_branches.cpp). Cost: that of a chain of 10 links a panel, two to four panels a half wave and more.
+/// Accuracy: exponents to 2e-9 (measured next to the vertical, and against chains with Richardson's extrapolation;
+/// tests/python/test_cord_branches.py); those of N links differ as 1/N^2 (tests/cpp/cord_branches.cpp).
+/// Cost: that of a chain of 10 links a panel, two to four panels a half wave and more: 15 ms without nodes, 0.3 s for
+/// three half waves.
 /// Throws InvalidArgument for a shape of a cord of another length.
 Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame = StabilityFrame::free);
 

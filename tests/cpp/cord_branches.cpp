@@ -164,6 +164,24 @@ TEST_CASE("cord branches: an isolated branch is found, and its fold") {
     CHECK(none.complete);
 }
 
+TEST_CASE("cord: heavy tips below a light end, against 22 digits") {
+    // mpmath, Taylor series of y' = U/V, U' = -rho y/lambda
+    struct Row {
+        double p, tip;
+        std::array<double, 3> height;
+    };
+    for (const auto& [p, tip, height] :
+         {Row{1, 50, {0.996702693550480239, 0.00208490715201308794, 0.000483988482318211529}},
+          Row{0.5, 1000, {0.999828670544711832, 0.000106680161851458351, 0.0000255070662788168346}},
+          Row{10, 1, {0.950867553511619639, 0.0318894323978909672, 0.00712538023242559276}},
+          Row{2.5, 1e-6, {0.421474122898676263, 0.1692999882111224, 0.0923702437256563728}}}) {
+        const Vector<double> found =
+            revchain::modes(Cord(1.0, {.density = p, .tip_weight = tip}), {.count = 3}).conical_height;
+        CAPTURE(p, tip);
+        for (Index k = 0; k < 3; ++k) CHECK(std::abs(found[k] / height[static_cast<std::size_t>(k)] - 1) < 2.5e-15);
+    }
+}
+
 TEST_CASE("cord: exponents are the limit of those of N links, and converge as 1/N^2") {
     const auto exponents = [](const revchain::Stability& s) {
         std::vector<std::complex<double>> slowest;

@@ -57,9 +57,11 @@ def test_the_diagram():
     diagram = rc.branches(rc.Cord(1.0), max_angular_speed=25.0)
     assert [each.mode for each in diagram] == [1, 2, 3, 4, 5] and diagram.complete and diagram.consistent
     assert "a theorem counts the shapes" in repr(diagram)
-    other = rc.branches(TIP, max_angular_speed=16.0, lists=3)
+    assert rc.branches(TIP, max_angular_speed=16.0).complete  # a tip, too
+    tapered = rc.Cord(1.0, mass=2.0, density=1.0, tip_mass=0.3)
+    other = rc.branches(tapered, max_angular_speed=16.0, lists=3)
     assert len(other) == 3 and other.consistent and not other.complete and other.looked_at.size == 3
-    assert rc.branches(TIP, max_angular_speed=5.0).complete  # one mode
+    assert rc.branches(tapered, max_angular_speed=5.0).complete  # one mode
 
 
 def test_stability_is_the_limit_of_links():
@@ -76,6 +78,22 @@ def test_stability_is_the_limit_of_links():
     drag = [rc.steady_shape(TIP.chain(40), mode=2, angular_speed=14.0).stability().external_damping.min()]
     assert limit.external_damping.min() == pytest.approx(drag[0], rel=0.1)
     assert shape.stability(frame="driven").verdict == "unstable"
+
+
+@pytest.mark.parametrize("options", [{}, {"tip_weight": 0.3}, {"density": 1.0, "tip_weight": 0.2}, {"density": 1.0}])
+@pytest.mark.parametrize("mode", [1, 2])
+def test_exponents_next_to_the_vertical(options, mode):
+    """There a disturbance is a sum of modes, which swing with sqrt(height / height of the mode) times the speed."""
+    cord = rc.Cord(1.0, weight=1.0, **options)
+    modes = rc.modes(cord, 8)
+    below = 1e-9
+    height = modes.conical_height[mode - 1] * (1 - below)
+    found = rc.steady_shape(cord, mode=mode, conical_height=height).stability()
+    ratio = np.sqrt(height / modes.conical_height)
+    expected = np.abs(np.concatenate([ratio - 1, ratio + 1]))
+    for each in np.sort(expected[expected > 1e-3])[:10]:
+        assert np.abs(found.exponents.imag - each).min() < 10 * below
+    assert found.negative_directions == 2 * (mode - 1)
 
 
 def test_swing():

@@ -274,7 +274,7 @@ def swing(
     >>> cord = rc.Cord(1.0, mass=0.5, tip_mass=0.2)
     >>> found = rc.swing(cord, lambda s: 0.1 * (1 - s), None, [0.0, 1.0])
     >>> round(float(found.offset[1, 0]), 4), bool(found.error_estimate.max() < 1e-4)
-    (-0.099, True)
+    (-0.0959, True)
     """
     place = "revchain.swing"
     others: dict[type, str] = {Rig: "ask its modes, or swing of its chain", Held: "ask its modes"}

@@ -158,7 +158,7 @@ class CordBranches(Branches):
         "Whether at every speed looked at each shape that a scan finds was met by a branch, and met once.", part=True
     )
     complete: Field[bool] = Field(
-        "Whether a theorem counts the shapes, so that no branch is missing: a uniform cord without a tip, or one mode.",
+        "Whether a theorem counts the shapes (see `steady_shapes`), so that no branch is missing.",
         part=True,
     )
 

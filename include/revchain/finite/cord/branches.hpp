@@ -118,7 +118,8 @@ BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double long
     while (branch.size() < most) {
         revchain::detail::look();
         const BranchLine::Point last = walk.at();
-        if (!walk.advance()) return last.at.bend < 1e-3 ? BranchEnd::vertical : BranchEnd::stuck;
+        if (!walk.advance())
+            return last.at.bend < 1e-3 && last.direction.bend < 0 ? BranchEnd::vertical : BranchEnd::stuck;
         BranchLine::Point now = walk.at();
         if (last.rate * now.rate < 0) {  // not at the vertical, where the rate is 0
             const auto fold = line.between(last, now, [](const auto& point) { return point.rate; });

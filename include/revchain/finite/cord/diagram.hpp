@@ -24,7 +24,7 @@ class CordDiagram {
             ended = ended && result_.branches.back().end == BranchEnd::height;
         }
         result_.consistent = ended;
-        const bool theorem = critical_.size() <= 1 || (cord_.is_uniform() && cord_.tip_weight() == 0);
+        const bool theorem = critical_.size() <= 1 || ContinuousChain(cord_).is_counted;
         result_.complete = theorem && ended;
         for (int i = 0; i < options_.lists && !theorem; ++i) {
             const double share = static_cast<double>(i) / options_.lists;
