@@ -99,6 +99,8 @@ py::tuple of_modes(const CordModes& found) {
 
 }  // namespace
 
+void bind_cord_branches(py::module_& module);  // bind_cord_branches.cpp
+
 void bind_cord(py::module_& module) {
     const auto column = [](Vector<double> CordShape::*member) {
         return [member](const CordShape& shape) { return to_numpy(shape.*member); };
@@ -170,4 +172,5 @@ void bind_cord(py::module_& module) {
             return revchain::steady_shapes(cord, {.conical_height = height, .scanned = scanned});
         },
         "cord"_a, "height"_a, "scanned"_a);
+    bind_cord_branches(module);
 }

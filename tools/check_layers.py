@@ -33,9 +33,9 @@ ALLOWED = {
     "finite/shapes": {"numeric", "system", "linear", "finite/balance"},
     "finite/branch": {"numeric", "simd", "system", "linear", "finite/balance", "finite/shapes"},
     "finite/held": {"numeric", "system", "finite/balance", "finite/shapes", "finite/cord"},
-    "finite/cord": {"numeric", "system"},
+    "finite/cord": {"numeric", "system", "finite/branch"},
     "finite/stability": {"numeric", "system", "pencil/complex", "finite/balance", "finite/shapes"}
-    | {"finite/branch", "finite/held"},
+    | {"finite/branch", "finite/held", "finite/cord"},
     "paper": {"numeric", "system", "special", "linear", "finite/balance", "finite/shapes"},
     "models": {"numeric", "system", "pencil", "linear", "paper", "special"}
     | {"finite/balance", "finite/shapes", "finite/branch"},

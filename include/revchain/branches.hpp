@@ -244,16 +244,16 @@ ShapesOnBranch shapes_on_branch(const Rig& rig, const SteadyShapeOptions& option
 
 namespace detail {
 template <class System>
-concept WithoutBranches =
-    std::same_as<System, Cord> || std::same_as<System, Held<Chain<double>>> || std::same_as<System, Held<Cord>>;
+concept WithoutBranches = std::same_as<System, Held<Cord>>;
 [[noreturn]] inline void throw_no_branches(std::string_view place) {
     throw_invalid(place,
-                  "branches are followed for a Chain or a Rig, not yet for a Cord or a Held; ask steady_shapes of "
+                  "branches are not yet followed for a held cord; cut it into links, or ask steady_shapes of "
                   "it at each speed");
 }
 }  // namespace detail
 
-/// Throw InvalidArgument: branches of these systems cannot be followed yet.
+/// Throw InvalidArgument: branches of a held cord cannot be followed yet. Those of a `Cord` are in cord.hpp, those of a
+/// held chain in held.hpp.
 template <detail::WithoutBranches System>
 Branch branch(const System&, const BranchOptions&) {
     detail::throw_no_branches("branch");

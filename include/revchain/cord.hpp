@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <variant>
+#include <vector>
+
 #include "revchain/explain.hpp"
 #include "revchain/finite/cord/continuous_chain.hpp"
+#include "revchain/finite/cord/diagram.hpp"
+#include "revchain/finite/cord/shape_on_branch.hpp"
 #include "revchain/modes.hpp"
-#include "revchain/swing.hpp"
+#include "revchain/stability.hpp"
 #include "revchain/system/cord.hpp"
 #include "revchain/tune.hpp"
 
@@ -77,11 +83,100 @@ CordModes modes(const Cord& cord, const ModesOptions<double>& options = {});
 /// modes, and with series for a length above 1e6 heights.
 Index count_modes(const Cord& cord, const CountOptions<double>& options);
 
+/// The branch of steady shapes that leaves the vertical at a mode, followed through every fold until it first comes to
+/// the conical height or speed given.
+///
+/// Method: continuation by arc in the plane of the free end's inclination and the conical height, on the line on which
+/// crossing `mode` of the cord's path is at the support. A step is kept only if it passes the checks of
+/// finite::BranchLineWalk: a check, not a proof. Where a theorem counts the shapes there are no folds.
+/// Accuracy: points within 1e-13; folds within 1e-7 of the arc, their heights within 1e-13
+/// (tests/cpp/cord_branches.cpp).
+/// Cost: some 5 paths a point, three times that with a tip or a density; see `steady_shapes` for a path.
+/// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and speed is given,
+/// positive and finite, for a height that is not below that of the mode, and for a length above 1e6 heights.
+CordBranch branch(const Cord& cord, const BranchOptions& options);
+
+/// The whole diagram of branches down to the conical height or speed given: those of the modes, and isolated ones.
+///
+/// Method: `branch` from every mode. Where no theorem counts the shapes, lists of shapes (`steady_shapes`) at `lists`
+/// heights are brought together with the branches. A shape that no branch meets lies on an isolated branch, which is
+/// followed both ways. `complete` is true where a theorem counts the shapes (finite/cord/continuous_chain.hpp): a
+/// uniform cord, a power s^p without a tip or with p below 0, and one mode.
+/// Accuracy: as of `branch`. Throws InvalidArgument as `branch` does, and for `lists` below 1.
+CordBranches branches(const Cord& cord, const BranchesOptions& options);
+
+/// The first shape along the branch of a mode at which one number is as given: conical height, speed, tip inclination,
+/// tip radius or top tension.
+///
+/// Accuracy: the shape is within its `error_bound`, an estimate, of the one at its conical height. That height is as
+/// given, or within 1e-14 of that at which the number is met (tests/cpp/cord_branches.cpp). Cost: that of the branch up
+/// to there.
+/// Throws InvalidArgument as `steady_shape` of a chain does.
+CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options);
+
+/// All shapes on the branch at which the number is as given, at most `max_shapes` of them. It returns none, and does
+/// not throw, where the number is not met. Otherwise as `steady_shape`.
+CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options);
+
+/// What becomes of a small disturbance of a steady shape of a cord.
+///
+/// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), 8 and 10 nodes each. `exponents` are those
+/// of which the two agree to 1e-6 of their size, by imaginary part: the slowest ones of infinitely many. `margin`
+/// covers by how much the two differ in the growth rate; where they differ in the verdict, or in the number of negative
+/// directions, it is `undecided`. Only finitely many directions have negative energy, and only as many motions can
+/// grow, so that what is left out, of high frequency, stays as it is. `internal_damping` is NaN: friction of bending
+/// needs a stiffness that a flexible cord has not. `external_damping`: the drag of still air on a length of cord over
+/// its length and velocity, as of a chain.
+/// Accuracy: exponents to 2e-9 (measured next to the vertical, and against chains with Richardson's extrapolation;
+/// tests/python/test_cord_branches.py); those of N links differ as 1/N^2 (tests/cpp/cord_branches.cpp).
+/// Cost: that of a chain of 10 links a panel, two to four panels a half wave and more: 15 ms without nodes, 0.3 s for
+/// three half waves.
+/// Throws InvalidArgument for a shape of a cord of another length.
+Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame frame = StabilityFrame::free);
+
+/// A start of a cord: none (on the axis, at rest); values at `CordSwingOptions::arc_length`, straight between them; or
+/// a continuous function of the arc length. The support's must be 0.
+using CordStart = std::variant<std::monostate, Vector<double>, std::function<double(double)>>;
+
+/// How a cord starts, and when and where it is looked at.
+struct CordSwingOptions {
+    CordStart offset{};           ///< at time 0
+    CordStart velocity{};         ///< at time 0
+    std::vector<double> time{};   ///< of either sign, in any order
+    Vector<double> arc_length{};  ///< ascending, 0 (the free end) ... length; empty: 101 places evenly apart
+    Index count = 40;             ///< of the slowest modes that are superposed
+    double gravity = conical_pendulum::standard_gravity;
+    Progress* progress = nullptr;
+};
+
+/// A cord swinging in a plane with small amplitude: the sum of its modes, each at its own frequency.
+struct CordSwing {
+    Vector<double> arc_length;         ///< (n) where it is looked at
+    Table<double> offset, velocity;    ///< (times, n) sums of the modes kept
+    Vector<double> angular_frequency;  ///< (k,) sqrt(g / lambda), ascending
+    Vector<double> energy;             ///< (k,) of each mode, weight times length; it stays in the mode
+    Table<double> shape;               ///< (k, n) of each mode, 1 at the free end
+    Vector<double> cosine, sine;       ///< (k,) offsets are the sum of shape (cosine cos + sine sin)(frequency t)
+    double energy_left_out = 0;        ///< of the start beside the modes kept
+    Vector<double> error_estimate;     ///< (n) of an offset at any time, from the modes up to number 2 k
+};
+
+/// Small oscillations of a cord in a plane after release, superposed from the modes of `modes`.
+///
+/// `error_estimate`: what modes k + 1 ... 2 k do at most, and all beyond, falling as those do from k / 2 ... k. A start
+/// with a kink in a cord without a tip is slow to converge at the free end, as k^-1/2: waves meet there.
+/// Accuracy: coefficients to 1e-13 of the largest; angles to rounding, 1e-16 times the number of swings. Measured
+/// against long chains: tests/cpp/cord_branches.cpp. Cost: 2 k modes at some 800 places and more, 1 to 15 microseconds
+/// each.
+/// Throws InvalidArgument for starts that are not finite, continuous, of the length of `arc_length`, or 0 at the
+/// support, for places out of order, a count below 1 or above 1e4, gravity not positive and times not finite.
+CordSwing swing(const Cord& cord, const CordSwingOptions& options);
+
 /// Throw InvalidArgument: these questions about a cord have no answer yet. The message says what to ask instead.
-Swing swing(const Cord& cord, const SwingOptions& options);
 Tuned tune(const Cord& cord, const TuneOptions& options);
 Explanation explain(const Cord& cord, const ModesOptions<double>& options = {});
 
 }  // namespace revchain
 
 #include "revchain/analytic/cord.hpp"
+#include "revchain/finite/stability/cord.hpp"

@@ -296,7 +296,6 @@ TEST_CASE("cord: wrong cords, and questions without an answer") {
             }
         }
 
-    CHECK_THROWS_WITH(revchain::swing(cord, {}), ContainsSubstring("cut it into links"));
     CHECK_THROWS_WITH(revchain::tune(cord, {}), ContainsSubstring("gives the length"));
     CHECK_THROWS_WITH(revchain::explain(cord), ContainsSubstring("CordModes::method"));
 

@@ -20,6 +20,13 @@ def test_counted_by_the_critical_heights():
     assert len(shapes[1:3]) == 2
 
 
+@pytest.mark.parametrize("options", [{"tip_weight": 0.3}, {"density": 2.0}, {"density": -0.5, "tip_weight": 0.2}])
+def test_counted_with_a_tip_or_a_power(options):
+    cord = Cord(1.0, weight=1.0, **options)
+    shapes = rc.steady_shapes(cord, conical_height=0.02)
+    assert shapes.complete and len(shapes) == rc.count_modes(cord, conical_height=0.02) > 1
+
+
 def test_arrays_and_places_agree():
     for options in ({}, {"tip_weight": 0.3}, {"density": lambda s: 1 + s}):
         for shape in rc.steady_shapes(Cord(1.0, **options), conical_height=0.01):

@@ -93,6 +93,12 @@ def results():
     cord = rc.steady_shapes(rc.Cord(1.0, mass=2.0), conical_height=0.05)
     yield "SteadyShapes of a cord", cord
     yield "CordShape", cord[1]
+    tip = rc.Cord(1.0, mass=2.0, tip_mass=0.1)
+    yield "CordBranch", rc.branch(tip, 2, min_conical_height=0.08)
+    yield "CordBranches", rc.branches(tip, min_conical_height=0.08, lists=2)
+    yield "CordShape on a branch", rc.steady_shape(tip, mode=2, tip_inclination=1.0)
+    yield "CordSwing", rc.swing(tip, [0.1, 0.0], None, [0.0, 1.0], count=8)
+    yield "Stability of a cord", cord[0].stability()
     yield "Modes, taut", rc.modes(rc.Held(named, tension=50.0))
     held = rc.steady_shapes(rc.Held(rc.Chain.uniform_rods(6), span=0.5), angular_speed=9.0, max_half_waves=3)
     yield "SteadyShapes, held", held

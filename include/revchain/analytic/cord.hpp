@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "revchain/analytic/cord_start.hpp"
 #include "revchain/cord.hpp"
 #include "revchain/questions/modes.hpp"
 #include "revchain/special/heavy_chain.hpp"
@@ -166,10 +167,140 @@ inline Vector<double> CordModes::period(double gravity) const {
     return conical_height.unaryExpr([=](double height) { return conical_pendulum::period(height, gravity); });
 }
 
-inline Swing swing(const Cord&, const SwingOptions&) {
-    detail::throw_invalid("swing",
-                          "a Cord cannot swing yet; cut it into links, as Chain::uniform_rods and "
-                          "Chain::tapered do, and ask swing of that chain");
+namespace detail {
+
+/// The height at which a mode leaves the vertical.
+inline double critical_height(const Cord& cord, Index mode) {
+    return modes(cord, {.first = mode, .count = 1}).conical_height[0];
+}
+
+/// The conical height down to which to follow branches.
+template <class Options>
+double lowest_height(std::string_view place, const Options& options) {
+    return height_given(place, CordShapesOptions{.conical_height = options.min_conical_height,
+                                                 .angular_speed = options.max_angular_speed,
+                                                 .gravity = options.gravity});
+}
+
+inline void require_followed(std::string_view place, const Cord& cord, double height) {
+    if (!(cord.length() / height <= 1e6))
+        throw_invalid(place, "length / conical height must be at most 1e6", cord.length() / height);
+}
+
+}  // namespace detail
+
+inline CordBranch branch(const Cord& cord, const BranchOptions& options) {
+    const double height = detail::lowest_height("branch", options);
+    detail::require_positive("branch", "max_step", options.max_step);
+    if (!(options.mode >= 1 && options.mode <= 100'000))
+        detail::throw_invalid("branch", "mode must be from 1 to 100000", options.mode);
+    detail::require_followed("branch", cord, height);
+    const double critical = detail::critical_height(cord, options.mode);
+    if (!(height < critical))
+        detail::throw_invalid("branch",
+                              "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
+                                  detail::in_digits(critical) + ": the height to follow it to must be less",
+                              height);
+    return finite::branch_of_mode(cord, critical, height, options);
+}
+
+inline CordBranches branches(const Cord& cord, const BranchesOptions& options) {
+    const double height = detail::lowest_height("branches", options);
+    detail::require_followed("branches", cord, height);
+    detail::require_positive("branches", "max_step", options.max_step);
+    if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
+    Index count = count_modes(cord, {.conical_height = height});
+    Vector<double> critical;
+    if (count > 0) critical = modes(cord, {.count = count}).conical_height;
+    while (count > 0 && !(height < critical[count - 1])) --count;  // rounding
+    return finite::CordDiagram(cord, critical.head(count).eval(), height, options).run();
+}
+
+inline CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options) {
+    if (!(options.mode >= 1 && options.mode <= 100'000))
+        detail::throw_invalid("steady_shape", "mode must be from 1 to 100000", options.mode);
+    return finite::search_branch(cord, detail::critical_height(cord, options.mode), options);
+}
+
+inline CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options) {
+    SteadyShapeOptions one = options;
+    one.max_shapes = 1;
+    CordShapesOnBranch found = shapes_on_branch(cord, one);
+    if (found.shapes.empty())
+        detail::throw_invalid("steady_shape",
+                              "the number is not met on the branch of mode " + std::to_string(options.mode) +
+                                  ", which was followed to the conical height",
+                              found.searched_to);
+    return std::move(found.shapes.front());
+}
+
+/// Small oscillations: with the weight V below, by parts, the part of mode k in a start f is
+///     lambda integral of V y_k' f' / N,  N = lambda integral of V y_k'^2:
+/// no density is needed, however it jumps.
+inline CordSwing swing(const Cord& cord, const CordSwingOptions& options) {
+    constexpr std::string_view place = "swing";
+    detail::require_positive(place, "gravity", options.gravity);
+    if (options.count < 1 || options.count > 10'000)
+        detail::throw_invalid(place, "count must be from 1 to 10000", options.count);
+    for (const double t : options.time)
+        if (!std::isfinite(t)) detail::throw_invalid(place, "times must be finite", t);
+    CordSwing result;
+    result.arc_length = options.arc_length;
+    if (result.arc_length.size() == 0) result.arc_length = Vector<double>::LinSpaced(101, 0, cord.length());
+    const Vector<double>& arc = result.arc_length;
+    for (Index i = 0; i < arc.size(); ++i)
+        if (!(arc[i] >= 0 && arc[i] <= cord.length() && (i == 0 || arc[i] > arc[i - 1])))
+            detail::throw_invalid(place, "arc lengths must ascend from the free end, 0, to the length", arc[i]);
+    const std::array<detail::CordFunction, 2> start{
+        detail::function_of("offset", options.offset, arc, cord.length()),
+        detail::function_of("velocity", options.velocity, arc, cord.length())};
+    const bool listed = options.offset.index() == 1 || options.velocity.index() == 1;
+    const Index count = options.count, all = 2 * count;
+    const detail::CordStartNodes nodes = detail::nodes_of(cord, start, listed ? &arc : nullptr, all);
+    const CordModes found = modes(cord, {.count = all, .progress = options.progress});
+    const Vector<double> at = Eigen::Map<const Vector<double>>(nodes.arc.data(), static_cast<Index>(nodes.arc.size()));
+    const auto sum = [&](const auto& f) {
+        double total = 0;
+        for (std::size_t i = 0; i < nodes.arc.size(); ++i) total += nodes.weight[i] * nodes.below[i] * f(i);
+        return total;
+    };
+    result.angular_frequency = found.angular_speed(options.gravity).head(count);
+    result.shape.resize(count, arc.size());
+    for (auto* column : {&result.energy, &result.cosine, &result.sine}) column->resize(count);
+    Vector<double> before = Vector<double>::Zero(arc.size()), after = before, whole = before;
+    double kept = 0;
+    for (Index k = 0; k < all; ++k) {
+        const Vector<double> slope = found.slope(k, at), shape = found.offset(k, arc);
+        const auto part = [&](std::size_t of) {
+            return sum([&](std::size_t i) { return slope[static_cast<Index>(i)] * nodes.slope[of][i]; });
+        };
+        const double norm = sum([&](std::size_t i) { return std::pow(slope[static_cast<Index>(i)], 2); });
+        const double frequency = std::sqrt(options.gravity / found.conical_height[k]);
+        const double cosine = start[0] ? part(0) / norm : 0.0, sine = start[1] ? part(1) / norm / frequency : 0.0;
+        const Vector<double> size = std::hypot(cosine, sine) * shape.cwiseAbs();
+        (k >= count ? after : k >= count / 2 ? before : whole) += size;
+        if (k >= count) continue;
+        result.shape.row(k) = shape.transpose(), result.cosine[k] = cosine, result.sine[k] = sine;
+        result.energy[k] = 0.5 * norm * (cosine * cosine + sine * sine);
+        kept += result.energy[k];
+    }
+    const double height = sum([&](std::size_t i) { return std::pow(nodes.slope[0][i], 2); }) / 2;
+    const double motion = -sum([&](std::size_t i) { return nodes.value[1][i] * nodes.slope[1][i]; }) / options.gravity;
+    result.energy_left_out = std::max(0.0, height + motion - kept);
+    whole += before;
+    result.error_estimate = detail::tail_estimate(before, after).array() + 1e-13 * whole.maxCoeff();
+    const auto times = static_cast<Index>(options.time.size());
+    result.offset.resize(times, arc.size()), result.velocity.resize(times, arc.size());
+    for (Index i = 0; i < times; ++i) {
+        const Vector<double> angle = options.time[static_cast<std::size_t>(i)] * result.angular_frequency;
+        const Vector<double> c = angle.array().cos(), s = angle.array().sin();
+        const Vector<double> now = result.cosine.cwiseProduct(c) + result.sine.cwiseProduct(s);
+        const Vector<double> rate =
+            (result.sine.cwiseProduct(c) - result.cosine.cwiseProduct(s)).cwiseProduct(result.angular_frequency);
+        result.offset.row(i) = (result.shape.transpose() * now).transpose();
+        result.velocity.row(i) = (result.shape.transpose() * rate).transpose();
+    }
+    return result;
 }
 
 inline Tuned tune(const Cord&, const TuneOptions&) {

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..systems.numbers import integer, listed, word
+from ..systems.numbers import Floats, integer, listed, word
 from .modes import beside_at_rest, plot_carried
 from .style import MOST_PINS_AS_DOTS, thinned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from ..results.cord_motions import CordSwing
     from ..results.motions import Response, Swing
 
 MOST_CURVES = 4  # of pins, unless asked
@@ -82,24 +83,34 @@ def _known(pins: Iterable[int], available: list[int]) -> list[int]:
     return numbers
 
 
-def plot_swing(
-    found: Swing, ax: Axes | None, kind: str, pins: Iterable[int]
-) -> Axes:
+def plot_swing(found: Swing, ax: Axes | None, kind: str, pins: Iterable[int]) -> Axes:
     """See `Swing.plot`."""
-    place = "Swing.plot"
+    lengths = found.system.length
+    depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])
+    return _swing("Swing.plot", found, ax, kind, "pin", pins, depth)
+
+
+def plot_cord_swing(found: CordSwing, ax: Axes | None, kind: str, places: Iterable[int]) -> Axes:
+    """See `CordSwing.plot`."""
+    return _swing("CordSwing.plot", found, ax, kind, "place", places, found.system.length - found.arc_length)
+
+
+def _swing(
+    place: str, found: Swing | CordSwing, ax: Axes | None, kind: str, what: str, which: Iterable[int], depth: Floats
+) -> Axes:
+    """Offsets of pins or places, at these depths, at the times asked or against time."""
     word(place, "kind", kind, ("shapes", "time"))
-    size = found.system.size
-    chosen = [integer(place, "pins", pin) for pin in listed(place, "pins", pins)]
-    for pin in chosen:
-        if not 0 <= pin <= size:
-            raise ValueError(f"{place}: pins must be numbers from 0 to {size}, got {pin}")
+    chosen = [integer(place, f"{what}s", number) for number in listed(place, f"{what}s", which)]
+    for number in chosen:
+        if not 0 <= number < depth.size:
+            raise ValueError(f"{place}: {what}s must be numbers from 0 to {depth.size - 1}, got {number}")
     ax = beside_at_rest(found.system, ax, *((7.0, 4.0) if kind == "time" else (5.0, 6.0)))
     order = np.argsort(found.time)
     if kind == "time":
-        for number, pin in enumerate(chosen):
-            y = found.offset[order, pin]
+        for number, column in enumerate(chosen):
+            y = found.offset[order, column]
             kept = thinned(y)
-            name = "free end" if pin == 0 else f"pin {pin}"
+            name = "free end" if column == 0 and depth[0] == depth.max() else f"{what} {column}"
             ax.plot(found.time[order][kept], y[kept], color=f"C{number % 10}", linewidth=1.2, label=name)
         ax.axhline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=0)
         ax.set(xlabel="time (s)", ylabel="distance from the axis (m)")
@@ -109,9 +120,7 @@ def plot_swing(
     from ..systems.extras import require
 
     colours = require("matplotlib", "plot", "plotting").colormaps["viridis"]
-    lengths = found.system.length
-    depth = np.concatenate([np.cumsum(lengths[::-1])[::-1], [0.0]])
-    marker = "o" if depth.size <= MOST_PINS_AS_DOTS else ""
+    marker = "o" if what == "pin" and depth.size <= MOST_PINS_AS_DOTS else ""
     ax.axvline(0.0, color="0.6", linestyle="-.", linewidth=0.9, zorder=1)
     for rank, row in enumerate(order):
         kept = thinned(found.offset[row])
@@ -125,7 +134,7 @@ def plot_swing(
             label=f"{found.time[row]:.4g} s",
         )
     ax.plot(0.0, 0.0, marker="v", color="black", markersize=7.0, zorder=4, clip_on=False)
-    ax.set_ylim(1.03 * depth[0], -0.03 * depth[0])
+    ax.set_ylim(1.03 * depth.max(), -0.03 * depth.max())
     ax.set(xlabel="distance from the axis (m), own scale", ylabel="depth below the support (m)")
     if order.size <= 12:
         ax.legend(fontsize="small")

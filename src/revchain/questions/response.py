@@ -3,12 +3,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
+from ..results.cord_motions import CordSwing
 from ..results.motions import SWING, Response, Swing
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
@@ -27,7 +28,11 @@ from ..systems.numbers import (
     shown,
 )
 from ..systems.rig import Rig
+from .cords import Start, cord_swing
 from .refuse import refuse_other
+
+CORD_MODES = 40
+"""Of a cord that swings, unless asked."""
 
 
 def response(
@@ -167,47 +172,77 @@ def _pins(place: str, pins: ArrayLike | None, size: int) -> tuple[Whole, tuple[i
     return np.where(asked < 0, asked + size + 1, asked), asked.shape
 
 
+@overload
 def swing(
     system: Chain,
     offset: ArrayLike,
     velocity: ArrayLike | None,
     time: ArrayLike,
     *,
+    count: int | None = ...,
+    arc_length: ArrayLike | None = ...,
+    gravity: float = ...,
+) -> Swing: ...
+@overload
+def swing(
+    system: Cord,
+    offset: Start | None,
+    velocity: Start | None,
+    time: ArrayLike,
+    *,
+    count: int | None = ...,
+    arc_length: ArrayLike | None = ...,
+    gravity: float = ...,
+) -> CordSwing: ...
+def swing(
+    system: Chain | Cord,
+    offset: Start | None,
+    velocity: Start | None,
+    time: ArrayLike,
+    *,
     count: int | None = None,
+    arc_length: ArrayLike | None = None,
     gravity: float = STANDARD_GRAVITY,
-) -> Swing:
-    """Start a hanging chain anywhere and see it swing, by superposing its modes.
+) -> Swing | CordSwing:
+    """Start a hanging chain or cord anywhere and see it swing, by superposing its modes.
 
     Small oscillations in one plane, of natural angular frequencies that are the whirl speeds of `modes`. For motions in
     both directions ask for each: they are independent.
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links.
+    system : Chain or Cord
+        The chain of N links, or a flexible cord.
     offset : array_like, shape (N + 1,) or (N,)
-        Offsets of the pins at time 0, m, free end first; that of the support, 0, last or left out.
+        Offsets of the pins at time 0, m, free end first; that of the support, 0, last or left out. Of a cord a
+        continuous function of the distance from the free end, or numbers at `arc_length`, straight between them; None:
+        on the axis.
     velocity : array_like, shape (N + 1,) or (N,), or None
         Likewise, m/s; None: at rest.
     time : array_like
         Times in s, of either sign, a number or one axis.
     count : int, optional
-        Only so many of the slowest modes; all if left out.
+        Only so many of the slowest modes; all if left out, of a cord 40.
+    arc_length : array_like, optional
+        Cords: distances from the free end at which to look, m, ascending; for numbers as `offset` or `velocity` from 0 to
+        the length. If left out: evenly spaced, as many as numbers are given, or 101.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
 
     Returns
     -------
-    Swing
-        The offset of pin m at time i is within ``error_bound[i] + truncation_error[m]`` of the exact one.
+    Swing or CordSwing
+        The offset of pin m at time i is within ``error_bound[i] + truncation_error[m]`` of the exact one. Of a cord the
+        offset of place m is within ``error_estimate[m]``.
 
     Raises
     ------
     TypeError
         If `system` is none of the four systems.
     ValueError
-        For a rig, a cord and what is held at both ends; for numbers that are not finite, starts of another length, a
-        support that would move, more modes than there are, and weights more than 1e123 apart.
+        For a rig and what is held at both ends; for numbers that are not finite, starts of another length, a
+        support that would move, more modes than there are, and weights more than 1e123 apart; for a function that jumps,
+        and `arc_length` of a chain.
 
     Notes
     -----
@@ -233,13 +268,17 @@ def swing(
     >>> beat = rc.swing(chain, [0.01, 0.01, 0.0], None, np.linspace(0.0, 20.0, 2001))
     >>> round(float(abs(beat.offset[:, 0]).max()), 4), round(float(abs(beat.offset[:, 1]).max()), 4)
     (0.1002, 0.01)
+
+    A cord drawn aside at its free end, and let go:
+
+    >>> cord = rc.Cord(1.0, mass=0.5, tip_mass=0.2)
+    >>> found = rc.swing(cord, lambda s: 0.1 * (1 - s), None, [0.0, 1.0])
+    >>> round(float(found.offset[1, 0]), 4), bool(found.error_estimate.max() < 1e-4)
+    (-0.0959, True)
     """
     place = "revchain.swing"
-    others = {Rig: "ask its modes, or swing of its chain", Cord: "ask its chain: cord.chain(100)"}
-    refuse_other(place, system, (Chain,), {**others, Held: "ask its modes"})
-    core = compiled(place, system)
-    start = _start(place, "offset", offset, system.size)
-    speed = _start(place, "velocity", np.zeros(system.size) if velocity is None else velocity, system.size)
+    others: dict[type, str] = {Rig: "ask its modes, or swing of its chain", Held: "ask its modes"}
+    refuse_other(place, system, (Chain, Cord), others)
     times = floats(place, "time", time)
     if times.ndim > 1:
         raise ValueError(f"{place}: time must be a number or have one axis, got an array of shape {times.shape}")
@@ -247,13 +286,21 @@ def swing(
     number = None if count is None else limit(place, "count", integer(place, "count", count))
     g = float(positive(place, "gravity", real(place, "gravity", gravity)))
     times = np.atleast_1d(times)
+    if isinstance(system, Cord):
+        kept = CORD_MODES if number is None else number
+        return cord_swing(place, system, offset, velocity, times, arc_length, kept, g)
+    if arc_length is not None:
+        raise ValueError(f"{place}: arc_length is for a Cord; pins of a Chain are where they are, got {shown(arc_length)}")
+    core = compiled(place, system)
+    start = _start(place, "offset", offset, system.size)
+    speed = _start(place, "velocity", np.zeros(system.size) if velocity is None else velocity, system.size)
     found: dict[str, Any] = dict(zip(SWING, _core.swing(core, start, speed, times, number, g), strict=True))
     if system.by_mass:
         found |= {name: g * found[name] for name in ("energy", "energy_left_out")}
     return Swing._made(None, system=system, gravity=g, time=np.array(times), **found)
 
 
-def _start(place: str, name: str, value: ArrayLike, size: int) -> Floats:
+def _start(place: str, name: str, value: Any, size: int) -> Floats:
     array = floats(place, name, value)
     if array.shape not in ((size,), (size + 1,)):
         raise ValueError(

@@ -63,7 +63,7 @@ def steady_shapes(
     prove : bool, optional
         Held chains: whether error bounds are proved; else they are estimates.
     scanned : int, optional
-        Cords with a tip or a density other than uniform: how many offsets of the free end to look at for shapes.
+        Cords whose shapes no theorem counts: how many offsets of the free end to look at for shapes.
     threads : int, optional
         Chains and rigs: how many threads to use; 0 for all processors. Results are bitwise the same whatever their
         number. The threads share the shapes found, not the search for them, which is about half of the work.
@@ -79,9 +79,10 @@ def steady_shapes(
         Empty and complete where the height is greater than the first of `modes`, in any posture.
         If the support is carried round: every shape, outwards positive, those inwards too.
 
-        Cords: by half waves. ``complete`` where a theorem counts them: for a uniform cord without a tip (Kolodner,
-        1955: one shape for every critical height above the height given), and where no more than one critical height
-        is above it. Elsewhere a shape that comes and goes between two scanned offsets is missed.
+        Cords: by half waves. ``complete`` where a theorem counts them, one shape for every critical height above the
+        height given: for a uniform cord with or without a tip, for a density ``s**p`` without a tip, or with one and p
+        below 0; and where no more than one critical height is above it. Elsewhere a shape that comes and goes between two
+        scanned offsets is missed.
 
         Held systems: for each number of half waves the shape that is reached from the nearly straight chain without
         gravity, by drawing its ends together and then letting gravity grow; for a tension every one on that branch.

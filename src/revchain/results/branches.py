@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import _core
 from ..systems.chain import Chain
+from ..systems.cord import Cord
 from ..systems.numbers import Floats, Whole, count, height_of, integer, one_positive
 from ..systems.rig import Rig
 from .base import Field, Result, Results
@@ -396,5 +397,7 @@ def _first_height(of: Sequence[Branch] | Branches) -> float:
         modes = _core.rig_modes(system._under(one.gravity), 1, 1, None, None, None, False, one.gravity)
         heights = modes.conical_height[modes.direction == (one.direction if modes.has_momentum else 1)]
         return float(heights[0]) if heights.size else max(float(each.conical_height.max()) for each in of)
+    if isinstance(system, Cord):
+        return float(_core.cord_modes(system._compiled, 1, 1, None, None, None).conical_height[0])
     found = _core.modes(system._compiled, 1, 1, None, None, None, False, "double", "auto")
     return float(found.conical_height[0])

@@ -17,12 +17,22 @@
 ///   - s_j grows beyond any bound, as s_1 >= eta_0: so one at least has j half waves if lambda < lambda_j.
 ///   - s_1 rises everywhere: v = du/deta_0 satisfies v'' = -(V/T)^2 v/(rho T), so that (u v' - v u')' > 0 as long as
 ///     u and v have one sign, and at the crossing, where u' = 0, u v' > 0. So one at most has no node.
-///   - Every s_j rises for the uniform chain without tip weight, I. I. Kolodner, Heavy rotating string - a nonlinear
-///     eigenvalue problem, Comm. Pure Appl. Math. 8 (1955): exactly k shapes for lambda_{k+1} <= lambda < lambda_k; and
-///     for densities s^p: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
+///   - Every s_j rises where sqrt(rho/V) is a convex function of V, so that there is one shape for every critical
+///     height above lambda: for a uniform chain with any tip weight, for densities s^p without a tip, p > -1, and with
+///     a tip for p <= 0. Proof (' by V from now on): let w = eta_0 v, which starts as u does. On u'' = -u/(rho T) and
+///     w'' = -q w, q = V^2/(rho T^3) <= 1/(rho T), the phase of w, tan theta = w/w', is behind that of u (Sturm). The
+///     function E = V u' - u is 0 at the free end, E' = -V u/(rho T), and E'' + (ln(rho/V))' E' + q E = 0, so that y =
+///     sqrt(rho/V) E satisfies y'' = -(q - h''/h) y, h = sqrt(rho/V), h'' >= 0: between the free end and the first zero
+///     of E, and between two of them, w has a zero (Sturm; the Wronskian of w and y is at most 0 at the free end). E is
+///     monotone between zeros of u. At crossing j, where u' = 0, E and E' have the sign of -u: so E has one zero
+///     between each zero of u and the next crossing, j - 1 in all below crossing j. There theta lies between (j - 1)
+///     pi, as w has so many zeros, and (j - 1/2) pi, the phase of u: w' has the sign of u, and ds_j/deta_0 that of u
+///     w'. Only the density up to s_j counts: s_j rises wherever it is at the support, and so is there once. For the
+///     uniform chain without a tip: I. I. Kolodner, Heavy rotating string - a nonlinear eigenvalue problem, Comm. Pure
+///     Appl. Math. 8 (1955); for densities s^p without a tip: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
 /// The last is false in general: three heavy beads on a light thread have five shapes where the three heights of small
-/// amplitude promise three (tests/cpp/finite/cord/continuous_chain.cpp). So `complete` is true for the uniform chain
-/// without tip weight, and where no more than one height is above; elsewhere s_j is looked at for many eta_0, and
+/// amplitude promise three (tests/cpp/finite/cord/continuous_chain.cpp). So `complete` is true where sqrt(rho/V) is
+/// known to be convex, and where no more than one height is above; elsewhere s_j is looked at for many eta_0, and
 /// `complete` is false.
 namespace revchain {
 
@@ -47,12 +57,14 @@ struct ContinuousChain {
     double length, tip;                          ///< tip: the length of cord that weighs as much as the particle there
     std::shared_ptr<const LineDensity> density;  ///< none: uniform
     double line_weight;
+    bool is_counted;  ///< every crossing rises with the offset of the free end: one shape for each critical height
 
     explicit ContinuousChain(const Cord& cord)
         : length(cord.length()),
           tip(cord.tip_length()),
           density(cord.line_density()),
-          line_weight(cord.line_weight()) {}
+          line_weight(cord.line_weight()),
+          is_counted(cord.exponent() && (cord.tip_weight() == 0 || *cord.exponent() <= 0)) {}
 };
 
 /// The chain over lengths of `height`; bend 0: at small amplitude.
@@ -114,7 +126,7 @@ inline CordShapes continuous_shapes(const ContinuousChain& chain, double height,
     std::size_t count = at_rest.size();
     while (count > 0 && !(at_rest[count - 1] < length * (1 - undecided))) --count;
     CordShapes result;
-    const bool theorem = kind.is_bare() || at_rest.size() <= 1;
+    const bool theorem = chain.is_counted || at_rest.size() <= 1;
     result.complete = theorem && count == at_rest.size();
     std::vector<std::vector<TipRange>> ranges(count, {{0, length, true}});
     if (!theorem && count > 0) ranges = scanned(kind, count, length, most_scanned);

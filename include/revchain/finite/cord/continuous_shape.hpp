@@ -86,10 +86,11 @@ class ShapeSamples {
         }
     }
 
-    /// The shape: the path, moved in first order by what its last crossing misses the support.
-    CordShape finish(const Path& path, int half_waves, double length, double conical_height) {
+    /// The shape: the path, moved in first order by what its last crossing misses the support. At a fold that does not
+    /// depend on the offset of the free end, and the path is left as it is.
+    CordShape finish(const Path& path, int half_waves, double length, double conical_height, bool at_fold = false) {
         const Path::Crossing& support = path.crossings().back();
-        const double scaled = length / conical_height, by = (scaled - support.arc) / support.rate;
+        const double scaled = length / conical_height, by = at_fold ? 0 : (scaled - support.arc) / support.rate;
         add_support();
         drop_repeated();
         for (Sample& sample : samples_) move(sample.place, sample.change, by);

@@ -45,7 +45,7 @@ class Path {
             visit(series, series.reach);
             state = series.state(series.reach), change = series.change(series.reach);
         } else if (kind.density != nullptr) {
-            state = near_tip(kind, tip_offset, first_arc(kind)), change = {0, 1, state.pull / tip_offset, 0};
+            state = near_tip(kind, tip_offset, first_arc(kind)), change = change_near_tip(kind, tip_offset, state.arc);
         }
         PathSeries series;
         while (!ended(options, state)) {
@@ -97,6 +97,13 @@ class Path {
         const double below = kind.weight_below(s) - kind.tip, moment = kind.density->first_moment(s * kind.unit);
         return {s, tip_offset - tip_offset * s / secant,
                 -kind.tip * tip_offset - below * tip_offset * (1 - s * moment / secant), s / secant};
+    }
+
+    /// The change of that place with the offset of the free end.
+    static PathChange change_near_tip(const PathKind& kind, double tip_offset, double s) {
+        const double secant = std::sqrt(1 + kind.bend * tip_offset * tip_offset), turn = s / (secant * secant * secant);
+        const double below = kind.weight_below(s) - kind.tip, moment = kind.density->first_moment(s * kind.unit);
+        return {0, 1 - turn, -kind.tip - below * (1 - turn * moment), -kind.bend * tip_offset * turn};
     }
 
    private:

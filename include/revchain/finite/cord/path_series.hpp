@@ -62,6 +62,7 @@ class PathSeries {
         below[0] = kind.weight_below(state.arc);
         tension[0] = kind.tension(state.pull, below[0]);
         has_change_ = change != nullptr, is_dense_ = kind.density != nullptr, pace = 1;
+        latest_ = std::numeric_limits<double>::infinity();
         if (has_change_) set_change(*change);
         if (is_dense_)
             dense(kind);
@@ -85,9 +86,9 @@ class PathSeries {
     /// The longest time for which the first terms left out stay below `tolerance`.
     double reach(double tolerance) const {
         const double size = std::abs(offset[0]) + std::abs(pull[0]) / std::sqrt(is_dense_ ? mass[0] : tension[0]);
-        return reach(tolerance, [&](std::size_t k) {
-            return std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
-        });
+        return std::min(latest_, reach(tolerance, [&](std::size_t k) {
+                            return std::max(std::abs(offset[k]) / size, std::abs(tension[k]) / tension[0]);
+                        }));
     }
     /// The reach where `largest(k)` is the size of the coefficients k.
     template <class Largest>
@@ -238,7 +239,7 @@ class PathSeries {
 
     /// The step for a varying density: rho(sigma(t)) by Horner's rule on series, one coefficient of all lines at a
     /// time. The time runs by `pace`, dsigma = pace T dt, so that coefficients stay within range however light the
-    /// chain is here.
+    /// chain is here, and however heavy its tip.
     void dense(const PathKind& kind) {
         constexpr int degree = LineDensity::degree;
         std::array<double, degree + 1> c = kind.density->about(state_arc(kind));
@@ -249,6 +250,7 @@ class PathSeries {
         Coefficients slope{}, density_change{}, mass_change{}, drive{}, drive_change{};
         int last = degree;  // powers that no longer count within the piece are left out
         const double span = std::min(kind.density->end_of_piece(state_arc(kind)) / kind.unit - arc[0], 1e300);
+        if (pace * tension[0] > 1e3 * span) pace = span / tension[0], latest_ = 4;  // a tip that outweighs what is near
         while (last > 0 && std::abs(c[static_cast<std::size_t>(last)]) * std::pow(span, last) < 1e-17 * c[0]) --last;
         const auto extend = [&](int n) {
             const auto k = static_cast<std::size_t>(n);
@@ -296,6 +298,7 @@ class PathSeries {
 
     Coefficients density{}, mass{};  // rho, rho T: with a density
     bool has_change_ = false, is_dense_ = false;
+    double latest_ = std::numeric_limits<double>::infinity();  ///< time, beyond a piece that is short
 };
 
 /// The time at which, within a step of a series, a function that grows through 0 once between 0 and `latest` does so,

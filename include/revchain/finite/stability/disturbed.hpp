@@ -66,8 +66,9 @@ struct Disturbed {
     Matrix<double> drag_in_plane, drag_coupling, drag_across;
     Matrix<double> ends;    // how the lower end moves with q, across the axis and along it
     Vector<double> offset;  // the shape: out of plane, a rotation
-    bool turns_freely;
+    bool turns_freely = true;
 
+    Disturbed() = default;
     explicit Disturbed(const PulledLinks& shape) : turns_freely(shape.turns_freely) {
         const auto n = static_cast<Index>(shape.links.size());
         const Index pins = n + shape.yields();

@@ -22,7 +22,7 @@ inline bool is_simple(const Vector<std::complex<double>>& square, Index j) {
 /// The verdict on a disturbed shape of so many links. To first order damping c (F, H) changes an exponent by
 ///     ds = - c (s^2 q'F q - Y'H Y) / (2 (s^2 q'A q - Y'M Y - 2 q'B Y)),    Y = s y,
 /// since (q, -y) is the mode on the left; drag in space has -2 q'X'E Y above besides, X'E the `drag_coupling`.
-inline Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units) {
+REVCHAIN_INLINE Stability judged(StabilityFrame frame, const Disturbed& d, const ChainUnits& units) {
     const bool free = frame == StabilityFrame::free, rotates = free && d.turns_freely;
     const Index n = d.in_plane.rows(), links = d.ends.rows();
     Matrix<double> in_plane = d.in_plane,

@@ -175,7 +175,7 @@ TEST_CASE("forces balance; tip weights; free end", "[finite]") {
             const auto critical = critical_heights(cord(1, tip), 15);
             CAPTURE(tip, height);
             REQUIRE(static_cast<Index>(found.shapes.size()) == (critical.array() > height).count());
-            CHECK(found.complete == (tip == 0 || found.shapes.size() == 1));
+            CHECK(found.complete);
             for (const CordShape& shape : found.shapes) {
                 CHECK(worst_balance(shape, tip) <= 2e-6);  // Simpson's rule
                 CHECK(std::tan(shape.inclination[0]) == Approx(shape.offset[0] / height).epsilon(1e-13));
@@ -366,4 +366,47 @@ TEST_CASE("wrong chains are refused", "[finite]") {
     CHECK_THROWS_AS(shape(-0.1), InvalidArgument);
     CHECK_THROWS_AS(shape(1.1), InvalidArgument);
     CHECK_THROWS_AS(shape(nan), InvalidArgument);
+}
+
+TEST_CASE("continuous chain: every crossing rises where a theorem says so") {
+    // one shape for each critical height, whatever the tip: the free end's offset is looked at by a scan of its own
+    for (const double p : {-0.9, -0.5, 0.0, 1.0, 5.0})
+        for (const double tip : {0.0, 1e-3, 0.3, 30.0}) {
+            if (p > 0 && tip > 0) continue;
+            CAPTURE(p, tip);
+            const Cord of(1.0, {.density = p, .tip_weight = tip});
+            const double height = 0.9 * revchain::finite::critical_heights(revchain::finite::ContinuousChain(of), 5)[4];
+            const auto found = revchain::steady_shapes(of, {.conical_height = height});
+            CHECK(found.complete);
+            REQUIRE(found.shapes.size() == 5);
+            const revchain::finite::ContinuousChain chain(of);
+            const auto kind = revchain::finite::kind_of(chain, height, 1);
+            std::vector<double> last(5, 0.0);
+            for (int i = 1; i <= 60; ++i) {
+                const revchain::finite::Path path(kind, std::sinh(0.15 * i), {.crossings = 5});
+                REQUIRE(path.crossings().size() == 5);
+                for (std::size_t j = 0; j < 5; ++j) {
+                    if (path.crossings()[j].arc * height > 1) continue;  // the cord ends there, and its density
+                    CHECK(path.crossings()[j].rate > 0);
+                    CHECK(path.crossings()[j].arc > last[j]);
+                    last[j] = path.crossings()[j].arc;
+                }
+            }
+        }
+    CHECK_FALSE(
+        revchain::steady_shapes(Cord(1.0, {.density = 1.0, .tip_weight = 0.2}), {.conical_height = 0.03}).complete);
+}
+
+TEST_CASE("continuous chain: rates of crossings next to the vertical") {
+    // there a crossing moves with the square of the free end's offset, so that its rate is in proportion
+    for (const auto& [p, tip] : {std::pair(1.0, 0.2), std::pair(-0.5, 0.2), std::pair(1.0, 0.0), std::pair(0.0, 0.2)}) {
+        const Cord of(1.0, {.density = p, .tip_weight = tip});
+        const revchain::finite::ContinuousChain chain(of);
+        const auto kind = revchain::finite::kind_of(chain, 0.1, 1);
+        const auto rate = [&](double offset) {
+            return revchain::finite::Path(kind, offset, {.crossings = 2}).crossings().at(1).rate / offset;
+        };
+        CAPTURE(p, tip);
+        CHECK(std::abs(rate(1e-5) / rate(1e-3) - 1) < 2e-3);
+    }
 }

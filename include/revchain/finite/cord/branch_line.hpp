@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/cord/continuous_chain.hpp"
+#include "revchain/numeric/gauss_rule.hpp"
+
+namespace revchain::finite {
+
+/// Moment of inertia and potential energy of a path up to the support, by parts: with the axis at the support,
+///     sum of weight times eta^2 = integral of u^2/T,   sum of weight times height above the support = - that of V^2/T.
+class PathEnergies {
+   public:
+    explicit PathEnergies(const PathKind& kind, double tip_offset) : kind_(kind) {
+        if (kind.density == nullptr) return;
+        // below where the path starts the inclination is that of the free end
+        const double s = Path::first_arc(kind), below = kind.weight_below(s);
+        const double moment = kind.density->first_moment(s * kind.unit), cosine = 1 / std::hypot(1.0, tip_offset);
+        const double carried = s * below - moment * (below - kind.tip) * s;
+        add(carried / cosine * (1 - cosine * cosine), carried * cosine);
+    }
+    template <class Series>
+    void operator()(const Series& series, double duration) {
+        static const auto rule = revchain::detail::gauss_rule(16);
+        for (const auto& [t, weight] : rule) {
+            const PathState x = series.state(duration * t);
+            const double below = kind_.weight_below(x.arc), step = duration * weight;
+            if constexpr (std::is_same_v<Series, PathSeries>) {
+                add(series.pace * step * x.pull * x.pull, series.pace * step * below * below);
+            } else {
+                const double tension = kind_.tension(x.pull, below);
+                add(step * x.pull * x.pull / tension, step * below * below / tension);
+            }
+        }
+    }
+    double inertia() const { return inertia_; }
+    double potential() const { return potential_; }
+
+   private:
+    void add(double turning, double hanging) { inertia_ += turning, potential_ -= hanging; }
+
+    PathKind kind_;
+    double inertia_ = 0, potential_ = 0;
+};
+
+/// A place of the plane in which a branch of a cord is a line: tau, where sinh(tau) is the tangent of the inclination
+/// of the free end, and the logarithm of the conical height.
+struct BranchPlace {
+    double bend = 0, log_height = 0;
+};
+inline BranchPlace operator+(const BranchPlace& x, const BranchPlace& y) {
+    return {x.bend + y.bend, x.log_height + y.log_height};
+}
+inline BranchPlace operator-(const BranchPlace& x, const BranchPlace& y) {
+    return {x.bend - y.bend, x.log_height - y.log_height};
+}
+inline BranchPlace operator*(double s, const BranchPlace& x) { return {s * x.bend, s * x.log_height}; }
+inline double dot(const BranchPlace& x, const BranchPlace& y) { return x.bend * y.bend + x.log_height * y.log_height; }
+inline double size(const BranchPlace& x) { return std::hypot(x.bend, x.log_height); }
+
+/// The line on which crossing number `crossing` of the paths of a cord is at the support: f = log(arc lambda / length)
+/// is 0. As u and eta cannot both be 0, each branch of half waves j lies on the line of crossing j, from end to end.
+class BranchLine {
+   public:
+    /// A place on the line; its direction (of unit length); how f changes with the bend at one height: 0 at a fold.
+    struct Point {
+        BranchPlace at, direction;
+        double rate = 0, off = 0;
+    };
+
+    BranchLine(const Cord& cord, int crossing) : chain_(cord), crossing_(crossing) {}
+
+    const ContinuousChain& chain() const { return chain_; }
+    int crossing() const { return crossing_; }
+    PathKind kind(double log_height) const { return kind_of(chain_, std::exp(log_height), 1); }
+
+    /// The point of the line next to a place, across `direction`; nothing where Newton's method does not get there at
+    /// once. The direction of the point is on the same side as `direction`.
+    std::optional<Point> next_to(BranchPlace from, const BranchPlace& direction, double reach) const {
+        BranchPlace at = from;
+        double last = std::numeric_limits<double>::infinity();
+        Point found;
+        for (int round = 0; round < 12; ++round) {
+            if (!(at.bend > 0) || at.bend > 700 || std::exp(-at.log_height) * chain_.length > 1e6) return std::nullopt;
+            const auto value = value_at(at, round > 0);
+            if (!value) return std::nullopt;
+            const BranchPlace& slope = value->second;
+            const double across = slope.bend * direction.log_height - slope.log_height * direction.bend;
+            found = {at, {-slope.log_height, slope.bend}, slope.bend, value->first};
+            found.direction = (1 / size(found.direction)) * found.direction;
+            if (dot(found.direction, direction) < 0) found.direction = -1.0 * found.direction;
+            const BranchPlace step{-value->first * direction.log_height / across,
+                                   value->first * direction.bend / across};
+            const double moved = size(step);
+            if (!std::isfinite(moved) || size(at + step - from) > reach) return std::nullopt;
+            if (moved < 4e-16 * (1 + size(at)) || (round > 1 && moved < 1e-12 && moved > 0.3 * last)) return found;
+            if (round > 2 && moved > 0.5 * last) return std::nullopt;
+            at = at + step, last = moved;
+        }
+        return found;
+    }
+    /// f and its slopes. By the height: 1 for a uniform cord without a tip, else a difference of two paths, known to
+    /// 1e-7 and needed for the direction and for steps alone.
+    std::optional<std::pair<double, BranchPlace>> value_at(const BranchPlace& at, bool fine = true) const {
+        const double tolerance = fine ? PathSeries::rounding : 1e-13;
+        const auto path = [&](double log_height, bool with_change) {
+            return Path(kind(log_height), std::sinh(at.bend),
+                        {.crossings = crossing_, .tolerance = tolerance, .with_change = with_change});
+        };
+        const auto enough = [&](const Path& x) { return static_cast<int>(x.crossings().size()) >= crossing_; };
+        const Path here = path(at.log_height, true);
+        if (!enough(here)) return std::nullopt;
+        const Path::Crossing& support = here.crossings().back();
+        double by_height = 1;
+        if (!here.kind().is_bare()) {
+            constexpr double little = 1e-4;
+            const Path above = path(at.log_height + little, false), below = path(at.log_height - little, false);
+            if (!enough(above) || !enough(below)) return std::nullopt;
+            by_height = 1 + std::log(above.crossings().back().arc / below.crossings().back().arc) / (2 * little);
+        }
+        return std::pair(std::log(support.arc * std::exp(at.log_height) / chain_.length),
+                         BranchPlace{support.rate / support.arc * std::cosh(at.bend), by_height});
+    }
+    /// The point between two at which `value`, of a point, is 0: it has different signs at both. Bisection and
+    /// Illinois' rule along the chord.
+    template <class F>
+    std::optional<Point> between(const Point& a, const Point& b, const F& value) const {
+        const BranchPlace chord = b.at - a.at, direction = (1 / size(chord)) * chord;
+        double low = 0, high = 1, at_low = value(a), at_high = value(b);
+        std::optional<Point> best = std::abs(at_low) < std::abs(at_high) ? a : b;
+        double least = std::min(std::abs(at_low), std::abs(at_high));
+        for (int round = 0; round < 100 && least > 0; ++round) {
+            double w = low - at_low * (high - low) / (at_high - at_low);
+            if (round % 4 == 3 || !(w > low && w < high)) w = low + (high - low) / 2;
+            if (w == low || w == high) break;
+            const auto point = next_to(a.at + w * chord, direction, 2 * size(chord));
+            if (!point) return std::nullopt;
+            const double now = value(*point);
+            if (std::abs(now) <= least) least = std::abs(now), best = point;
+            if ((now < 0) == (at_low < 0)) {
+                low = w, at_low = now, at_high *= round % 4 == 3 ? 1.0 : 0.5;
+            } else {
+                high = w, at_high = now, at_low *= round % 4 == 3 ? 1.0 : 0.5;
+            }
+            if (high - low < 4e-16) break;
+        }
+        return best;
+    }
+
+   private:
+    ContinuousChain chain_;
+    int crossing_;
+};
+
+/// A line followed from a point: predictor along the direction, corrector across it. A step is kept only where Newton's
+/// method contracts, the direction turns by less than 0.2 and the correction is below a third of the step.
+class BranchLineWalk {
+   public:
+    double longest = 0.1;  ///< step
+
+    BranchLineWalk(const BranchLine& line, const BranchLine::Point& start, double first)
+        : line_(line), at_(start), step_(first) {}
+
+    const BranchLine::Point& at() const { return at_; }
+    bool advance() {
+        for (double step = std::min(step_, longest); step > 1e-9; step /= 2) {
+            const BranchPlace guess = at_.at + step * at_.direction;
+            const auto next = line_.next_to(guess, at_.direction, step);
+            if (!next) continue;
+            const double turned = std::acos(std::clamp(dot(next->direction, at_.direction), -1.0, 1.0));
+            if (turned > 0.2 || size(next->at - guess) > step / 3) continue;
+            step_ = turned < 0.05 ? 2 * step : step;
+            at_ = *next;
+            return true;
+        }
+        return false;
+    }
+
+   private:
+    const BranchLine& line_;
+    BranchLine::Point at_;
+    double step_;
+};
+
+}  // namespace revchain::finite

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/branches.hpp"
+#include "revchain/finite/cord/branch_line.hpp"
+
+namespace revchain {
+
+/// A branch of steady shapes of a cord, point by point along its arc s, in the units of the cord:
+/// ds^2 = dtau^2 + d(log conical height)^2, where tan(inclination of the free end) = sinh(tau).
+struct CordBranch {
+    Index mode = 0;  ///< the mode at which it leaves the vertical; 0: an isolated one
+    /// For each point. `tip_inclination`: of the free end, rad; `tip_radius`: its offset; `top_tension`: at the
+    /// support; the others as of `Branch`.
+    std::vector<double> arc, conical_height, tip_inclination, tip_radius, top_tension, moment_of_inertia,
+        effective_energy;
+    std::vector<int> half_waves;     ///< the same along a branch
+    std::vector<std::size_t> folds;  ///< indices of the points where the conical height has a local extreme
+    BranchEnd end = BranchEnd::budget;
+
+    std::size_t size() const { return arc.size(); }
+    double angular_speed(std::size_t point, double gravity = conical_pendulum::standard_gravity) const {
+        return conical_pendulum::angular_speed(conical_height[point], gravity);
+    }
+    /// The shape at a point. Throws InvalidArgument for the straight cord (point 0 on the branch of a mode), for a
+    /// number past the end, and for a shape that could not be followed.
+    CordShape shape(std::size_t point) const;
+    /// The shapes at which the branch, as far as it was followed, passes a conical height, in the order of the arc.
+    /// Throws InvalidArgument for a height that is not positive and finite.
+    std::vector<CordShape> shapes_at(double conical_height) const;
+
+    // Data of `shape` and `shapes_at`.
+    std::shared_ptr<const finite::BranchLine> line;
+    std::vector<finite::BranchLine::Point> points;
+};
+
+/// All branches found above one conical height. `complete` where a theorem counts the shapes (see `steady_shapes` of a
+/// cord). Elsewhere `consistent` says whether, at every height in `looked_at`, each shape found by a scan is met once.
+struct CordBranches {
+    std::vector<CordBranch> branches;  ///< those of the modes, slowest first, then isolated ones by where they are born
+    double conical_height = 0;         ///< lowest conical height of the diagram
+    bool consistent = false, complete = false;
+    std::vector<double> looked_at;  ///< conical heights of those lists, descending
+    std::string remark;             ///< what may be missing
+};
+
+namespace finite {
+
+/// The shape at a point of a line; nothing where no path could be followed that far. At a fold its error is estimated
+/// from that of the place of the fold.
+inline std::optional<CordShape> shape_at(const BranchLine& line, const BranchLine::Point& point, bool at_fold = false) {
+    constexpr double of_fold = 1e-7;
+    const double height = std::exp(point.at.log_height);
+    if (at_fold) {
+        const PathKind kind = line.kind(point.at.log_height);
+        ShapeSamples samples(kind, std::sinh(point.at.bend));
+        const Path path(kind, std::sinh(point.at.bend), {.crossings = line.crossing()}, samples);
+        if (static_cast<int>(path.crossings().size()) < line.crossing()) return std::nullopt;
+        CordShape shape = samples.finish(path, line.crossing(), line.chain().length, height, true);
+        shape.error_bound = of_fold, shape.density = line.chain().density;
+        return shape;
+    }
+    auto shape = finished(line.kind(point.at.log_height), std::sinh(point.at.bend), line.crossing(),
+                          line.chain().length, height);
+    if (shape) shape->density = line.chain().density;
+    return shape;
+}
+
+/// Adds the straight cord, from which a mode departs.
+inline void append_vertical(CordBranch& branch, double height) {
+    const ContinuousChain& chain = branch.line->chain();
+    const PathKind kind = kind_of(chain, height, 0);
+    PathEnergies energies(kind, 0);
+    const Path path(kind, 1, {.crossings = branch.line->crossing(), .with_change = false}, energies);
+    branch.arc.push_back(0), branch.conical_height.push_back(height), branch.tip_inclination.push_back(0);
+    branch.tip_radius.push_back(0), branch.moment_of_inertia.push_back(0);
+    branch.top_tension.push_back(chain.line_weight * height * kind.weight_below(chain.length / height));
+    branch.effective_energy.push_back(chain.line_weight * height * height * energies.potential());
+    branch.half_waves.push_back(branch.line->crossing());
+    branch.points.push_back({{0, std::log(height)}, {1, 0}});
+}
+
+/// Adds a point of its line; whether its path could be followed.
+inline bool append(CordBranch& branch, const BranchLine::Point& point) {
+    const BranchLine& line = *branch.line;
+    const double height = std::exp(point.at.log_height), tip = std::sinh(point.at.bend);
+    const PathKind kind = line.kind(point.at.log_height);
+    PathEnergies energies(kind, tip);
+    PathSeries last;
+    const auto visit = [&](const auto& series, double duration) {
+        energies(series, duration);
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(series)>, PathSeries>) last = series;
+    };
+    const Path path(kind, tip, {.crossings = line.crossing(), .with_change = false}, visit);
+    if (static_cast<int>(path.crossings().size()) < line.crossing()) return false;
+    const PathState support = last.state(path.crossings().back().time);
+    const double force = line.chain().line_weight * height, inertia = energies.inertia();
+    const bool first = branch.points.empty();
+    branch.arc.push_back(first ? 0 : branch.arc.back() + size(point.at - branch.points.back().at));
+    branch.conical_height.push_back(height), branch.tip_inclination.push_back(std::atan(tip));
+    branch.tip_radius.push_back(tip * height);
+    branch.top_tension.push_back(force * std::hypot(support.pull, kind.weight_below(support.arc)));
+    branch.moment_of_inertia.push_back(force * height * height * inertia);
+    branch.effective_energy.push_back(force * height * (energies.potential() - inertia / 2));
+    branch.half_waves.push_back(line.crossing());
+    branch.points.push_back(point);
+    return true;
+}
+
+/// Follows a line from a point of it until `stop(last, now)`, which may change `now`, says that it is the last, or it
+/// ends. Folds are points of their own.
+template <class Stop>
+BranchEnd follow(CordBranch& branch, const BranchLine::Point& start, double longest, std::size_t most,
+                 const Stop& stop) {
+    const BranchLine& line = *branch.line;
+    BranchLineWalk walk(line, start, std::min(0.02, longest));
+    walk.longest = longest;
+    while (branch.size() < most) {
+        revchain::detail::look();
+        const BranchLine::Point last = walk.at();
+        if (!walk.advance())
+            return last.at.bend < 1e-3 && last.direction.bend < 0 ? BranchEnd::vertical : BranchEnd::stuck;
+        BranchLine::Point now = walk.at();
+        if (last.rate * now.rate < 0) {  // not at the vertical, where the rate is 0
+            const auto fold = line.between(last, now, [](const auto& point) { return point.rate; });
+            if (fold) {
+                BranchLine::Point turn = *fold;
+                if (const auto end = stop(last, turn)) return append(branch, turn) ? *end : BranchEnd::stuck;
+                if (append(branch, turn)) branch.folds.push_back(branch.size() - 1);
+                if (const auto end = stop(*fold, now)) return append(branch, now) ? *end : BranchEnd::stuck;
+                if (!append(branch, now)) return BranchEnd::stuck;
+                continue;
+            }
+        }
+        const auto end = stop(last, now);
+        if (!append(branch, now)) return BranchEnd::stuck;
+        if (end) return *end;
+    }
+    return BranchEnd::budget;
+}
+
+/// Where a line first comes down to a height.
+inline auto down_to(const BranchLine& line, double log_end) {
+    return [&line, log_end](const BranchLine::Point& last, BranchLine::Point& now) -> std::optional<BranchEnd> {
+        if (!(now.at.log_height <= log_end)) return std::nullopt;
+        const auto end = line.between(last, now, [&](const auto& point) { return point.at.log_height - log_end; });
+        if (!end) return BranchEnd::stuck;
+        now = *end, now.at.log_height = log_end;
+        return BranchEnd::height;
+    };
+}
+
+/// The branch of a mode, whose height of small amplitude is given, down to another height.
+inline CordBranch branch_of_mode(const Cord& cord, double critical, double height, const BranchOptions& options) {
+    CordBranch result;
+    result.mode = options.mode;
+    auto line = std::make_shared<const BranchLine>(cord, static_cast<int>(options.mode));
+    result.line = line;
+    append_vertical(result, critical);
+    result.end =
+        follow(result, result.points.front(), options.max_step, options.max_points, down_to(*line, std::log(height)));
+    if (result.end == BranchEnd::height) result.conical_height.back() = height;
+    return result;
+}
+
+/// Of the states of a branch between two of its points that pass a number: by `value`, of a point.
+template <class F>
+void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line, const BranchLine::Point& last,
+                 const BranchLine::Point& now, const F& value) {
+    const double before = value(last), after = value(now);
+    if (after == 0) {
+        to.push_back(now);
+    } else if (before * after < 0) {
+        if (const auto point = line.between(last, now, value)) to.push_back(*point);
+    }
+}
+
+}  // namespace finite
+
+inline CordShape CordBranch::shape(std::size_t point) const {
+    constexpr std::string_view place = "CordBranch::shape";
+    if (point >= size()) detail::throw_invalid(place, "there are so many points: " + std::to_string(size()), point);
+    if (points[point].at.bend == 0) detail::throw_invalid(place, "this point is the straight cord", point);
+    const bool at_fold = std::find(folds.begin(), folds.end(), point) != folds.end();
+    auto shape = finite::shape_at(*line, points[point], at_fold);
+    if (!shape) detail::throw_invalid(place, "the shape at this point could not be followed", point);
+    return *std::move(shape);
+}
+
+inline std::vector<CordShape> CordBranch::shapes_at(double height) const {
+    detail::require_positive("CordBranch::shapes_at", "conical height", height);
+    std::vector<finite::BranchLine::Point> found;
+    const double log_height = std::log(height);
+    const auto value = [&](const finite::BranchLine::Point& point) { return point.at.log_height - log_height; };
+    if (size() > 0 && points[0].at.bend > 0 && value(points[0]) == 0) found.push_back(points[0]);
+    for (std::size_t i = 1; i < size(); ++i) finite::add_passing(found, *line, points[i - 1], points[i], value);
+    std::vector<CordShape> shapes;
+    for (finite::BranchLine::Point& point : found) {
+        point.at.log_height = log_height;
+        if (auto shape = finite::shape_at(*line, point)) shapes.push_back(*std::move(shape));
+    }
+    return shapes;
+}
+
+}  // namespace revchain

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Branches of steady shapes of a cord."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .. import _core
+from ..systems.cord import Cord
+from ..systems.numbers import height_of, integer, one_positive
+from .base import Field
+from .bent import CordShape, branch_shape
+from .branches import Branch, Branches, StabilityWindow
+from .shapes import is_driven
+
+
+class CordBranch(Branch):
+    """A branch of steady shapes of a cord, point by point along its arc; returned by `branch` and `branches`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> branch = rc.branch(rc.Cord(1.0, mass=2.0), 1, max_angular_speed=20.0)
+    >>> branch.angular_speed[[0, -1]].round(4), branch.folds.size, branch.end
+    (array([ 3.7654, 20.    ]), 0, 'height')
+    """
+
+    __slots__ = ()
+    system: Field[Cord] = Field("The cord.", part=True)  # type: ignore[assignment]
+    mode: Field[int | None] = Field(
+        "Number of the mode at which it leaves the vertical; None for an isolated branch.",
+        lambda b: b._found().mode or None,
+        part=True,
+    )
+
+    def shape(self, point: int) -> CordShape:  # type: ignore[override]
+        """Return the whole shape at a point.
+
+        Parameters
+        ----------
+        point : int
+            Which; negative ones count from the end.
+
+        Returns
+        -------
+        CordShape
+            At a fold its ``error_estimate`` is that of the place of the fold.
+
+        Raises
+        ------
+        ValueError
+            If there is no such point, or it is the straight cord, where the branch of a mode begins.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> branch = rc.branch(rc.Cord(1.0), 1, min_conical_height=0.1)
+        >>> round(float(branch.shape(-1).offset[0]), 6)
+        0.989943
+        """
+        place = "revchain.CordBranch.shape"
+        wanted = integer(place, "point", point)
+        if not -len(self) <= wanted < len(self):
+            raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
+        number = wanted % len(self)
+        found = self._found().shape(number)
+        return branch_shape(found, self.system, self.gravity, bool((self.folds == number).any()))
+
+    def at(  # type: ignore[override]
+        self,
+        *,
+        conical_height: float | None = None,
+        angular_speed: float | None = None,
+        gravity: float | None = None,
+    ) -> tuple[CordShape, ...]:
+        """Return the shapes at which the branch, as far as it was followed, passes a speed.
+
+        Parameters
+        ----------
+        conical_height : float
+            Of the speed, positive.
+        angular_speed : float
+            Instead of `conical_height`: the speed in rad/s, positive.
+        gravity : float, optional
+            In m/s^2; that of the branch if left out.
+
+        Returns
+        -------
+        tuple of CordShape
+            In the order of the arc; empty where it does not pass there.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one of `conical_height` and `angular_speed` is given, or a number is not positive
+            and finite.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> branch = rc.branch(rc.Cord(1.0), 2, min_conical_height=0.05)
+        >>> [shape.half_waves for shape in branch.at(conical_height=0.1)]
+        [2]
+        """
+        place = "revchain.CordBranch.at"
+        g = self.gravity if gravity is None else one_positive(place, "gravity", gravity)
+        height = height_of(place, conical_height, angular_speed, g)
+        return tuple(branch_shape(found, self.system, g) for found in self._found().shapes_at(height))
+
+    def stability_windows(
+        self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
+    ) -> list[StabilityWindow]:
+        """Refuse: windows along the branch of a cord are not available. Ask the stability of its shapes.
+
+        Parameters
+        ----------
+        frame : {"free", "driven"}, optional
+            As of chains.
+        tolerance : float, optional
+            As of chains.
+        samples : int, optional
+            As of chains.
+
+        Returns
+        -------
+        list of StabilityWindow
+            None: it always raises.
+
+        Raises
+        ------
+        ValueError
+            Always.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> branch = rc.branch(rc.Cord(1.0), 1, min_conical_height=0.1)
+        >>> branch.shape(-1).stability().verdict
+        'minimum'
+        """
+        place = "revchain.CordBranch.stability_windows"
+        is_driven(place, frame)
+        raise ValueError(f"{place}: is for chains; ask the stability of shapes: branch.shape(-1).stability()")
+
+    def _again(self) -> Any:
+        core = self.system._compiled
+        if len(self.asked) == 4:
+            return _core.cord_branch(core, *self.asked)
+        return _core.cord_branches(core, *self.asked[:-1]).branches[self.asked[-1]]
+
+
+class CordBranches(Branches):
+    """All branches found of a cord down to one conical height: those of the modes, slowest first, then isolated ones."""
+
+    __slots__ = ()
+    system: Field[Cord] = Field("The cord.", part=True)  # type: ignore[assignment]
+    consistent: Field[bool] = Field(
+        "Whether at every speed looked at each shape that a scan finds was met by a branch, and met once.", part=True
+    )
+    complete: Field[bool] = Field(
+        "Whether a theorem counts the shapes (see `steady_shapes`), so that no branch is missing.",
+        part=True,
+    )
+
+
+def cord_branches_made(found: Any, system: Cord, gravity: float, asked: tuple[Any, ...]) -> CordBranches:
+    """A list around compiled branches."""
+    given: dict[str, Any] = {"system": system, "gravity": gravity}
+    items = tuple(CordBranch._made(each, asked=(*asked, k), **given) for k, each in enumerate(found.branches))
+    return CordBranches._made(found, _items=items, **given)

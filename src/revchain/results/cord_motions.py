@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small motions of a cord after release."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..systems.cord import Cord
+from ..systems.numbers import Floats
+from .base import Field, Result
+from .sheet import Column, Sheet
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+CORD_SWING = (
+    "offset",
+    "velocity",
+    "angular_frequency",
+    "energy",
+    "shape",
+    "cosine",
+    "sine",
+    "energy_left_out",
+    "error_estimate",
+)
+
+
+class CordSwing(Result):
+    """A cord swinging in a plane after release, as the sum of its modes; returned by `swing`.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> found = rc.swing(rc.Cord(1.0), lambda s: 0.1 * (1 - s), None, [0.0, 0.5])
+    >>> found.offset.shape, round(float(found.offset[1, 50]), 4)
+    ((2, 101), -0.0149)
+    """
+
+    __slots__ = ()
+    system: Field[Cord] = Field("The cord.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    time: Field[Floats] = Field("Times asked, s, shape (T,).", part=True)
+    arc_length: Field[Floats] = Field("Of the places, from the free end, m, shape (n,).", part=True)
+    offset: Field[Floats] = Field("Offsets, m, shape (T, n): sums of the k modes kept.", part=True)
+    velocity: Field[Floats] = Field("Velocities, m/s, shape (T, n).", part=True)
+    angular_frequency: Field[Floats] = Field(
+        "Natural angular frequency of each mode, rad/s, shape (k,), ascending: the whirl speeds of `modes`.", part=True
+    )
+    energy: Field[Floats] = Field(
+        "Energy of each mode, J (weight times length), shape (k,); no mode gives any to another.", part=True
+    )
+    shape: Field[Floats] = Field("Shape of each mode, shape (k, n), 1 at the free end.", part=True)
+    cosine: Field[Floats] = Field(
+        "Shape (k,): offsets are the sum of ``shape * (cosine * cos(angular_frequency t) + sine * sin(...))``.", part=True
+    )
+    sine: Field[Floats] = Field("Shape (k,), as said of `cosine`.", part=True)
+    energy_left_out: Field[float] = Field("Energy of the start beside the modes kept.", part=True)
+    error_estimate: Field[Floats] = Field(
+        "Of each offset at any time, m, shape (n,): what modes k + 1 to 2 k do at most, and what is beyond as these fall.",
+        part=True,
+    )
+
+    def plot(self, ax: Axes | None = None, *, kind: str = "shapes", places: Iterable[int] = (0,)) -> Axes:
+        """Draw the cord at the times asked, or offsets of places against time.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        kind : {"shapes", "time"}
+            Shapes from dark (early) to light, offsets stretched; or offsets against time.
+        places : iterable of int
+            For ``"time"``: which places of `arc_length`, 0 the lowest.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If `kind` is neither, or for places there are not.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import revchain as rc
+        >>> found = rc.swing(rc.Cord(1.0), lambda s: 0.1 * (1 - s), None, np.linspace(0, 2, 50))
+        >>> found.plot(kind="time", places=[0, 50]).get_xlabel()
+        'time (s)'
+        """
+        from ..plots.response import plot_cord_swing
+
+        return plot_cord_swing(self, ax, kind, places)
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = [
+            Column("time", self.time, "time (s)"),
+            Column("lowest_offset", self.offset[:, 0], "lowest place (m)"),
+            Column("lowest_velocity", self.velocity[:, 0], "lowest place (m/s)"),
+            Column("largest_offset", np.abs(self.offset).max(axis=1), "farthest place (m)"),
+            Column("offset", self.offset, axes=("place",)),
+            Column("velocity", self.velocity, axes=("place",)),
+        ]
+        share = self.energy / self.energy.sum() if self.energy.sum() > 0 else self.energy
+        most = np.argsort(share)[::-1][:3]
+        words = ", ".join(f"{100 * share[k]:.3g} % in mode {k + 1}" for k in most if share[k] > 0)
+        many = f"{self.energy.size} mode{'s' * (self.energy.size != 1)}"
+        names: tuple[str, ...] = ("gravity", "arc_length", "angular_frequency", "energy", "cosine", "sine")
+        names += ("energy_left_out", "error_estimate")
+        return Sheet(
+            "time",
+            f"{many}; of the energy {words}" if words else f"{many}, at rest",
+            columns,
+            {name: getattr(self, name) for name in names},
+            [f"error: {self.error_estimate.max():.2g} m at most, estimated from the modes left out"],
+            spread=True,
+        )
