@@ -110,9 +110,24 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "modes": {"held, span": "is bent.*ask steady_shapes", "held cord": "cut it into links"},
     "count_modes": {"held, span": "is bent.*ask steady_shapes", "held cord": "cut it into links"},
     "steady_shapes": {},
-    "steady_shape": {"rig": "ask steady_shapes", "cord": "ask the branches of its chain", "held": "ask steady_shapes"},
-    "branches": {"rig": "ask steady_shapes", "cord": "its chain: cord.chain", "held": "ask steady_shapes"},
-    "branch": {"rig": "ask steady_shapes", "cord": "its chain: cord.chain", "held": "ask steady_shapes"},
+    "steady_shape": {
+        "rig": "ask steady_shapes",
+        "cord": "ask the branches of its chain",
+        "held": "ask steady_shapes",
+        "held cord": "cut the cord into links",
+    },
+    "branches": {
+        "rig": "ask steady_shapes",
+        "cord": "its chain: cord.chain",
+        "held": "ask steady_shapes",
+        "held cord": "cut the cord into links",
+    },
+    "branch": {
+        "rig": "ask steady_shapes",
+        "cord": "its chain: cord.chain",
+        "held": "ask steady_shapes",
+        "held cord": "cut the cord into links",
+    },
     "response": {"cord": "ask its chain: cord.chain", "held": "ask steady_shapes"},
     "swing": {"rig": "ask its modes", "cord": "ask its chain: cord.chain", "held": "ask its modes"},
     "tune": {"held, span": "is bent", "held cord": "cut it into links"},
@@ -128,7 +143,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     },
 }
 KINDS = {"chain": RODS, "rig": RIG, "cord": CORD, "held": HELD, "held, span": SPAN, "held cord": CORD_HELD}
-WHOLLY_HELD = {"steady_shape", "branches", "branch", "response", "swing"}  # refuse all that is held alike
+WHOLLY_HELD = {"response", "swing"}  # refuse all that is held alike
 
 
 @pytest.mark.parametrize("kind", KINDS)

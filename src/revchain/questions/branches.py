@@ -6,7 +6,9 @@ from __future__ import annotations
 from typing import Literal, overload
 
 from .. import _core
+from ..results.bent import HeldShape
 from ..results.branches import Branch, Branches, branches_made
+from ..results.held_branches import HeldBranch, HeldBranches, held_branches_made
 from ..results.shapes import SteadyShape
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
@@ -26,12 +28,33 @@ from .refuse import refuse_other
 _OTHERS = {
     Rig: "ask steady_shapes at the speeds wanted",
     Cord: "ask the branches of its chain: cord.chain(10)",
-    Held: "ask steady_shapes at the speeds wanted",
 }
 
 
+@overload
 def branch(
     system: Chain,
+    mode: int,
+    *,
+    max_angular_speed: float | None = ...,
+    min_conical_height: float | None = ...,
+    gravity: float = ...,
+    max_points: int = ...,
+    max_step: float = ...,
+) -> Branch: ...
+@overload
+def branch(
+    system: Held,
+    mode: int,
+    *,
+    max_angular_speed: float | None = ...,
+    min_conical_height: float | None = ...,
+    gravity: float = ...,
+    max_points: int = ...,
+    max_step: float = ...,
+) -> HeldBranch: ...
+def branch(
+    system: Chain | Held,
     mode: int,
     *,
     max_angular_speed: float | None = None,
@@ -39,17 +62,18 @@ def branch(
     gravity: float = STANDARD_GRAVITY,
     max_points: int = 10_000,
     max_step: float = 0.1,
-) -> Branch:
+) -> Branch | HeldBranch:
     """Follow the branch of shapes that leaves the vertical at one critical speed, through every fold.
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links.
+    system : Chain or Held
+        The chain of N links, hung or held at both ends a span apart.
     mode : int
-        Number of the mode, from 1, the slowest.
+        Number of the mode, from 1, the slowest; of a held chain the half waves with which its branch begins.
     max_angular_speed : float
-        Where to stop: at the first point of this speed, rad/s, above that of the mode.
+        Where to stop: at the first point of this speed, rad/s, above that of the mode. A held chain's branch begins at
+        this speed.
     min_conical_height : float
         Instead of `max_angular_speed`: the conical height at which to stop, m.
     gravity : float, optional
@@ -61,8 +85,8 @@ def branch(
 
     Returns
     -------
-    Branch
-        The first point is the straight chain, alone if no double tells the end from it (``end`` is then
+    Branch or HeldBranch
+        Of a held chain: shapes to slower speeds and through folds, until a link is slack. Else the first point is the straight chain, alone if no double tells the end from it (``end`` is then
         ``stuck``). Numbers to about 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, mostly an ulp.
 
     Raises
@@ -86,8 +110,13 @@ def branch(
     (array([0.158984, 0.04    ]), {3})
     """
     place = "revchain.branch"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Held), _OTHERS)
     number = count(place, "mode", mode)
+    if isinstance(system, Held):
+        found_all = _held_branches(place, system, max_angular_speed, min_conical_height, gravity, max_step)
+        if number > len(found_all):
+            raise ValueError(f"{place}: mode must be from 1 to {len(found_all)}, the branches that are there at the speed, got {number}")
+        return found_all[number - 1]
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     points = count(place, "max_points", max_points)
     step = one_positive(place, "max_step", max_step)
@@ -96,8 +125,30 @@ def branch(
     return Branch._made(found, system=system, gravity=one_positive(place, "gravity", gravity), asked=asked)
 
 
+@overload
 def branches(
     system: Chain,
+    *,
+    max_angular_speed: float | None = ...,
+    min_conical_height: float | None = ...,
+    gravity: float = ...,
+    lists: int = ...,
+    budget: int = ...,
+    proof_budget: int = ...,
+) -> Branches: ...
+@overload
+def branches(
+    system: Held,
+    *,
+    max_angular_speed: float | None = ...,
+    min_conical_height: float | None = ...,
+    gravity: float = ...,
+    lists: int = ...,
+    budget: int = ...,
+    proof_budget: int = ...,
+) -> HeldBranches: ...
+def branches(
+    system: Chain | Held,
     *,
     max_angular_speed: float | None = None,
     min_conical_height: float | None = None,
@@ -105,13 +156,15 @@ def branches(
     lists: int = 16,
     budget: int = 2_000_000,
     proof_budget: int = 1_000_000,
-) -> Branches:
+) -> Branches | HeldBranches:
     """Find the whole diagram of branches up to a speed, isolated ones too, and prove that none is missing.
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links; few, as all shapes are listed (`steady_shapes`).
+    system : Chain or Held
+        The chain of N links; few, as all shapes are listed (`steady_shapes`). Or a chain held at both ends, a span apart,
+        of which shapes are followed from the greatest speed down, those alone that begin with the nearly straight chain;
+        `lists` and budgets are then not used.
     max_angular_speed : float
         The speed up to which to go, rad/s.
     min_conical_height : float
@@ -127,8 +180,8 @@ def branches(
 
     Returns
     -------
-    Branches
-        A sequence of `Branch`: those that leave the vertical, slowest first, then those that are born in a
+    Branches or HeldBranches
+        A sequence of `HeldBranch`, by half waves, or of `Branch`: those that leave the vertical, slowest first, then those that are born in a
         fold, slowest first.
 
     Raises
@@ -160,7 +213,9 @@ def branches(
     np.float64(3.9037621569)
     """
     place = "revchain.branches"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Held), _OTHERS)
+    if isinstance(system, Held):
+        return _held_branches(place, system, max_angular_speed, min_conical_height, gravity, 0.1)
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     at = min(count(place, "lists", lists), 10**6)
     most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
@@ -197,8 +252,22 @@ def steady_shape(
     all: Literal[True],
     min_conical_height: float | None = ...,
 ) -> tuple[SteadyShape, ...]: ...
+@overload
 def steady_shape(
-    system: Chain,
+    system: Held,
+    *,
+    mode: int = ...,
+    conical_height: float | None = ...,
+    angular_speed: float | None = ...,
+    tip_inclination: float | None = ...,
+    tip_radius: float | None = ...,
+    top_tension: float | None = ...,
+    gravity: float = ...,
+    all: Literal[False] = ...,
+    min_conical_height: float | None = ...,
+) -> HeldShape: ...
+def steady_shape(
+    system: Chain | Held,
     *,
     mode: int = 1,
     conical_height: float | None = None,
@@ -209,15 +278,16 @@ def steady_shape(
     gravity: float = STANDARD_GRAVITY,
     all: bool = False,
     min_conical_height: float | None = None,
-) -> SteadyShape | tuple[SteadyShape, ...]:
+) -> SteadyShape | HeldShape | tuple[SteadyShape, ...]:
     """Find the shape on the branch of one mode at a speed, or the speed at which the shape is as wanted.
 
     Parameters
     ----------
-    system : Chain
-        The chain of N links, up to 100,000 and more.
+    system : Chain or Held
+        The chain of N links, up to 100,000 and more; or a chain held at both ends, a span apart.
     mode : int, optional
-        At which the branch leaves the vertical, from 1, the slowest.
+        At which the branch leaves the vertical, from 1, the slowest; of a held chain the half waves with which its branch
+        begins at great speed.
     conical_height : float
         Conical height of the speed, less than that of the mode.
     angular_speed : float
@@ -227,7 +297,8 @@ def steady_shape(
     tip_radius : float
         Instead: the free end's distance from the axis, its size too.
     top_tension : float
-        Instead: the size of the reaction at the support, more than the weight of the chain.
+        Instead: the size of the reaction at the support, more than the weight of the chain. Of a held chain the
+        tension at the upper end.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     all : bool, optional
@@ -239,8 +310,8 @@ def steady_shape(
 
     Returns
     -------
-    SteadyShape or tuple of SteadyShape
-        Inclinations to 2.3e-16 at a given height or speed (measured), and within ``error_bound``, proved but at
+    SteadyShape, HeldShape or tuple of SteadyShape
+        Of a held chain the first met from the greatest speed on. Inclinations to 2.3e-16 at a given height or speed (measured), and within ``error_bound``, proved but at
         a fold. That the state is on this branch is checked at every step, see `branch`.
 
     Raises
@@ -268,7 +339,7 @@ def steady_shape(
     20.0
     """
     place = "revchain.steady_shape"
-    refuse_other(place, system, (Chain,), _OTHERS)
+    refuse_other(place, system, (Chain, Held), _OTHERS)
     number = count(place, "mode", mode)
     name, value = exactly_one(
         place,
@@ -279,6 +350,8 @@ def steady_shape(
         top_tension=top_tension,
     )
     g = one_positive(place, "gravity", gravity)
+    if isinstance(system, Held):
+        return _held_shape(place, system, number, name, value, g, all)
     if name == "top_tension":
         least = system._force(g) * system._compiled.total_weight
         if not value > least:
@@ -295,3 +368,44 @@ def steady_shape(
 
 def _shape(found: _core.SteadyShape, system: Chain, gravity: float) -> SteadyShape:
     return SteadyShape._made(found, system=system, gravity=gravity, direction=1)
+
+
+def _spanned(place: str, held: Held) -> tuple[_core.Chain, float]:
+    """The chain and its span."""
+    if isinstance(held.system, Cord):
+        raise ValueError(f"{place}: is for chains; cut the cord into links: Held(cord.chain(100), span=...)")
+    if held.span is None:
+        raise ValueError(f"{place}: is for a chain held at a span; under a tension ask steady_shapes at the speeds wanted, or modes")
+    if held.weightless:
+        raise ValueError(f"{place}: without gravity a shape is the same at every speed; ask steady_shapes")
+    return held.system._compiled, held.span
+
+
+def _held_branches(
+    place: str, held: Held, speed: float | None, height: float | None, gravity: float, max_step: float
+) -> HeldBranches:
+    chain, span = _spanned(place, held)
+    g = one_positive(place, "gravity", gravity)
+    least = height_of(place, height, speed, g, "min_conical_height", "max_angular_speed")
+    step = one_positive(place, "max_step", max_step)
+    return held_branches_made(_core.held_branches(chain, span, least, step), held, g, (least, step))
+
+
+def _held_shape(place: str, held: Held, mode: int, name: str, value: float, gravity: float, all_of_them: bool) -> HeldShape:
+    chain, span = _spanned(place, held)
+    if name not in ("conical_height", "angular_speed", "top_tension"):
+        raise ValueError(f"{place}: a held chain has no free end; give conical_height, angular_speed or top_tension, got {name}")
+    if all_of_them:
+        raise ValueError(f"{place}: all is for a Chain; ask branches for the shapes along a branch of a held chain")
+    if mode > max(chain.size - 1, 1):
+        raise ValueError(f"{place}: mode must be from 1 to {max(chain.size - 1, 1)}, got {mode}")
+    asked = value / held._force(gravity) if name == "top_tension" else value
+    found = _core.held_shape(chain, span, mode, name, asked, gravity)
+    height = found.conical_height
+    return HeldShape._made(
+        found,
+        system=held,
+        gravity=gravity,
+        angular_speed=value if name == "angular_speed" else float((gravity / height) ** 0.5),
+        _asked=("mode", mode, name, asked, gravity),
+    )
