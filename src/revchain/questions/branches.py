@@ -86,7 +86,8 @@ def branch(
     Returns
     -------
     Branch or HeldBranch
-        Of a held chain: shapes to slower speeds and through folds, until a link is slack. Else the first point is the straight chain, alone if no double tells the end from it (``end`` is then
+        Of a held chain: shapes to slower speeds and through folds, until a link is slack. Else the first point
+        is the straight chain, alone if no double tells the end from it (``end`` is then
         ``stuck``). Numbers to about 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, mostly an ulp.
 
     Raises
@@ -115,7 +116,8 @@ def branch(
     if isinstance(system, Held):
         found_all = _held_branches(place, system, max_angular_speed, min_conical_height, gravity, max_step)
         if number > len(found_all):
-            raise ValueError(f"{place}: mode must be from 1 to {len(found_all)}, the branches that are there at the speed, got {number}")
+            most = len(found_all)
+            raise ValueError(f"{place}: mode must be from 1 to {most}, the branches at the greatest speed, got {number}")
         return found_all[number - 1]
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     points = count(place, "max_points", max_points)
@@ -181,7 +183,8 @@ def branches(
     Returns
     -------
     Branches or HeldBranches
-        A sequence of `HeldBranch`, by half waves, or of `Branch`: those that leave the vertical, slowest first, then those that are born in a
+        A sequence of `HeldBranch`, by half waves, or of `Branch`: those that leave the vertical, slowest first,
+        then those that are born in a
         fold, slowest first.
 
     Raises
@@ -311,7 +314,8 @@ def steady_shape(
     Returns
     -------
     SteadyShape, HeldShape or tuple of SteadyShape
-        Of a held chain the first met from the greatest speed on. Inclinations to 2.3e-16 at a given height or speed (measured), and within ``error_bound``, proved but at
+        Of a held chain the first met from the greatest speed on. Inclinations to 2.3e-16 at a given height or
+        speed (measured), and within ``error_bound``, proved but at
         a fold. That the state is on this branch is checked at every step, see `branch`.
 
     Raises

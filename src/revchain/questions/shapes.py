@@ -90,8 +90,9 @@ def steady_shapes(
         All links settle where they are pulled, as threads do; of two mirror images the one whose lowest free pin is at a
         positive offset. ``missing`` lists the half waves for which none was found. Held chains: ``complete`` is true where
         it is proved that there are no others of so many half waves; else ``undecided`` says with which inclinations of
-        the lowest link others may begin. Mostly proved for one half wave and for 3 to 40 links with ``l <= a`` and mass
-        at every pin; seldom for two and more. Held cords: ``complete`` for a span without gravity, where there is one
+        the lowest link others may begin. Mostly proved for one half wave of 3 to 9 links with ``l <= a`` and mass
+        at every pin; with 20 and more a few hundredths of a radian are often left; seldom proved for more half
+        waves. Held cords: ``complete`` for a span without gravity, where there is one
         shape for every number of half waves.
 
     Raises
