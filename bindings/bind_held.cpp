@@ -17,20 +17,21 @@ using revchain::HeldShape;
 template <class System>
 auto shapes(const System& system, std::optional<double> span, std::optional<double> tension, bool weightless,
             std::optional<double> conical_height, std::optional<double> angular_speed, double gravity,
-            int max_half_waves, bool prove) {
+            int max_half_waves, bool prove, long budget) {
     const py::gil_scoped_release release;
     return revchain::steady_shapes(Held(system, {.span = span, .tension = tension, .weightless = weightless}),
                                    {.conical_height = conical_height,
                                     .angular_speed = angular_speed,
                                     .gravity = gravity,
                                     .max_half_waves = max_half_waves,
-                                    .prove = prove});
+                                    .prove = prove,
+                                    .budget = budget});
 }
 
 template <class System>
 void def_shapes(py::module_& module) {
     module.def("held_shapes", &shapes<System>, "system"_a, "span"_a, "tension"_a, "weightless"_a, "conical_height"_a,
-               "angular_speed"_a, "gravity"_a, "max_half_waves"_a, "prove"_a);
+               "angular_speed"_a, "gravity"_a, "max_half_waves"_a, "prove"_a, "budget"_a);
 }
 
 template <class Shape>
@@ -57,8 +58,8 @@ py::class_<Shape> bind_shape(py::module_& module, const char* name, const char* 
 }
 
 template <class Shapes>
-void bind_shapes(py::module_& module, const char* name) {
-    py::class_<Shapes>(module, name, "Steady shapes between two points of the axis.")
+py::class_<Shapes> bind_shapes(py::module_& module, const char* name) {
+    return py::class_<Shapes>(module, name, "Steady shapes between two points of the axis.")
         .def_readonly("shapes", &Shapes::shapes)
         .def_readonly("missing", &Shapes::missing)
         .def_readonly("complete", &Shapes::complete);
@@ -72,7 +73,18 @@ void bind_held(py::module_& module) {
         .def_readonly("proved", &HeldShape::proved)
         .def_readonly("moment_of_inertia", &HeldShape::moment_of_inertia)
         .def_readonly("height_times_energy", &HeldShape::height_times_energy);
-    bind_shapes<revchain::HeldShapes>(module, "HeldShapes");
+    bind_shapes<revchain::HeldShapes>(module, "HeldShapes")
+        .def_property_readonly("undecided",
+                               [](const revchain::HeldShapes& found) {
+                                   revchain::Table<double> table(static_cast<revchain::Index>(found.undecided.size()),
+                                                                 2);
+                                   for (revchain::Index i = 0; i < table.rows(); ++i) {
+                                       const auto& range = found.undecided[static_cast<std::size_t>(i)];
+                                       table(i, 0) = range.low, table(i, 1) = range.high;
+                                   }
+                                   return to_numpy(table);
+                               })
+        .def_readonly("cells", &revchain::HeldShapes::cells);
     bind_shape<HeldCordShape>(module, "HeldCordShape", "A steady shape of a cord held at both ends.")
         .def_property_readonly("arc_length", column(&HeldCordShape::arc_length))
         .def_readonly("length", &HeldCordShape::length)
@@ -88,6 +100,30 @@ void bind_held(py::module_& module) {
             },
             "arc"_a);
     bind_shapes<revchain::HeldCordShapes>(module, "HeldCordShapes");
+    py::class_<revchain::HeldBranch>(module, "HeldBranch", "A branch of shapes of a chain held at a span.")
+        .def_readonly("mode", &revchain::HeldBranch::half_waves)
+        .def_readonly("shapes", &revchain::HeldBranch::shapes)
+        .def_readonly("folds", &revchain::HeldBranch::folds)
+        .def_property_readonly("end", [](const revchain::HeldBranch& b) { return std::string(to_string(b.end)); });
+    module.def(
+        "held_branches",
+        [](const Chain& chain, double span, double height, double max_step) {
+            const py::gil_scoped_release release;
+            return revchain::branches(Held(chain, {.span = span}),
+                                      {.min_conical_height = height, .max_step = max_step});
+        },
+        "chain"_a, "span"_a, "height"_a, "max_step"_a);
+    module.def(
+        "held_shape",
+        [](const Chain& chain, double span, int mode, const std::string& name, double value, double gravity) {
+            const py::gil_scoped_release release;
+            revchain::HeldShapeOptions options{.mode = mode, .gravity = gravity};
+            (name == "conical_height"  ? options.conical_height
+             : name == "angular_speed" ? options.angular_speed
+                                       : options.top_tension) = value;
+            return revchain::steady_shape(Held(chain, {.span = span}), options);
+        },
+        "chain"_a, "span"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a);
     def_shapes<Chain>(module);
     def_shapes<revchain::Cord>(module);
     module.def(

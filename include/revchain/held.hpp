@@ -7,6 +7,7 @@
 
 #include "revchain/count.hpp"
 #include "revchain/explain.hpp"
+#include "revchain/finite/held/branch.hpp"
 #include "revchain/finite/held/cord.hpp"
 #include "revchain/finite/held/held.hpp"
 #include "revchain/modes.hpp"
@@ -77,14 +78,17 @@ struct HeldShapesOptions {
     std::optional<double> angular_speed{};                ///< rad/s
     double gravity = conical_pendulum::standard_gravity;  ///< along the axis, with `angular_speed`
     int max_half_waves = 1;                               ///< shapes of 1 to so many half waves are looked for
-    bool prove = true;                                    ///< whether error bounds of chains are proved
+    bool prove = true;      ///< of chains: whether error bounds and completeness are proved
+    long budget = 300'000;  ///< limit of looks at links for the proof of completeness, 1 to 2 microseconds each
 };
 
-/// Steady shapes at finite amplitude (troposkien). For a span: for each number of half waves the shape that is reached
-/// from the nearly straight chain without gravity by drawing the ends together, then letting gravity grow. For a
-/// tension: every shape on that branch with this tension at the upper end. In all of them every link is in tension, as
-/// threads must be. `missing` lists the half waves for which none was found. `complete` is always false: completeness
-/// has not been proved.
+/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves. First, for each number of half
+/// waves, that which is reached from the nearly straight chain without gravity by drawing the ends together, then
+/// letting gravity grow; for a tension every shape on that branch with this tension at the upper end. Then, of a chain,
+/// all others. Every link settles where it is pulled, as threads do. `missing` lists the half waves for which none was
+/// found.
+/// `complete`: proved that no other has so many half waves; else `undecided` has the inclinations of the lowest link
+/// with which others may begin. Of a cord it is true for a span without gravity alone.
 ///
 /// `HeldShape` (finite/held/shape.hpp) and `HeldCordShape` (finite/held/cord.hpp) give forces times the conical height.
 /// Divide by `conical_height` for the unit of the weights; without gravity multiply by the square of the speed for
@@ -93,12 +97,17 @@ struct HeldShapesOptions {
 /// so that two spans have the same tension.
 /// Method for chains: the two forces at the lower end are the unknowns of the upward sweep of Greenhill (1908) section
 /// 8 (21), with exact derivatives. A curve is followed by its arc in double, Newton's method takes over in
-/// double-double, and Krawczyk's test in intervals of double-double proves the bound. For cords: power series of degree
+/// double-double, and Krawczyk's test in intervals of double-double proves the bound. The list is proved complete by
+/// splitting all pulls along the lowest link, and all its inclinations, until each part has one shape for certain or
+/// none (finite/held/search.hpp). Measured (tests/cpp/held.cpp): 102 of 108 lists of 3, 6 and 9 links with l <= a, one
+/// half wave; none of chains with l > a or with massless links between others, and seldom of two half waves or more.
+/// Where several links are slack at once, as beads can be without gravity, a range of some 1e-7 is left.
+/// For cords: power series of degree
 /// 24; without gravity the shape is that of section 5, y = b sn(K x/a).
 /// Accuracy: inclinations of chains are correctly rounded but for 1e-20, the bound mostly proved (tests/cpp/held.cpp);
 /// places of cords are within 1e-13 of the length, the bound an estimate. A tension is met to 1e-15 of it.
 /// Cost: about 100 sweeps of 0.1 microseconds a link, or 100 paths of 20 microseconds for a cord; for a tension the
-/// whole branch, some thousand sweeps.
+/// whole branch, some thousand sweeps. Completeness: 10 to 500 ms; with `budget` 0 it is not looked for.
 /// Throws InvalidArgument where the speed is not given as above or is not positive and finite, where g/n^2 leaves the
 /// range of double, for `max_half_waves` below 1, and for weights more than 1e123 apart.
 HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options = {});
@@ -127,6 +136,41 @@ Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& o
 /// Throws InvalidArgument: modes of a cord under tension are not available; cut the cord into links.
 Modes<double> modes(const Held<Cord>& held, const ModesOptions<double>& options = {});
 Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
+
+/// How far branches go: give one of the first two.
+struct HeldBranchesOptions {
+    std::optional<double> min_conical_height{};
+    std::optional<double> max_angular_speed{};  ///< rad/s
+    double gravity = conical_pendulum::standard_gravity;
+    double max_step = 0.1;  ///< between two shapes, in ratio of forces and height
+};
+
+/// The branches of a chain held at a span, by half waves from 1: each begins at the greatest speed with the shape that
+/// is reached from the nearly straight chain without gravity, and is followed to slower ones, through folds, until a
+/// link is slack or turns over (`slack`) or the greatest speed is reached again (`speed`). With few half waves shapes
+/// are there at slower speeds; the list ends with the first number of half waves that is not there at the greatest.
+///
+/// Method: by the arc of (force across, force along, height) at constant span; shapes are finished in double-double, at
+/// folds in double. Branches that begin elsewhere are not looked for: `steady_shapes` proves at a speed that there are
+/// none. Accuracy: 1e-15 rad where `condition` is moderate, an estimate. Cost: some hundred shapes of 10 sweeps each.
+/// Throws InvalidArgument for a tension, without gravity, unless exactly one of height and speed is given, positive and
+/// finite, and for a step not positive.
+std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options);
+
+/// Which shape of a branch: give one of the three after `mode`.
+struct HeldShapeOptions {
+    int mode = 1;  ///< half waves with which the branch begins
+    std::optional<double> conical_height{};
+    std::optional<double> angular_speed{};  ///< rad/s
+    std::optional<double> top_tension{};    ///< at the upper end, in the unit of the weights
+    double gravity = conical_pendulum::standard_gravity;
+};
+
+/// The shape of a chain held at a span on the branch of so many half waves at a speed, or the first, from the greatest
+/// speed on, with a tension at the upper end; its speed is `angular_speed()` of the shape.
+/// Accuracy: of the inclinations as `steady_shapes`; a height for a tension to 1e-14. Throws InvalidArgument as
+/// `branches` does, for a mode below 1, and where the branch does not reach what is given.
+HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options);
 
 /// Throws InvalidArgument: a held chain or cord cannot be tuned yet.
 template <class System>

@@ -13,6 +13,7 @@ Questions
     chains at once conical_heights
 Results
     Modes, RigModes, CordModes, SteadyShapes, SteadyShape, CordShape, HeldShape, HeldCordShape, Branches, Branch,
+    HeldBranches, HeldBranch,
     Stability, ForceDiagram, Response, Swing, Tuned, Fitted, Explanation, Sensitivity, Uncertainty; ``load`` reads what
     their method ``save`` wrote
 Closed forms
@@ -63,6 +64,8 @@ from .results.bent import HeldCordShape as HeldCordShape
 from .results.bent import HeldShape as HeldShape
 from .results.branches import Branch as Branch
 from .results.branches import Branches as Branches
+from .results.held_branches import HeldBranch as HeldBranch
+from .results.held_branches import HeldBranches as HeldBranches
 from .results.diagrams import ForceDiagram as ForceDiagram
 from .results.explanation import Explanation as Explanation
 from .results.fitted import Fitted as Fitted

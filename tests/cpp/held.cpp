@@ -86,7 +86,7 @@ TEST_CASE("held at both ends: inclinations within their proved bound of a Lagran
                     const Chain<double> chain = family.make(size);
                     const double length = chain.total_length();
                     const auto found =
-                        support::held_shapes(chain, share * length, slow * length, {.max_half_waves = 3});
+                        support::held_shapes(chain, share * length, slow * length, {.max_half_waves = 3, .budget = 0});
                     CHECK(found.shapes.size() + found.missing.size() == 3);
                     CHECK_FALSE(found.complete);
                     for (const HeldShape& shape : found.shapes) {
@@ -493,4 +493,89 @@ TEST_CASE("held: a run can be cancelled") {
     CHECK_THROWS_AS(revchain::modes(Held(rods, {.tension = 4.0}), {.count = 3, .progress = &progress}),
                     revchain::Cancelled);
     CHECK_THROWS_AS(modes.shapes(&progress), revchain::Cancelled);
+}
+
+namespace {
+
+/// Chains that begin with a pull along the lowest link, at an angle, brought to the upper end by Newton's method in double
+/// from many starts, each link from where it is pulled; those of one half wave, as the lowest link's angle and pull.
+std::vector<std::array<double, 2>> by_trials(const Chain<double>& chain, double span, double height, int starts) {
+    using revchain::finite::Direction;
+    const auto wide = revchain::finite::links_of(chain);
+    const auto links = revchain::finite::rounded<double>(wide.links);
+    const double reach = std::ldexp(chain.total_length(), -wide.units.length_exponent),
+                 apart = std::ldexp(span, -wide.units.length_exponent),
+                 lambda = std::ldexp(height, -wide.units.length_exponent);
+    double weight = 0;
+    for (const auto& link : links) weight += link.moment + link.rest;
+    std::vector<std::array<double, 2>> found;
+    for (int i = 0; i < starts; ++i)
+        for (int j = 0; j < starts; ++j) {
+            const double pull = 1.5 * weight * (reach + lambda) * std::pow((i + 0.5) / starts, 2),
+                         angle = std::numbers::pi * (j + 0.5) / starts;
+            revchain::finite::HeldForces<double> forces{-pull * std::sin(angle),
+                                                        pull * std::cos(angle) - lambda * links[0].pull, lambda};
+            int changes = 0;
+            double last = 1, sweep_gap = 1;
+            for (int round = 0; round < 60; ++round) {
+                std::vector<Direction<double>> way(links.size());
+                changes = 0, last = 1;
+                const auto settle = [&](std::size_t m, double R, double V, Direction<double>& to) {
+                    to = {R / std::hypot(R, V), V / std::hypot(R, V)};
+                    return revchain::finite::detail::settle(links[m], R, V, to);
+                };
+                const auto end = revchain::finite::held_sweep<2>(
+                    links, forces, settle, [&](std::size_t m, double y, double, double, double, const auto&) {
+                        if (m > 0 && y * last < 0) ++changes, last = -last;
+                    });
+                if (!end.known) break;
+                sweep_gap = std::hypot(end.offset, end.rise - apart);
+                if (sweep_gap < 1e-13 * reach) break;
+                auto [across, along] = end.forces_to_move(-end.offset, apart - end.rise);
+                const double size = std::hypot(across, along), most = 0.3 * std::hypot(forces.across, forces.along);
+                if (size > most) across *= most / size, along *= most / size;
+                forces.across += across, forces.along += along;
+            }
+            if (!(sweep_gap < 1e-11 * reach) || changes != 0 || !(forces.across < -1e-9 * weight * reach)) continue;
+            const std::array<double, 2> here{forces.across, forces.along};
+            if (std::none_of(found.begin(), found.end(), [&](const auto& x) {
+                    return std::hypot(x[0] - here[0], x[1] - here[1]) < 1e-7 * weight * reach;
+                }))
+                found.push_back(here);
+        }
+    for (auto& x : found)
+        for (double& force : x) force = std::ldexp(force, wide.units.length_exponent + wide.units.weight_exponent);
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("held at both ends: lists proved complete hold all that trials find") {
+    int lists = 0, complete = 0, two = 0;
+    for (const std::size_t kind : {0, 1, 2, 3}) {
+        const support::Family family = support::families()[kind];
+        for (const Index size : {3, 6, 9})
+            for (const double share : {0.97, 0.713, 0.211})
+                for (const double slow : {0.0, 0.0437, 0.317}) {
+                    const Chain<double> chain = family.make(size);
+                    const double length = chain.total_length();
+                    INFO(family.name << ", " << size << " links, span " << share << ", height " << slow);
+                    const auto list = support::held_shapes(chain, share * length, slow * length);
+                    ++lists, complete += list.complete, two += list.shapes.size() > 1;
+                    CHECK(list.complete == list.undecided.empty());
+                    for (const auto& [across, along] : by_trials(chain, share * length, slow * length, 12)) {
+                        const auto at = [&, across = across, along = along](const HeldShape& shape) {
+                            const double size_of = std::hypot(across, along);
+                            return std::hypot(shape.lower_pull[0] + across, shape.lower_pull[1] - along) <
+                                   1e-6 * size_of;
+                        };
+                        CAPTURE(across, along, list.complete);
+                        const bool listed = std::any_of(list.shapes.begin(), list.shapes.end(), at);
+                        CHECK((listed || !list.complete));
+                    }
+                }
+    }
+    CAPTURE(two);
+    CHECK(lists == 108);
+    CHECK(complete >= 102);
 }

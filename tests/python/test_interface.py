@@ -110,9 +110,9 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     "modes": {"held, span": "is bent.*ask steady_shapes", "held cord": "cut it into links"},
     "count_modes": {"held, span": "is bent.*ask steady_shapes", "held cord": "cut it into links"},
     "steady_shapes": {},
-    "steady_shape": {"held": "ask steady_shapes"},
-    "branches": {"held": "ask steady_shapes"},
-    "branch": {"held": "ask steady_shapes"},
+    "steady_shape": {"held": "ask steady_shapes", "held cord": "cut the cord into links"},
+    "branches": {"held": "ask steady_shapes", "held cord": "cut the cord into links"},
+    "branch": {"held": "ask steady_shapes", "held cord": "cut the cord into links"},
     "response": {"cord": "ask its chain: cord.chain", "held": "ask steady_shapes"},
     "swing": {"rig": "ask its modes", "held": "ask its modes"},
     "tune": {"held, span": "is bent", "held cord": "cut it into links"},
@@ -128,7 +128,7 @@ CELLS = {  # question: system: None for an answer, or words of the reason and of
     },
 }
 KINDS = {"chain": RODS, "rig": RIG, "cord": CORD, "held": HELD, "held, span": SPAN, "held cord": CORD_HELD}
-WHOLLY_HELD = {"steady_shape", "branches", "branch", "response", "swing"}  # refuse all that is held alike
+WHOLLY_HELD = {"response", "swing"}  # refuse all that is held alike
 
 
 @pytest.mark.parametrize("kind", KINDS)

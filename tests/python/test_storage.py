@@ -66,6 +66,11 @@ def results():
     yield "Branches", diagram
     yield "Branch, isolated", diagram[3]
     yield "Branch", rc.branch(CHAIN, 1, min_conical_height=0.5 * float(modes.conical_height[0]))
+    blade = rc.Held(rc.Chain.uniform_rods(8, length=1.0, mass=1.0), span=0.7)
+    yield "HeldBranches", rc.branches(blade, max_angular_speed=15.0)
+    yield "HeldBranch", rc.branch(blade, 1, max_angular_speed=15.0)
+    yield "HeldShape of a branch", rc.branch(blade, 1, max_angular_speed=15.0).shape(3)
+    yield "HeldShape of a mode", rc.steady_shape(blade, top_tension=20.0)
     yield "StabilityWindow", diagram[0].stability_windows()[0]
     yield "Explanation", rc.explain(rc.Chain.uniform_rods(5000), 2, rtol=1e-3)
     yield "Stability", shapes[0].stability()

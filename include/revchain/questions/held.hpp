@@ -67,6 +67,17 @@ inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<dou
     return {chain, lower};
 }
 
+/// The span of a chain of whose shapes at every speed a question is.
+inline double span_asked(std::string_view place, const Held<Chain<double>>& held) {
+    if (!held.by().span)
+        throw_invalid(place,
+                      "is for a chain held at a span; ask steady_shapes at each speed, or modes, under a tension",
+                      *held.by().tension);
+    if (held.by().weightless)
+        throw_invalid(place, "without gravity a shape is the same at every speed: ask steady_shapes");
+    return *held.by().span;
+}
+
 [[noreturn]] inline void no_modes_of_cords(std::string_view place) {
     throw_invalid(place,
                   "modes of a cord under tension are not available yet; cut it into links, as "
@@ -77,11 +88,11 @@ inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<dou
 
 REVCHAIN_INLINE HeldShapes steady_shapes(const Held<Chain<double>>& held, const HeldShapesOptions& options) {
     const Wide<double> height = detail::height_asked(held.by(), options);
-    if (held.by().span)
-        return finite::held_shapes(held.system(), *held.by().span, height, options.max_half_waves, options.prove);
+    const finite::HeldListOptions wanted{options.max_half_waves, options.prove, options.budget};
+    if (held.by().span) return finite::held_shapes(held.system(), *held.by().span, height, wanted);
     const double rounded = static_cast<double>(height);
     return finite::held_shapes_under_tension(held.system(), detail::height_times_tension(held.by(), rounded, options),
-                                             rounded, options.max_half_waves, options.prove);
+                                             rounded, wanted);
 }
 
 REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& options) {
@@ -89,6 +100,49 @@ REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldS
     if (held.by().span) return finite::held_cord_shapes(held.system(), *held.by().span, height, options.max_half_waves);
     return finite::held_cord_shapes_under_tension(
         held.system(), detail::height_times_tension(held.by(), height, options), height, options.max_half_waves);
+}
+
+REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options) {
+    constexpr std::string_view place = "branches";
+    const double span = detail::span_asked(place, held);
+    detail::require_positive(place, "max_step", options.max_step);
+    const double least = detail::height_given(place, CountOptions<double>{.conical_height = options.min_conical_height,
+                                                                          .angular_speed = options.max_angular_speed,
+                                                                          .gravity = options.gravity});
+    std::vector<HeldBranch> result;
+    for (int k = 1; k < held.system().size(); ++k) {
+        auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);
+        if (!branch) break;
+        result.push_back(std::move(*branch));
+    }
+    return result;
+}
+
+REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options) {
+    constexpr std::string_view place = "steady_shape";
+    const double span = detail::span_asked(place, held);
+    if (options.mode < 1) detail::throw_invalid(place, "mode must be at least 1", options.mode);
+    const int given =
+        options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value();
+    if (given != 1) detail::throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
+    if (options.top_tension) {
+        detail::require_positive(place, "top_tension", *options.top_tension);
+        auto met = finite::held_shapes_of_tension(held.system(), span, *options.top_tension, options.mode);
+        if (met.empty())
+            detail::throw_invalid(place, "no shape of the branch has this tension at its upper end",
+                                  *options.top_tension);
+        return met.front();
+    }
+    const Wide<double> height = detail::height_asked(
+        held.by(),
+        {.conical_height = options.conical_height, .angular_speed = options.angular_speed, .gravity = options.gravity});
+    finite::HeldChain chain(held.system());
+    const int exponent = chain.links().units.length_exponent;
+    const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
+    if (const auto state = chain.at_height(options.mode, apart, static_cast<double>(lambda)))
+        if (auto shape = chain.finished(*state, apart, lambda, true)) return *shape;
+    detail::throw_invalid(place, "the branch does not reach this conical height; ask branches how far it goes",
+                          static_cast<double>(height));
 }
 
 REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options) {

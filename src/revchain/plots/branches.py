@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from ..results.branches import Branch
+    from ..results.held_branches import HeldBranch
 
 QUANTITIES = {
     "tip_inclination": "tip inclination (degrees)",
@@ -88,3 +89,33 @@ def _values(branch: Branch, quantity: str) -> Floats:
     """The numbers to draw: inclinations in degrees."""
     values: Floats = getattr(branch, quantity)
     return np.degrees(values) if quantity == "tip_inclination" else values
+
+
+HELD_QUANTITIES = {
+    "largest_offset": "largest distance from axis (m)",
+    "lowest_inclination": "lowest link to the upward vertical (degrees)",
+    "top_tension": "tension at the upper end (N)",
+    "moment_of_inertia": "moment of inertia (kg m^2)",
+}
+
+
+def plot_held_branches(branches: Sequence[HeldBranch], ax: Axes | None, *, quantity: str, place: str) -> Axes:
+    """See `HeldBranches.plot`."""
+    word(place, "quantity", quantity, HELD_QUANTITIES)
+    ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
+    named: set[int] = set()
+    for branch in branches:
+        value = getattr(branch, quantity)
+        if quantity == "lowest_inclination":
+            value = np.degrees(value)
+        colour, label = half_waves_style(branch.mode, named)
+        ax.plot(branch.angular_speed, value, color=colour, linewidth=1.6, label=label)
+        folds = branch.folds
+        ax.plot(branch.angular_speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="white", zorder=3)
+    by_mass = all(branch.system.by_mass for branch in branches)
+    ax.set(xlabel="speed (rad/s)", ylabel=HELD_QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, HELD_QUANTITIES[quantity]))
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
+    if named:
+        ax.legend(frameon=False)
+    return ax

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, overload
+from typing import Any, Literal, TypedDict, Unpack, overload
 
 from .. import _core
+from ..results.bent import CordShape, HeldShape
 from ..results.branches import Branch, Branches, branches_made
+from ..results.cord_branches import CordBranch, CordBranches
+from ..results.held_branches import HeldBranch, HeldBranches
 from ..results.shapes import SteadyShape
 from ..systems.chain import Chain, compiled
 from ..systems.cord import Cord
@@ -23,16 +26,29 @@ from ..systems.numbers import (
     shown,
 )
 from ..systems.rig import Rig
-from .refuse import refuse_other
-
-_OTHERS = {
-    Cord: "ask the branches of its chain: cord.chain(10)",
-    Held: "ask steady_shapes at the speeds wanted",
-}
+from ..systems.system import System
+from .cords import cord_branch, cord_branches, cord_shapes_on_branch
+from .held import held_branch, held_branches, held_shape
+from .refuse import no_system
 
 
+class _Path(TypedDict, total=False):
+    max_angular_speed: float | None
+    min_conical_height: float | None
+    gravity: float
+    direction: int
+    max_points: int
+    max_step: float
+
+
+@overload
+def branch(system: Chain | Rig, mode: int, **path: Unpack[_Path]) -> Branch: ...
+@overload
+def branch(system: Cord, mode: int, **path: Unpack[_Path]) -> CordBranch: ...
+@overload
+def branch(system: Held, mode: int, **path: Unpack[_Path]) -> HeldBranch: ...
 def branch(
-    system: Chain | Rig,
+    system: Chain | Rig | Cord | Held,
     mode: int,
     *,
     max_angular_speed: float | None = None,
@@ -41,18 +57,21 @@ def branch(
     direction: int = 1,
     max_points: int = 10_000,
     max_step: float = 0.1,
-) -> Branch:
+) -> Branch | CordBranch | HeldBranch:
     """Follow the branch of shapes that leaves the vertical at one critical speed, through every fold.
 
     Parameters
     ----------
-    system : Chain or Rig
-        The chain of N links, by itself or rigged. Along the branch of a rig every link keeps its posture.
+    system : Chain, Rig, Cord or Held
+        The chain of N links, by itself, rigged or held at both ends a span apart; or a flexible cord. Along the branch
+        of a rig every link keeps its posture.
     mode : int
         Number of the mode, from 1, the slowest. Of a rig whose support is off the axis no branch leaves the vertical:
-        give 1, the branch from rest; `branches` finds those that are born in folds.
+        give 1, the branch from rest; `branches` finds those that are born in folds. Of a held chain: the half waves
+        with which its branch begins.
     max_angular_speed : float
-        Where to stop: at the first point of this speed, rad/s, above that of the mode.
+        Where to stop: at the first point of this speed, rad/s, above that of the mode. A held chain's branch begins at
+        this speed.
     min_conical_height : float
         Instead of `max_angular_speed`: the conical height at which to stop, m.
     gravity : float, optional
@@ -66,8 +85,9 @@ def branch(
 
     Returns
     -------
-    Branch
-        The first point is the straight chain, alone if no double tells the end from it (``end`` is then
+    Branch, CordBranch or HeldBranch
+        Of a held chain: shapes to slower speeds and through folds, until a link is slack. Else from the mode on:
+        the first point is the straight chain, alone if no double tells the end from it (``end`` is then
         ``stuck``). The branch from rest begins at a tenth of the first critical speed of the rig with its support in
         the axis, or of the speed given if that is slower. Numbers to about 1e-12; folds to 1e-6 of the arc, their
         heights to 1e-13, mostly an ulp.
@@ -84,7 +104,7 @@ def branch(
     Continuation by arc on all links and the height at once. A step is kept only if Newton's method
     contracts at once, the direction turns little, the middle of the step lies on the branch too, and, where no
     link has ``pendulum_length > length``, the half waves stay the same; else half of it is tried. That is a check,
-    not a proof.
+    not a proof. Of a cord: on the line on which its crossing of the axis number `mode` is at the support.
 
     Examples
     --------
@@ -101,19 +121,40 @@ def branch(
     ('rest', array([1.0101, 4.9048]))
     """
     place = "revchain.branch"
-    refuse_other(place, system, (Chain, Rig), _OTHERS)
+    if not isinstance(system, System):
+        raise no_system(place, system)
     number = count(place, "mode", mode)
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     points = count(place, "max_points", max_points)
     step = one_positive(place, "max_step", max_step)
     asked = (number, height, points, step)
     g, turns = one_positive(place, "gravity", gravity), _direction(place, direction)
+    if isinstance(system, Held):
+        return held_branch(place, system, number, height, g, step)
+    if isinstance(system, Cord):
+        return cord_branch(system, g, asked)
     found = _core.branch(_system(place, system, g), *asked, g, turns)
     return Branch._made(found, system=system, gravity=g, direction=turns, asked=asked)
 
 
+class _Diagram(TypedDict, total=False):
+    max_angular_speed: float | None
+    min_conical_height: float | None
+    gravity: float
+    direction: int
+    lists: int
+    budget: int
+    proof_budget: int
+
+
+@overload
+def branches(system: Chain | Rig, **diagram: Unpack[_Diagram]) -> Branches: ...
+@overload
+def branches(system: Cord, **diagram: Unpack[_Diagram]) -> CordBranches: ...
+@overload
+def branches(system: Held, **diagram: Unpack[_Diagram]) -> HeldBranches: ...
 def branches(
-    system: Chain | Rig,
+    system: Chain | Rig | Cord | Held,
     *,
     max_angular_speed: float | None = None,
     min_conical_height: float | None = None,
@@ -122,14 +163,15 @@ def branches(
     lists: int = 16,
     budget: int = 2_000_000,
     proof_budget: int = 1_000_000,
-) -> Branches:
+) -> Branches | CordBranches | HeldBranches:
     """Find the whole diagram of branches up to a speed, isolated ones too, and prove that none is missing.
 
     Parameters
     ----------
-    system : Chain or Rig
+    system : Chain, Rig, Cord or Held
         The chain of N links, by itself or rigged; few, as all shapes are listed (`steady_shapes`), those of a rig in
-        its own posture.
+        its own posture. Or a flexible cord. Or a chain held at both ends, a span apart: its shapes are followed from the
+        greatest speed down, those alone that begin with the nearly straight chain, without `lists` and budgets.
     max_angular_speed : float
         The speed up to which to go, rad/s.
     min_conical_height : float
@@ -141,15 +183,16 @@ def branches(
     lists : int, optional
         At how many speeds to list all shapes and bring them together with the branches.
     budget : int, optional
-        Work allowed for each list; see `steady_shapes`.
+        Work allowed for each list; see `steady_shapes`. Cords have none.
     proof_budget : int, optional
         Links to look at for the proof, 0.1 to 1 microsecond each; 0: no proof.
 
     Returns
     -------
-    Branches
+    Branches, CordBranches or HeldBranches
         A sequence of `Branch`: those that leave the vertical, slowest first (of a rig whose support is off the axis the
-        one from rest), then those that are born in a fold, slowest first.
+        one from rest), then those that are born in a fold, slowest first; of a held chain by half waves. Of a cord
+        ``complete`` is true where a theorem counts the shapes (see `steady_shapes`).
 
     Raises
     ------
@@ -196,48 +239,45 @@ def branches(
     2.2878
     """
     place = "revchain.branches"
-    refuse_other(place, system, (Chain, Rig), _OTHERS)
+    if not isinstance(system, System):
+        raise no_system(place, system)
     height = height_of(place, min_conical_height, max_angular_speed, gravity, "min_conical_height", "max_angular_speed")
     at = min(count(place, "lists", lists), 10**6)
     most, most_of_proof = limit(place, "budget", budget), limit(place, "proof_budget", proof_budget)
     asked = (height, at, most, most_of_proof)
     g, turns = one_positive(place, "gravity", gravity), _direction(place, direction)
+    if isinstance(system, Held):
+        return held_branches(place, system, height, g)
+    if isinstance(system, Cord):
+        return cord_branches(system, g, (height, at))
     found = _core.branches(_system(place, system, g), *asked, g, turns)
     return branches_made(found, system, g, turns, asked)
 
 
+class _Wanted(TypedDict, total=False):
+    mode: int
+    conical_height: float | None
+    angular_speed: float | None
+    tip_inclination: float | None
+    tip_radius: float | None
+    top_tension: float | None
+    gravity: float
+    direction: int
+    min_conical_height: float | None
+
+
 @overload
-def steady_shape(
-    system: Chain | Rig,
-    *,
-    mode: int = ...,
-    conical_height: float | None = ...,
-    angular_speed: float | None = ...,
-    tip_inclination: float | None = ...,
-    tip_radius: float | None = ...,
-    top_tension: float | None = ...,
-    gravity: float = ...,
-    direction: int = ...,
-    all: Literal[False] = ...,
-    min_conical_height: float | None = ...,
-) -> SteadyShape: ...
+def steady_shape(system: Chain | Rig, *, all: Literal[False] = ..., **wanted: Unpack[_Wanted]) -> SteadyShape: ...
 @overload
+def steady_shape(system: Chain | Rig, *, all: Literal[True], **wanted: Unpack[_Wanted]) -> tuple[SteadyShape, ...]: ...
+@overload
+def steady_shape(system: Cord, *, all: Literal[False] = ..., **wanted: Unpack[_Wanted]) -> CordShape: ...
+@overload
+def steady_shape(system: Cord, *, all: Literal[True], **wanted: Unpack[_Wanted]) -> tuple[CordShape, ...]: ...
+@overload
+def steady_shape(system: Held, *, all: Literal[False] = ..., **wanted: Unpack[_Wanted]) -> HeldShape: ...
 def steady_shape(
-    system: Chain | Rig,
-    *,
-    mode: int = ...,
-    conical_height: float | None = ...,
-    angular_speed: float | None = ...,
-    tip_inclination: float | None = ...,
-    tip_radius: float | None = ...,
-    top_tension: float | None = ...,
-    gravity: float = ...,
-    direction: int = ...,
-    all: Literal[True],
-    min_conical_height: float | None = ...,
-) -> tuple[SteadyShape, ...]: ...
-def steady_shape(
-    system: Chain | Rig,
+    system: Chain | Rig | Cord | Held,
     *,
     mode: int = 1,
     conical_height: float | None = None,
@@ -249,27 +289,30 @@ def steady_shape(
     direction: int = 1,
     all: bool = False,
     min_conical_height: float | None = None,
-) -> SteadyShape | tuple[SteadyShape, ...]:
+) -> SteadyShape | CordShape | HeldShape | tuple[SteadyShape, ...] | tuple[CordShape, ...]:
     """Find the shape on the branch of one mode at a speed, or the speed at which the shape is as wanted.
 
     Parameters
     ----------
-    system : Chain or Rig
-        The chain of N links, up to 100,000 and more, by itself or rigged.
+    system : Chain, Rig, Cord or Held
+        The chain of N links, up to 100,000 and more, by itself, rigged or held at both ends a span apart; or a flexible
+        cord.
     mode : int, optional
         At which the branch leaves the vertical, from 1, the slowest. Of a rig whose support is off the axis the branch
-        from rest, 1; shapes of other branches: `Branch.at` of those that `branches` finds.
+        from rest, 1; shapes of other branches: `Branch.at` of those that `branches` finds. Of a held chain the half
+        waves with which its branch begins at great speed.
     conical_height : float
         Conical height of the speed, less than that of the mode.
     angular_speed : float
         Instead: the speed in rad/s.
     tip_inclination : float
-        Instead: that of the lowest link, rad, above 0 and below pi/2 (of one that stands: above that and below pi); its
+        Instead: that of the lowest link or of the free end, rad, above 0 and below pi/2 (of one that stands: above that and below pi); its
         size, whatever the sign; outwards if the support is off the axis.
     tip_radius : float
         Instead: the free end's distance from the axis, its size too.
     top_tension : float
-        Instead: the size of the reaction at the topmost pin, more than the weight that it bears.
+        Instead: the size of the reaction at the topmost pin, more than the weight that it bears. Of a held chain the
+        tension at the upper end.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
@@ -283,8 +326,8 @@ def steady_shape(
 
     Returns
     -------
-    SteadyShape or tuple of SteadyShape
-        Inclinations to 2.3e-16 at a given height or speed (measured), and within ``error_bound``, proved but at
+    SteadyShape, CordShape, HeldShape or tuple of them
+        Of a held chain the first one met from the greatest speed on. Inclinations to 2.3e-16 at a given height or speed (measured), and within ``error_bound``, proved but at
         a fold. That the state is on this branch is checked at every step, see `branch`.
 
     Raises
@@ -318,7 +361,8 @@ def steady_shape(
     1.2597
     """
     place = "revchain.steady_shape"
-    refuse_other(place, system, (Chain, Rig), _OTHERS)
+    if not isinstance(system, System):
+        raise no_system(place, system)
     number = count(place, "mode", mode)
     name, value = exactly_one(
         place,
@@ -330,16 +374,29 @@ def steady_shape(
     )
     g = one_positive(place, "gravity", gravity)
     turns = _direction(place, direction)
+    if isinstance(system, Held):
+        return held_shape(place, system, number, name, value, g, all)
     if name == "top_tension":
-        if isinstance(system, Chain) and not value > (least := system._force(g) * system._compiled.total_weight):
-            raise ValueError(f"{place}: top_tension must be more than the weight {least:.6g} of the chain, got {value:g}")
+        if isinstance(system, (Chain, Cord)) and not value > (least := system._force(g) * _weight(system)):
+            what = "cord" if isinstance(system, Cord) else "chain"
+            raise ValueError(f"{place}: top_tension must be more than the weight {least:.6g} of the {what}, got {value:g}")
         value /= system._force(g)
     every = boolean(place, "all", all)
     lowest = None if min_conical_height is None else one_positive(place, "min_conical_height", min_conical_height)
+    if isinstance(system, Cord):
+        of_cord = cord_shapes_on_branch(system, number, name, value, g, lowest, every)
+        return of_cord if every else of_cord[0]
     asked = (_system(place, system, g), number, name, value, g, turns, lowest)
     found = _core.shapes_on_branch(*asked) if every else [_core.steady_shape(*asked)]
     shapes = tuple(SteadyShape._made(shape, system=system, gravity=g, direction=turns) for shape in found)
     return shapes if every else shapes[0]
+
+
+def _weight(system: Chain | Cord) -> float:
+    """Of all that hangs, in the unit of the weights or masses given."""
+    if isinstance(system, Cord):
+        return system._compiled.weight + system._compiled.tip_weight
+    return system._compiled.total_weight
 
 
 def _direction(place: str, direction: int) -> int:

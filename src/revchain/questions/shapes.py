@@ -21,6 +21,7 @@ from .refuse import no_system
 LEAST, MOST = 1e-150, 1e150
 """Conical heights, and squared speeds without gravity, whose products with tensions stay in the range of doubles."""
 MOST_HALF_WAVES = 1000
+_BUDGET = {False: 3_000_000, True: 300_000}
 
 
 def steady_shapes(
@@ -29,7 +30,7 @@ def steady_shapes(
     conical_height: float | None = None,
     angular_speed: float | None = None,
     gravity: float = STANDARD_GRAVITY,
-    budget: int = 3_000_000,
+    budget: int | None = None,
     hanging_only: bool = True,
     direction: int = 1,
     max_half_waves: int = 1,
@@ -50,9 +51,10 @@ def steady_shapes(
     gravity : float, optional
         In m/s^2; standard gravity if left out. A held system that is weightless has none.
     budget : int, optional
-        Chains and rigs: how many links to look at, at the most, while parts of the range of the lowest link's inclination are
-        split: half a microsecond each, or two where ``l < a``; the default takes some 2 to 10 seconds. With 0
-        and less nothing is looked at, and the list is empty and not complete.
+        How many links to look at, at the most, while parts of the range of the lowest link's inclination are
+        split. Chains and rigs: 3,000,000 if left out, half a microsecond each, or two where ``l < a``, which takes some
+        2 to 10 seconds; with 0 and less nothing is looked at, and the list is empty and not complete. Held chains: 300,000
+        if left out, 1 to 2 microseconds each; with 0 completeness is not proved.
     hanging_only : bool, optional
         Chains and rigs: whether to leave out shapes with links that stand: more than a right angle from the downward
         vertical. Of a rig: shapes with links that do not stand or hang as the rig has them.
@@ -61,7 +63,7 @@ def steady_shapes(
     max_half_waves : int, optional
         Held systems: shapes of 1 to so many half waves are looked for.
     prove : bool, optional
-        Held chains: whether error bounds are proved; else they are estimates.
+        Held chains: whether error bounds and completeness are proved; else bounds are estimates.
     scanned : int, optional
         Cords whose shapes no theorem counts: how many offsets of the free end to look at for shapes.
     threads : int, optional
@@ -84,10 +86,15 @@ def steady_shapes(
         below 0; and where no more than one critical height is above it. Elsewhere a shape that comes and goes between two
         scanned offsets is missed.
 
-        Held systems: for each number of half waves the shape that is reached from the nearly straight chain without
-        gravity, by drawing its ends together and then letting gravity grow; for a tension every one on that branch.
-        All links are in tension, as threads must be; of two mirror images the one whose lowest free pin is at a
-        positive offset. ``missing`` lists the half waves for which none was found. Never proved complete.
+        Held systems: shapes of 1 to `max_half_waves` half waves, by half waves; those on the branch that is reached from
+        the nearly straight chain without gravity, by drawing its ends together and then letting gravity grow, come first.
+        All links settle where they are pulled, as threads do; of two mirror images the one whose lowest free pin is at a
+        positive offset. ``missing`` lists the half waves for which none was found. Held chains: ``complete`` is true where
+        it is proved that there are no others of so many half waves; else ``undecided`` says with which inclinations of
+        the lowest link others may begin. Mostly proved for one half wave of 3 to 9 links with ``l <= a`` and mass
+        at every pin; with 20 and more a few hundredths of a radian are often left; seldom proved for more half
+        waves. Held cords: ``complete`` for a span without gravity, where there is one
+        shape for every number of half waves.
 
     Raises
     ------
@@ -108,7 +115,8 @@ def steady_shapes(
     complete: two words of double precision no longer hold the offsets that give the tensions. Cords: power series along
     the cord, Newton's method on the place where it crosses the axis; inclinations, and offsets over the length, within
     ``error_estimate``. Held chains: inclinations correctly rounded but for 1e-20, the bound mostly proved; held cords:
-    places within 1e-13 of the length. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for
+    places within 1e-13 of the length; completeness by Krawczyk's test on the pull along the lowest link and its
+    inclination, 0.05 to 0.5 s. Cost: 15 milliseconds for 84 hanging shapes of eight plummets, about 30 for
     all 64 shapes of four; shapes, and time, about double with each link, and grow fourfold if links may
     stand.
 
@@ -135,6 +143,16 @@ def steady_shapes(
     >>> [round(float(np.degrees(s.inclination[0])), 1) for s in rc.steady_shapes(carousel, angular_speed=3.0)]
     [77.5, -68.1, -20.7]
 
+    A blade, which could hang in no other way, and one that turns too slowly:
+
+    >>> blade = rc.Held(rc.Chain.uniform_rods(10, length=1.0), span=0.51)
+    >>> found = rc.steady_shapes(blade, angular_speed=15.0)
+    >>> len(found), found.complete
+    (1, True)
+    >>> slow = rc.steady_shapes(blade, angular_speed=1.0)
+    >>> slow.missing, slow.complete
+    ((1,), True)
+
     A cord, and a skipping rope of one half wave or two:
 
     >>> cord = rc.Cord(500.0)
@@ -146,7 +164,7 @@ def steady_shapes(
     [0.402, 0.2013]
     """
     place = "revchain.steady_shapes"
-    most = limit(place, "budget", budget)
+    most = limit(place, "budget", _BUDGET[isinstance(system, Held)] if budget is None else budget)
     hanging = boolean(place, "hanging_only", hanging_only)
     if integer(place, "direction", direction) not in (1, -1):
         raise ValueError(f"{place}: direction must be 1 or -1, got {shown(direction)}")
@@ -159,7 +177,7 @@ def steady_shapes(
     proved = boolean(place, "prove", prove)
     shared = integer(place, "threads", threads)
     if isinstance(system, Held) and system.weightless:
-        return _weightless(place, system, conical_height, angular_speed, waves, proved)
+        return _weightless(place, system, conical_height, angular_speed, (waves, proved, most))
     name, value = exactly_one(place, conical_height=conical_height, angular_speed=angular_speed)
     g = one_positive(place, "gravity", gravity)
     if name == "angular_speed":
@@ -173,7 +191,7 @@ def steady_shapes(
         if not LEAST <= height <= MOST:
             raise ValueError(f"{place}: {name} must give a conical height from {LEAST:g} to {MOST:g}, got {value:g}")
         given = (value, None) if name == "conical_height" else (None, value)
-        return _held(system, height, speed, g, (*given, g, waves, proved))
+        return _held(system, height, speed, g, (*given, g, waves, proved, most))
     if isinstance(system, Rig):
         core = system._under(g)
         if name == "conical_height":
@@ -190,7 +208,7 @@ def steady_shapes(
 
 
 def _weightless(
-    place: str, held: Held, conical_height: Any, angular_speed: Any, waves: int, proved: bool
+    place: str, held: Held, conical_height: Any, angular_speed: Any, how: tuple[int, bool, int]
 ) -> SteadyShapes:
     if conical_height is not None:
         raise ValueError(
@@ -201,7 +219,7 @@ def _weightless(
         raise ValueError(f"{place}: give angular_speed: without gravity tensions are as its square")
     if not LEAST <= speed * speed <= MOST:
         raise ValueError(f"{place}: angular_speed must have a square from {LEAST:g} to {MOST:g}, got {speed:g}")
-    return _held(held, 0.0, speed, 0.0, (None, speed, 0.0, waves, proved))
+    return _held(held, 0.0, speed, 0.0, (None, speed, 0.0, *how))
 
 
 def _held(held: Held, height: float, speed: float, gravity: float, asked: tuple[Any, ...]) -> SteadyShapes:

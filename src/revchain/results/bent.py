@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _core
+from ..systems.chain import Chain
 from ..systems.cord import Cord
 from ..systems.held import Held
 from ..systems.numbers import Floats, floats, numbers, refuse_where
@@ -273,6 +274,13 @@ class _HeldShape(_Bent):
     def _again(self) -> Any:
         *asked, place = self._asked
         held = self.system
+        if asked and asked[0] == "branch":
+            from .held_branches import branch_again
+
+            return branch_again(held, tuple(asked[1:])).shapes[place]
+        if asked and asked[0] == "mode":
+            mode, name, value = asked[1:]
+            return _core.held_shape(held.system._compiled, held.span, mode, name, value, place)
         by = (held.span, held._pull(self.gravity), held.weightless)
         return _core.held_shapes(held.system._compiled, *by, *asked).shapes[place]
 
@@ -406,7 +414,8 @@ def held_shapes_made(
     kind = HeldCordShape if isinstance(system.system, Cord) else HeldShape
     given: dict[str, Any] = {"system": system, "gravity": gravity, "conical_height": height, "angular_speed": speed}
     items = tuple(kind._made(shape, _asked=(*asked, k), **given) for k, shape in enumerate(found.shapes))
-    return SteadyShapes._made(None, _items=items, complete=False, missing=tuple(found.missing), **given, **_NONE)
+    looked = {"undecided": found.undecided, "cells": found.cells} if isinstance(system.system, Chain) else _NONE
+    return SteadyShapes._made(None, _items=items, complete=found.complete, missing=tuple(found.missing), **given, **looked)
 
 
 def branch_shape(found: _core.CordShape, system: Cord, gravity: float, at_fold: bool = False) -> CordShape:

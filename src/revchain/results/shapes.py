@@ -435,8 +435,7 @@ class SteadyShapes(Results[Any]):
     conical_height: Field[float] = Field("Conical height of the speed, m; 0 without gravity.", part=True)
     angular_speed: Field[float] = Field("The turning speed, rad/s.", part=True)
     complete: Field[bool] = Field(
-        "Whether it is proved that none is missing. Always False where both ends are held: completeness has not been "
-        "proved.",
+        "Whether it is proved that none is missing; with both ends held, none of as many half waves as were asked for.",
         part=True,
     )
     undecided: Field[Floats] = Field(
@@ -480,9 +479,8 @@ class SteadyShapes(Results[Any]):
     def _how_many(self, at: str = "") -> str:
         number = f"{len(self)} shape{'s' * (len(self) != 1)}{at}"
         if self.missing:
-            return f"{number}; none found with {', '.join(map(str, self.missing))} half wave{'s' * (list(self.missing) != [1])}"
-        if isinstance(self.system, Held):
-            return number
+            waves = f"{', '.join(map(str, self.missing))} half wave{'s' * (list(self.missing) != [1])}"
+            number = f"{number}; none {'found ' * (not self.complete)}with {waves}"
         return f"{number}, proved complete" if self.complete else f"{number}; there may be more"
 
     def _sheet(self, brief: bool = False) -> Sheet:
@@ -491,7 +489,7 @@ class SteadyShapes(Results[Any]):
             Column("half_waves", np.array([shape.half_waves for shape in self], int), "half waves"),
         ]
         notes = []
-        if not len(self) and self.complete:
+        if not len(self) and self.complete and not isinstance(self.system, Held):
             notes = ["it hangs straight: the speed is below the first critical speed"]
         if len(self):
             kind = type(self[0])

@@ -40,7 +40,7 @@ struct HeldCordShape {
 struct HeldCordShapes {
     std::vector<HeldCordShape> shapes;
     std::vector<int> missing;
-    bool complete = false;  ///< never claimed
+    bool complete = false;  ///< proved: none of so many half waves is missing; for a span without gravity
 };
 
 namespace finite {
@@ -146,10 +146,14 @@ inline HeldCordShape described(const HeldState& state, double span, double lengt
 /// The shape of each number of half waves up to `max_half_waves` at a span and a height; height 0: without gravity.
 inline HeldCordShapes held_cord_shapes(const Cord& cord, double span, double height, int max_half_waves) {
     const double length = cord.length();
-    return each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
+    auto result = each_half_wave<HeldCordShapes>(max_half_waves, [&](int k, const auto& add) {
         if (const auto state = HeldCord().at_height(k, span / length, height / length))
             add(std::optional(described(*state, span, length, cord.weight())));
     });
+    // Without gravity length/span = 2 E/((1 - kappa^2) K) - 1 = 1 + 2 d log K/d log kappa. It rises with kappa, as K is
+    // a power series of kappa with positive terms, and so one kappa has it for any number of half waves.
+    result.complete = height == 0 && result.missing.empty();
+    return result;
 }
 
 /// All shapes on the branch of each number of half waves whose tension at the upper end, times the height, is

@@ -87,6 +87,37 @@ class HeldCurve {
         }
     }
 
+    /// Sees the states of constant span from one on, first to greater heights, until `visit` returns false.
+    template <class Visit>
+    void along_heights(const HeldState& from, double max_step, Visit&& visit) {
+        step_along<false>(from, true, visit, max_step);
+    }
+    /// Sees those of them at which `off`, a number of a state, is 0.
+    template <class Off, class Visit>
+    void where(const HeldState& from, const Off& off, Visit&& visit) {
+        HeldState before = from;
+        double was = off(from);
+        along_heights(from, 0.05, [&](const HeldState& state) {
+            const auto there = shooter_->kept();
+            const double here = off(state);
+            if (here * was < 0) {
+                HeldState low = before, high = state;
+                std::optional<HeldState> met;
+                for (int round = 0; round < 60; ++round) {
+                    HeldState guess = mixed(low, high, 0.5);
+                    guess.forces.height = low.forces.height + (high.forces.height - low.forces.height) / 2;
+                    met = corrected(guess);
+                    if (!met) break;
+                    (off(*met) * was > 0 ? low : high) = *met;
+                }
+                if (met) visit(*met);
+                shooter_->keep(there);
+            }
+            before = state, was = here;
+            return state.forces.height > 0;
+        });
+    }
+
    private:
     using Triple = Eigen::Vector3d;
 
@@ -171,8 +202,8 @@ class HeldCurve {
     static Triple normalised(const Triple& x, const Triple& y) { return unit(cross(unit(x), unit(y))); }
 
     template <bool spans, class Visit>
-    void step_along(HeldState state, bool up, Visit&& visit) {
-        double step = 0.05;
+    void step_along(HeldState state, bool up, Visit&& visit, double max_step = 0.3) {
+        double step = std::min(0.05, max_step);
         HeldEnd<double> end = (*shooter_)(state.forces, true);
         if (!end.known) return;
         Triple last{0, 0, up ? 1.0 : -1.0}, scale = scales<spans>(state);
@@ -195,7 +226,7 @@ class HeldCurve {
             state = next, end = there, scale = scales<spans>(state);
             last = tangent.cwiseProduct(before).cwiseQuotient(scale);
             step *= rounds <= 3 ? 1.7 : rounds > 5 ? 0.6 : 1.0;
-            step = std::min(step, 0.3);
+            step = std::min(step, max_step);
         }
     }
 

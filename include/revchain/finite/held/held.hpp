@@ -2,16 +2,20 @@
 #pragma once
 
 #include "revchain/finite/held/proof.hpp"
+#include "revchain/finite/held/search.hpp"
 #include "revchain/finite/held/shape.hpp"
 #include "revchain/finite/held/taut.hpp"
+#include "revchain/steady_shapes.hpp"
 
 namespace revchain {
 
-/// Shapes of a chain held at both ends, one at the most for each number of half waves.
+/// Shapes of a chain held at both ends.
 struct HeldShapes {
-    std::vector<HeldShape> shapes;  ///< by the half waves of the branch they were found on
-    std::vector<int> missing;       ///< half waves whose branch does not reach the span and height asked
-    bool complete = false;          ///< never claimed: there may be others, on branches that are apart
+    std::vector<HeldShape> shapes;            ///< by half waves
+    std::vector<int> missing;                 ///< half waves of those asked with which nothing was found
+    bool complete = false;                    ///< proved: none of so many half waves is missing
+    std::vector<InclinationRange> undecided;  ///< of the lowest link, where there may be others; empty if complete
+    long cells = 0;                           ///< looked at
 };
 
 namespace finite {
@@ -97,6 +101,43 @@ class HeldChain {
         return shape;
     }
 
+    /// Lambda times the tension at the upper end.
+    double top_pull(const HeldForces<double>& forces) {
+        return std::hypot((*this)(forces, false).across, forces.along + forces.height * static_cast<double>(weight_));
+    }
+
+    /// Links as forces at the lower end draw them, each where it is pulled.
+    void draw(const HeldForces<double>& forces) {
+        straighten();
+        std::vector<Direction<double>> drawn;
+        const auto settle = [&](std::size_t m, double R, double V, Direction<double>& way) {
+            const double pull = std::hypot(R, V);
+            way = {R / pull, V / pull};
+            const double growth = detail::settle(links_[m], R, V, way);
+            drawn.push_back(way);
+            return growth;
+        };
+        if (held_sweep<2>(links_, forces, settle).known) kept_ = drawn;
+    }
+
+    /// Newton's method on the two forces: a state whose tension at the upper end, times the height, is `wanted`.
+    std::optional<HeldState> under(HeldForces<double> forces, double wanted) {
+        for (int round = 0; round < 20; ++round) {
+            const HeldEnd<double> end = (*this)(forces, true);
+            const double along = forces.along + forces.height * static_cast<double>(weight_),
+                         force = std::hypot(end.across, along), y = end.offset, over = force - wanted;
+            if (!end.known) return {};
+            const double a = end.offset_change[0], b = end.offset_change[1],
+                         c = end.across_change[0] * end.across / force,
+                         d = (end.across_change[1] * end.across + along) / force, determinant = a * d - b * c;
+            const double across = (d * y - b * over) / determinant, down = (a * over - c * y) / determinant;
+            if (!(std::abs(across) + std::abs(down) < 0.5 * std::abs(forces.across))) return {};
+            forces.across -= across, forces.along -= down;
+            if (std::abs(across) + std::abs(down) < 1e-15 * force) return HeldState{forces, end.rise};
+        }
+        return HeldState{forces, (*this)(forces, true).rise};
+    }
+
    private:
     void straighten() { kept_.assign(links_.size(), {0.0, 1.0}); }
 
@@ -106,31 +147,97 @@ class HeldChain {
     std::vector<Direction<double>> kept_, trial_;
 };
 
-/// The shape of each number of half waves up to `max_half_waves` at a span and a height; height 0: without gravity.
-inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wide<double>& height, int max_half_waves,
-                              bool prove) {
-    HeldChain held(chain);
-    const int exponent = held.links().units.length_exponent;
-    const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
-    return each_half_wave<HeldShapes>(max_half_waves, [&](int k, const auto& add) {
-        if (const auto state = held.at_height(k, apart, static_cast<double>(lambda)))
-            add(held.finished(*state, apart, lambda, prove));
-    });
+/// Ranges of the lowest link's inclination, ascending, in which cells lie.
+inline std::vector<InclinationRange> inclinations(const std::vector<HeldCell>& cells) {
+    std::vector<InclinationRange> result;
+    for (const HeldCell& cell : cells) {
+        const double low = 2 * std::atan(cell.at[1].low), high = 2 * std::atan(cell.at[1].high), by = 1e-15;
+        constexpr double pi = std::numbers::pi;
+        result.push_back(cell.up ? InclinationRange{-high - by, -low + by}
+                                 : InclinationRange{low - by - pi, high + by - pi});
+    }
+    std::sort(result.begin(), result.end(), [](const auto& x, const auto& y) { return x.low < y.low; });
+    std::vector<InclinationRange> apart;
+    for (const InclinationRange& range : result)
+        if (!apart.empty() && range.low <= apart.back().high)
+            apart.back().high = std::max(apart.back().high, range.high);
+        else
+            apart.push_back(range);
+    return apart;
 }
 
-/// All shapes on the branch of each number of half waves whose tension at the upper end, times the height, is
+/// How shapes are to be found and proved.
+struct HeldListOptions {
+    int max_half_waves;
+    bool prove;
+    long budget;
+};
+
+/// Adds to the shapes found by their branches all others, and says where there may be more.
+inline void complete(HeldShapes& list, HeldChain& held, const Wide<double>& height, const HeldGoal& goal,
+                     const HeldListOptions& options) {
+    using S = Wide<double>;
+    const EnclosedLinks<double> links = enclosed<double>(held.links().links);
+    const HeldCells cells(links, enclosed<double>(height), goal, options.max_half_waves);
+    HeldRoots found = HeldSearch(cells, options.budget)();
+    for (const HeldRoot& root : found.roots) {
+        const HeldForces<double> forces = cells.forces(root.pull, root.tangent, root.cell.up);
+        held.draw(forces);
+        std::optional<HeldShape> shape;
+        if (goal.is_span) {
+            const double span = goal.value.middle();
+            shape = held.finished({forces, span}, S(span), height, options.prove);
+        } else if (const auto state = held.under(forces, goal.value.middle())) {
+            if (state->span < 0) continue;  // the upper end is the lower one
+            shape = held.finished(*state, S(state->span), height, options.prove);
+        }
+        const auto same = [&](const HeldShape& other) {
+            return (other.inclination - shape->inclination).cwiseAbs().maxCoeff() < 1e-8;
+        };
+        if (!shape)
+            found.undecided.push_back(root.cell);
+        else if (std::none_of(list.shapes.begin(), list.shapes.end(), same))
+            list.shapes.push_back(*shape);
+    }
+    std::stable_sort(list.shapes.begin(), list.shapes.end(),
+                     [](const HeldShape& x, const HeldShape& y) { return x.half_waves < y.half_waves; });
+    std::erase_if(list.missing, [&](int k) {
+        return std::any_of(list.shapes.begin(), list.shapes.end(), [&](const auto& x) { return x.half_waves == k; });
+    });
+    list.undecided = inclinations(found.undecided);
+    list.complete = found.undecided.empty(), list.cells = found.cells;
+}
+
+/// Shapes of up to `max_half_waves` half waves at a span and a height; height 0: without gravity.
+inline HeldShapes held_shapes(const Chain<double>& chain, double span, const Wide<double>& height,
+                              const HeldListOptions& options) {
+    HeldChain held(chain);
+    const int exponent = held.links().units.length_exponent;
+    const double apart = std::ldexp(span, -exponent);
+    const Wide<double> lambda = ldexp(height, -exponent);
+    auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
+        if (const auto state = held.at_height(k, Wide<double>(apart), static_cast<double>(lambda)))
+            add(held.finished(*state, Wide<double>(apart), lambda, options.prove));
+    });
+    if (options.prove) complete(list, held, lambda, {Interval<double>(apart), true}, options);
+    return list;
+}
+
+/// Shapes of up to `max_half_waves` half waves whose tension at the upper end, times the height, is
 /// `height_times_tension`.
 inline HeldShapes held_shapes_under_tension(const Chain<double>& chain, double height_times_tension,
-                                            double conical_height, int max_half_waves, bool prove) {
+                                            double conical_height, const HeldListOptions& options) {
     using S = Wide<double>;
     HeldChain held(chain);
     const ChainUnits units = held.links().units;
     const double wanted = std::ldexp(height_times_tension, -units.length_exponent - units.weight_exponent),
                  lambda = std::ldexp(conical_height, -units.length_exponent);
-    return each_half_wave<HeldShapes>(max_half_waves, [&](int k, const auto& add) {
+    auto list = each_half_wave<HeldShapes>(options.max_half_waves, [&](int k, const auto& add) {
         each_under(held, k, lambda, wanted,
-                   [&](const HeldState& found) { add(held.finished(found, S(found.span), S(lambda), prove)); });
+                   [&](const HeldState& found) { add(held.finished(found, S(found.span), S(lambda), options.prove)); });
     });
+    if (options.prove) complete(list, held, S(lambda), {Interval<double>(wanted), false}, options);
+    return list;
 }
 
 }  // namespace finite

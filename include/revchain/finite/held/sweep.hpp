@@ -138,4 +138,17 @@ HeldEnd<S> held_sweep(const std::vector<Link<S>>& links, const HeldForces<S>& fo
     return held_sweep<3>(links, forces, settle, each);
 }
 
+/// The lowest link of a chain held at both ends, in intervals: lambda times the pull along it, and the tangent of half
+/// its angle to the upward vertical, or to the downward one unless `up`. It leads away from the axis.
+struct HeldCell {
+    std::array<Interval<double>, 2> at;  ///< pull, tangent from 0 to 1
+    bool up = true;
+};
+
+/// What a chain held at both ends must meet: how far apart they are, or lambda times the tension at the upper one.
+struct HeldGoal {
+    Interval<double> value;
+    bool is_span = true;
+};
+
 }  // namespace revchain::finite

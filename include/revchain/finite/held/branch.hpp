@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/held/held.hpp"
+
+namespace revchain {
+
+/// Why a branch ends: at the greatest speed again, where a link is slack or turns over, or after 3000 steps.
+enum class HeldBranchEnd { speed, slack, budget };
+inline std::string_view to_string(HeldBranchEnd end) {
+    constexpr std::array<std::string_view, 3> names{"speed", "slack", "budget"};
+    return names[static_cast<std::size_t>(end)];
+}
+
+/// Shapes of a chain held at a span, point by point along the branch that begins with the nearly straight chain without
+/// gravity: from the greatest speed asked for to slower ones and, past a fold, back to it.
+struct HeldBranch {
+    int half_waves = 1;             ///< with which it begins
+    std::vector<HeldShape> shapes;  ///< as accurate as double: their `error_bound` is an estimate
+    std::vector<Index> folds;       ///< of the shapes: where the speed is least, or greatest, on either side
+    HeldBranchEnd end = HeldBranchEnd::budget;
+};
+
+namespace finite {
+
+/// Newton's method on the force along and the height, that across and the span kept.
+inline std::optional<HeldState> at_across(HeldChain& held, double across, HeldState state) {
+    state.forces.across = across;
+    for (int round = 0; round < 20; ++round) {
+        const HeldEnd<double> end = held(state.forces, true);
+        if (!end.known) return {};
+        const auto &y = end.offset_change, &z = end.rise_change;
+        const double gap = end.rise - state.span, determinant = y[1] * z[2] - y[2] * z[1];
+        const double along = (z[2] * end.offset - y[2] * gap) / determinant,
+                     height = (y[1] * gap - z[1] * end.offset) / determinant;
+        const double size = std::abs(along) + std::abs(height), whole = std::abs(state.forces.along) - across;
+        if (!(size < whole)) return {};
+        state.forces.along -= along, state.forces.height -= height;
+        if (size < 1e-14 * whole) return state;
+    }
+    return state;
+}
+
+/// Where the height turns between two states of a branch, by halving the force across.
+inline std::optional<HeldState> fold_between(HeldChain& held, const HeldState& from, const HeldState& middle,
+                                             const HeldState& to) {
+    const auto turning = [&](const HeldState& x) {
+        const HeldEnd<double> end = held(x.forces, true);
+        return end.offset_change[0] * end.rise_change[1] - end.offset_change[1] * end.rise_change[0];
+    };
+    double low = from.forces.across, high = to.forces.across;
+    const double start = turning(from);
+    if (!(start * turning(to) < 0) || !((middle.forces.across - low) * (high - middle.forces.across) > 0)) return {};
+    HeldState best = middle;
+    for (int round = 0; round < 60 && std::abs(high - low) > 1e-15 * std::abs(high); ++round) {
+        const auto here = at_across(held, low + (high - low) / 2, best);
+        if (!here) return {};
+        (turning(*here) * start > 0 ? low : high) = here->forces.across;
+        best = *here;
+    }
+    return best;
+}
+
+/// The branch of so many half waves at a span, for heights from `least` on; nothing where there is none.
+inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double span, double least, int half_waves,
+                                             double max_step) {
+    using S = Wide<double>;
+    HeldChain held(chain);
+    const int exponent = held.links().units.length_exponent;
+    const double apart = std::ldexp(span, -exponent), height = std::ldexp(least, -exponent);
+    const auto first = held.at_height(half_waves, S(apart), height);
+    if (!first) return {};
+    std::vector<HeldState> states{*first};
+    std::vector<std::vector<Direction<double>>> ways{held.kept()};
+    HeldBranch branch;
+    branch.half_waves = half_waves, branch.end = HeldBranchEnd::slack;
+    held.curve().along_heights(*first, max_step, [&](const HeldState& state) {
+        if (state.forces.height < height) {
+            const auto there = held.kept();
+            HeldState last = state;
+            last.forces.height = height;
+            if (const auto end = held.curve().corrected(last)) {
+                states.push_back(*end), ways.push_back(held.kept());
+                branch.end = HeldBranchEnd::speed;
+            }
+            held.keep(there);
+            return false;
+        }
+        const HeldForces<double>&last = states.back().forces, &next = state.forces;
+        const double size = std::abs(last.across) + std::abs(last.along);
+        // where a link becomes slack steps shrink without end
+        if (std::abs(next.across - last.across) + std::abs(next.along - last.along) < 1e-6 * size &&
+            std::abs(next.height - last.height) < 1e-6 * next.height)
+            return false;
+        states.push_back(state), ways.push_back(held.kept());
+        return true;
+    });
+    if (states.size() >= static_cast<std::size_t>(HeldCurve<HeldChain>::max_steps)) branch.end = HeldBranchEnd::budget;
+    const auto add = [&](const HeldState& state, bool is_fold) {
+        if (!is_fold)
+            if (auto shape = held.finished(state, S(apart), S(state.forces.height), false))
+                return branch.shapes.push_back(*shape);
+        const HeldForces<S> forces{S(state.forces.across), S(state.forces.along), S(state.forces.height)};
+        std::vector<Direction<S>> ways_there;
+        for (const Direction<double>& d : held.kept()) ways_there.push_back({S(d.sine), S(d.cosine)});
+        branch.shapes.push_back(described(held.links(), forces, S(apart), ways_there));
+    };
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        held.keep(ways[i]);
+        add(states[i], false);
+        if (i == 0 || i + 1 >= states.size()) continue;
+        const auto height_of = [&](std::size_t k) { return states[k].forces.height; };
+        if (!((height_of(i) - height_of(i - 1)) * (height_of(i + 1) - height_of(i)) < 0)) continue;
+        if (const auto fold = fold_between(held, states[i - 1], states[i], states[i + 1])) {
+            branch.folds.push_back(static_cast<Index>(branch.shapes.size()) - 1);
+            branch.shapes.pop_back();
+            add(*fold, true);
+        }
+    }
+    return branch;
+}
+
+/// The shapes on the branch of so many half waves at a span whose tension at the upper end is `tension`, from the
+/// greatest speed on.
+inline std::vector<HeldShape> held_shapes_of_tension(const Chain<double>& chain, double span, double tension,
+                                                     int half_waves) {
+    using S = Wide<double>;
+    HeldChain held(chain);
+    const ChainUnits units = held.links().units;
+    const double apart = std::ldexp(span, -units.length_exponent), wanted = std::ldexp(tension, -units.weight_exponent);
+    std::vector<HeldShape> shapes;
+    const auto first = held.at_height(half_waves, S(apart), 0);
+    if (!first) return shapes;
+    const auto off = [&](const HeldState& x) { return held.top_pull(x.forces) - x.forces.height * wanted; };
+    held.curve().where(*first, off, [&](const HeldState& found) {
+        if (auto shape = held.finished(found, S(apart), S(found.forces.height), true)) shapes.push_back(*shape);
+    });
+    return shapes;
+}
+
+}  // namespace finite
+}  // namespace revchain

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: MPL-2.0
+#pragma once
+
+#include "revchain/finite/held/sweep.hpp"
+
+namespace revchain::finite {
+
+/// What all chains that begin in a cell have in common. Offsets are over the sine of the lowest link's angle, so that a
+/// chain along the axis is none of them.
+struct HeldReach {
+    bool none = false;           ///< no chain of the cell meets the upper end in so many half waves
+    bool known = false;          ///< the rest is
+    long looked = 1;             ///< at links
+    Interval<double> side, gap;  ///< at the cell's centre, of the upper end
+    std::array<Interval<double>, 2> side_change, gap_change;  ///< everywhere in it
+};
+
+/// Sweeps cells of a chain from the lower end up, as `held_sweep` does a state.
+class HeldCells {
+   public:
+    using Span = Interval<double>;
+    using Way = Direction<Span>;
+
+    HeldCells(const EnclosedLinks<double>& links, const Span& height, const HeldGoal& goal, int max_half_waves)
+        : links_(links), height_(height), goal_(goal), most_(max_half_waves), rest_(links.size() + 1, Span(0.0)) {
+        for (std::size_t m = links.size(); m-- > 0;) {
+            rest_[m] = rest_[m + 1] + links[m].length, weight_ = weight_ + links[m].moment + links[m].rest;
+            turning_ = std::max(turning_, turning_of(links[m]).size());
+        }
+    }
+
+    /// Bounds of the pull along the lowest link. No other pull differs from it by more than weights and centrifugal
+    /// forces; and with so great a pull that every link leads in nearly one direction the chain spans too much.
+    Span pulls() const {
+        const Span &length = rest_[0], &goal = goal_.value;
+        const Span chord = goal_.is_span ? sqrt(square(length) - square(goal)) : length;
+        const Span change = weight_ * (chord / Span(2.0) + height_) + Span(2 * turning_);  // no pin is farther away
+        const double most = goal_.is_span ? (change * length / chord).high : (goal + change).high;
+        return {std::min(0.0, turning_of(links_[0]).low), most};
+    }
+    const Span& length() const { return rest_[0]; }
+
+    /// Where a link may be slack, and so point anywhere, it is looked at in arcs, `arcs` times the chain at the most.
+    HeldReach operator()(const HeldCell& cell, long arcs) const {
+        Start box(cell, links_[0]),
+            centre(HeldCell{{Span(cell.at[0].middle()), Span(cell.at[1].middle())}, cell.up}, links_[0]);
+        HeldReach result;
+        if ((box.pull - turning_of(links_[0]) * square(box.sine)).high <= 0) return none(result.looked);
+        const std::array<Span, 2> off{cell.at[0] - Span(cell.at[0].middle()), cell.at[1] - Span(cell.at[1].middle())};
+        Slopes slopes;
+        slopes.begin(box, links_[0]);
+        int waves = 1, sign = 1;
+        Way last{-box.sine, box.cosine};
+        if (misses(box, 0, waves, sign)) return none(result.looked);
+        for (std::size_t m = 1; m < links_.size(); ++m) {
+            const Link<Span>& link = links_[m];
+            const Span load = height_ * (link.pull - links_[0].pull);
+            const Hung at = hung(link, centre, load), everywhere = hung(link, box, load);
+            result.looked += 2;
+            if (!everywhere.known || !at.known) {
+                result.none = everywhere.past(box.offset, link) == -sign && waves == most_ && m + 1 < links_.size();
+                long work = arcs * static_cast<long>(links_.size());
+                if (!result.none && arcs > 0)
+                    result.none = !may_meet(m, box, last, waves, sign, work),
+                    result.looked += arcs * static_cast<long>(links_.size()) - work;
+                return result;
+            }
+            last = {box.sine * everywhere.sine, everywhere.cosine};
+            slopes.pass(link, box, everywhere);
+            centre.pass(link, at), box.pass(link, everywhere);
+            for (Start::Part part : {&Start::offset, &Start::across, &Start::rise}) {
+                const auto& change = slopes.of(part);
+                box.*part = common(box.*part, centre.*part + change[0] * off[0] + change[1] * off[1]);
+            }
+            if (misses(box, m, waves, sign)) return none(result.looked);
+        }
+        result.known = true;
+        result.side = centre.offset, result.gap = gap(centre);
+        result.side_change = slopes.of(&Start::offset), result.gap_change = slopes.of(&Start::rise);
+        if (!goal_.is_span) {
+            const Span across = box.sine * box.across, along = top(box), force = sqrt(square(across) + square(along));
+            const std::array<Span, 2> sine{Span(0.0), box.sine_change}, push{box.cosine, box.push_change};
+            for (std::size_t i = 0; i < 2; ++i)
+                result.gap_change[i] =
+                    (across * (box.sine * slopes.of(&Start::across)[i] + box.across * sine[i]) + along * push[i]) /
+                    force;
+        }
+        return result;
+    }
+
+    /// Forces at the lower end of a chain that begins with a pull along its lowest link at a tangent.
+    HeldForces<double> forces(double pull, double tangent, bool up) const {
+        const auto number = [](const Span& x) { return x.middle(); };
+        const double sine = 2 * tangent / (1 + tangent * tangent),
+                     cosine = (up ? 1 : -1) * (1 - tangent * tangent) / (1 + tangent * tangent);
+        return {-pull * sine,
+                (pull - number(turning_of(links_[0]))) * cosine - number(height_) * number(links_[0].pull),
+                number(height_)};
+    }
+
+   private:
+    static HeldReach none(long looked) {
+        HeldReach result;
+        result.none = true, result.looked = looked;
+        return result;
+    }
+
+    /// A link by what hangs on it: its sine over that of the lowest, the pull along it, how steeply its moment grows.
+    struct Hung {
+        Span across, along, sine, cosine, pull, growth, most;
+        bool known = false;
+
+        /// Of the offset above a link whose pull may vanish, the sign, if it has one for certain.
+        int past(const Span& offset, const Link<Span>& link) const {
+            const int sign = across.sign();
+            const Span turning = turning_of(link);
+            if (sign == 0 || !(most.high > 0) || turning.low < 0) return 0;
+            const Span least = link.length * across / Span((most + turning).high);
+            return sign > 0 && offset.high < least.low ? -1 : sign < 0 && offset.low > least.high ? 1 : 0;
+        }
+    };
+
+    /// A chain as far as it has been swept: offset and force across over the sine of the lowest link; and what it began
+    /// with.
+    struct Start {
+        using Part = Span Start::*;
+        Span pull, sine, cosine, sine_change, cosine_change, push, push_change;
+        Span offset, across, rise;
+
+        Start(const HeldCell& cell, const Link<Span>& lowest) : pull(cell.at[0]) {
+            const auto low = direction(cell.at[1].low), high = direction(cell.at[1].high);
+            sine = hull(low[0], high[0]), cosine = hull(low[1], high[1]);
+            sine.low = std::max(sine.low, 0.0);
+            if (cell.at[1].contains(1.0)) sine.high = std::max(sine.high, 1.0);
+            if (cell.at[1].contains(0.0)) cosine.high = std::max(cosine.high, 1.0);
+            const Span twice = hull(Span(hull(low[2], high[2])), cell.at[1].contains(0.0) ? Span(2.0) : low[2]);
+            sine_change = cosine * twice, cosine_change = -(sine * twice);
+            if (!cell.up) cosine = -cosine, cosine_change = -cosine_change;
+            const Span turning = turning_of(lowest);
+            push = (pull - turning) * cosine, push_change = (pull - turning) * cosine_change;
+            offset = lowest.length, rise = lowest.length * cosine;
+            across = lowest.rest * lowest.length - pull;
+        }
+        void pass(const Link<Span>& link, const Hung& hung) {
+            offset = offset - link.length * hung.sine;
+            rise = rise + link.length * hung.cosine;
+            across = hung.across + link.rest * offset;
+        }
+    };
+
+    /// Changes of a chain with pull and tangent: those at the centre, and how far others are off in the basis of a
+    /// matrix, the product of the links' (its determinant 1), so that intervals do not grow with every half wave.
+    class Slopes {
+       public:
+        /// To be called before the chain passes the link.
+        void pass(const Link<Span>& link, const Start& chain, const Hung& hung) {
+            const Span& s = hung.sine;
+            const Span bend = square(hung.cosine) / hung.growth, turn = link.length * bend;
+            const Span with_sine = -(chain.sine * hung.across * square(s) * (hung.pull - turning_of(link))) /
+                                   (hung.growth * hung.pull),
+                       with_push = -(hung.cosine * s) / hung.growth;
+            const std::array<Span, 2> sine{Span(0.0), chain.sine_change}, push{chain.cosine, chain.push_change};
+            const std::array<Span, 4> J{Span(1.0) - turn * link.moment, -turn,
+                                        link.moment + link.rest * (Span(1.0) - turn * link.moment),
+                                        Span(1.0) - link.rest * turn};
+            const auto middle = [](const Span& x) { return x.middle(); };
+            const std::array<double, 4> j{middle(J[0]), middle(J[1]), middle(J[2]), middle(J[3])};
+            const std::array<double, 4> next{j[0] * basis_[0] + j[1] * basis_[2], j[0] * basis_[1] + j[1] * basis_[3],
+                                             j[2] * basis_[0] + j[3] * basis_[2], j[2] * basis_[1] + j[3] * basis_[3]};
+            const Span determinant = Span(next[0]) * Span(next[3]) - Span(next[1]) * Span(next[2]);
+            const auto solved = [&](const Span& x, const Span& y) {
+                return std::array{(Span(next[3]) * x - Span(next[1]) * y) / determinant,
+                                  (Span(next[0]) * y - Span(next[2]) * x) / determinant};
+            };
+            const auto times = [&](double x, double y) {
+                return std::array{J[0] * Span(x) + J[1] * Span(y), J[2] * Span(x) + J[3] * Span(y)};
+            };
+            const auto first = times(basis_[0], basis_[2]), second = times(basis_[1], basis_[3]);
+            const auto one = solved(first[0], first[1]), other = solved(second[0], second[1]);
+            for (std::size_t i = 0; i < 2; ++i) {
+                const Span direct = -(link.length * (with_sine * sine[i] + with_push * push[i]));
+                const Span loaded = across_[i] + link.moment * offset_[i];
+                const Span moved = chain.sine * loaded + hung.across * sine[i];
+                rise_[i] = rise_[i] - link.length * (chain.sine * s / hung.growth) *
+                                          (hung.cosine * moved - chain.sine * s * push[i]);
+                const auto kept = times(middle_[i][0], middle_[i][1]);
+                const Span offset = kept[0] + direct, across = kept[1] + link.rest * direct;
+                middle_[i] = {offset.middle(), across.middle()};
+                const auto fresh = solved(offset - Span(middle_[i][0]), across - Span(middle_[i][1]));
+                const Span a = one[0] * off_[i][0] + other[0] * off_[i][1] + fresh[0],
+                           b = one[1] * off_[i][0] + other[1] * off_[i][1] + fresh[1];
+                off_[i] = {a, b};
+            }
+            basis_ = next;
+            for (std::size_t i = 0; i < 2; ++i) {
+                offset_[i] = Span(middle_[i][0]) + Span(basis_[0]) * off_[i][0] + Span(basis_[1]) * off_[i][1];
+                across_[i] = Span(middle_[i][1]) + Span(basis_[2]) * off_[i][0] + Span(basis_[3]) * off_[i][1];
+            }
+        }
+        const std::array<Span, 2>& of(Start::Part part) const {
+            return part == &Start::offset ? offset_ : part == &Start::across ? across_ : rise_;
+        }
+        /// Of the lowest link: its rise with the tangent.
+        void begin(const Start& chain, const Link<Span>& lowest) { rise_[1] = lowest.length * chain.cosine_change; }
+
+       private:
+        std::array<double, 4> basis_{1, 0, 0, 1};
+        std::array<std::array<double, 2>, 2> middle_{{{0, -1}, {0, 0}}};
+        std::array<std::array<Span, 2>, 2> off_{};
+        std::array<Span, 2> offset_{}, across_{Span(-1.0), Span(0.0)}, rise_{};
+    };
+
+    Span top(const Start& chain) const { return chain.push + height_ * (weight_ - links_[0].pull); }
+    /// By how much a chain that was swept exceeds the goal.
+    Span gap(const Start& chain) const {
+        if (goal_.is_span) return chain.rise - goal_.value;
+        return sqrt(square(chain.sine * chain.across) + square(top(chain))) - goal_.value;
+    }
+
+    /// Whether a chain swept to link m cannot meet the upper end in so many half waves; counts these.
+    bool misses(Start& chain, std::size_t m, int& waves, int& sign) const {
+        const Span y = chain.sine * chain.offset, z = goal_.is_span ? gap(chain) : Span(0.0);
+        if ((square(y) + square(z)).low > square(rest_[m + 1]).high) return true;
+        if (!goal_.is_span && (chain.rise + rest_[m + 1]).high < 0) return true;  // the upper end is above the lower
+        if (m + 1 == links_.size()) return !chain.offset.may_vanish() || !gap(chain).may_vanish();
+        if (chain.offset.sign() == -sign) sign = -sign, ++waves;
+        if (waves == most_) {  // it must not cross the axis again
+            if (sign > 0) chain.offset.low = std::max(chain.offset.low, 0.0);
+            if (sign < 0) chain.offset.high = std::min(chain.offset.high, 0.0);
+        }
+        return waves > most_;
+    }
+
+    /// The same from link m on, in intervals alone; a link that may point anywhere is looked at in arcs.
+    bool may_meet(std::size_t m, Start chain, Way last, int waves, int sign, long& work) const {
+        for (; m < links_.size(); ++m) {
+            if (--work < 0) return true;
+            const Link<Span>& link = links_[m];
+            const Hung at = hung(link, chain, height_ * (link.pull - links_[0].pull));
+            if (at.known) {
+                last = {chain.sine * at.sine, at.cosine};
+                chain.pass(link, at);
+                if (misses(chain, m, waves, sign)) return false;
+                continue;
+            }
+            for (int quarter = 0; quarter < 4; ++quarter)
+                if (in_arc(m, chain, last, at, waves, sign, work, quarter, 0, 1)) return true;
+            return false;
+        }
+        return true;
+    }
+
+    /// The same of link m within an arc: of a quarter of the circle, by the tangent of half the angle.
+    bool in_arc(std::size_t m, const Start& chain, const Way& last, const Hung& at, int waves, int sign, long& work,
+                int quarter, double from, double to) const {
+        if (--work < 0) return true;
+        const Link<Span>& link = links_[m];
+        auto [sine, cosine] = arc(quarter, from, to);
+        const Span R = chain.sine * at.across, turning = turning_of(link);
+        if (!(at.along * sine + turning * sine * cosine - R * cosine).may_vanish()) return false;
+        if (!((at.along * cosine + turning * (square(cosine) - square(sine)) + R * sine).high > 0)) return false;
+        if (at.across.sign() * sine.sign() < 0 && turning.low >= 0) return false;
+        if (is_zero(turning) && is_zero(turning_of(links_[m - 1]))) {
+            // the pull is that along the link below and what is added at the pin between them
+            const Span weight = height_ * (link.pull - links_[m - 1].pull),
+                       out = chain.sine * chain.offset * (links_[m - 1].rest + link.moment);
+            const int aside = (sine * last.cosine - cosine * last.sine).sign(),
+                      added = (sine * weight - cosine * out).sign();
+            if (aside * added > 0) return false;
+        }
+        const auto in_halves = [&] {
+            const double middle = (from + to) / 2;
+            return in_arc(m, chain, last, at, waves, sign, work, quarter, from, middle) ||
+                   in_arc(m, chain, last, at, waves, sign, work, quarter, middle, to);
+        };
+        if (to - from > 0.07) return in_halves();
+        // Newton's method about the middle of the arc
+        const auto [s, c] = arc(quarter, (from + to) / 2, (from + to) / 2);
+        const Span left = at.along * s + turning * s * c - R * c;
+        for (int round = 0; round < 3; ++round) {
+            const Span growth = at.along * cosine + turning * (square(cosine) - square(sine)) + R * sine;
+            if (!growth.positive()) break;
+            const Span turn = -(left / growth), before = sine;
+            sine = common(sine, s + cosine * turn), cosine = common(cosine, c - before * turn);
+            if (!(sine.low <= sine.high && cosine.low <= cosine.high)) return false;
+        }
+        Start next = chain;
+        next.rise = chain.rise + link.length * cosine;
+        const Span pulled = sqrt(square(at.along + turning * cosine) + square(R));
+        if (chain.sine.positive() || pulled.positive()) {
+            Span across = pulled.positive() ? at.across / pulled : sine / chain.sine;
+            if (chain.sine.positive()) across = common(across, sine / chain.sine);
+            if (!(across.low <= across.high)) return false;
+            next.offset = chain.offset - link.length * across;
+            next.across = at.across + link.rest * next.offset;
+        } else {
+            // the pull along the link may vanish: as new unit the offset above the link
+            const int side = chain.offset.sign(), drawn = at.across.sign();
+            if (side == 0 || drawn == 0 || turning.low < 0) return true;
+            const bool away = drawn != side;
+            const Span offset = side > 0 ? chain.offset : -chain.offset, across = drawn > 0 ? at.across : -at.across;
+            const Span most(pulled.high), share = away ? Span(1.0) : Span(1.0) - offset * most / (link.length * across);
+            if (!share.positive()) return true;
+            const Span moved = link.length * (drawn > 0 ? sine : -sine), was = chain.sine * offset;
+            next.sine = away ? moved + was : moved - was;
+            next.sine.low = std::max(next.sine.low, 0.0);
+            next.offset = Span(drawn > 0 ? -1.0 : 1.0);
+            const Span added = Span(0.0, (most / (link.length * share)).high);
+            next.across = link.rest * next.offset + (drawn > 0 ? added : -added);
+        }
+        int more = waves, way = sign;
+        if (misses(next, m, more, way) || !may_meet(m + 1, next, {sine, cosine}, more, way, work)) return false;
+        return to - from < 1e-3 || in_halves();
+    }
+    static std::array<Span, 2> arc(int quarter, double from, double to) {
+        const auto low = direction(from), high = direction(to);
+        const Span s = hull(low[0], high[0]), c = hull(low[1], high[1]);
+        switch (quarter) {
+            case 0:
+                return {s, c};
+            case 1:
+                return {c, -s};
+            case 2:
+                return {-s, -c};
+            default:
+                return {-c, s};
+        }
+    }
+    static std::array<Span, 3> direction(double t) {
+        const Span tangent(t), whole = Span(1.0) + square(tangent);
+        return {Span(2.0) * tangent / whole, (Span(1.0) - square(tangent)) / whole, Span(2.0) / whole};
+    }
+
+    static Hung hung(const Link<Span>& link, const Start& chain, const Span& load) {
+        Hung result;
+        const Span r = chain.across + link.moment * chain.offset, R = chain.sine * r, V = chain.push + load;
+        result.across = r, result.along = V;
+        const Span sum = square(R) + square(V);
+        result.most = sqrt(sum);
+        const Span turning = turning_of(link);
+        if (is_zero(link.cross)) {
+            if (!sum.positive()) return result;
+            result.pull = result.growth = result.most;
+            result.cosine = common(V / result.pull, Span(-1.0, 1.0));
+        } else {
+            if (!(sum.low > square(turning).high * (1 + 1e-9))) return result;
+            // Newton's method in intervals about the inclination of the middle
+            Direction<double> way{R.middle() / std::hypot(R.middle(), V.middle()),
+                                  V.middle() / std::hypot(R.middle(), V.middle())};
+            const Link<double> near{link.length.middle(), 0, link.cross.middle(), 0, 0};
+            if (!(detail::settle(near, R.middle(), V.middle(), way) > 0)) return result;
+            const Span size = sqrt(square(Span(way.sine)) + square(Span(way.cosine)));
+            const Span s = Span(way.sine) / size, c = Span(way.cosine) / size;
+            const Span left = V * s + turning * s * c - R * c;
+            Span growth = V * c + turning * (square(c) - square(s)) + R * s, sine, cosine;
+            if (!growth.positive()) return result;
+            double reach = 1.1 * left.size() / growth.low + 1e-15;
+            bool met = false;
+            for (int round = 0; round < 6 && !met; ++round, reach *= 1.5) {
+                if (!(reach < 0.5)) return result;
+                const Span within(-reach, reach);
+                sine = s + within, cosine = c + within;
+                growth = V * cosine + turning * (square(cosine) - square(sine)) + R * sine;
+                met = growth.positive() && (left / growth).size() < reach;
+            }
+            if (!met) return result;
+            cosine = common(cosine, Span(-1.0, 1.0));
+            result.cosine = cosine, result.growth = growth;
+            result.pull = sqrt(square(V + turning * cosine) + square(R));
+            result.growth = common(growth, result.pull - turning * square(sine));
+            if (!result.pull.positive() || !result.growth.positive()) return result;
+        }
+        result.sine = r / result.pull;
+        result.known = true;
+        return result;
+    }
+
+    const EnclosedLinks<double>& links_;
+    Span height_;
+    HeldGoal goal_;
+    int most_;
+    Span weight_{0.0};
+    double turning_ = 0;      // largest length times cross
+    std::vector<Span> rest_;  // length from a pin to the upper end
+};
+
+}  // namespace revchain::finite

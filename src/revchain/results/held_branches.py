@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Branches of steady shapes of chains held at both ends, a span apart."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import _core
+from ..systems.chain import Chain
+from ..systems.held import Held
+from ..systems.numbers import Floats, Whole, integer
+from .base import Field, Result, Results
+from .bent import HeldShape
+from .sheet import Column, Sheet
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+class HeldBranch(Result):
+    """A branch of shapes of a chain held at a span, point by point; returned by `branch` and in what `branches` returns.
+
+    Arrays have one number for each point, from the greatest speed to slower ones and, past a fold, back.
+
+    Examples
+    --------
+    >>> import revchain as rc
+    >>> blade = rc.Held(rc.Chain.uniform_rods(20, length=24.0, mass=160.0), span=17.0)
+    >>> branch = rc.branch(blade, 1, max_angular_speed=6.0)
+    >>> branch.angular_speed[[0, -1]].round(3), branch.end
+    (array([6.   , 0.828]), 'slack')
+    """
+
+    __slots__ = ()
+    system: Field[Held] = Field("The chain held at both ends.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+    mode: Field[int] = Field("Half waves with which it begins at the greatest speed.", part=True)
+    conical_height: Field[Floats] = Field(
+        "Conical height of the speed, m.", lambda b: _each(b, lambda s: s.conical_height), part=True
+    )
+    angular_speed: Field[Floats] = Field("Speed at every point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
+    lowest_inclination: Field[Floats] = Field(
+        "Inclination of the lowest link to the upward vertical, rad.", lambda b: _each(b, lambda s: s.inclination[0]), part=True
+    )
+    largest_offset: Field[Floats] = Field(
+        "Largest distance of a pin from the axis, m.", lambda b: _each(b, lambda s: np.abs(s.offset).max()), part=True
+    )
+    top_tension: Field[Floats] = Field(
+        "Tension at the upper end, N or in the unit of the weights.",
+        lambda b: b._force * _each(b, lambda s: s.height_times_tension[-1] / s.conical_height),
+        part=True,
+    )
+    moment_of_inertia: Field[Floats] = Field(
+        "About the axis, kg m^2; of a chain given by weight, weight times length squared.",
+        lambda b: _each(b, lambda s: s.moment_of_inertia),
+        part=True,
+    )
+    half_waves: Field[Whole] = Field(
+        "Sign changes of the offsets, and one.", lambda b: np.array([s.half_waves for s in b._found().shapes], int), part=True
+    )
+    folds: Field[Whole] = Field(
+        "Points at which the speed is the least, or the greatest, on either side.",
+        lambda b: np.array(b._found().folds, int),
+        part=True,
+    )
+    end: Field[str] = Field(
+        "Why it ends: ``'slack'``, where a link is slack or turns over, the last speed within 2e-5; ``'speed'``, at the greatest speed again; "
+        "``'budget'``, after 3000 steps.",
+        part=True,
+    )
+    asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
+
+    def shape(self, point: int) -> HeldShape:
+        """Return the shape at a point.
+
+        Parameters
+        ----------
+        point : int
+            From 0; negative ones from the end.
+
+        Returns
+        -------
+        HeldShape
+            Its `error_bound` is an estimate; `steady_shape` at its speed has it proved.
+
+        Raises
+        ------
+        ValueError
+            If there is no such point.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> blade = rc.Held(rc.Chain.uniform_rods(20, length=24.0, mass=160.0), span=17.0)
+        >>> rc.branch(blade, 1, max_angular_speed=6.0).shape(0).stability().verdict
+        'minimum'
+        """
+        place = "revchain.HeldBranch.shape"
+        wanted = integer(place, "point", point)
+        if not -len(self) <= wanted < len(self):
+            raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
+        k = wanted % len(self)
+        speed = float(self.angular_speed[k])
+        return HeldShape._made(
+            self._found().shapes[k],
+            system=self.system,
+            gravity=self.gravity,
+            angular_speed=speed,
+            _asked=("branch", *self.asked, k),
+        )
+
+    def plot(self, ax: Axes | None = None, *, quantity: str = "largest_offset") -> Axes:
+        """Draw a number of the branch against the speed; folds are marked.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        quantity : {"largest_offset", "lowest_inclination", "top_tension", "moment_of_inertia"}
+            What to draw; inclinations in degrees.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If `quantity` is none of these.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> blade = rc.Held(rc.Chain.uniform_rods(20, length=24.0, mass=160.0), span=17.0)
+        >>> rc.branch(blade, 1, max_angular_speed=6.0).plot().get_xlabel()
+        'speed (rad/s)'
+        """
+        from ..plots.branches import plot_held_branches
+
+        return plot_held_branches([self], ax, quantity=quantity, place="revchain.HeldBranch.plot")
+
+    @property
+    def _force(self) -> float:
+        return self.system._force(self.gravity)
+
+    def __len__(self) -> int:
+        return int(self.conical_height.size)
+
+    def _again(self) -> _core.HeldBranch:
+        return branch_again(self.system, self.asked)
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        fold = np.zeros(len(self), bool)
+        fold[self.folds] = True
+        columns = [
+            Column("point", np.arange(len(self)), "point"),
+            Column("angular_speed", self.angular_speed, "speed (rad/s)"),
+            Column("conical_height", self.conical_height, "height (m)"),
+            Column("lowest_inclination", self.lowest_inclination, "lowest link (°)", shown=np.degrees(self.lowest_inclination)),
+            Column("largest_offset", self.largest_offset, "largest distance from axis (m)"),
+            Column("top_tension", self.top_tension, "top tension"),
+            Column("half_waves", self.half_waves, "half waves"),
+            Column("fold", fold, "fold"),
+            Column("moment_of_inertia", self.moment_of_inertia),
+        ]
+        folds = f", {self.folds.size} fold{'s' * (self.folds.size != 1)}" if self.folds.size else ""
+        heading = f"Branch of {self.mode} half wave{'s' * (self.mode != 1)}: {len(self)} points{folds}, ends at {self.end}"
+        facts = {"mode": self.mode, "end": self.end, "gravity": self.gravity}
+        return Sheet("point", heading, columns, facts, spread=True)
+
+
+class HeldBranches(Results[HeldBranch]):
+    """The branches of a chain held at a span that begin at one speed, by half waves."""
+
+    __slots__ = ()
+    system: Field[Held] = Field("The chain held at both ends.", part=True)
+    gravity: Field[float] = Field("Acceleration of gravity, m/s^2.", part=True)
+
+    def plot(self, ax: Axes | None = None, *, quantity: str = "largest_offset") -> Axes:
+        """Draw a number of every branch against the speed, coloured by half waves; folds are marked.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; a new figure if left out.
+        quantity : {"largest_offset", "lowest_inclination", "top_tension", "moment_of_inertia"}
+            What to draw; inclinations in degrees.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            If `quantity` is none of these.
+        ImportError
+            If matplotlib is not installed; the message says how to install it.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> blade = rc.Held(rc.Chain.uniform_rods(20, length=24.0, mass=160.0), span=17.0)
+        >>> ax = rc.branches(blade, max_angular_speed=3.0).plot()
+        >>> ax.get_ylabel()
+        'largest distance from axis (m)'
+        """
+        from ..plots.branches import plot_held_branches
+
+        return plot_held_branches(self, ax, quantity=quantity, place="revchain.HeldBranches.plot")
+
+    def _sheet(self, brief: bool = False) -> Sheet:
+        columns = [
+            Column("mode", [each.mode for each in self], "half waves"),
+            Column("points", [len(each) for each in self], "points"),
+            Column("folds", [int(each.folds.size) for each in self], "folds"),
+            Column("lowest_speed", [float(each.angular_speed.min()) for each in self], "lowest speed (rad/s)"),
+            Column("highest_speed", [float(each.angular_speed.max()) for each in self], "highest speed (rad/s)"),
+            Column("end", [each.end for each in self], "ends at"),
+        ]
+        number = f"{len(self)} branch{'es' * (len(self) != 1)}"
+        return Sheet("branch", f"{number} from the nearly straight chain", columns, {"gravity": self.gravity})
+
+
+def _each(branch: HeldBranch, of: Any) -> Floats:
+    return np.array([of(shape) for shape in branch._found().shapes], float)
+
+
+def branch_again(held: Held, asked: tuple[Any, ...]) -> _core.HeldBranch:
+    """A compiled branch, found once more."""
+    height, step, place = asked
+    assert held.span is not None and isinstance(held.system, Chain)
+    found: _core.HeldBranch = _core.held_branches(held.system._compiled, held.span, height, step)[place]
+    return found
+
+
+def held_branches_made(found: list[_core.HeldBranch], held: Held, gravity: float, asked: tuple[Any, ...]) -> HeldBranches:
+    """A list around compiled branches."""
+    given: dict[str, Any] = {"system": held, "gravity": gravity}
+    items = tuple(HeldBranch._made(each, asked=(*asked, k), **given) for k, each in enumerate(found))
+    return HeldBranches._made(None, _items=items, **given)
