@@ -28,22 +28,23 @@ def rpm(speed):
 
 
 axes = (figure := Figure(figsize=(7, 4), dpi=100, layout="constrained")).subplots()
-print("rider (kg)  chair at 12 rpm (m)  pull (N)  lets go at (rpm)  inwards from (rpm)  inwards")
+print("rider (kg)  chair at 12 rpm (m)  tension (N)  limit speed (rpm)  isolated from (rpm)  its shapes")
 for k, mass in enumerate((0, 40, 80, 120, 130)):
     rig = with_rider(mass)
     shape = rc.steady_shape(rig, angular_speed="12 rpm")
     assert shape.stability().verdict == "minimum"
-    loose = rpm(np.sqrt(rig.support.stiffness / (rig.chain.total_mass + rig.support.carriage)))
+    limit = rpm(np.sqrt(rig.support.stiffness / (rig.chain.total_mass + rig.support.carriage)))
     diagram = rc.branches(rig, max_angular_speed=LIMIT)
     assert diagram.complete
-    inwards = [branch for branch in diagram if branch.birth == "fold"]
-    born = f"{rpm(inwards[0].angular_speed.min()):.2f}" if inwards else "-"
-    verdicts = ", ".join(dict.fromkeys(w.verdict for b in inwards for w in b.stability_windows()))
-    print(f"{mass:10} {shape.offset[0]:20.3f} {shape.tension[-1]:9.1f} {loose:17.2f} {born:>19}  {verdicts or '-'}")
+    isolated = [branch for branch in diagram if branch.birth == "fold"]
+    born = f"{rpm(isolated[0].angular_speed.min()):.2f}" if isolated else "-"
+    verdicts = ", ".join(dict.fromkeys(w.verdict for b in isolated for w in b.stability_windows()))
+    print(f"{mass:10} {shape.offset[0]:20.3f} {shape.tension[-1]:12.1f} {limit:18.2f} {born:>20}  {verdicts or '-'}")
     for branch in diagram:
         style = "-" if branch.birth == "rest" else "--"
         label = f"rider of {mass} kg" if branch.birth == "rest" else None
         axes.plot(rpm(branch.angular_speed), branch.tip_radius, style, color=COLOURS[k % len(COLOURS)], label=label)
-axes.set(xlabel="turns a minute", ylabel="chair from the axis, m", title="dashed: inwards, born in pairs", ylim=(-20, 40))
+axes.set(xlabel="speed (rpm)", ylabel="offset of the chair from the axis (m)", ylim=(-20, 40))
+axes.set_title("dashed: isolated branch, the chair on the other side of the axis")
 axes.legend()
 save(figure)

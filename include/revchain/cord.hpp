@@ -89,8 +89,7 @@ Index count_modes(const Cord& cord, const CountOptions<double>& options);
 /// Method: continuation by arc in the plane of the free end's inclination and the conical height, on the line on which
 /// crossing `mode` of the cord's path is at the support. A step is kept only if it passes the checks of
 /// finite::BranchLineWalk: a check, not a proof. Where a theorem counts the shapes there are no folds.
-/// Accuracy: points within 1e-13; folds within 1e-7 of the arc, their heights within 1e-13
-/// (tests/cpp/cord_branches.cpp).
+/// Accuracy: points within 1e-12; heights of folds within 1e-9, relative (tests/cpp/cord_branches.cpp).
 /// Cost: some 5 paths a point, three times that with a tip or a density; see `steady_shapes` for a path.
 /// Throws InvalidArgument for a mode number below 1 or above 1e5, unless exactly one of height and speed is given,
 /// positive and finite, for a height that is not below that of the mode, and for a length above 1e6 heights.
@@ -127,8 +126,9 @@ CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& 
 /// grow, so that what is left out, of high frequency, stays as it is. `internal_damping` is NaN: friction of bending
 /// needs a stiffness that a flexible cord has not. `external_damping`: the drag of still air on a length of cord over
 /// its length and velocity, as of a chain.
-/// Accuracy: exponents to 2e-9 (measured next to the vertical, and against chains with Richardson's extrapolation;
-/// tests/python/test_cord_branches.py); those of N links differ as 1/N^2 (tests/cpp/cord_branches.cpp).
+/// Accuracy: exponents to 1e-8 (measured against the modes, 1e-9 below a critical speed; with a tip to 2e-9 against
+/// chains with Richardson's extrapolation: tests/python/test_cord_branches.py); those of N links differ as 1/N^2
+/// (tests/cpp/cord_branches.cpp).
 /// Cost: that of a chain of 10 links a panel, two to four panels a half wave and more: 15 ms without nodes, 0.3 s for
 /// three half waves.
 /// Throws InvalidArgument for a shape of a cord of another length.

@@ -24,7 +24,7 @@
 ///     const auto m = revchain::modes(revchain::Held(rods, {.tension = 11.0}), {.count = 2});
 ///     m.angular_speed()[0];                 // 31.8773 rad/s: here the straight chain begins to whirl
 ///
-/// Links and arrays begin at the lower end, which is the free end of the chain or cord. Speeds of a chain held straight
+/// Links and arrays begin at the lower end, which would be free if the chain or cord hung. Speeds of a chain held straight
 /// are questions of `modes`, shapes at finite amplitude of `steady_shapes`, and their stability of `stability`.
 namespace revchain {
 
@@ -82,13 +82,14 @@ struct HeldShapesOptions {
     long budget = 300'000;  ///< limit of looks at links for the proof of completeness, 1 to 2 microseconds each
 };
 
-/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves. First, for each number of half
-/// waves, that which is reached from the nearly straight chain without gravity by drawing the ends together, then
-/// letting gravity grow; for a tension every shape on that branch with this tension at the upper end. Then, of a chain,
-/// all others. Every link settles where it is pulled, as threads do. `missing` lists the half waves for which none was
-/// found.
-/// `complete`: proved that no other has so many half waves; else `undecided` has the inclinations of the lowest link
-/// with which others may begin. Of a cord it is true for a span without gravity alone.
+/// Steady shapes at finite amplitude (troposkien) of 1 to `max_half_waves` half waves, by half waves. The first of each
+/// number is reached from the nearly straight chain without gravity: the ends are drawn together, then gravity grows.
+/// For a tension these are all shapes on that branch with this tension at the upper end. Then, of a chain, every other
+/// shape found. Each link points along the force on it, as threads do. `missing` lists the numbers of half waves for
+/// which there is none.
+/// `complete`: proved, no other shape has one of these numbers of half waves. Otherwise `undecided` gives the ranges of
+/// the lowest link's inclination (rad) with which others may begin. A cord has `complete` only at a span without
+/// gravity.
 ///
 /// `HeldShape` (finite/held/shape.hpp) and `HeldCordShape` (finite/held/cord.hpp) give forces times the conical height.
 /// Divide by `conical_height` for the unit of the weights; without gravity multiply by the square of the speed for
@@ -142,13 +143,14 @@ struct HeldBranchesOptions {
     std::optional<double> min_conical_height{};
     std::optional<double> max_angular_speed{};  ///< rad/s
     double gravity = conical_pendulum::standard_gravity;
-    double max_step = 0.1;  ///< between two shapes, in ratio of forces and height
+    double max_step = 0.1;  ///< between two shapes: relative change of the forces at the end and of the height
 };
 
-/// The branches of a chain held at a span, by half waves from 1: each begins at the greatest speed with the shape that
-/// is reached from the nearly straight chain without gravity, and is followed to slower ones, through folds, until a
-/// link is slack or turns over (`slack`) or the greatest speed is reached again (`speed`). With few half waves shapes
-/// are there at slower speeds; the list ends with the first number of half waves that is not there at the greatest.
+/// The branches of a chain held at a span, one for each number of half waves from 1 up to the last that has a shape at
+/// the greatest speed. Each begins there with the shape that is reached from the nearly straight chain without gravity,
+/// and is followed to slower speeds, through folds, until a link becomes slack or turns over (`slack`), the greatest
+/// speed is reached again (`speed`), or after 3000 steps (`budget`). There is no `branch` of one mode: that of k half
+/// waves is number k - 1 of these.
 ///
 /// Method: by the arc of (force across, force along, height) at constant span; shapes are finished in double-double, at
 /// folds in double. Branches that begin elsewhere are not looked for: `steady_shapes` proves at a speed that there are
@@ -166,8 +168,8 @@ struct HeldShapeOptions {
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// The shape of a chain held at a span on the branch of so many half waves at a speed, or the first, from the greatest
-/// speed on, with a tension at the upper end; its speed is `angular_speed()` of the shape.
+/// The shape of a chain held at a span on the branch of `mode`: at a speed that which is reached from the nearly
+/// straight chain; with a tension at the upper end the fastest one that has it (its speed: `angular_speed()`).
 /// Accuracy: of the inclinations as `steady_shapes`; a height for a tension to 1e-14. Throws InvalidArgument as
 /// `branches` does, for a mode below 1, and where the branch does not reach what is given.
 HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options);

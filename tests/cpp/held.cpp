@@ -579,3 +579,46 @@ TEST_CASE("held at both ends: lists proved complete hold all that trials find") 
     CHECK(lists == 108);
     CHECK(complete >= 102);
 }
+
+TEST_CASE("held at both ends: branches pass through the listed shapes, and a tension gives its shape again") {
+    support::Random random(31);
+    for (int i = 0; i < 12; ++i) {
+        const Index n = 3 + static_cast<Index>(random() * 5);
+        const bool points = i % 2 == 0;
+        const Chain<double> chain = support::chain_of(n, [&](Index) {
+            const double weight = random.between(0.5, 2), a = random.between(0.5, 2);
+            return points ? revchain::plummet<double>(weight, a) : revchain::uniform_rod<double>(weight, a);
+        });
+        const double span = random.between(0.5, 0.9) * chain.total_length(), least = 0.1 * chain.total_length();
+        const Held held(chain, {.span = span});
+        const auto branches = revchain::branches(held, {.min_conical_height = least});
+        CAPTURE(i, n, span);
+        REQUIRE(!branches.empty());
+        for (const revchain::HeldBranch& branch : branches) {
+            CAPTURE(branch.half_waves, to_string(branch.end));
+            REQUIRE(branch.shapes.size() > 2);
+            CHECK(branch.shapes.front().half_waves == branch.half_waves);
+            CHECK(branch.shapes.front().conical_height == Approx(least).epsilon(1e-14));
+            for (const HeldShape& shape : branch.shapes)
+                if (shape.condition < 1e3) CHECK(against_truth(chain, shape) < 1e-13 * (1 + shape.condition));
+        }
+        const HeldShape& middle = branches[0].shapes[branches[0].shapes.size() / 2];
+        const auto listed =
+            revchain::steady_shapes(held, {.conical_height = middle.conical_height, .prove = false}).shapes;
+        double nearest = 10;
+        for (const HeldShape& shape : listed)
+            nearest = std::min(nearest, (shape.inclination - middle.inclination).cwiseAbs().maxCoeff());
+        CHECK(nearest < 1e-9);
+        const double tension = middle.height_times_tension[n] / middle.conical_height;
+        const HeldShape again = revchain::steady_shape(held, {.top_tension = tension});
+        CHECK(again.height_times_tension[n] / again.conical_height == Approx(tension).epsilon(1e-13));
+        const HeldShape same = revchain::steady_shape(held, {.conical_height = middle.conical_height});
+        CHECK((same.inclination - middle.inclination).cwiseAbs().maxCoeff() < 1e-9);
+    }
+    const Held held(support::chain_of(3, [](Index) { return revchain::uniform_rod(1.0, 1.0); }), {.span = 2.0});
+    CHECK_THROWS_AS(revchain::branches(held, {}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::steady_shape(held, {.mode = 0, .angular_speed = 9.0}), revchain::InvalidArgument);
+    CHECK_THROWS_AS(revchain::steady_shape(held, {.mode = 1}), revchain::InvalidArgument);
+    const Held pulled(held.system(), {.tension = 50.0});
+    CHECK_THROWS_AS(revchain::branches(pulled, {.max_angular_speed = 9.0}), revchain::InvalidArgument);
+}

@@ -104,12 +104,13 @@ Interval<T> operator*(const Interval<T>& x, const Interval<T>& y) {
     return {detail::down(std::min(std::min(a, b), std::min(c, d))),
             detail::up(std::max(std::max(a, b), std::max(c, d)))};
 }
-/// NaN unless y keeps away from 0.
+/// NaN unless y keeps away from 0, and where it is empty.
 template <Real T>
 Interval<T> operator/(const Interval<T>& dividend, const Interval<T>& y) {
-    if (y.negative()) return -dividend / -y;
+    if (y.negative() && !y.positive()) return -dividend / -y;
     const Interval<T> x = detail::without_faint_ends(dividend);
-    if (!y.positive()) return {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::quiet_NaN()};
+    if (!y.positive() || y.negative())
+        return {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::quiet_NaN()};
     const T low = x.low < T(0) ? x.low / y.low : x.low / y.high;
     const T high = x.high < T(0) ? x.high / y.high : x.high / y.low;
     return {detail::down(low), detail::up(high)};

@@ -63,48 +63,49 @@ def branch(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The chain of N links, by itself, rigged or held at both ends a span apart; or a flexible cord. Along the branch
+        A chain of N links, by itself, rigged, or held at both ends a span apart; or a flexible cord. Along the branch
         of a rig every link keeps its posture.
     mode : int
-        Number of the mode, from 1, the slowest. Of a rig whose support is off the axis no branch leaves the vertical:
-        give 1, the branch from rest; `branches` finds those that are born in folds. Of a held chain: the half waves
-        with which its branch begins.
+        Number of the mode, from 1, the slowest. Of a rig whose support is off the axis it must be 1, the branch from
+        rest; `branches` finds the isolated ones. Of a held chain it is the number of half waves at the start of the
+        branch.
     max_angular_speed : float
-        Where to stop: at the first point of this speed, rad/s, above that of the mode. A held chain's branch begins at
-        this speed.
+        The speed at which to stop, rad/s, above that of the mode. The branch of a held chain begins at this speed and
+        goes to slower ones.
     min_conical_height : float
-        Instead of `max_angular_speed`: the conical height at which to stop, m.
+        Instead of `max_angular_speed`: the conical height of that speed, m.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
-        Of rotation; it matters to a rig with flywheels.
+        Of rotation. Only a rig with flywheels depends on it.
     max_points : int, optional
-        After which to stop in any case.
+        Largest number of points; there ``end`` is ``budget``. Not used for a held chain, which stops after 3000 steps.
     max_step : float, optional
-        Between two points, along the arc.
+        Largest step between two points: of the arc, which has no unit (see ``Branch.arc``); of a held chain the
+        relative change of the forces at its end and of the conical height.
 
     Returns
     -------
     Branch, CordBranch or HeldBranch
-        Of a held chain: shapes to slower speeds and through folds, until a link is slack. Else from the mode on:
-        the first point is the straight chain, alone if no double tells the end from it (``end`` is then
-        ``stuck``). The branch from rest begins at a tenth of the first critical speed of the rig with its support in
-        the axis, or of the speed given if that is slower. Numbers to about 1e-12; folds to 1e-6 of the arc, their
-        heights to 1e-13, mostly an ulp.
+        The points of the branch, from the critical speed of the mode to the speed given. The first point is the
+        straight chain. If double precision cannot separate the end from it, it is the only one (``end`` is then
+        ``stuck``). Of a rig whose support is off the axis: from a tenth of the first critical speed of the rig with its
+        support in the axis, or of the speed given if that is slower. Of a held chain: until a link becomes slack.
+        Accuracy: numbers to 1e-12; folds to 1e-6 of the arc, their heights to 1e-13, of a cord to 1e-9.
 
     Raises
     ------
     ValueError
         If there is no such mode (of a support off the axis: if `mode` is not 1), if not exactly one of
         `max_angular_speed` and `min_conical_height` is given, if the speed is not above that of the mode, or if
-        `direction` is neither 1 nor -1.
+        `direction` is neither 1 nor -1. For a `Held`: if it is a cord, is held by a tension or has no gravity.
 
     Notes
     -----
-    Continuation by arc on all links and the height at once. A step is kept only if Newton's method
-    contracts at once, the direction turns little, the middle of the step lies on the branch too, and, where no
-    link has ``pendulum_length > length``, the half waves stay the same; else half of it is tried. That is a check,
-    not a proof. Of a cord: on the line on which its crossing of the axis number `mode` is at the support.
+    Pseudo-arclength continuation in all inclinations and the height. A step is halved unless Newton's method contracts
+    at once, the direction turns little, the middle of the step lies on the branch too, and, where no link has
+    ``pendulum_length > length``, the half waves stay the same. That is a check, not a proof. Of a cord: on the curve on
+    which crossing `mode` of the axis is at the support.
 
     Examples
     --------
@@ -161,17 +162,17 @@ def branches(
     gravity: float = STANDARD_GRAVITY,
     direction: int = 1,
     lists: int = 16,
-    budget: int = 2_000_000,
+    budget: int = 3_000_000,
     proof_budget: int = 1_000_000,
 ) -> Branches | CordBranches | HeldBranches:
-    """Find the whole diagram of branches up to a speed, isolated ones too, and prove that none is missing.
+    """Find all branches of steady shapes up to a speed, isolated ones too; ``complete``: proved, none is missing.
 
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The chain of N links, by itself or rigged; few, as all shapes are listed (`steady_shapes`), those of a rig in
-        its own posture. Or a flexible cord. Or a chain held at both ends, a span apart: its shapes are followed from the
-        greatest speed down, those alone that begin with the nearly straight chain, without `lists` and budgets.
+        A chain or a rig of few links, as all shapes are listed (`steady_shapes`), those of a rig in its own posture. Or
+        a flexible cord. Or a chain held at both ends a span apart: of that only the branches are found that begin with
+        the nearly straight chain, and `lists`, `budget` and `proof_budget` are not used.
     max_angular_speed : float
         The speed up to which to go, rad/s.
     min_conical_height : float
@@ -179,45 +180,47 @@ def branches(
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
-        Of rotation; it matters to a rig with flywheels.
+        Of rotation. Only a rig with flywheels depends on it.
     lists : int, optional
-        At how many speeds to list all shapes and bring them together with the branches.
+        Number of speeds at which all shapes are listed and matched with the branches.
     budget : int, optional
         Work allowed for each list; see `steady_shapes`. Cords have none.
     proof_budget : int, optional
-        Links to look at for the proof, 0.1 to 1 microsecond each; 0: no proof.
+        Links to look at for the proof, 0.1 to 1 microsecond each; 0: no proof. Cords have none.
 
     Returns
     -------
     Branches, CordBranches or HeldBranches
-        A sequence of `Branch`: those that leave the vertical, slowest first (of a rig whose support is off the axis the
-        one from rest), then those that are born in a fold, slowest first; of a held chain by half waves. Of a cord
-        ``complete`` is true where a theorem counts the shapes (see `steady_shapes`).
+        A sequence of branches: those that leave the vertical, slowest first (of a rig whose support is off the axis the
+        one from rest), then isolated ones, which are born in a fold, slowest first. Of a held chain by half waves.
+        Of a cord ``complete`` is true where a theorem counts the shapes (see `steady_shapes`) and every branch was
+        followed to its end. A held chain has no ``complete``: `steady_shapes` proves its list at one speed.
 
     Raises
     ------
     ValueError
         If not exactly one of `max_angular_speed` and `min_conical_height` is given, or a number is out of its range; if
-        a link of a rig has no effective tension at a speed looked at.
+        a link of a rig has no effective tension at a speed looked at. For a `Held`: if it is a cord, is held by a
+        tension or has no gravity.
 
     Notes
     -----
-    A shape of a list that no branch meets lies on an isolated branch, which is followed from there both
-    ways. ``consistent`` is true where every list is proved complete and each shape in it met once.
+    A shape of a list that matches no branch lies on an isolated branch, which is followed from there both ways.
+    ``consistent`` is true where every list is proved complete and each of its shapes matches exactly one branch.
 
     Loops can open and close between two of the speeds. The plane of conical heights and tangents of the lowest
     link is therefore split, in interval arithmetic, until in each part there is no fold, or all shapes lie on
-    one curve through a branch that is known; loops found so are followed. ``complete`` is true where
-    no part resists. Links that could hang at several inclinations are left out: there it is false. It rests on
-    `branch`: that a branch that was followed is where it seems to be is checked at every step, not proved.
+    one curve through a branch that is known; loops found so are followed. ``complete`` is true where that succeeds for
+    every part. Where links could hang at several inclinations it is false. It rests on `branch`: that a branch that was
+    followed is where it seems to be is checked at every step, not proved.
 
     Of rigs the proof covers those whose links all hang in tension at every speed up to the one given: on springs, on an
-    arm, with flywheels, in fluids. Below the first critical speed one shape is then all there is (in the axis none). A
-    spring too soft to hold the whole (stiffness times conical height below the weight that moves) leaves the speeds
-    beyond unproved; ``remark`` says which.
+    arm, with flywheels, in fluids. Below the first critical speed such a rig has exactly one shape off the axis, and
+    none but the straight one in it. Where stiffness times conical height is less than the weight that moves, a spring
+    at the support cannot balance it, and nothing is proved; ``remark`` says at which heights.
 
-    Measured, at heights of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms; eight equal plummets to
-    5 sqrt(g/a) 0.1 s, twenty rods of 1 m in all to 20 rad/s 0.05 s.
+    Measured, down to a conical height of 1/200 of the length: three links 4 to 8 ms, five 15 ms, six 30 ms. Eight equal
+    plummets on threads of length a, to 5 sqrt(g/a): 0.1 s; twenty rods, 1 m in all, to 20 rad/s: 0.05 s.
 
     Examples
     --------
@@ -295,47 +298,49 @@ def steady_shape(
     Parameters
     ----------
     system : Chain, Rig, Cord or Held
-        The chain of N links, up to 100,000 and more, by itself, rigged or held at both ends a span apart; or a flexible
+        A chain of N links, up to 100,000 and more, by itself, rigged or held at both ends a span apart; or a flexible
         cord.
     mode : int, optional
-        At which the branch leaves the vertical, from 1, the slowest. Of a rig whose support is off the axis the branch
-        from rest, 1; shapes of other branches: `Branch.at` of those that `branches` finds. Of a held chain the half
-        waves with which its branch begins at great speed.
+        Number of the mode at which the branch leaves the vertical, from 1, the slowest. Of a rig whose support is off
+        the axis it must be 1, the branch from rest; shapes of other branches: `Branch.at` of those that `branches`
+        finds. Of a held chain it is the number of half waves with which the branch begins at great speed.
     conical_height : float
-        Conical height of the speed, less than that of the mode.
+        Conical height of the speed, m, less than that of the mode.
     angular_speed : float
         Instead: the speed in rad/s.
     tip_inclination : float
-        Instead: that of the lowest link or of the free end, rad, above 0 and below pi/2 (of one that stands: above that and below pi); its
-        size, whatever the sign; outwards if the support is off the axis.
+        Instead: the inclination of the lowest link, of a cord of its free end, rad, between 0 and pi/2, of either sign;
+        of a link that stands between pi/2 and pi; outwards if the support is off the axis.
     tip_radius : float
-        Instead: the free end's distance from the axis, its size too.
+        Instead: the distance of the free end from the axis, m; on either side.
     top_tension : float
-        Instead: the size of the reaction at the topmost pin, more than the weight that it bears. Of a held chain the
-        tension at the upper end.
+        Instead: the tension at the topmost pin, more than the weight that it bears: N, or of systems by weight in its
+        unit. Of a held chain at its upper end.
     gravity : float, optional
         In m/s^2; standard gravity if left out.
     direction : {1, -1}, optional
-        Of rotation; it matters to a rig with flywheels.
+        Of rotation. Only a rig with flywheels depends on it.
     all : bool, optional
-        All states met along the branch, in a tuple, not the first from the vertical alone; the tuple
-        is empty where none is met.
+        All shapes on the branch that fit, as a tuple, which is empty where there is none. Otherwise the first one.
     min_conical_height : float, optional
-        The conical height at which the search ends, less than that of the mode; 1e-6 of that of the mode if
-        left out, with `all` and a speed the half of its height.
+        The conical height at which the search ends, m, less than that of the mode. Left out, with `all` and a speed:
+        half of its height; else 1e-6 of that of the mode. Not used for a held chain.
 
     Returns
     -------
     SteadyShape, CordShape, HeldShape or tuple of them
-        Of a held chain the first one met from the greatest speed on. Inclinations to 2.3e-16 at a given height or speed (measured), and within ``error_bound``, proved but at
-        a fold. That the state is on this branch is checked at every step, see `branch`.
+        Inclinations are within ``error_bound``, which is proved except at a fold (measured: 2.3e-16); of a cord within
+        ``error_estimate``. That the shape is on this branch is checked at every step, see `branch`. Of a held chain: at
+        a speed the shape that is reached from the nearly straight chain; with a top tension the fastest one on the
+        branch that has it.
 
     Raises
     ------
     ValueError
         If there is no such mode, if not exactly one number is given or it is out of its range, if `direction` is
         neither 1 nor -1, if `min_conical_height` is not below the height of the mode, if the branch does not exist yet
-        at that speed, or, unless `all`, if what is given is not met on it.
+        at that speed, or, unless `all`, if what is given is not met on it. For a `Held`: if it is a cord, is held by a
+        tension or has no gravity, and for `tip_inclination`, `tip_radius` and ``all=True``.
     TypeError
         If `all` is not a bool.
 

@@ -83,7 +83,7 @@ class Branch(Result):
         "are no mirror images: outwards is positive.",
         part=True,
     )
-    tip_radius: Field[Floats] = Field("Distance of the free end from the axis, m.", part=True)
+    tip_radius: Field[Floats] = Field("Offset of the free end from the axis, m, with its sign.", part=True)
     top_tension: Field[Floats] = Field(
         "Size of the reaction at the topmost pin, N or in the unit of the weights.", forced("top_tension"), part=True
     )

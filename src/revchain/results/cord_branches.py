@@ -44,7 +44,7 @@ class CordBranch(Branch):
         Returns
         -------
         CordShape
-            At a fold its ``error_estimate`` is that of the place of the fold.
+            At a fold its ``error_estimate`` is 1e-7, for the place of the fold on the arc.
 
         Raises
         ------
@@ -110,21 +110,21 @@ class CordBranch(Branch):
     def stability_windows(
         self, *, frame: str = "free", tolerance: float = 1e-6, samples: int = 8
     ) -> list[StabilityWindow]:
-        """Refuse: windows along the branch of a cord are not available. Ask the stability of its shapes.
+        """Not available for a cord: ask the stability of its shapes, ``branch.shape(k).stability()``.
 
         Parameters
         ----------
         frame : {"free", "driven"}, optional
-            As of chains.
+            As in `Branch.stability_windows`.
         tolerance : float, optional
-            As of chains.
+            As in `Branch.stability_windows`.
         samples : int, optional
-            As of chains.
+            As in `Branch.stability_windows`.
 
         Returns
         -------
         list of StabilityWindow
-            None: it always raises.
+            Never: it always raises.
 
         Raises
         ------
@@ -158,7 +158,8 @@ class CordBranches(Branches):
         "Whether at every speed looked at each shape that a scan finds was met by a branch, and met once.", part=True
     )
     complete: Field[bool] = Field(
-        "Whether a theorem counts the shapes (see `steady_shapes`), so that no branch is missing.",
+        "Whether a theorem counts the shapes (see `steady_shapes`) and every branch was followed to its end: then no "
+        "branch is missing.",
         part=True,
     )
 

@@ -42,7 +42,9 @@ class HeldBranch(Result):
     )
     angular_speed: Field[Floats] = Field("Speed at every point, rad/s.", lambda b: np.sqrt(b.gravity / b.conical_height))
     lowest_inclination: Field[Floats] = Field(
-        "Inclination of the lowest link to the upward vertical, rad.", lambda b: _each(b, lambda s: s.inclination[0]), part=True
+        "Inclination of the lowest link to the upward vertical, rad.",
+        lambda b: _each(b, lambda s: s.inclination[0]),
+        part=True,
     )
     largest_offset: Field[Floats] = Field(
         "Largest distance of a pin from the axis, m.", lambda b: _each(b, lambda s: np.abs(s.offset).max()), part=True
@@ -58,16 +60,18 @@ class HeldBranch(Result):
         part=True,
     )
     half_waves: Field[Whole] = Field(
-        "Sign changes of the offsets, and one.", lambda b: np.array([s.half_waves for s in b._found().shapes], int), part=True
+        "Number of sign changes of the offsets, plus 1.",
+        lambda b: np.array([s.half_waves for s in b._found().shapes], int),
+        part=True,
     )
     folds: Field[Whole] = Field(
-        "Points at which the speed is the least, or the greatest, on either side.",
+        "Indices of the points where the speed has a local minimum or maximum along the branch.",
         lambda b: np.array(b._found().folds, int),
         part=True,
     )
     end: Field[str] = Field(
-        "Why it ends: ``'slack'``, where a link is slack or turns over, the last speed within 2e-5; ``'speed'``, at the greatest speed again; "
-        "``'budget'``, after 3000 steps.",
+        "Why it ends: ``'slack'``, where a link becomes slack or turns over (the last speed within 2e-5, relative, as "
+        "measured); ``'speed'``, at the greatest speed again; ``'budget'``, after 3000 steps.",
         part=True,
     )
     asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
@@ -83,7 +87,7 @@ class HeldBranch(Result):
         Returns
         -------
         HeldShape
-            Its `error_bound` is an estimate; `steady_shape` at its speed has it proved.
+            Its `error_bound` is an estimate. `steady_shapes` at its speed proves one.
 
         Raises
         ------

@@ -32,6 +32,12 @@ TEMPLATE_TEST_CASE("an unknown end of an interval stays unknown", "[interval]", 
     CHECK(unknown((Interval<T>(large) * Interval<T>(large)).low));
 }
 
+TEST_CASE("a quotient by an empty interval is unknown", "[interval]") {
+    const auto quotient = revchain::Interval<double>(1.0, 2.0) / revchain::Interval<double>(1e-3, -1e-3);
+    CHECK(std::isnan(quotient.low));
+    CHECK(std::isnan(quotient.high));
+}
+
 TEST_CASE("quotients, products and roots of two words hold the exact ones where second words underflow", "[interval]") {
     // The exact value: the same operation on numbers 2^600 times larger, whose second words do not underflow.
     std::mt19937_64 random(5);

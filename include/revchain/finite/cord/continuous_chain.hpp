@@ -23,11 +23,15 @@
 ///     w'' = -q w, q = V^2/(rho T^3) <= 1/(rho T), the phase of w, tan theta = w/w', is behind that of u (Sturm). The
 ///     function E = V u' - u is 0 at the free end, E' = -V u/(rho T), and E'' + (ln(rho/V))' E' + q E = 0, so that y =
 ///     sqrt(rho/V) E satisfies y'' = -(q - h''/h) y, h = sqrt(rho/V), h'' >= 0: between the free end and the first zero
-///     of E, and between two of them, w has a zero (Sturm; the Wronskian of w and y is at most 0 at the free end). E is
-///     monotone between zeros of u. At crossing j, where u' = 0, E and E' have the sign of -u: so E has one zero
+///     of E, that one included, w has a zero, and so between each two of them, the upper one included. (Sturm: where wy
+///     < 0 up to the next zero b, W = w y' - w' y has W' = w y h''/h <= 0, but W(b) = w(b) y'(b) > 0. At the free end W
+///     is not positive: it has a limit, as it is monotone. A positive limit contradicts y > 0 rising from 0 where there
+///     is a tip, and where there is none makes (y/w)' = W/w^2 ~ 1/V^2, which has no integral, while y/w tends to 0.) E
+///     is monotone between zeros of u. At crossing j, where u' = 0, E and E' have the sign of -u: so E has one zero
 ///     between each zero of u and the next crossing, j - 1 in all below crossing j. There theta lies between (j - 1)
 ///     pi, as w has so many zeros, and (j - 1/2) pi, the phase of u: w' has the sign of u, and ds_j/deta_0 that of u
-///     w'. Only the density up to s_j counts: s_j rises wherever it is at the support, and so is there once. For the
+///     w'. Only the density up to s_j counts: let it go on beyond the support in any way; s_j(eta_0) is smooth, rises
+///     wherever it is at the support, and so is there once. For the
 ///     uniform chain without a tip: I. I. Kolodner, Heavy rotating string - a nonlinear eigenvalue problem, Comm. Pure
 ///     Appl. Math. 8 (1955); for densities s^p without a tip: P. Amore, J. P. Boyd, A. Marquez, arXiv:2202.13476.
 /// The last is false in general: three heavy beads on a light thread have five shapes where the three heights of small
@@ -115,11 +119,21 @@ inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::siz
     return ranges;
 }
 
+/// Throws InvalidArgument for a path that ended before the support.
+inline void require_followed(std::string_view place, const Path& path, double length, double height) {
+    if (!(path.end() > length))
+        revchain::detail::throw_invalid(place,
+                                        "the density is too rough, or the tip too heavy, to be followed; the "
+                                        "series ended at arc length",
+                                        path.end() * height);
+}
+
 inline CordShapes continuous_shapes(const ContinuousChain& chain, double height, int most_scanned) {
     const double undecided = 32 * epsilon<double>();  // of a length: on which side of a critical height, nobody can say
     const double length = chain.length / height, farthest = length * (1 + undecided);
     const PathKind kind = kind_of(chain, height, 1);
     const Path small = path_at_rest(chain, height, {.farthest = farthest});
+    require_followed("steady_shapes", small, length, height);
     std::vector<double> at_rest;
     for (const Path::Crossing& crossing : small.crossings())
         if (crossing.arc <= farthest) at_rest.push_back(crossing.arc);
@@ -191,11 +205,7 @@ inline Index critical_heights_above(const ContinuousChain& chain, double height)
     const double length = chain.length / height;
     if (!(length <= 1e6)) revchain::detail::throw_invalid(place, "length / conical height must be at most 1e6", length);
     const Path path = path_at_rest(chain, height, {.farthest = length});
-    if (!(path.end() > length))
-        revchain::detail::throw_invalid(place,
-                                        "the density is too rough, or the tip too heavy, to be followed; the "
-                                        "series ended at arc length",
-                                        path.end() * height);
+    require_followed(place, path, length, height);
     return std::count_if(path.crossings().begin(), path.crossings().end(),
                          [&](const Path::Crossing& crossing) { return crossing.arc < length; });
 }
@@ -259,7 +269,8 @@ class CordModeShape {
 /// Cost: a microsecond a step, four and more a half wave: 1.8 ms for the fourteen shapes at length/height 500
 /// (bench/continuous.cpp); ten times that with a density, and `scanned` paths more.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, for a length above 1e6
-/// heights, for `scanned` below 1, and for an exponent of the density above 20.
+/// heights, for `scanned` below 1, for an exponent of the density above 20, and where the series cannot follow the cord
+/// (tried: an exponent of 16 without a tip; a tip of 1e30 times the cord's weight).
 inline CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes";
     const double height = detail::height_given(place, options);

@@ -410,3 +410,21 @@ TEST_CASE("continuous chain: rates of crossings next to the vertical") {
         CHECK(std::abs(rate(1e-5) / rate(1e-3) - 1) < 2e-3);
     }
 }
+
+TEST_CASE("a cord that the series cannot follow is refused, not counted", "[finite]") {
+    using Catch::Matchers::ContainsSubstring;
+    for (const double power : {12.0, 15.0}) {
+        const CordShapes found = shapes_at(Cord(1.0, {.density = power}), 0.05);
+        CAPTURE(power);
+        CHECK(found.shapes.size() == 5);  // 2 sqrt(20 (power + 1)) is beyond five zeros of J_power
+        CHECK(found.complete);
+    }
+    for (const double power : {16.0, 18.0, 20.0})
+        CHECK_THROWS_WITH(shapes_at(Cord(1.0, {.density = power}), 0.05), ContainsSubstring("too rough"));
+    for (const double height : {0.3, 0.9}) {
+        const CordShapes found = shapes_at(cord(1.0, 1e20), height);
+        CHECK(found.shapes.size() == 1);
+        CHECK(found.complete);
+        CHECK_THROWS_WITH(shapes_at(cord(1.0, 1e30), height), ContainsSubstring("too heavy"));
+    }
+}
