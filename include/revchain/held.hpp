@@ -24,8 +24,9 @@
 ///     const auto m = revchain::modes(revchain::Held(rods, {.tension = 11.0}), {.count = 2});
 ///     m.angular_speed()[0];                 // 31.8773 rad/s: here the straight chain begins to whirl
 ///
-/// Links and arrays begin at the lower end, which would be free if the chain or cord hung. Speeds of a chain held straight
-/// are questions of `modes`, shapes at finite amplitude of `steady_shapes`, and their stability of `stability`.
+/// Links and arrays begin at the lower end, which would be free if the chain or cord hung. Speeds of a chain held
+/// straight are questions of `modes`, shapes at finite amplitude of `steady_shapes`, and their stability of
+/// `stability`.
 namespace revchain {
 
 /// How the two ends are held: give either `span` or `tension`.
