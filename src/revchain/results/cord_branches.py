@@ -7,7 +7,7 @@ from typing import Any
 
 from .. import _core
 from ..systems.cord import Cord
-from ..systems.numbers import height_of, integer, one_positive
+from ..systems.numbers import Floats, height_of, integer, one_positive
 from .base import Field
 from .bent import CordShape, branch_shape
 from .branches import Branch, Branches, StabilityWindow
@@ -30,6 +30,18 @@ class CordBranch(Branch):
     mode: Field[int | None] = Field(
         "Number of the mode at which it leaves the vertical; None for an isolated branch.",
         lambda b: b._found().mode or None,
+        part=True,
+    )
+    direction: Field[int] = Field("Always 1: a cord knows no direction of rotation.", lambda b: 1, part=True)
+    birth: Field[str] = Field(
+        "``'vertical'``: it leaves the straight cord at a critical speed; ``'fold'``: it is isolated, two shapes are born "
+        "in a fold.",
+        lambda b: "fold" if b.mode is None else "vertical",
+        part=True,
+    )
+    arc: Field[Floats] = Field(
+        "Along the branch, from its first point: measured by the root of the squares of ``d arsinh(tan(tip_inclination))`` "
+        "and ``d log(conical_height)``.",
         part=True,
     )
 
@@ -154,6 +166,7 @@ class CordBranches(Branches):
 
     __slots__ = ()
     system: Field[Cord] = Field("The cord.", part=True)  # type: ignore[assignment]
+    direction: Field[int] = Field("Always 1: a cord knows no direction of rotation.", lambda b: 1, part=True)
     consistent: Field[bool] = Field(
         "Whether at every speed looked at each shape that a scan finds was met by a branch, and met once.", part=True
     )
