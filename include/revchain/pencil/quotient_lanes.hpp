@@ -51,7 +51,7 @@ template <class Where, class Terms, class T>
     std::array<std::size_t, L> root;
     std::array<int, L> rounds{};
     std::array<bool, L> busy{};
-    std::array<T, L> last_step{}, last_pin{};
+    std::array<T, L> step_before{}, pin_before{};
     std::size_t next = 0;
     for (std::size_t i = 0; i < L; ++i) busy[i] = next < count, root[i] = busy[i] ? next++ : count - 1;
     while (std::any_of(busy.begin(), busy.end(), [](bool is) { return is; })) {
@@ -81,10 +81,10 @@ template <class Where, class Terms, class T>
             (exceeds ? bracket.lower : bracket.upper) = at;
             // A step squares the error, times what depends on the pin of the twist: two at one pin tell how small the
             // next one would be.
-            const T step = abs(quotient - at), shrunk = step / last_step[i];
-            const bool same_pin = rounds[i] > 0 && joined.pin[i] == last_pin[i];
+            const T step = abs(quotient - at), shrunk = step / step_before[i];
+            const bool same_pin = rounds[i] > 0 && joined.pin[i] == pin_before[i];
             bool done = step <= near * at || (same_pin && step * (shrunk * shrunk) <= next_near * at);
-            last_step[i] = step, last_pin[i] = joined.pin[i];
+            step_before[i] = step, pin_before[i] = joined.pin[i];
             const bool inside = quotient > bracket.lower && quotient < bracket.upper;
             roots[j] = done || inside ? quotient : between(bracket.lower, bracket.upper);
             done = done || ++rounds[i] == most_rounds || !(bracket.upper - bracket.lower > T(8) * epsilon<T>() * at);
