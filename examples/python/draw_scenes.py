@@ -15,8 +15,8 @@ SCENES = Path(__file__).resolve().parents[1] / "scenes"
 NAMES = [
     *("rods_on_threads", "ball_on_chain", "clamped_bell", "jointed_rod", "carriage_on_springs"),
     *("bell_on_soft_frame", "swing_carousel", "chair_o_plane"),
-    *("bicycle_wheels", "two_gyrostats", "moored_floats", "stokes_float", "broomstick", "acrobat"),
-    *("troposkien", "plucked_chain"),
+    *("bicycle_wheels", "two_gyrostats", "moored_floats", "gyroscopes_under_float", "stokes_float", "broomstick"),
+    *("acrobat", "troposkien", "plucked_chain"),
 ]
 
 for name in NAMES:

@@ -34,7 +34,7 @@ def test_there_are_all():
     )
     assert {path.stem for path in RIGS} >= (
         {"carriage_on_springs", "swing_carousel", "bicycle_wheels", "two_gyrostats"}
-        | {"moored_floats", "stokes_float", "broomstick", "acrobat"}
+        | {"moored_floats", "gyroscopes_under_float", "stokes_float", "broomstick", "acrobat"}
     )
     assert {path.stem for path in HELD} >= {"troposkien"}
     assert len(PROGRAMS) >= 3
