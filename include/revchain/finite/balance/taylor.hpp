@@ -6,6 +6,9 @@
 #include "revchain/finite/balance/link_lanes.hpp"
 #include "revchain/finite/balance/sweep.hpp"
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"  // packs never leave a translation unit
+
 namespace revchain::finite {
 
 /// Derivatives to the second order of a function of D numbers: what they stay within over a cell of those numbers, and
@@ -389,3 +392,5 @@ template <class T>
 }
 
 }  // namespace revchain::finite
+
+#pragma GCC diagnostic pop
