@@ -361,8 +361,15 @@ def test_bad_modes(mode):
         rc.branch(plummets(3), mode, min_conical_height=0.1)
 
 
-@pytest.mark.parametrize("budget", [1.5, "x", None, True, 10**30, 2**63, np.uint64(2**64 - 1)])
-def test_budgets_that_are_none_or_beyond_all_bounds(budget):
+def test_a_budget_of_none():
+    """It is that of the system for a list, and no number for branches."""
+    assert rc.steady_shapes(plummets(2), conical_height=0.1, budget=None).complete
+    with pytest.raises(ValueError, match="budget"):
+        rc.branches(plummets(2), min_conical_height=0.1, budget=None)
+
+
+@pytest.mark.parametrize("budget", [1.5, "x", True, 10**30, 2**63, np.uint64(2**64 - 1)])
+def test_budgets_that_are_wrong_or_beyond_all_bounds(budget):
     for call in (
         lambda: rc.steady_shapes(plummets(2), conical_height=0.1, budget=budget).complete,
         lambda: rc.branches(plummets(2), min_conical_height=0.1, budget=budget).consistent,

@@ -164,6 +164,7 @@ TEST_CASE("Condensed heights scale exactly with units that are powers of two", "
         }
         ModesOptions<double> options;
         options.count = 8;
+        options.method = revchain::ModesMethod::condensed;
         const auto found = modes(Chain<double>(scaled), options);
         CHECK(found.method == "condensed");
         return Vector<double>(

@@ -45,7 +45,10 @@ class Path {
             visit(series, series.reach);
             state = series.state(series.reach), change = series.change(series.reach);
         } else if (kind.density != nullptr) {
-            state = near_tip(kind, tip_offset, first_arc(kind)), change = change_near_tip(kind, tip_offset, state.arc);
+            state = near_tip(kind, tip_offset, first_arc(kind));
+            // without a tip the change is in proportion, but for what 2^-40 of the length does to it
+            change = kind.tip > 0 ? change_near_tip(kind, tip_offset, state.arc)
+                                  : PathChange{0, 1, state.pull / tip_offset, 0};
         }
         PathSeries series;
         while (!ended(options, state)) {
