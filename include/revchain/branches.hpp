@@ -53,7 +53,7 @@ inline std::string_view to_string(BranchEnd end) {
     return names[static_cast<std::size_t>(end)];
 }
 
-/// Where a branch comes from.
+/// How a branch begins.
 enum class BranchBirth {
     vertical,  ///< it leaves the straight chain at the critical speed of a mode
     rest,      ///< it begins at rest: how a rig whose support is off the axis hangs when it starts to turn
@@ -187,7 +187,7 @@ Branches branches(const Chain<double>& chain, const BranchesOptions& options);
 /// shape (in the axis none): in the sines of the inclinations the energy in the turning frame is convex. A spring
 /// cannot hold the whole where its stiffness times the conical height is less than the weight that moves: at such
 /// heights the diagram is not proved, and `remark` says so.
-/// Throws InvalidArgument as for chains, and where a link's effective tension vanishes at a height looked at.
+/// Throws InvalidArgument as for chains, and if the effective tension of a link is 0 at the height of a list.
 Branches branches(const Rig& rig, const BranchesOptions& options);
 
 /// Which shape on a branch. Give exactly one of the five numbers from `conical_height` to `top_tension`.

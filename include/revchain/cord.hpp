@@ -117,7 +117,7 @@ CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options);
 /// not throw, where the number is not met. Otherwise as `steady_shape`.
 CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options);
 
-/// What becomes of a small disturbance of a steady shape of a cord.
+/// The stability of a steady shape of a cord.
 ///
 /// Method: Galerkin's, with polynomials on panels (finite::DisturbedCord), 8 and 10 nodes each. `exponents` are those
 /// of which the two agree to 1e-6 of their size, by imaginary part: the slowest ones of infinitely many. `margin`
@@ -138,7 +138,7 @@ Stability stability(const Cord& cord, const CordShape& shape, StabilityFrame fra
 /// a continuous function of the arc length. The support's must be 0.
 using CordStart = std::variant<std::monostate, Vector<double>, std::function<double(double)>>;
 
-/// How a cord starts, and when and where it is looked at.
+/// The start of a swing, and the times and places of its results.
 struct CordSwingOptions {
     CordStart offset{};           ///< at time 0
     CordStart velocity{};         ///< at time 0

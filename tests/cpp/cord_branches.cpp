@@ -287,7 +287,7 @@ TEST_CASE("cord: wrong questions about branches and swings") {
                       ContainsSubstring("mode must be"));
     CHECK_THROWS_WITH(revchain::branch(cord, {.min_conical_height = 0.7}), ContainsSubstring("must be less"));
     CHECK_THROWS_WITH(revchain::branch(cord, {.min_conical_height = 1e-7}), ContainsSubstring("at most 1e6"));
-    CHECK_THROWS_WITH(revchain::branch(cord, {}), ContainsSubstring("give either"));
+    CHECK_THROWS_WITH(revchain::branch(cord, {}), ContainsSubstring("give either min_conical_height"));
     CHECK_THROWS_WITH(revchain::branches(cord, {.min_conical_height = 0.1, .lists = 0}), ContainsSubstring("lists"));
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {}), ContainsSubstring("exactly one"));
     CHECK_THROWS_WITH(revchain::steady_shape(cord, {.tip_radius = 1.0}), ContainsSubstring("less than the length"));

@@ -3,6 +3,7 @@
 
 #include "revchain/analytic/cord_start.hpp"
 #include "revchain/cord.hpp"
+#include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/questions/modes.hpp"
 #include "revchain/special/heavy_chain.hpp"
 #include "revchain/special/tapered_chain.hpp"
@@ -170,32 +171,18 @@ inline Vector<double> CordModes::period(double gravity) const {
 namespace detail {
 
 /// The height at which a mode leaves the vertical.
-inline double critical_height(const Cord& cord, Index mode) {
+inline double critical_height(std::string_view place, const Cord& cord, Index mode) {
+    if (!(mode >= 1 && mode <= 100'000)) throw_invalid(place, "mode must be from 1 to 100000", mode);
     return modes(cord, {.first = mode, .count = 1}).conical_height[0];
-}
-
-/// The conical height down to which to follow branches.
-template <class Options>
-double lowest_height(std::string_view place, const Options& options) {
-    return height_given(place, CordShapesOptions{.conical_height = options.min_conical_height,
-                                                 .angular_speed = options.max_angular_speed,
-                                                 .gravity = options.gravity});
-}
-
-inline void require_followed(std::string_view place, const Cord& cord, double height) {
-    if (!(cord.length() / height <= 1e6))
-        throw_invalid(place, "length / conical height must be at most 1e6", cord.length() / height);
 }
 
 }  // namespace detail
 
 inline CordBranch branch(const Cord& cord, const BranchOptions& options) {
-    const double height = detail::lowest_height("branch", options);
+    const double height = finite::lowest_height("branch", options);
     detail::require_positive("branch", "max_step", options.max_step);
-    if (!(options.mode >= 1 && options.mode <= 100'000))
-        detail::throw_invalid("branch", "mode must be from 1 to 100000", options.mode);
-    detail::require_followed("branch", cord, height);
-    const double critical = detail::critical_height(cord, options.mode);
+    finite::length_in_heights("branch", cord.length(), height);
+    const double critical = detail::critical_height("branch", cord, options.mode);
     if (!(height < critical))
         detail::throw_invalid("branch",
                               "mode " + std::to_string(options.mode) + " leaves the vertical at the conical height " +
@@ -205,8 +192,8 @@ inline CordBranch branch(const Cord& cord, const BranchOptions& options) {
 }
 
 inline CordBranches branches(const Cord& cord, const BranchesOptions& options) {
-    const double height = detail::lowest_height("branches", options);
-    detail::require_followed("branches", cord, height);
+    const double height = finite::lowest_height("branches", options);
+    finite::length_in_heights("branches", cord.length(), height);
     detail::require_positive("branches", "max_step", options.max_step);
     if (options.lists < 1) detail::throw_invalid("branches", "lists must be at least 1", options.lists);
     Index count = count_modes(cord, {.conical_height = height});
@@ -217,9 +204,7 @@ inline CordBranches branches(const Cord& cord, const BranchesOptions& options) {
 }
 
 inline CordShapesOnBranch shapes_on_branch(const Cord& cord, const SteadyShapeOptions& options) {
-    if (!(options.mode >= 1 && options.mode <= 100'000))
-        detail::throw_invalid("steady_shape", "mode must be from 1 to 100000", options.mode);
-    return finite::search_branch(cord, detail::critical_height(cord, options.mode), options);
+    return finite::search_branch(cord, detail::critical_height("steady_shape", cord, options.mode), options);
 }
 
 inline CordShape steady_shape(const Cord& cord, const SteadyShapeOptions& options) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/held.hpp"
 #include "revchain/numeric/compiled.hpp"
@@ -106,9 +107,7 @@ REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held
     constexpr std::string_view place = "branches";
     const double span = detail::span_asked(place, held);
     detail::require_positive(place, "max_step", options.max_step);
-    const double least = detail::height_given(place, CountOptions<double>{.conical_height = options.min_conical_height,
-                                                                          .angular_speed = options.max_angular_speed,
-                                                                          .gravity = options.gravity});
+    const double least = finite::lowest_height(place, options);
     std::vector<HeldBranch> result;
     for (int k = 1; k < held.system().size(); ++k) {
         auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);

@@ -51,16 +51,12 @@ def plot_branches(branches: Sequence[Branch], first: float, ax: Axes | None, *, 
         if branch.mode is not None:
             ax.plot(speed[0], value[0], "o", color=colour, markersize=5.0)
         folds = branch.folds
-        ax.plot(speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="none", zorder=3)
+        _mark_folds(ax, speed[folds], value[folds], colour)
         if branch.mode is None and folds.size:
             born = int(folds[np.argmin(speed[folds])])
             births.append((float(speed[born]), colour))
     _mark_births(ax, births)
-    by_mass = all(branch.system.by_mass for branch in branches)
-    label = QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, QUANTITIES[quantity])
-    ax.set(xlabel="speed over the first critical speed", ylabel=label)
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
+    _label(ax, branches, "speed over the first critical speed", QUANTITIES, quantity)
     if named:
         handles, labels = ax.get_legend_handles_labels()
         order = sorted(range(len(labels)), key=lambda i: curves.get(handles[i], np.inf))  # what was there before: last
@@ -85,10 +81,25 @@ def _mark_births(ax: Axes, births: list[tuple[float, str]]) -> None:
     above.set_xlabel("pairs born at", fontsize="small")
 
 
-def _values(branch: Branch, quantity: str) -> Floats:
+def _values(branch: Branch | HeldBranch, quantity: str) -> Floats:
     """The numbers to draw: inclinations in degrees."""
     values: Floats = getattr(branch, quantity)
-    return np.degrees(values) if quantity == "tip_inclination" else values
+    return np.degrees(values) if quantity.endswith("inclination") else values
+
+
+def _mark_folds(ax: Axes, speed: Floats, value: Floats, colour: str) -> None:
+    """Hollow marks, which hide no loop however small."""
+    ax.plot(speed, value, "D", color=colour, markersize=5.0, markerfacecolor="none", zorder=3)
+
+
+def _label(
+    ax: Axes, branches: Sequence[Branch] | Sequence[HeldBranch], speed: str, quantities: dict[str, str], quantity: str
+) -> None:
+    by_mass = all(branch.system.by_mass for branch in branches)
+    label = quantities[quantity] if by_mass else BY_WEIGHT.get(quantity, quantities[quantity])
+    ax.set(xlabel=speed, ylabel=label)
+    ax.grid(color="0.9", linewidth=0.6)
+    ax.set_axisbelow(True)
 
 
 HELD_QUANTITIES = {
@@ -105,17 +116,11 @@ def plot_held_branches(branches: Sequence[HeldBranch], ax: Axes | None, *, quant
     ax = beside_at_rest(branches[0].system if len(branches) else None, ax, 7.2, 5.0)
     named: set[int] = set()
     for branch in branches:
-        value = getattr(branch, quantity)
-        if quantity == "lowest_inclination":
-            value = np.degrees(value)
+        value = _values(branch, quantity)
         colour, label = half_waves_style(branch.mode, named)
         ax.plot(branch.angular_speed, value, color=colour, linewidth=1.6, label=label)
-        folds = branch.folds
-        ax.plot(branch.angular_speed[folds], value[folds], "D", color=colour, markersize=5.0, markerfacecolor="white", zorder=3)
-    by_mass = all(branch.system.by_mass for branch in branches)
-    ax.set(xlabel="speed (rad/s)", ylabel=HELD_QUANTITIES[quantity] if by_mass else BY_WEIGHT.get(quantity, HELD_QUANTITIES[quantity]))
-    ax.grid(color="0.9", linewidth=0.6)
-    ax.set_axisbelow(True)
+        _mark_folds(ax, branch.angular_speed[branch.folds], value[branch.folds], colour)
+    _label(ax, branches, "speed (rad/s)", HELD_QUANTITIES, quantity)
     if named:
         ax.legend(frameon=False)
     return ax

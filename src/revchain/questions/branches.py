@@ -254,7 +254,7 @@ def branches(
     if isinstance(system, Cord):
         return cord_branches(system, g, (height, at))
     found = _core.branches(_system(place, system, g), *asked, g, turns)
-    return branches_made(found, system, g, turns, asked)
+    return branches_made(found, asked, system=system, gravity=g, direction=turns)
 
 
 class _Wanted(TypedDict, total=False):

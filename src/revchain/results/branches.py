@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .. import _core
 from ..systems.chain import Chain
 from ..systems.cord import Cord
-from ..systems.numbers import Floats, Whole, count, height_of, integer, one_positive
+from ..systems.numbers import Floats, Whole, count, height_of, one_positive, place_of
 from ..systems.rig import Rig
 from .base import Field, Result, Results
 from .shapes import SteadyShape, forced, is_driven
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Pair = tuple[float, float]
+AnyBranch = TypeVar("AnyBranch", bound=Result)
 
 
 class StabilityWindow(Result):
@@ -131,11 +133,8 @@ class Branch(Result):
         >>> branch.shape(-1).inclination.round(4)
         array([1.5208, 1.5041])
         """
-        place = "revchain.Branch.shape"
-        wanted = integer(place, "point", point)
-        if not -len(self) <= wanted < len(self):
-            raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
-        return self._shape(self._found().shape(wanted % len(self)), self.gravity)
+        number = place_of("revchain.Branch.shape", "point", point, len(self))
+        return self._shape(self._found().shape(number), self.gravity)
 
     def at(
         self,
@@ -278,8 +277,6 @@ class Branch(Result):
         return found
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        fold = np.zeros(len(self), bool)
-        fold[self.folds] = True
         columns = [
             Column("point", np.arange(len(self)), "point"),
             Column("angular_speed", self.angular_speed, "speed (rad/s)"),
@@ -288,14 +285,13 @@ class Branch(Result):
             Column("tip_radius", self.tip_radius, "tip radius (m)"),
             Column("top_tension", self.top_tension, "top tension"),
             Column("half_waves", self.half_waves, "half waves"),
-            Column("fold", fold, "fold"),
+            Column("fold", is_fold(self), "fold"),
             Column("moment_of_inertia", self.moment_of_inertia),
             Column("effective_energy", self.effective_energy),
             Column("arc", self.arc),
         ]
         name = "from rest" if self.birth == "rest" else "isolated" if self.mode is None else f"of mode {self.mode}"
-        folds = f", {self.folds.size} fold{'s' * (self.folds.size != 1)}" if self.folds.size else ""
-        heading = f"Branch {name}: {len(self)} points{folds}, ends at {self.end}"
+        heading = f"Branch {name}: {fold_words(self)}"
         names = ("mode", "birth", "end", "gravity", "direction")
         facts = {each: getattr(self, each) for each in names}
         return Sheet("point", heading, columns, facts, spread=True)
@@ -363,11 +359,7 @@ class Branches(Results[Branch]):
         columns = [
             Column("branch", np.arange(len(self)), "branch"),
             Column("mode", [_born(each) for each in self], "mode"),
-            Column("points", [len(each) for each in self], "points"),
-            Column("folds", [int(each.folds.size) for each in self], "folds"),
-            Column("lowest_speed", [float(each.angular_speed.min()) for each in self], "lowest speed (rad/s)"),
-            Column("highest_speed", [float(each.angular_speed.max()) for each in self], "highest speed (rad/s)"),
-            Column("end", [each.end for each in self], "ends at"),
+            *branch_sizes(self),
         ]
         isolated = sum(each.mode is None for each in self)
         begin = "from rest" if self and self[0].birth == "rest" else "from the vertical"
@@ -376,13 +368,42 @@ class Branches(Results[Branch]):
         return Sheet("branch", heading, columns, {name: getattr(self, name) for name in names}, good=self.complete)
 
 
-def branches_made(
-    found: _core.Branches, system: Chain | Rig, gravity: float, direction: int, asked: tuple[Any, ...]
-) -> Branches:
-    """A list around compiled branches."""
-    given: dict[str, Any] = {"system": system, "gravity": gravity, "direction": direction}
-    items = tuple(Branch._made(each, asked=(*asked, k), **given) for k, each in enumerate(found.branches))
+def branches_made(found: _core.Branches, asked: tuple[Any, ...], **given: Any) -> Branches:
+    """A list around compiled branches; `given`: the system, gravity and direction."""
+    items = branch_items(Branch, found.branches, asked, given)
     return Branches._made(found, _items=items, **given)
+
+
+def branch_items(
+    kind: type[AnyBranch], found: list[Any], asked: tuple[Any, ...], given: dict[str, Any]
+) -> tuple[AnyBranch, ...]:
+    """Branches around compiled ones; how each is asked for again ends with its place in the list."""
+    return tuple(kind._made(each, asked=(*asked, k), **given) for k, each in enumerate(found))
+
+
+def is_fold(branch: Any) -> NDArray[np.bool_]:
+    """Of each point of a branch."""
+    fold = np.zeros(len(branch), bool)
+    fold[branch.folds] = True
+    return fold
+
+
+def fold_words(branch: Any) -> str:
+    """How many points and folds a branch has, and where it ends."""
+    many = branch.folds.size
+    folds = f", {many} fold{'s' * (many != 1)}" if many else ""
+    return f"{len(branch)} points{folds}, ends at {branch.end}"
+
+
+def branch_sizes(branches: Sequence[Any]) -> list[Column]:
+    """Columns of a list of branches that all kinds have."""
+    return [
+        Column("points", [len(each) for each in branches], "points"),
+        Column("folds", [int(each.folds.size) for each in branches], "folds"),
+        Column("lowest_speed", [float(each.angular_speed.min()) for each in branches], "lowest speed (rad/s)"),
+        Column("highest_speed", [float(each.angular_speed.max()) for each in branches], "highest speed (rad/s)"),
+        Column("end", [each.end for each in branches], "ends at"),
+    ]
 
 
 def _born(branch: Branch) -> str:

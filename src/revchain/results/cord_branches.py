@@ -7,10 +7,10 @@ from typing import Any
 
 from .. import _core
 from ..systems.cord import Cord
-from ..systems.numbers import Floats, height_of, integer, one_positive
+from ..systems.numbers import Floats, height_of, one_positive, place_of
 from .base import Field
 from .bent import CordShape, branch_shape
-from .branches import Branch, Branches, StabilityWindow
+from .branches import Branch, Branches, StabilityWindow, branch_items
 from .shapes import is_driven
 
 
@@ -27,11 +27,6 @@ class CordBranch(Branch):
 
     __slots__ = ()
     system: Field[Cord] = Field("The cord.", part=True)  # type: ignore[assignment]
-    mode: Field[int | None] = Field(
-        "Number of the mode at which it leaves the vertical; None for an isolated branch.",
-        lambda b: b._found().mode or None,
-        part=True,
-    )
     direction: Field[int] = Field("Always 1: a cord knows no direction of rotation.", lambda b: 1, part=True)
     birth: Field[str] = Field(
         "``'vertical'``: it leaves the straight cord at a critical speed; ``'fold'``: it is isolated, two shapes are born "
@@ -70,11 +65,7 @@ class CordBranch(Branch):
         >>> round(float(branch.shape(-1).offset[0]), 6)
         0.989943
         """
-        place = "revchain.CordBranch.shape"
-        wanted = integer(place, "point", point)
-        if not -len(self) <= wanted < len(self):
-            raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
-        number = wanted % len(self)
+        number = place_of("revchain.CordBranch.shape", "point", point, len(self))
         found = self._found().shape(number)
         return branch_shape(found, self.system, self.gravity, bool((self.folds == number).any()))
 
@@ -180,5 +171,4 @@ class CordBranches(Branches):
 def cord_branches_made(found: Any, system: Cord, gravity: float, asked: tuple[Any, ...]) -> CordBranches:
     """A list around compiled branches."""
     given: dict[str, Any] = {"system": system, "gravity": gravity}
-    items = tuple(CordBranch._made(each, asked=(*asked, k), **given) for k, each in enumerate(found.branches))
-    return CordBranches._made(found, _items=items, **given)
+    return CordBranches._made(found, _items=branch_items(CordBranch, found.branches, asked, given), **given)

@@ -11,6 +11,7 @@ import numpy as np
 from ..systems.cord import Cord
 from ..systems.numbers import Floats
 from .base import Field, Result
+from .motions import energy_words
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
@@ -108,15 +109,11 @@ class CordSwing(Result):
             Column("offset", self.offset, axes=("place",)),
             Column("velocity", self.velocity, axes=("place",)),
         ]
-        share = self.energy / self.energy.sum() if self.energy.sum() > 0 else self.energy
-        most = np.argsort(share)[::-1][:3]
-        words = ", ".join(f"{100 * share[k]:.3g} % in mode {k + 1}" for k in most if share[k] > 0)
-        many = f"{self.energy.size} mode{'s' * (self.energy.size != 1)}"
         names: tuple[str, ...] = ("gravity", "arc_length", "angular_frequency", "energy", "cosine", "sine")
         names += ("energy_left_out", "error_estimate")
         return Sheet(
             "time",
-            f"{many}; of the energy {words}" if words else f"{many}, at rest",
+            energy_words(self.energy),
             columns,
             {name: getattr(self, name) for name in names},
             [f"error: {self.error_estimate.max():.2g} m at most, estimated from the modes left out"],

@@ -10,9 +10,10 @@ import numpy as np
 from .. import _core
 from ..systems.chain import Chain
 from ..systems.held import Held
-from ..systems.numbers import Floats, Whole, integer
+from ..systems.numbers import Floats, Whole, place_of
 from .base import Field, Result, Results
 from .bent import HeldShape
+from .branches import branch_items, branch_sizes, fold_words, is_fold
 from .sheet import Column, Sheet
 
 if TYPE_CHECKING:
@@ -101,17 +102,12 @@ class HeldBranch(Result):
         >>> rc.branch(blade, 1, max_angular_speed=6.0).shape(0).stability().verdict
         'minimum'
         """
-        place = "revchain.HeldBranch.shape"
-        wanted = integer(place, "point", point)
-        if not -len(self) <= wanted < len(self):
-            raise ValueError(f"{place}: point must be from {-len(self)} to {len(self) - 1}, got {wanted}")
-        k = wanted % len(self)
-        speed = float(self.angular_speed[k])
+        k = place_of("revchain.HeldBranch.shape", "point", point, len(self))
         return HeldShape._made(
             self._found().shapes[k],
             system=self.system,
             gravity=self.gravity,
-            angular_speed=speed,
+            angular_speed=float(self.angular_speed[k]),
             _asked=("branch", *self.asked, k),
         )
 
@@ -158,8 +154,6 @@ class HeldBranch(Result):
         return branch_again(self.system, self.asked)
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        fold = np.zeros(len(self), bool)
-        fold[self.folds] = True
         columns = [
             Column("point", np.arange(len(self)), "point"),
             Column("angular_speed", self.angular_speed, "speed (rad/s)"),
@@ -168,11 +162,10 @@ class HeldBranch(Result):
             Column("largest_offset", self.largest_offset, "largest distance from axis (m)"),
             Column("top_tension", self.top_tension, "top tension"),
             Column("half_waves", self.half_waves, "half waves"),
-            Column("fold", fold, "fold"),
+            Column("fold", is_fold(self), "fold"),
             Column("moment_of_inertia", self.moment_of_inertia),
         ]
-        folds = f", {self.folds.size} fold{'s' * (self.folds.size != 1)}" if self.folds.size else ""
-        heading = f"Branch of {self.mode} half wave{'s' * (self.mode != 1)}: {len(self)} points{folds}, ends at {self.end}"
+        heading = f"Branch of {self.mode} half wave{'s' * (self.mode != 1)}: {fold_words(self)}"
         facts = {"mode": self.mode, "end": self.end, "gravity": self.gravity}
         return Sheet("point", heading, columns, facts, spread=True)
 
@@ -218,14 +211,7 @@ class HeldBranches(Results[HeldBranch]):
         return plot_held_branches(self, ax, quantity=quantity, place="revchain.HeldBranches.plot")
 
     def _sheet(self, brief: bool = False) -> Sheet:
-        columns = [
-            Column("mode", [each.mode for each in self], "half waves"),
-            Column("points", [len(each) for each in self], "points"),
-            Column("folds", [int(each.folds.size) for each in self], "folds"),
-            Column("lowest_speed", [float(each.angular_speed.min()) for each in self], "lowest speed (rad/s)"),
-            Column("highest_speed", [float(each.angular_speed.max()) for each in self], "highest speed (rad/s)"),
-            Column("end", [each.end for each in self], "ends at"),
-        ]
+        columns = [Column("mode", [each.mode for each in self], "half waves"), *branch_sizes(self)]
         number = f"{len(self)} branch{'es' * (len(self) != 1)}"
         return Sheet("branch", f"{number} from the nearly straight chain", columns, {"gravity": self.gravity})
 
@@ -245,5 +231,4 @@ def branch_again(held: Held, asked: tuple[Any, ...]) -> _core.HeldBranch:
 def held_branches_made(found: list[_core.HeldBranch], held: Held, gravity: float, asked: tuple[Any, ...]) -> HeldBranches:
     """A list around compiled branches."""
     given: dict[str, Any] = {"system": held, "gravity": gravity}
-    items = tuple(HeldBranch._made(each, asked=(*asked, k), **given) for k, each in enumerate(found))
-    return HeldBranches._made(None, _items=items, **given)
+    return HeldBranches._made(None, _items=branch_items(HeldBranch, found, asked, given), **given)

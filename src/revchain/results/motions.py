@@ -285,17 +285,22 @@ class Swing(Result):
             Column("offset", self.offset, axes=("pin",)),
             Column("velocity", self.velocity, axes=("pin",)),
         ]
-        share = self.energy / self.energy.sum() if self.energy.sum() > 0 else self.energy
-        most = np.argsort(share)[::-1][:3]
-        words = ", ".join(f"{100 * share[k]:.3g} % in mode {k + 1}" for k in most if share[k] > 0)
-        many = f"{self.energy.size} mode{'s' * (self.energy.size != 1)}"
         names: tuple[str, ...] = ("gravity", "angular_frequency", "energy", "cosine", "sine", "start", "projected", "energy_left_out")
         names += ("truncation_error",)
         return Sheet(
             "time",
-            f"{many}; of the energy {words}" if words else f"{many}, at rest",
+            energy_words(self.energy),
             columns,
             {name: getattr(self, name) for name in names},
             ["error bound: of every offset as a sum of modes, rounding"],
             spread=True,
         )
+
+
+def energy_words(energy: Floats) -> str:
+    """How many modes a swing has, and which hold most of its energy."""
+    share = energy / energy.sum() if energy.sum() > 0 else energy
+    most = np.argsort(share)[::-1][:3]
+    words = ", ".join(f"{100 * share[k]:.3g} % in mode {k + 1}" for k in most if share[k] > 0)
+    many = f"{energy.size} mode{'s' * (energy.size != 1)}"
+    return f"{many}; of the energy {words}" if words else f"{many}, at rest"

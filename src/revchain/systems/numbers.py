@@ -64,6 +64,14 @@ def integer(place: str, name: str, value: object) -> int:
     return number
 
 
+def place_of(place: str, name: str, value: object, size: int) -> int:
+    """`value` as a place in a list of that size, from 0; negative ones count from its end."""
+    number = integer(place, name, value)
+    if not -size <= number < size:
+        raise ValueError(f"{place}: {name} must be from {-size} to {size - 1}, got {number}")
+    return number % size
+
+
 def count(place: str, name: str, value: object, each: int = 0) -> int:
     """`value` as an int from 1 on; a ValueError where so many results of `each` bytes do not fit in the memory."""
     number = _whole(place, name, value)

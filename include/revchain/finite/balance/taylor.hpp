@@ -161,7 +161,7 @@ bool derive(const Interval<T>& stiffness, const Interval<T>& turning, const Tayl
 
 }  // namespace detail
 
-/// What flywheels keep: momentum over length of each link, and n sqrt(lambda), n the speed.
+/// Momentum of the flywheels: that of each link over its length, and n sqrt(lambda), where n is the speed.
 template <class S>
 struct KeptMomentum {
     std::vector<S> spin;

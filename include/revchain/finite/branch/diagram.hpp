@@ -32,7 +32,7 @@ inline Branch branch_from(std::shared_ptr<const BranchSystem> system, const Bran
     return result;
 }
 
-/// What a diagram asks of a chain.
+/// Lists, modes and conditions of a proof that a diagram needs, of a chain.
 class ChainQuestions {
    public:
     ChainQuestions(const Chain<double>& chain, const BranchesOptions& options)
@@ -66,7 +66,7 @@ class ChainQuestions {
     const BranchesOptions& options_;
 };
 
-/// What a diagram asks of a rig.
+/// The same of a rig.
 class RigQuestions {
    public:
     RigQuestions(const Rig& rig, const BranchesOptions& options)
@@ -93,7 +93,7 @@ class RigQuestions {
     /// The first mode, if it is proved that slower there is one shape, or where the support is in the axis none: all
     /// links hang in tension. In the sines s of the inclinations the energy in the turning frame, times lambda, has the
     /// second derivative  lambda diag(pull a sec^3) - M  (and the spring's), not less than that of the straight chain.
-    /// That is positive definite at rest and singular at no speed below the first critical one.
+    /// That matrix is positive definite at rest, and it is not singular below the first critical speed.
     std::optional<double> settled_above() const {
         if (!modes_.complete() || found_.empty()) return std::nullopt;
         const double first = found_[0].conical_height;

@@ -79,7 +79,7 @@ class EnclosedDiagram {
         return ended(swept_cell<T>(links_, cell), cell);
     }
     bool spins() const { return !kept_.spin.empty(); }
-    /// The same with flywheels; a cell at a time, so that the lanes compile once.
+    /// The same with flywheels. One cell at a time: only the function without flywheels is compiled for packs.
     Taylor<double, 2> spinning_over(const Cell<double, 2>& cell) const {
         return ended(swept_cell<double, true>(links_, cell, &kept_), cell);
     }

@@ -2,23 +2,11 @@
 #pragma once
 
 #include "revchain/finite/branch/crossing.hpp"
+#include "revchain/finite/branch/lowest_height.hpp"
 #include "revchain/finite/branch/onset.hpp"
 #include "revchain/finite/branch/shape_at.hpp"
 
 namespace revchain::finite {
-
-/// The conical height down to which to follow branches, given as it is or as a speed.
-template <class Options>
-double lowest_height(std::string_view place, const Options& options) {
-    if (options.min_conical_height.has_value() == options.max_angular_speed.has_value())
-        revchain::detail::throw_invalid(place, "give either min_conical_height or max_angular_speed");
-    const double height = options.min_conical_height
-                              ? *options.min_conical_height
-                              : conical_pendulum::height(*options.max_angular_speed, options.gravity);
-    revchain::detail::require_positive(
-        place, options.min_conical_height ? "min_conical_height" : "gravity / max_angular_speed^2", height);
-    return height;
-}
 
 /// Appends a point, with what is told of it, to a branch. Numbers are those of `described`.
 template <class Branch>

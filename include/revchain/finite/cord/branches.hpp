@@ -163,7 +163,7 @@ inline CordBranch branch_of_mode(const Cord& cord, double critical, double heigh
     return result;
 }
 
-/// Of the states of a branch between two of its points that pass a number: by `value`, of a point.
+/// Adds the point between two neighbouring points of a branch at which `value` of a point is 0, if there is one.
 template <class F>
 void add_passing(std::vector<BranchLine::Point>& to, const BranchLine& line, const BranchLine::Point& last,
                  const BranchLine::Point& now, const F& value) {

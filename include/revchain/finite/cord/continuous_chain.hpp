@@ -119,6 +119,14 @@ inline std::vector<std::vector<TipRange>> scanned(const PathKind& kind, std::siz
     return ranges;
 }
 
+/// Length over conical height. Throws InvalidArgument above 1e6: so far no path is followed.
+inline double length_in_heights(std::string_view place, double length, double height) {
+    const double heights = length / height;
+    if (!(heights <= 1e6))
+        revchain::detail::throw_invalid(place, "length / conical height must be at most 1e6", heights);
+    return heights;
+}
+
 /// Throws InvalidArgument for a path that ended before the support.
 inline void require_followed(std::string_view place, const Path& path, double length, double height) {
     if (!(path.end() > length))
@@ -202,8 +210,7 @@ inline Vector<double> critical_heights(const ContinuousChain& chain, Index count
 /// and for a density or a tip that the series cannot follow.
 inline Index critical_heights_above(const ContinuousChain& chain, double height) {
     constexpr std::string_view place = "count_modes";
-    const double length = chain.length / height;
-    if (!(length <= 1e6)) revchain::detail::throw_invalid(place, "length / conical height must be at most 1e6", length);
+    const double length = length_in_heights(place, chain.length, height);
     const Path path = path_at_rest(chain, height, {.farthest = length});
     require_followed(place, path, length, height);
     return std::count_if(path.crossings().begin(), path.crossings().end(),
@@ -274,8 +281,7 @@ class CordModeShape {
 inline CordShapes steady_shapes(const Cord& cord, const CordShapesOptions& options) {
     constexpr std::string_view place = "steady_shapes";
     const double height = detail::height_given(place, options);
-    if (!(cord.length() / height <= 1e6))
-        detail::throw_invalid(place, "length / conical height must be at most 1e6", cord.length() / height);
+    finite::length_in_heights(place, cord.length(), height);
     if (options.scanned < 1) detail::throw_invalid(place, "scanned must be at least 1", options.scanned);
     return finite::continuous_shapes(finite::ContinuousChain(cord), height, options.scanned);
 }

@@ -120,8 +120,8 @@ inline std::optional<HeldBranch> held_branch(const Chain<double>& chain, double 
     return branch;
 }
 
-/// The shapes on the branch of so many half waves at a span whose tension at the upper end is `tension`, from the
-/// greatest speed on.
+/// The shapes on the branch of so many half waves at a span whose tension at the upper end is `tension`, the fastest
+/// first.
 inline std::vector<HeldShape> held_shapes_of_tension(const Chain<double>& chain, double span, double tension,
                                                      int half_waves) {
     using S = Wide<double>;
