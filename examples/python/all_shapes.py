@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All steady shapes of three point masses at one speed, proved complete; their branches and their stability.
+"""Every steady shape of three point masses
+========================================
 
-python all_shapes.py [FOLDER]
+All steady shapes of three point masses at one speed, proved complete; their branches and their stability.
+
+Usage: ``python all_shapes.py [FOLDER]``
 """
 
 from _picture import COLOURS, panels, save

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A chain in a hand that moves round a circle of 1 cm, faster and faster; and the same chain plucked and let go.
+"""A chain in a hand that circles
+==============================
+
+A chain in a hand that moves round a circle of 1 cm, faster and faster; and the same chain plucked and let go.
 
 Greenhill (1908) section 1 (9) for a chain. Below its first whirl speed the chain goes out with the hand, past it the
 free end is on the other side, and so at each whirl speed; in between, speeds at which a link stays still.
 
-python carried_chain.py [FOLDER]
+Usage: ``python carried_chain.py [FOLDER]``
 """
 
 import numpy as np

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""When does the clapper strike? A design chart of church bells rung full circle.
+"""When the clapper strikes: a design chart
+========================================
+
+When does the clapper strike? A design chart of church bells rung full circle.
 
 Two ratios decide where the bell is many times heavier than its clapper (Woodhouse et al. 2012,
 doi:10.1155/2012/681787): the distance from the axle to the clapper's pin, and the pendulum length of the

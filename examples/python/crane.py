@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A crane slewing at a given speed: on which lengths of hoist rope does it meet a whirl speed of its load?
+"""Crane: rope lengths to avoid
+============================
+
+A crane slewing at a given speed: on which lengths of hoist rope does it meet a whirl speed of its load?
 
 Hook block and load are a double pendulum. Its two natural frequencies rise while the rope is wound in. The program also
 prints how the frequencies there change with the lengths, and how well they are known.

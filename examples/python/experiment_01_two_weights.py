@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment I: a chain that whirls, seen from the side, seems to swing. Two weights on a thread, and a watch chain.
+"""Experiment I: a whirling chain seen from the side
+=================================================
 
-python experiment_01_two_weights.py [FOLDER]
+A chain that whirls, seen from the side, seems to swing. Two weights on a thread, and a watch chain.
+
+Usage: ``python experiment_01_two_weights.py [FOLDER]``
 """
 
 import numpy as np

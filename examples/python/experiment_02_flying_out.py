@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment II: a plummet on a thread leaves the vertical only where the conical height is less than the thread.
+"""Experiment II: when a conical pendulum leaves the vertical
+==========================================================
 
-python experiment_02_flying_out.py [FOLDER]
+A plummet on a thread leaves the vertical only where the conical height is less than the thread.
+
+Usage: ``python experiment_02_flying_out.py [FOLDER]``
 """
 
 import numpy as np

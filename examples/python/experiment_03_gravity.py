@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment III: gravity from a pendulum that is almost vertical, and what a visible circle does to it.
+"""Experiment III: gravity from a pendulum
+=======================================
 
-python experiment_03_gravity.py [FOLDER]
+Gravity from a pendulum that is almost vertical, and what a visible circle does to it.
+
+Usage: ``python experiment_03_gravity.py [FOLDER]``
 """
 
 import numpy as np

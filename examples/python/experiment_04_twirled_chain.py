@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment IV: the hand carries the upper end round a small circle; at higher speeds the tip crosses the axis.
+"""Experiment IV: a chain twirled by the hand
+==========================================
 
-python experiment_04_twirled_chain.py [FOLDER]
+The hand carries the upper end round a small circle; at higher speeds the tip crosses the axis.
+
+Usage: ``python experiment_04_twirled_chain.py [FOLDER]``
 """
 
 import numpy as np

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment V: where on its thread the second weight sits. Thomson's four cases, as Greenhill's Fig. 4 has them.
+"""Experiment V: Thomson's four cases
+==================================
 
-python experiment_05_thomson.py [FOLDER]
+Where on its thread the second weight sits. Thomson's four cases, as Greenhill's Fig. 4 has them.
+
+Usage: ``python experiment_05_thomson.py [FOLDER]``
 """
 
 import numpy as np

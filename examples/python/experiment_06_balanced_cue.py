@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment VI: sticks balanced on a hand that moves in a circle; a pendulum that stands on a swinging one.
+"""Experiment VI: a balanced cue
+=============================
 
-python experiment_06_balanced_cue.py [FOLDER]
+Sticks balanced on a hand that moves in a circle; a pendulum that stands on a swinging one.
+
+Usage: ``python experiment_06_balanced_cue.py [FOLDER]``
 """
 
 import numpy as np

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment VII: a chain of 1 m whirled in the hand at any inclination; two weights in its place.
+"""Experiment VII: the revolving chain at any inclination
+======================================================
 
-python experiment_07_revolving_chain.py [FOLDER]
+A chain of 1 m whirled in the hand at any inclination; two weights in its place.
+
+Usage: ``python experiment_07_revolving_chain.py [FOLDER]``
 """
 
 import numpy as np

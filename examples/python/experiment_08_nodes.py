@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment VIII: where a whirling chain crosses its axis, and where it hangs vertically.
+"""Experiment VIII: nodes of a whirling chain
+==========================================
 
-python experiment_08_nodes.py [FOLDER]
+Where a whirling chain crosses its axis, and where it hangs vertically.
+
+Usage: ``python experiment_08_nodes.py [FOLDER]``
 """
 
 import numpy as np

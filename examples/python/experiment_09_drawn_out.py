@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment IX: a whirling chain whose ends are drawn apart keeps its angular momentum and turns faster.
+"""Experiment IX: a whirling chain drawn out
+=========================================
 
-python experiment_09_drawn_out.py [FOLDER]
+A whirling chain whose ends are drawn apart keeps its angular momentum and turns faster.
+
+Usage: ``python experiment_09_drawn_out.py [FOLDER]``
 """
 
 import numpy as np

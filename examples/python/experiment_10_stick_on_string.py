@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment X: a stick whirled round at the end of a string, near the vertical and at any inclination.
+"""Experiment X: a stick on a string
+=================================
 
-python experiment_10_stick_on_string.py [FOLDER]
+A stick whirled round at the end of a string, near the vertical and at any inclination.
+
+Usage: ``python experiment_10_stick_on_string.py [FOLDER]``
 """
 
 import numpy as np

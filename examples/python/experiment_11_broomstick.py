@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Experiment XI: a broomstick upright on a hand that moves to and fro; which point of it stays at rest.
+"""Experiment XI: a balanced broomstick
+====================================
 
-python experiment_11_broomstick.py [FOLDER]
+A broomstick upright on a hand that moves to and fro; which point of it stays at rest.
+
+Usage: ``python experiment_11_broomstick.py [FOLDER]``
 """
 
 import numpy as np

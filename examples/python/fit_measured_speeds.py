@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A crane's load and rope from three timed periods: how well these tell them, and what they cannot tell.
+"""Masses and lengths from timed periods
+=====================================
 
-python fit_measured_speeds.py [FOLDER]
+A crane's load and rope from three timed periods: how well these tell them, and what they cannot tell.
+
+Usage: ``python fit_measured_speeds.py [FOLDER]``
 
 A load of about 2500 kg hangs on slings of 6 m below a hook block of 400 kg, and that on some 24 m of rope from a trolley
 that gives way. Illustrative figures.

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Thomson's gyrostatic string: bicycle wheels on a stretched cord turn the plane of a vibration as magnetised glass does.
+"""Gyrostatic string
+=================
+
+Thomson's gyrostatic string: bicycle wheels on a stretched cord turn the plane of a vibration as magnetised glass does.
 
 Greenhill (1908) section 2: a vibration to and fro is two circular waves, one with the spin and one against it. They have
 different lengths, so that the plane of their sum turns from link to link.
 
-python gyrostatic_string.py [FOLDER]
+Usage: ``python gyrostatic_string.py [FOLDER]``
 """
 
 import numpy as np

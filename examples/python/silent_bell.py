@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A bell that does not ring: in one mode bell and clapper turn as one body, and the clapper never strikes.
+"""A bell that does not ring
+=========================
+
+A bell that does not ring: in one mode bell and clapper turn as one body, and the clapper never strikes.
 
 Greenhill (1908) section 8 (16): with m = W2 h2 / (W1 a2) that happens where the clapper's centre of
 gravity lies h1 = (m + 1) l1 + m (a2 - l2) below its pin; 1 is the clapper (the lower link), 2 the

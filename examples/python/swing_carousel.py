@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A swing carousel, two chairs below one another on an arm: how they fly out, and every other way they could whirl.
+"""Swing carousel with two chairs on each arm
+==========================================
 
-python swing_carousel.py [FOLDER]
+A swing carousel, two chairs below one another on an arm: how they fly out, and every other way they could whirl.
+
+Usage: ``python swing_carousel.py [FOLDER]``
 """
 
 import numpy as np

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The blade of a wind turbine with a vertical axis, hung as a rope would whirl, so that it is not bent: with gravity.
+"""Blade of a vertical-axis wind turbine (troposkien)
+==================================================
 
-python troposkien.py [FOLDER]
+The blade of a wind turbine with a vertical axis, hung as a rope would whirl, so that it is not bent: with gravity.
+
+Usage: ``python troposkien.py [FOLDER]``
 """
 
 import numpy as np

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A watch chain twirled by a string: how close 120 links come to the continuous chain.
+"""Watch chain: 120 links and the continuous limit
+===============================================
+
+A watch chain twirled by a string: how close 120 links come to the continuous chain.
 
 python watch_chain.py [PICTURE.png]
 """

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MPL-2.0
+"""The site: the pages of this folder, and references from docstrings and headers. Built by tools/site."""
+
+import shutil
+import sys
+from importlib import metadata
+from pathlib import Path
+
+import jupyter_server_mathjax
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent
+sys.path.insert(0, str(HERE / "site"))
+
+project, author, copyright = "revchain", "the revchain developers", "the revchain developers"
+release = version = metadata.version("revchain")
+extensions = [
+    "cpp_reference",
+    "myst_parser",
+    "numpydoc",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "sphinx_copybutton",
+    "sphinx_design",
+    "sphinx_gallery.gen_gallery",
+]
+exclude_patterns = ["site", "figures"]
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+
+templates_path = ["site/templates"]
+autosummary_generate = True
+autosummary_imported_members = True
+autodoc_typehints = "none"
+numpydoc_show_class_members = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": str(ROOT / "examples" / "python"),
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"/[a-z]\w+\.py$",
+    "ignore_pattern": r"(^|/)(_|draw_)",
+    "image_scrapers": ("gallery_pictures.scrape",),
+    "within_subsection_order": "gallery_pictures.programs_before_experiments",
+    "reset_modules": (),
+    "show_memory": False,
+    "min_reported_time": 1e9,
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+}
+
+html_theme = "furo"
+html_title = f"revchain {release}"
+html_static_path = ["site/static"]
+html_show_sphinx = False
+copybutton_prompt_text = ">>> "
+mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
+mathjax_options = {"async": "async"}
+
+
+def copy_mathjax(app, _):
+    """What pages need of MathJax, so that they can be read without a network."""
+    source = Path(jupyter_server_mathjax.__file__).parent / "static"
+    target = Path(app.outdir) / "_static" / "mathjax"
+    if app.builder.format == "html" and not target.exists():
+        shutil.copytree(source, target, ignore=shutil.ignore_patterns("localization", "HTML-CSS", "CommonHTML", "NativeMML"))
+
+
+def setup(app):
+    app.connect("build-finished", copy_mathjax)
