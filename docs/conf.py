@@ -15,7 +15,7 @@ sys.path.insert(0, str(HERE / "site"))
 project, author, copyright = "revchain", "the revchain developers", "the revchain developers"
 release = version = metadata.version("revchain")
 extensions = [
-    "cpp_reference",
+    "generated_pages",
     "myst_parser",
     "numpydoc",
     "sphinx.ext.autodoc",

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 
 HEADERS = Path(__file__).parents[2] / "include" / "revchain"
 COMMENT = re.compile(r"^\s*/// ?")
@@ -110,17 +109,7 @@ def page(header: Path) -> str:
     return "\n".join(parts).rstrip("-\n ") + "\n"
 
 
-def write_pages(app: Any) -> None:
-    """Into reference/cpp; a page that has not changed keeps its time, so that it is not built again."""
-    folder = Path(app.srcdir) / "reference" / "cpp"
-    folder.mkdir(parents=True, exist_ok=True)
-    pages = {header.stem: page(header) for header in sorted(HEADERS.glob("*.hpp")) if header.stem != "revchain"}
-    for name, text in pages.items():
-        path = folder / f"{name}.md"
-        if not path.is_file() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
-
-
-def setup(app: Any) -> dict[str, bool]:
-    app.connect("builder-inited", write_pages)
-    return {"parallel_read_safe": True}
+def pages() -> dict[str, str]:
+    """By its place in the site."""
+    headers = (header for header in sorted(HEADERS.glob("*.hpp")) if header.stem != "revchain")
+    return {f"reference/cpp/{header.stem}.md": page(header) for header in headers}
