@@ -12,10 +12,10 @@ def scrape(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any])
     """Takes every picture that a program has written beside itself."""
     names = block_vars["image_path_iterator"]
     taken = []
-    for written in sorted(Path(block_vars["src_file"]).parent.glob("*.png")):
-        name = next(names)
+    for written in sorted(Path(block_vars["src_file"]).parent.glob("*.svg")):
+        name = Path(next(names)).with_suffix(".svg")
         shutil.move(written, name)
-        taken.append(name)
+        taken.append(str(name))
     return figure_rst(taken, gallery_conf["src_dir"])
 
 

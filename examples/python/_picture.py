@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the pictures of the experiments share: size, letters, the drawing of a hanging chain, the file."""
+"""What the pictures share: style, size, the drawing of a hanging chain, the file."""
 
 import sys
 from pathlib import Path
 
 import matplotlib
 from matplotlib.figure import Figure
-from PIL import Image  # comes with matplotlib
 
-matplotlib.rcParams.update({"font.size": 9, "axes.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False})
-COLOURS = ["tab:blue", "tab:red", "tab:green", "tab:orange", "tab:purple", "tab:brown"]
+from revchain.plots.style import STYLE
+
+matplotlib.rcParams.update(STYLE)
+COLOURS = matplotlib.rcParams["axes.prop_cycle"].by_key()["color"]
 
 
 def panels(count, widths=None):
     """A figure with `count` panels side by side."""
-    figure = Figure(figsize=(8, 4.5), dpi=100, layout="constrained")
+    figure = Figure(figsize=(8, 4.5), layout="constrained")
     return figure, figure.subplots(1, count, width_ratios=widths, squeeze=False)[0]
 
 
@@ -28,13 +29,12 @@ def hang(axes, offset, depth, *, weights=(), **line):
 def side_view(axes, title, *, bottom, top=0.05, half_width):
     """True proportions, the vertical axis dash-dotted, metres below the support."""
     axes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-    axes.set(title=title, xlabel="from the axis, m", xlim=(-half_width, half_width), ylim=(bottom, -top))
+    axes.set(title=title, xlabel="distance from axis (m)", xlim=(-half_width, half_width), ylim=(bottom, -top))
     axes.set_aspect("equal")
 
 
 def save(figure, name=None):
     """Write the picture, named after the program or as told, into the folder given as argument, or the current one."""
-    path = Path(sys.argv[1] if len(sys.argv) > 1 else ".") / ((name or Path(sys.argv[0]).stem) + ".png")
-    figure.savefig(path)
-    Image.open(path).convert("RGB").quantize(64).save(path, optimize=True)  # a third of the size
+    path = Path(sys.argv[1] if len(sys.argv) > 1 else ".") / ((name or Path(sys.argv[0]).stem) + ".svg")
+    figure.savefig(path, metadata={"Date": None})  # the same picture gives the same file
     print("wrote", path.name)

@@ -42,5 +42,5 @@ for branch in diagram:
     k = branch.half_waves[-1]
     axes[1].plot(speed, 57.29577951308232 * tip, color=COLOURS[k - 1])
 axes[1].axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
-axes[1].set(title="branches", xlabel="speed over sqrt(g/a)", ylabel="inclination of the lowest thread, degrees")
+axes[1].set(title="branches", xlabel="speed over sqrt(g/a)", ylabel="inclination of the lowest thread (°)")
 save(figure)

@@ -37,7 +37,7 @@ for pin, name in ((0, "free end"), (LINKS // 2, "half way")):
 for n in whirls:
     curve.axvline(n / (2 * np.pi), color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 curve.axhline(1000 * HAND, color="0.6", linewidth=0.8, zorder=0)
-curve.set(yscale="log", ylim=(0.3, 1000), xlabel="turns a second", ylabel="from the axis, mm")
+curve.set(yscale="log", ylim=(0.3, 1000), xlabel="speed (turns/s)", ylabel="from the axis (mm)")
 curve.set_title("hand carried round 10 mm; dashed: opposite")
 curve.legend(loc="upper right")
 
@@ -46,7 +46,7 @@ for number, turns in enumerate((0.5, 1.5, 2.8)):
     one = rc.response(chain, angular_speed=2 * np.pi * turns, support_radius=HAND)
     hang(shapes, 1000 * one.offset, depth, color=COLOURS[number], label=f"{turns}")
 shapes.axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
-shapes.set(xlabel="from the axis, mm", ylabel="below the hand, m", ylim=(0.37, -0.01), title="shapes, turns/s")
+shapes.set(xlabel="from the axis (mm)", ylabel="below the hand (m)", ylim=(0.37, -0.01), title="shapes, turns/s")
 shapes.legend(loc="upper left", fontsize=7)
 
 # Plucked in the middle by 1 cm: all 120 modes, and the three slowest.
@@ -62,6 +62,6 @@ print(
 )
 time.plot(moments, 1000 * swing.offset[:, 0], color=COLOURS[0], linewidth=0.9, label="all modes")
 time.plot(moments, 1000 * few.offset[:, 0], color=COLOURS[1], linewidth=0.9, linestyle="--", label="three")
-time.set(xlabel="seconds", ylabel="free end, mm", title="plucked 10 mm half way")
+time.set(xlabel="seconds", ylabel="free end (mm)", title="plucked 10 mm half way")
 time.legend(loc="lower right", fontsize=7)
 save(figure)

@@ -28,7 +28,7 @@ def rpm(speed):
     return 30 / np.pi * speed
 
 
-axes = (figure := Figure(figsize=(7, 4), dpi=100, layout="constrained")).subplots()
+axes = (figure := Figure(figsize=(7, 4), layout="constrained")).subplots()
 print("rider (kg)  chair at 12 rpm (m)  tension (N)  limit speed (rpm)  isolated from (rpm)  its shapes")
 for k, mass in enumerate((0, 40, 80, 120, 130)):
     rig = with_rider(mass)

@@ -15,7 +15,7 @@ import revchain as rc
 STUDIES = Path(__file__).resolve().parent.parent / "studies"
 RPM = 60 / (2 * np.pi)
 
-figure = Figure(figsize=(11, 3.6), dpi=100, layout="constrained")
+figure = Figure(figsize=(11, 3.6), layout="constrained")
 spun, ratio, scatter = figure.subplots(1, 3)
 
 wheels = rc.sweep(STUDIES / "wheels_spun_up.toml")

@@ -35,12 +35,12 @@ for turns, colour in zip(table[1:], COLOURS, strict=False):
         hang(side, [sign * swung.radius, 0], [swung.depth, 0], weights=[40], color=colour, linestyle=style)
     side.annotate(f"{turns:.2f} turns/s", (0.54, level), color=colour, va="center")
 side_view(side, "right: thread 0.5 m; left: 0.3 m", bottom=0.56, half_width=0.82)
-side.set_ylabel("below the support, m")
+side.set_ylabel("below the support (m)")
 
 turns = np.linspace(0.4, 3, 600)
 for thread, style in [(LONG, "-"), (SHORT, "--")]:
     swung = rc.plummet.inclined_pendulum(thread, rc.conical_pendulum.height(2 * np.pi * turns))
     curve.plot(turns, np.degrees(swung.inclination), style, color="black", label=f"thread {thread} m")
-curve.set(xlabel="turns a second", ylabel="inclination, degrees", title="it stays vertical up to a certain speed")
+curve.set(xlabel="speed (turns/s)", ylabel="inclination (°)", title="it stays vertical up to a certain speed")
 curve.legend(loc="lower right")
 save(figure)

@@ -43,7 +43,7 @@ axes.plot(100 * radius, neglected, color=COLOURS[1], label="g = 4π² l/T²: as 
 axes.axhline(GRAVITY, color=COLOURS[0], label="g = 4π² λ/T²: with the depth λ at which it swings")
 wrong = "1 mm and half a second in 100 turns, both the wrong way"
 axes.fill_between([0, 25], GRAVITY - off, GRAVITY + off, color=COLOURS[0], alpha=0.15, linewidth=0, label=wrong)
-axes.set(xlabel="radius of the circle, cm", ylabel="g found, m/s²", xlim=(0, 25), ylim=(9.7, 10.2))
+axes.set(xlabel="radius of the circle (cm)", ylabel="g found (m/s²)", xlim=(0, 25), ylim=(9.7, 10.2))
 axes.set_title("Gravity from a conical pendulum of 1 m")
 axes.legend(loc="upper left")
 save(figure)

@@ -66,7 +66,7 @@ for turns in (0.7, 0.9, 1.0, 1.1, 1.5, 2.0, 2.5, 3.0):
 born = [more_from(low, high) for low, high in zip(reversals, [*reversals[1:], 5.0], strict=True)]
 print("two more shapes from", *np.round(born, 4), "turns a second")
 
-figure = Figure(figsize=(8, 4.5), dpi=100, layout="constrained")
+figure = Figure(figsize=(8, 4.5), layout="constrained")
 axes = figure.subplot_mosaic([["near", "side", "all"], ["near", "side", "shapes"]], width_ratios=[2, 1, 2.2])
 turns = np.linspace(0.2, 2.8, 1301)
 plummet = rc.plummet.carried_response(LENGTH, rc.conical_pendulum.height(2 * np.pi * turns))
@@ -75,7 +75,7 @@ for name, tip, colour, place in curves:
     axes["near"].plot(turns, np.where(np.abs(tip) < 12, tip, np.nan), color=colour)
     axes["near"].annotate(name, place, color=colour)
 axes["near"].axhline(0, color="black", linewidth=0.6)
-axes["near"].set(xlabel="turns a second", ylabel="offset of the tip over that of the hand", ylim=(-12, 12))
+axes["near"].set(xlabel="speed (turns/s)", ylabel="offset of the tip over that of the hand", ylim=(-12, 12))
 axes["near"].set_title("near the vertical")
 
 depth = np.linspace(LENGTH, 0, LINKS + 1)
@@ -85,7 +85,7 @@ for speed, colour in zip((0.7, 1.5, 2.6), ("black", "0.4", "0.65"), strict=True)
 axes["side"].axvline(0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
 axes["side"].plot(1000 * HAND, 0, "o", color="black", markersize=4)
 axes["side"].annotate("hand", (1000 * HAND, 0), xytext=(4, 0), textcoords="offset points")
-axes["side"].set(xlabel="from the axis, mm", ylabel="below the hand, m", ylim=(0.37, -0.01), xlim=(-40, 40))
+axes["side"].set(xlabel="from the axis (mm)", ylabel="below the hand (m)", ylim=(0.37, -0.01), xlim=(-40, 40))
 axes["side"].set_title("at three speeds")
 axes["side"].legend(title="turns/s", loc="upper left", fontsize=7, title_fontsize=7, frameon=False, handlelength=1)
 
@@ -93,9 +93,9 @@ for speed in np.linspace(0.4, 3.2, 197):
     for shape in at_any_inclination(speed):
         axes["all"].plot(speed, 1000 * shape.offset[0], ".", markersize=2, color=COLOURS[shape.half_waves - 1])
 axes["all"].axhline(0, color="black", linewidth=0.6)
-axes["all"].set(xlabel="turns a second", ylabel="tip from the axis, mm", title="every steady shape")
+axes["all"].set(xlabel="speed (turns/s)", ylabel="tip from the axis (mm)", title="every steady shape")
 for shape in at_any_inclination(3.0):
     hang(axes["shapes"], shape.offset, -shape.height, color=COLOURS[shape.half_waves - 1])
 side_view(axes["shapes"], "all at 3 turns a second", bottom=0.38, half_width=0.4)
-axes["shapes"].set_ylabel("below the hand, m")
+axes["shapes"].set_ylabel("below the hand (m)")
 save(figure)

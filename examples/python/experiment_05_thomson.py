@@ -34,8 +34,8 @@ for number, panel in enumerate(axes[:4]):
     panel.annotate("C₁", (0, level), xytext=(5, -2), textcoords="offset points")
     title = f"x = {(A - at) / A:+.1f}a\n{result.frequency[k]:.2f} turns/s"
     side_view(panel, title, bottom=1.06, half_width=0.16)
-    panel.set(xlabel="m", xticks=[-0.1, 0.1])
-axes[0].set_ylabel("below the support, m")
+    panel.set(xlabel="(m)", xticks=[-0.1, 0.1])
+axes[0].set_ylabel("below the support (m)")
 
 x = np.linspace(-0.98, 0.98, 197)
 for heavier, style in [(2, "-"), (3, "--"), (20, ":")]:

@@ -52,7 +52,7 @@ for shape in rc.steady_shapes(cord, angular_speed=2 * np.pi * 3.0):
     hang(axes[0], shape.offset, -shape.height, color=COLOURS[shape.half_waves - 1], label=f"{shape.half_waves}")
 side_view(axes[0], "chain at 3 turns a second", bottom=1.03, half_width=0.85)
 axes[0].set_xlim(-0.4, 1.05)
-axes[0].set_ylabel("below the support, m")
+axes[0].set_ylabel("below the support (m)")
 axes[0].legend(title="figure", loc="lower right", fontsize=8, frameon=False, handlelength=1)
 
 for turns, style in [(0.7, ":"), (1.0, "--"), (2.0, "-")]:
@@ -73,6 +73,6 @@ for half_waves in (1, 2, 3):
     faster = turns[turns > continuous.frequency[half_waves - 1]]
     shapes = [rc.steady_shapes(cord, angular_speed=2 * np.pi * n)[half_waves - 1] for n in faster]
     axes[2].plot(faster, [s.offset[0] for s in shapes], ":", color=COLOURS[half_waves - 1])
-axes[2].set(xlabel="turns a second", ylabel="lowest point from the axis, m", ylim=(-0.02, 1.02))
+axes[2].set(xlabel="speed (turns/s)", ylabel="lowest point from the axis (m)", ylim=(-0.02, 1.02))
 axes[2].set_title("two weights; dotted: the chain")
 save(figure)

@@ -52,7 +52,7 @@ for rope, colour in zip(ropes, COLOURS, strict=False):
     label = f"{rope.angular_speed / (2 * np.pi):.2f} turns/s"
     side.plot(at.x - rope.span / 2, at.offset, color=colour, label=label)
 side.axhline(0, color="0.6", linewidth=0.8, linestyle="-.")
-side.set(xlabel="along the axis, m", ylabel="from the axis, m", title="2 m of chain, ends drawn apart")
+side.set(xlabel="along the axis (m)", ylabel="distance from axis (m)", title="2 m of chain, ends drawn apart")
 side.set_ylim(-0.05, 1.45)
 side.set_aspect("equal")
 side.legend(loc="upper center", ncols=2, fontsize=8)
@@ -61,12 +61,12 @@ span = np.linspace(0.9, 1.9, 120)
 curve.plot(span, [start.drawn_to(s).angular_speed / (2 * np.pi) for s in span], color="black")
 for rope, colour in zip(ropes, COLOURS, strict=False):
     curve.plot(rope.span, rope.angular_speed / (2 * np.pi), "o", color=colour)
-curve.set(xlabel="distance of the ends, m", ylabel="turns a second", title="angular momentum kept", ylim=(0, None))
+curve.set(xlabel="distance of the ends (m)", ylabel="speed (turns/s)", title="angular momentum kept", ylim=(0, None))
 for (turns, at), colour in zip(upright.items(), ["black", "0.35", "0.5", "0.65", "0.8"], strict=True):
     vertical.plot(at.offset, at.height, color=colour, label=f"{turns:.1f}")
 vertical.plot([0, 0], [0, SPAN], "o", color="black", markersize=4)
 vertical.axvline(0, color="0.6", linewidth=0.8, linestyle="-.")
-vertical.set(xlabel="from the axis, m", ylabel="above the lower hand, m", title="with gravity, turns/s")
+vertical.set(xlabel="from the axis (m)", ylabel="above the lower hand (m)", title="with gravity, turns/s")
 vertical.set_ylim(None, 1.65)
 vertical.set_aspect("equal")
 vertical.legend(loc="upper center", fontsize=7, ncols=2)

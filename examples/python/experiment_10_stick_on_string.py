@@ -67,7 +67,7 @@ for turns in (0.6, 0.8, 1.5, 3.0):
         hang(side, *end, color=colour, linewidth=3)
         side.annotate(f"{turns}", (end[0][0], end[1][0]), xytext=(5, -4), textcoords="offset points")
 side_view(side, "at 0.6, 0.8, 1.5, 3 turns/s; red: the other figure at 3", bottom=1.05, half_width=1)
-side.set(ylabel="below the hand, m", xlim=(-0.35, 1.1))
+side.set(ylabel="below the hand (m)", xlim=(-0.35, 1.1))
 
 speeds = np.linspace(0.4, 4, 700)
 for half_waves in (1, 2):
@@ -81,7 +81,7 @@ for n in speeds:
         hand.plot(n, np.degrees(shape.inclination[0]), ".", markersize=2, color=COLOURS[shape.half_waves - 1])
 for axes, title in [(curve, "hand at rest"), (hand, f"hand on {100 * HAND:.0f} cm: the stick")]:
     axes.axhline(0, color="black", linewidth=0.6)
-    axes.set(xlabel="turns a second", yticks=range(-90, 91, 30), ylim=(-95, 95), title=title)
+    axes.set(xlabel="speed (turns/s)", yticks=range(-90, 91, 30), ylim=(-95, 95), title=title)
 curve.set_ylabel("inclination, degrees")
 curve.legend(loc="lower left")
 save(figure)

@@ -35,7 +35,7 @@ pull.axhline(0, color="0.6", linewidth=0.8)
 pull.errorbar(modes, 0 * speed, 100 * spread / speed, fmt="none", ecolor="0.3", capsize=6, label="measured, 1 st. uncertainty")
 for values, colour, label in ((before, COLOURS[1], "2500 kg, 24 m"), (found.computed, COLOURS[0], "fitted")):
     pull.plot(modes, 100 * (values / speed - 1), "o", color=colour, label=label)
-pull.set(title="speeds computed, from those measured", xlabel="mode", ylabel="off by, %", xticks=modes, xlim=(0.5, 3.5))
+pull.set(title="speeds computed, from those measured", xlabel="mode", ylabel="off by (%)", xticks=modes, xlim=(0.5, 3.5))
 pull.legend(frameon=False, loc="center right")
 
 rng = np.random.default_rng(1)
@@ -50,6 +50,6 @@ for size, line in ((1, "-"), (2, "--")):
     cloud.plot(rope, load, line, color=COLOURS[0], label=f"{size} standard uncertainties" if size == 2 else None)
 cloud.plot(24, 2500, "o", color=COLOURS[1], label="as believed")
 cloud.plot(found[ROPE], found[LOAD], "o", color=COLOURS[0], label="fitted")
-cloud.set(title="load and rope; grey: 400 drawn sets of periods", xlabel="rope, m", ylabel="load, kg", ylim=(2450, 2850))
+cloud.set(title="load and rope; grey: 400 drawn sets of periods", xlabel="rope (m)", ylabel="load (kg)", ylim=(2450, 2850))
 cloud.legend(frameon=False, loc="upper left")
 save(figure)

@@ -48,7 +48,7 @@ for turns, colour in zip((0.0, 5.0, 8.0), COLOURS, strict=False):
     waves.plot(np.degrees(phase), found.forward, color=colour, label=f"{turns:g} turns/s")
     waves.plot(np.degrees(phase), -found.backward, color=colour, linestyle="--")
 waves.axhline(speed, color="0.6", linewidth=0.8)
-waves.set(xlabel="phase from link to link, degrees", ylabel="speed, rad/s", title="full: with the spin, dashed: against it")
+waves.set(xlabel="phase from link to link (°)", ylabel="speed (rad/s)", title="full: with the spin, dashed: against it")
 waves.set(xlim=(0, 180), ylim=(0, None))
 waves.legend(loc="upper left")
 string(5.0).plot_vibration(speed, links=120, ax=plane)

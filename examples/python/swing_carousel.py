@@ -22,7 +22,7 @@ def colour(shape):
     return COLOURS[(shape.half_waves - 1) % len(COLOURS)]
 
 
-figure = Figure(figsize=(8, 4.5), dpi=100, layout="constrained")
+figure = Figure(figsize=(8, 4.5), layout="constrained")
 axes = figure.subplot_mosaic([["out", "speeds"], ["all", "speeds"]], width_ratios=[3, 2])
 
 for turns in (4, 8, 12, 16, 30):
@@ -39,19 +39,19 @@ print(f"at {SPEED:g} rad/s: {len(shapes)} shapes, proved complete: {shapes.compl
 for shape in shapes:
     axes["all"].plot(shape.offset, shape.height, "o-", markersize=4, color=colour(shape))
     print(f"  {shape.half_waves} half waves, chairs at {np.degrees(shape.inclination).round(1)} degrees, lowest first")
-axes["all"].set(title=f"all {len(shapes)} shapes at {SPEED:g} rad/s", xlabel="from the axis, m")
+axes["all"].set(title=f"all {len(shapes)} shapes at {SPEED:g} rad/s", xlabel="from the axis (m)")
 for name in ("out", "all"):
     axes[name].axvline(0.0, color="0.6", linewidth=0.8, linestyle="-.", zorder=0)
     axes[name].plot([0.0, ARM], [0.0, 0.0], color="0.3", linewidth=2, zorder=0)
-    axes[name].set(ylabel="above the arm, m", aspect="equal", xlim=(-4, 5), ylim=(-4.3, 0.6))
+    axes[name].set(ylabel="above the arm (m)", aspect="equal", xlim=(-4, 5), ylim=(-4.3, 0.6))
 
 for speed in np.linspace(0.05, 8.0, 240):
     for shape in rc.steady_shapes(chairs, angular_speed=speed):
         axes["speeds"].plot(speed, np.degrees(shape.inclination[0]), ".", markersize=2, color=colour(shape))
 axes["speeds"].axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
 axes["speeds"].set(
-    xlabel="speed, rad/s",
-    ylabel="inclination of the lower chair, degrees",
+    xlabel="speed (rad/s)",
+    ylabel="inclination of the lower chair (°)",
     title="all shapes",
     ylim=(-90, 90),
     yticks=range(-90, 91, 30),

@@ -188,8 +188,8 @@ def test_what_the_programs_say(python):
     fitted = python(ROOT / "examples/python/fit_measured_speeds.py", ".")
     page = (ROOT / "docs/measured.md").read_text("utf-8")
     table = fitted.stdout.partition("correlation of load and rope 0.075")[0]
-    assert table and f"```text\n{table}```" in page and "wrote fit_measured_speeds.png" in fitted.stdout
-    assert "(figures/fit_measured_speeds.png)" in page and (ROOT / "docs/figures/fit_measured_speeds.png").is_file()
+    assert table and f"```text\n{table}```" in page and "wrote fit_measured_speeds.svg" in fitted.stdout
+    assert "(figures/fit_measured_speeds.svg)" in page and (ROOT / "docs/figures/fit_measured_speeds.svg").is_file()
     assert "cannot tell links[0].mass and links[1].mass apart" in fitted.stdout
 
 
@@ -202,9 +202,9 @@ def test_experiments(python, tmp_path, path):
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
     numbers, _, last = done.stdout.removesuffix("\n").rpartition("\n")
-    picture = folder / f"{path.stem}.png"
+    picture = folder / f"{path.stem}.svg"
     assert last == f"wrote {picture.name}"
-    assert picture.read_bytes().startswith(b"\x89PNG") and picture.stat().st_size < 60_000
+    assert picture.read_text("utf-8").startswith("<?xml") and picture.stat().st_size < 300_000
     document = (ROOT / "docs" / "experiments.md").read_text(encoding="utf-8")
     assert f"\n```text\n{numbers}\n```\n" in document
     assert f"](figures/{picture.name})" in document and f"](../examples/python/{path.name})" in document
@@ -226,9 +226,9 @@ def test_page_of_scenes(python, tmp_path):
         assert done.returncode == 0, done.stderr
         lines = [line.rstrip() for line in done.stdout.splitlines() if not line.startswith("wrote ")]
         assert printed.splitlines() == lines
-        assert f"](figures/scene_{name}.png)" in section
-        picture = ROOT / "docs" / "figures" / f"scene_{name}.png"
-        assert picture.stat().st_size < 60_000
+        assert f"](figures/scene_{name}.svg)" in section
+        picture = ROOT / "docs" / "figures" / f"scene_{name}.svg"
+        assert picture.stat().st_size < 200_000
     carousel = rc.load_scene(ROOT / "examples/scenes/swing_carousel.toml").system()
     [out] = rc.steady_shapes(carousel, angular_speed=8 * np.pi / 30)
     assert "5.95 m, inclined at 23 degrees" in page
@@ -243,7 +243,7 @@ def test_experiments_are_whole():
     assert document.count("\n**Asked**") == document.count("\n**Take**") == document.count("\n**Expect**") == 11
 
 
-PAGES = [path for path in [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))] if "```python" in path.read_text("utf-8")]
+PAGES = [path for path in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))] if "```python" in path.read_text("utf-8")]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.stem)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures by matplotlib. No backend is chosen, no style changed."""
+"""What the pictures by matplotlib share. Plots take the style of the caller; `STYLE` is that of the documentation."""
 
 from __future__ import annotations
 
@@ -14,6 +14,19 @@ from ..systems.numbers import Numbers, shown
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+STYLE = {
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.prop_cycle": "cycler(color=['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '000000'])",
+    "legend.frameon": False,
+    "savefig.dpi": 200,
+    "svg.hashsalt": "revchain",
+}
+"""For `matplotlib.rcParams.update`: letters of 9 points, and colours that can be told apart without seeing red or green
+(Okabe and Ito 2008)."""
 
 MOST_PINS_AS_DOTS = 40
 MOST_POINTS = 2000  # per curve: about the pixels of a large picture
