@@ -9,6 +9,7 @@ prints how the frequencies there change with the lengths, and how well they are 
 """
 
 import numpy as np
+from _picture import panels, save
 
 import revchain as rc
 
@@ -37,3 +38,13 @@ for mode, name in ((1, "slower"), (2, "faster")):
     )
 speed = rc.modes(met.system).uncertainty(mass=[50.0, 5.0], length_in_proportion=[0.02, 0.05]).angular_speed
 print(f"load to 50 kg, hook to 5, slings to 2 cm and rope to 5: speeds to {speed[0]:.4f} and {speed[1]:.4f} rad/s")
+
+lengths = np.linspace(2.0, 28.0, 105)
+speeds = np.array([rc.modes(hanging(rope)).angular_speed for rope in lengths])
+figure, (axes,) = panels(1)
+axes.plot(lengths, speeds, label=["slower mode", "faster mode"])
+axes.axhline(SLEWING, color="0.4", linestyle="--", label="slewing")
+axes.axvline(met.value, color="0.4", linestyle=":", label=f"{met.value:.2f} m: keep away")
+axes.set(xlabel="rope (m)", ylabel="whirl speed (rad/s)", ylim=(0, None), title="2500 kg on slings of 6 m below a hook block of 400 kg")
+axes.legend()
+save(figure)

@@ -9,6 +9,8 @@ gravity lies h1 = (m + 1) l1 + m (a2 - l2) below its pin; 1 is the clapper (the 
 bell. Asked here: how high must the bell be hung for that? Illustrative figures.
 """
 
+from _picture import save
+
 import revchain as rc
 
 H1, RHO1, A1, W1 = 0.52, 0.08, 0.65, 18.0  # clapper: centroid, radius of gyration, length (m), mass (kg)
@@ -31,3 +33,5 @@ print("from 100 mm, what would silence it, and what would make its clapper swing
 louder = bell.with_ratio(1.5)
 for name, value in bell.with_ratio(1.0).items():
     print(f"{name:27} now {bell.present[name]:8.4f}, silent {value:8.4f}, ringing {louder[name]:8.4f}")
+
+save(rc.bell_and_clapper(hung(silent)).plot().figure)

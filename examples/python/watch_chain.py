@@ -4,10 +4,10 @@
 
 A watch chain twirled by a string: how close 120 links come to the continuous chain.
 
-python watch_chain.py [PICTURE.png]
+Usage: ``python watch_chain.py [FOLDER]``
 """
 
-import sys
+from _picture import save
 
 import revchain as rc
 
@@ -21,8 +21,6 @@ print("mode  rpm  rpm, continuous  relative difference of the height")
 for k, off in enumerate(result.conical_height / continuous.conical_height - 1):
     print(f"{k + 1:4}  {result.rpm[k]:7.3f}  {continuous.rpm[k]:19.3f}  {off:+33.2e}")
 
-if len(sys.argv) > 1:
-    axes = result.plot()
-    axes.set_title("A watch chain of 120 links")
-    axes.figure.savefig(sys.argv[1], dpi=150)
-    print("wrote", sys.argv[1])
+axes = result.plot()
+axes.set_title("A watch chain of 120 links")
+save(axes.figure)

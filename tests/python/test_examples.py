@@ -171,8 +171,8 @@ def test_programs(python, path):
 
 
 def test_what_the_programs_say(python):
-    picture = python(ROOT / "examples/python/watch_chain.py", "chain.png")
-    assert "59.929               59.929" in picture.stdout and "wrote chain.png" in picture.stdout
+    picture = python(ROOT / "examples/python/watch_chain.py")
+    assert "59.929               59.929" in picture.stdout and "wrote watch_chain.svg" in picture.stdout
     crane = python(ROOT / "examples/python/crane.py")
     assert "meets the slower one with 9.855 m of rope" in crane.stdout
     bell = python(ROOT / "examples/python/silent_bell.py")
