@@ -53,6 +53,7 @@ sphinx_gallery_conf = {
 html_theme = "furo"
 html_title = f"revchain {release}"
 html_static_path = ["site/static"]
+html_css_files = ["wide.css"]
 html_show_sphinx = False
 copybutton_prompt_text = ">>> "
 mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
