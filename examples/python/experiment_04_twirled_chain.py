@@ -89,9 +89,8 @@ axes["side"].set(xlabel="from the axis (mm)", ylabel="below the hand (m)", ylim=
 axes["side"].set_title("at three speeds")
 axes["side"].legend(title="turns/s", loc="upper left", fontsize=7, title_fontsize=7, frameon=False, handlelength=1)
 
-for speed in np.linspace(0.4, 3.2, 197):
-    for shape in at_any_inclination(speed):
-        axes["all"].plot(speed, 1000 * shape.offset[0], ".", markersize=2, color=COLOURS[shape.half_waves - 1])
+for k, line in enumerate(rc.branches(carried, max_angular_speed=2 * np.pi * 3.2)):
+    axes["all"].plot(line.angular_speed / (2 * np.pi), 1000 * line.tip_radius, color=COLOURS[k])
 axes["all"].axhline(0, color="black", linewidth=0.6)
 axes["all"].set(xlabel="speed (turns/s)", ylabel="tip from the axis (mm)", title="every steady shape")
 for shape in at_any_inclination(3.0):

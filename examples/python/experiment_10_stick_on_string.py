@@ -66,7 +66,7 @@ for turns in (0.6, 0.8, 1.5, 3.0):
         end = [joint + STICK * np.sin(stick), joint], [deep + STICK * np.cos(stick), deep]
         hang(side, *end, color=colour, linewidth=3)
         side.annotate(f"{turns}", (end[0][0], end[1][0]), xytext=(5, -4), textcoords="offset points")
-side_view(side, "at 0.6, 0.8, 1.5, 3 turns/s; red: the other figure at 3", bottom=1.05, half_width=1)
+side_view(side, "at 0.6, 0.8, 1.5, 3 turns/s; orange: the other at 3", bottom=1.05, half_width=1)
 side.set(ylabel="below the hand (m)", xlim=(-0.35, 1.1))
 
 speeds = np.linspace(0.4, 4, 700)
@@ -76,12 +76,11 @@ for half_waves in (1, 2):
         degrees = [np.degrees(x[0]) if x else np.nan for x in lean]
         name = ["stick", "string"][number] if half_waves == 1 else None
         curve.plot(speeds, degrees, style, color=COLOURS[half_waves - 1], label=name)
-for n in speeds:
-    for shape in driven(n):
-        hand.plot(n, np.degrees(shape.inclination[0]), ".", markersize=2, color=COLOURS[shape.half_waves - 1])
+for k, line in enumerate(rc.branches(carried, max_angular_speed=2 * np.pi * 4)):
+    hand.plot(line.angular_speed / (2 * np.pi), np.degrees(line.tip_inclination), color=COLOURS[k])
 for axes, title in [(curve, "hand at rest"), (hand, f"hand on {100 * HAND:.0f} cm: the stick")]:
     axes.axhline(0, color="black", linewidth=0.6)
     axes.set(xlabel="speed (turns/s)", yticks=range(-90, 91, 30), ylim=(-95, 95), title=title)
-curve.set_ylabel("inclination, degrees")
+curve.set_ylabel("inclination (°)")
 curve.legend(loc="lower left")
 save(figure)

@@ -28,9 +28,9 @@ axes = figure.subplot_mosaic([["out", "speeds"], ["all", "speeds"]], width_ratio
 for turns in (4, 8, 12, 16, 30):
     shapes = rc.steady_shapes(chairs, angular_speed=turns * 2 * np.pi / 60)
     outwards = max(shapes, key=lambda shape: shape.inclination[0])
-    axes["out"].plot(outwards.offset, outwards.height, "o-", markersize=4, label=f"{turns} a minute")
+    axes["out"].plot(outwards.offset, outwards.height, "o-", markersize=4, label=f"{turns} rpm")
     lower, upper = np.degrees(outwards.inclination)
-    print(f"{turns:2} turns a minute: upper chair at {upper:4.1f} degrees, lower at {lower:4.1f}")
+    print(f"{turns:2} rpm: upper chair at {upper:4.1f} degrees, lower at {lower:4.1f}")
 axes["out"].set_title("flying out")
 axes["out"].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
 
@@ -45,15 +45,15 @@ for name in ("out", "all"):
     axes[name].plot([0.0, ARM], [0.0, 0.0], color="0.3", linewidth=2, zorder=0)
     axes[name].set(ylabel="above the arm (m)", aspect="equal", xlim=(-4, 5), ylim=(-4.3, 0.6))
 
-for speed in np.linspace(0.05, 8.0, 240):
-    for shape in rc.steady_shapes(chairs, angular_speed=speed):
-        axes["speeds"].plot(speed, np.degrees(shape.inclination[0]), ".", markersize=2, color=colour(shape))
+for k, line in enumerate(rc.branches(chairs, max_angular_speed=9.0)):
+    axes["speeds"].plot(line.angular_speed, np.degrees(line.tip_inclination), color=COLOURS[k])
 axes["speeds"].axvline(SPEED, color="0.6", linewidth=0.8, linestyle=":")
 axes["speeds"].set(
     xlabel="speed (rad/s)",
     ylabel="inclination of the lower chair (°)",
-    title="all shapes",
-    ylim=(-90, 90),
+    title="all branches",
+    xlim=(0, 9),
+    ylim=(-92, 92),
     yticks=range(-90, 91, 30),
 )
 save(figure)
