@@ -16,7 +16,8 @@ project, author, copyright = "revchain", "the revchain developers", "the revchai
 release = version = metadata.version("revchain")
 extensions = [
     "generated_pages",
-    "myst_parser",
+    "glossary_index",
+    "myst_nb",
     "numpydoc",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
@@ -25,8 +26,9 @@ extensions = [
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["site", "figures"]
-source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/sg_execution_times.rst"]
+source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
+nb_execution_mode = "off"
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 
