@@ -26,7 +26,7 @@ extensions = [
     "sphinx_design",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/sg_execution_times.rst"]
+exclude_patterns = ["site", "figures", "sg_execution_times.rst", "gallery/sg_execution_times.rst", "gallery/*.ipynb"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
 nb_execution_mode = "off"
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
