@@ -270,7 +270,7 @@ def section_3():
     tip = np.zeros(2)
     for k, ray in enumerate(drawn.ray):
         arrow(force, (0, 0), ray, COLOURS[k], 1.4)
-        force.text(ray[0] + 0.25, ray[1] + 0.2, f"$Q_{k + 1}$", color=COLOURS[k], va="center")
+        force.text(ray[0] - 0.15, ray[1] - 0.25, f"$Q_{k + 1}$", color=COLOURS[k], ha="right", va="center")
         force.plot(*np.column_stack([tip, ray]), color="0.5", lw=0.8, ls="--")
         force.plot([0, ray[0]], [ray[1]] * 2, color="0.8", lw=0.6, zorder=0)
         force.plot([0, drawn.lifted[k]], [0, -shape.conical_height], color=COLOURS[k], ls=DASHES[k], lw=1.1)
