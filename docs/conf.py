@@ -58,8 +58,12 @@ html_static_path = ["site/static"]
 html_css_files = ["wide.css"]
 html_show_sphinx = False
 copybutton_prompt_text = ">>> "
-mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
+mathjax_path = "mathjax/MathJax.js?config=TeX-AMS-MML_HTMLorMML-full"
 mathjax_options = {"async": "async"}
+mathjax2_config = {
+    "tex2jax": {"processClass": "tex2jax_process|mathjax_process|math|output_area"},
+    "HTML-CSS": {"availableFonts": [], "imageFont": None, "preferredFont": None, "webFont": "STIX-Web"},
+}
 
 
 def copy_mathjax(app, _):
@@ -67,7 +71,7 @@ def copy_mathjax(app, _):
     source = Path(jupyter_server_mathjax.__file__).parent / "static"
     target = Path(app.outdir) / "_static" / "mathjax"
     if app.builder.format == "html" and not target.exists():
-        shutil.copytree(source, target, ignore=shutil.ignore_patterns("localization", "HTML-CSS", "CommonHTML", "NativeMML"))
+        shutil.copytree(source, target, ignore=shutil.ignore_patterns("localization", "SVG", "CommonHTML", "NativeMML"))
 
 
 def setup(app):
