@@ -54,6 +54,7 @@ py::class_<Shape> bind_shape(py::module_& module, const char* name, const char* 
         .def_readonly("conical_height", &Shape::conical_height)
         .def_readonly("residual", &Shape::residual)
         .def_readonly("error_bound", &Shape::error_bound)
+        .def_readonly("moment_of_inertia", &Shape::moment_of_inertia)
         .def_readonly("condition", &Shape::condition);
 }
 
@@ -65,13 +66,38 @@ py::class_<Shapes> bind_shapes(py::module_& module, const char* name) {
         .def_readonly("complete", &Shapes::complete);
 }
 
+template <class Shape>
+void def_branches(py::module_& module, const char* name) {
+    using Branch = revchain::HeldBranchOf<Shape>;
+    py::class_<Branch>(module, name, "A branch of shapes of what is held at a span.")
+        .def_readonly("mode", &Branch::half_waves)
+        .def_readonly("shapes", &Branch::shapes)
+        .def_readonly("folds", &Branch::folds)
+        .def_property_readonly("end", [](const Branch& b) { return std::string(to_string(b.end)); });
+}
+
+template <class System>
+auto branches(const System& system, double span, double height, double max_step) {
+    const py::gil_scoped_release release;
+    return revchain::branches(Held(system, {.span = span}), {.min_conical_height = height, .max_step = max_step});
+}
+
+template <class System>
+auto shape(const System& system, double span, int mode, const std::string& name, double value, double gravity) {
+    const py::gil_scoped_release release;
+    revchain::HeldShapeOptions options{.mode = mode, .gravity = gravity};
+    (name == "conical_height"  ? options.conical_height
+     : name == "angular_speed" ? options.angular_speed
+                               : options.top_tension) = value;
+    return revchain::steady_shape(Held(system, {.span = span}), options);
+}
+
 }  // namespace
 
 void bind_held(py::module_& module) {
     bind_shape<HeldShape>(module, "HeldShape", "A steady shape of a chain held at both ends.")
         .def_property_readonly("force_inclination", column(&HeldShape::force_inclination))
         .def_readonly("proved", &HeldShape::proved)
-        .def_readonly("moment_of_inertia", &HeldShape::moment_of_inertia)
         .def_readonly("height_times_energy", &HeldShape::height_times_energy);
     bind_shapes<revchain::HeldShapes>(module, "HeldShapes")
         .def_property_readonly("undecided",
@@ -100,30 +126,12 @@ void bind_held(py::module_& module) {
             },
             "arc"_a);
     bind_shapes<revchain::HeldCordShapes>(module, "HeldCordShapes");
-    py::class_<revchain::HeldBranch>(module, "HeldBranch", "A branch of shapes of a chain held at a span.")
-        .def_readonly("mode", &revchain::HeldBranch::half_waves)
-        .def_readonly("shapes", &revchain::HeldBranch::shapes)
-        .def_readonly("folds", &revchain::HeldBranch::folds)
-        .def_property_readonly("end", [](const revchain::HeldBranch& b) { return std::string(to_string(b.end)); });
-    module.def(
-        "held_branches",
-        [](const Chain& chain, double span, double height, double max_step) {
-            const py::gil_scoped_release release;
-            return revchain::branches(Held(chain, {.span = span}),
-                                      {.min_conical_height = height, .max_step = max_step});
-        },
-        "chain"_a, "span"_a, "height"_a, "max_step"_a);
-    module.def(
-        "held_shape",
-        [](const Chain& chain, double span, int mode, const std::string& name, double value, double gravity) {
-            const py::gil_scoped_release release;
-            revchain::HeldShapeOptions options{.mode = mode, .gravity = gravity};
-            (name == "conical_height"  ? options.conical_height
-             : name == "angular_speed" ? options.angular_speed
-                                       : options.top_tension) = value;
-            return revchain::steady_shape(Held(chain, {.span = span}), options);
-        },
-        "chain"_a, "span"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a);
+    def_branches<HeldShape>(module, "HeldBranch");
+    def_branches<HeldCordShape>(module, "HeldCordBranch");
+    module.def("held_branches", &branches<Chain>, "system"_a, "span"_a, "height"_a, "max_step"_a);
+    module.def("held_branches", &branches<revchain::Cord>, "system"_a, "span"_a, "height"_a, "max_step"_a);
+    module.def("held_shape", &shape<Chain>, "system"_a, "span"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a);
+    module.def("held_shape", &shape<revchain::Cord>, "system"_a, "span"_a, "mode"_a, "name"_a, "value"_a, "gravity"_a);
     def_shapes<Chain>(module);
     def_shapes<revchain::Cord>(module);
     module.def(

@@ -8,7 +8,7 @@
 #include "revchain/count.hpp"
 #include "revchain/explain.hpp"
 #include "revchain/finite/held/branch.hpp"
-#include "revchain/finite/held/cord.hpp"
+#include "revchain/finite/held/cord_branch.hpp"
 #include "revchain/finite/held/held.hpp"
 #include "revchain/modes.hpp"
 #include "revchain/system/cord.hpp"
@@ -118,26 +118,22 @@ HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldShapesOptions& op
 /// Whirl modes of small amplitude of the straight chain under a tension, slowest first; `first`, `count` and windows
 /// choose them as they do for a hanging chain. In `shapes` both ends are 0, the largest offset is 1, and that of the
 /// lowest free pin is positive; nodes are distances from the lower end. Shapes of finite amplitude begin at these
-/// heights, where the span is all but the length.
+/// heights, where the span is all but the length. Without gravity a height is `gravity` over the square of the speed,
+/// with the gravity of the options. Modes of a held cord: cord.hpp.
 ///
 /// Method: counts of negative pivots in double-double, from the lower end up, with bisection until two neighbouring
 /// doubles enclose the height. Accuracy: 1 ulp, which is the error bound; shapes 1e-13 over the relative gap to the
 /// next height. Cost: 60 sweeps for each height, one for each shape. `method` and `other` of the options have no
 /// effect.
-/// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), without gravity (the
-/// result holds conical heights), for a tension that does not exceed the weight (the chain would not be straight), for
-/// `certify`, and for wrong numbers and windows as `modes` of a chain does. N links have N - 1 modes, less one for each
-/// free pin without mass.
+/// Throws InvalidArgument for a span (small motion about a bent shape is a question of stability), for a tension that
+/// does not exceed the weight (the chain would not be straight), for `certify`, and for wrong numbers and windows as
+/// `modes` of a chain does. N links have N - 1 modes, less one for each free pin without mass.
 Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options = {});
 
 /// The number of modes of the straight chain under tension that are slower than a speed, counted in double-double: a
 /// height that agrees with one of the chain's to 1e-24 may be counted on either side. Cost: 0.1 microseconds a link.
 /// Throws InvalidArgument unless exactly one of height and speed is given, positive and finite, and as `modes` does.
 Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options);
-
-/// Throws InvalidArgument: modes of a cord under tension are not available; cut the cord into links.
-Modes<double> modes(const Held<Cord>& held, const ModesOptions<double>& options = {});
-Index count_modes(const Held<Cord>& held, const CountOptions<double>& options);
 
 /// How far branches go: give one of the first two.
 struct HeldBranchesOptions {
@@ -147,10 +143,11 @@ struct HeldBranchesOptions {
     double max_step = 0.1;  ///< between two shapes: relative change of the forces at the end and of the height
 };
 
-/// The branches of a chain held at a span, one for each number of half waves from 1 up to the last that has a shape at
-/// the greatest speed. Each begins there with the shape that is reached from the nearly straight chain without gravity,
-/// and is followed to slower speeds, through folds, until a link becomes slack or turns over (`slack`), the greatest
-/// speed is reached again (`speed`), or after 3000 steps (`budget`). There is no `branch` of one mode: that of k half
+/// The branches of a chain or cord held at a span, one for each number of half waves from 1 up to the last that has a
+/// shape at the greatest speed. Each begins there with the shape that is reached from the nearly straight chain without
+/// gravity, and is followed to slower speeds, through folds, until a link becomes slack or turns over (`slack`), the
+/// cord hangs folded along the axis (`folded`), the greatest speed is reached again (`speed`), or after 3000 steps
+/// (`budget`). There is no `branch` of one mode: that of k half
 /// waves is number k - 1 of these.
 ///
 /// Method: by the arc of (force across, force along, height) at constant span; shapes are finished in double-double, at
@@ -158,7 +155,10 @@ struct HeldBranchesOptions {
 /// none. Accuracy: 1e-15 rad where `condition` is moderate, an estimate. Cost: some hundred shapes of 10 sweeps each.
 /// Throws InvalidArgument for a tension, without gravity, unless exactly one of height and speed is given, positive and
 /// finite, and for a step not positive.
+/// A cord folds towards a slowest speed at which one of its two straight parts, hung from its end, begins to whirl; its
+/// offsets vanish there faster than any power of the distance, so that the last speed found is some percent above that.
 std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options);
+std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldBranchesOptions& options);
 
 /// Which shape of a branch: give one of the three after `mode`.
 struct HeldShapeOptions {
@@ -169,11 +169,12 @@ struct HeldShapeOptions {
     double gravity = conical_pendulum::standard_gravity;
 };
 
-/// The shape of a chain held at a span on the branch of `mode`: at a speed that which is reached from the nearly
-/// straight chain; with a tension at the upper end the fastest one that has it (its speed: `angular_speed()`).
+/// The shape of a chain or cord held at a span on the branch of `mode`: at a speed that which is reached from the
+/// nearly straight chain; with a tension at the upper end the fastest one that has it (its speed: `angular_speed()`).
 /// Accuracy: of the inclinations as `steady_shapes`; a height for a tension to 1e-14. Throws InvalidArgument as
 /// `branches` does, for a mode below 1, and where the branch does not reach what is given.
 HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options);
+HeldCordShape steady_shape(const Held<Cord>& held, const HeldShapeOptions& options);
 
 /// Throws InvalidArgument: a held chain or cord cannot be tuned yet.
 template <class System>

@@ -69,6 +69,18 @@ def results():
     blade = rc.Held(rc.Chain.uniform_rods(8, length=1.0, mass=1.0), span=0.7)
     yield "HeldBranches", rc.branches(blade, max_angular_speed=15.0)
     yield "HeldBranch", rc.branch(blade, 1, max_angular_speed=15.0)
+    rope = rc.Held(rc.Cord(1.0, mass=1.0), span=0.7)
+    yield "HeldBranches of a cord", rc.branches(rope, max_angular_speed=15.0)
+    yield "HeldBranch of a cord", rc.branch(rope, 1, max_angular_speed=15.0)
+    yield "HeldCordShape of a branch", rc.branch(rope, 1, max_angular_speed=15.0).shape(3)
+    yield "HeldCordShape of a mode", rc.steady_shape(rope, top_tension=20.0)
+    taut = rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0), 2)
+    yield "CordModes of what is held", taut
+    yield "CordModes without gravity", rc.modes(rc.Held(rc.Cord(1.0, mass=1.0), tension=20.0, weightless=True), 2)
+    yield "Modes of a chain without gravity", rc.modes(rc.Held(three, tension=20.0, weightless=True), 2)
+    yield "CordSensitivity", taut.sensitivity
+    yield "CordDerivatives", taut.sensitivity.relative
+    yield "CordUncertainty", taut.uncertainty(mass="1 %", tension=0.3)
     yield "HeldShape of a branch", rc.branch(blade, 1, max_angular_speed=15.0).shape(3)
     yield "HeldShape of a mode", rc.steady_shape(blade, top_tension=20.0)
     yield "StabilityWindow", diagram[0].stability_windows()[0]

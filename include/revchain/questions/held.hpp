@@ -7,6 +7,7 @@
 #include "revchain/finite/shapes/described.hpp"
 #include "revchain/held.hpp"
 #include "revchain/numeric/compiled.hpp"
+#include "revchain/questions/held_tension.hpp"
 #include "revchain/questions/modes.hpp"
 
 namespace revchain {
@@ -48,41 +49,56 @@ inline double height_times_tension(const HeldBy& by, double height, const HeldSh
 }
 
 /// The straight chain under the tension at its lower end.
-inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held) {
-    const Chain<double>& chain = held.system();
-    if (held.by().span)
-        throw_invalid(place,
-                      "a chain whose ends are a span apart is bent, and has no modes of the straight chain; ask "
-                      "steady_shapes for its shapes and stability for small motions about one; span",
-                      *held.by().span);
-    if (held.by().weightless)
-        throw_invalid(place,
-                      "modes are given as conical heights, of which there are none without gravity; leave out "
-                      "weightless, and take a weight that is small beside the tension");
-    const Wide<double> lower = Wide<double>(*held.by().tension) - chain.weight_below(chain.size());
-    if (!(lower > Wide<double>(0)))
-        throw_invalid(place,
-                      "tension at the upper end must exceed the weight of the chain " +
-                          in_digits(chain.total_weight()) + ", or its lower part is slack",
-                      *held.by().tension);
-    return {chain, lower};
+inline finite::TautChain taut_chain(std::string_view place, const Held<Chain<double>>& held, double gravity) {
+    return {held.system(), lower_tension(place, held, gravity), held.by().weightless};
 }
 
-/// The span of a chain of whose shapes at every speed a question is.
-inline double span_asked(std::string_view place, const Held<Chain<double>>& held) {
-    if (!held.by().span)
-        throw_invalid(place,
-                      "is for a chain held at a span; ask steady_shapes at each speed, or modes, under a tension",
-                      *held.by().tension);
-    if (held.by().weightless)
-        throw_invalid(place, "without gravity a shape is the same at every speed: ask steady_shapes");
-    return *held.by().span;
+/// The span of what is held, of whose shapes at every speed a question is.
+inline double span_asked(std::string_view place, const HeldBy& by) {
+    if (!by.span)
+        throw_invalid(place, "is for what is held at a span; under a tension ask steady_shapes at each speed, or modes",
+                      *by.tension);
+    if (by.weightless) throw_invalid(place, "without gravity a shape is the same at every speed: ask steady_shapes");
+    return *by.span;
 }
 
-[[noreturn]] inline void no_modes_of_cords(std::string_view place) {
-    throw_invalid(place,
-                  "modes of a cord under tension are not available yet; cut it into links, as "
-                  "Held(Chain<double>::uniform_rods(1000, length, weight), {.tension = ...})");
+/// Branches of 1, 2, ... half waves, at most `most`, up to the first that does not begin.
+template <class System>
+auto held_branches(const Held<System>& held, const HeldBranchesOptions& options, int most) {
+    constexpr std::string_view place = "branches";
+    const double span = span_asked(place, held.by());
+    require_positive(place, "max_step", options.max_step);
+    const double least = finite::lowest_height(place, options);
+    std::vector<std::decay_t<decltype(*finite::held_branch(held.system(), span, least, 1, 0.1))>> result;
+    for (int k = 1; k <= most; ++k) {
+        auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);
+        if (!branch) break;
+        result.push_back(std::move(*branch));
+    }
+    return result;
+}
+
+/// `at_height(span, height)` and `of_tension(span, tension)` look for the shape that is asked for.
+template <class AtHeight, class OfTension>
+auto held_shape(const HeldBy& by, const HeldShapeOptions& options, const AtHeight& at_height,
+                const OfTension& of_tension) {
+    constexpr std::string_view place = "steady_shape";
+    const double span = span_asked(place, by);
+    if (options.mode < 1) throw_invalid(place, "mode must be at least 1", options.mode);
+    const int given =
+        options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value();
+    if (given != 1) throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
+    if (options.top_tension) {
+        require_positive(place, "top_tension", *options.top_tension);
+        if (auto shape = of_tension(span, *options.top_tension)) return *shape;
+        throw_invalid(place, "no shape of the branch has this tension at its upper end", *options.top_tension);
+    }
+    const Wide<double> height = height_asked(
+        by,
+        {.conical_height = options.conical_height, .angular_speed = options.angular_speed, .gravity = options.gravity});
+    if (auto shape = at_height(span, height)) return *shape;
+    throw_invalid(place, "the branch does not reach this conical height; ask branches how far it goes",
+                  static_cast<double>(height));
 }
 
 }  // namespace detail
@@ -104,51 +120,41 @@ REVCHAIN_INLINE HeldCordShapes steady_shapes(const Held<Cord>& held, const HeldS
 }
 
 REVCHAIN_INLINE std::vector<HeldBranch> branches(const Held<Chain<double>>& held, const HeldBranchesOptions& options) {
-    constexpr std::string_view place = "branches";
-    const double span = detail::span_asked(place, held);
-    detail::require_positive(place, "max_step", options.max_step);
-    const double least = finite::lowest_height(place, options);
-    std::vector<HeldBranch> result;
-    for (int k = 1; k < held.system().size(); ++k) {
-        auto branch = finite::held_branch(held.system(), span, least, k, options.max_step);
-        if (!branch) break;
-        result.push_back(std::move(*branch));
-    }
-    return result;
+    return detail::held_branches(held, options, static_cast<int>(held.system().size()) - 1);
+}
+
+REVCHAIN_INLINE std::vector<HeldCordBranch> branches(const Held<Cord>& held, const HeldBranchesOptions& options) {
+    return detail::held_branches(held, options, 1000);
 }
 
 REVCHAIN_INLINE HeldShape steady_shape(const Held<Chain<double>>& held, const HeldShapeOptions& options) {
-    constexpr std::string_view place = "steady_shape";
-    const double span = detail::span_asked(place, held);
-    if (options.mode < 1) detail::throw_invalid(place, "mode must be at least 1", options.mode);
-    const int given =
-        options.conical_height.has_value() + options.angular_speed.has_value() + options.top_tension.has_value();
-    if (given != 1) detail::throw_invalid(place, "give exactly one of conical_height, angular_speed and top_tension");
-    if (options.top_tension) {
-        detail::require_positive(place, "top_tension", *options.top_tension);
-        auto met = finite::held_shapes_of_tension(held.system(), span, *options.top_tension, options.mode);
-        if (met.empty())
-            detail::throw_invalid(place, "no shape of the branch has this tension at its upper end",
-                                  *options.top_tension);
-        return met.front();
-    }
-    const Wide<double> height = detail::height_asked(
-        held.by(),
-        {.conical_height = options.conical_height, .angular_speed = options.angular_speed, .gravity = options.gravity});
-    finite::HeldChain chain(held.system());
-    const int exponent = chain.links().units.length_exponent;
-    const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
-    if (const auto state = chain.at_height(options.mode, apart, static_cast<double>(lambda)))
-        if (auto shape = chain.finished(*state, apart, lambda, true)) return *shape;
-    detail::throw_invalid(place, "the branch does not reach this conical height; ask branches how far it goes",
-                          static_cast<double>(height));
+    const auto at_height = [&](double span, const Wide<double>& height) -> std::optional<HeldShape> {
+        finite::HeldChain chain(held.system());
+        const int exponent = chain.links().units.length_exponent;
+        const Wide<double> apart(std::ldexp(span, -exponent)), lambda = ldexp(height, -exponent);
+        const auto state = chain.at_height(options.mode, apart, static_cast<double>(lambda));
+        if (!state) return {};
+        return chain.finished(*state, apart, lambda, true);
+    };
+    return detail::held_shape(held.by(), options, at_height, [&](double span, double tension) {
+        return finite::held_shape_of_tension(held.system(), span, tension, options.mode);
+    });
+}
+
+REVCHAIN_INLINE HeldCordShape steady_shape(const Held<Cord>& held, const HeldShapeOptions& options) {
+    const auto at_height = [&](double span, const Wide<double>& height) {
+        return finite::held_cord_shape(held.system(), span, static_cast<double>(height), options.mode);
+    };
+    return detail::held_shape(held.by(), options, at_height, [&](double span, double tension) {
+        return finite::held_shape_of_tension(held.system(), span, tension, options.mode);
+    });
 }
 
 REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const ModesOptions<double>& options) {
     detail::check(options);
     if (options.certify)
         detail::throw_invalid("modes", "certificates of a Held are not available; count_modes counts at any height");
-    const finite::TautChain taut = detail::taut_chain("modes", held);
+    const finite::TautChain taut = detail::taut_chain("modes", held, options.gravity);
     const auto within = [&](const HeightWindow<double>& window) {
         return detail::modes_within(window, taut.mode_count(), [&](double height) { return taut.above(height); });
     };
@@ -179,15 +185,7 @@ REVCHAIN_INLINE Modes<double> modes(const Held<Chain<double>>& held, const Modes
 }
 
 REVCHAIN_INLINE Index count_modes(const Held<Chain<double>>& held, const CountOptions<double>& options) {
-    return detail::taut_chain("count_modes", held).above(detail::height_given("count_modes", options));
-}
-
-REVCHAIN_INLINE Modes<double> modes(const Held<Cord>&, const ModesOptions<double>&) {
-    detail::no_modes_of_cords("modes");
-}
-
-REVCHAIN_INLINE Index count_modes(const Held<Cord>&, const CountOptions<double>&) {
-    detail::no_modes_of_cords("count_modes");
+    return detail::taut_chain("count_modes", held, options.gravity).above(detail::height_given("count_modes", options));
 }
 
 }  // namespace revchain

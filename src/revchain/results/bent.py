@@ -62,30 +62,6 @@ class _Bent(Shape):
     )
     _asked: Field[tuple[Any, ...]] = Field("How the question is asked again, and the place in the list.", part=True)
 
-    def stability(self, *, frame: str = "free") -> Stability:
-        """Refuse: the stability of cords is not available. Ask that of a chain of links.
-
-        Parameters
-        ----------
-        frame : {"free", "driven"}
-            As of chains.
-
-        Raises
-        ------
-        ValueError
-            Always.
-
-        Examples
-        --------
-        >>> import revchain as rc
-        >>> chain = rc.Cord(1.0).chain(10)
-        >>> rc.steady_shapes(chain, conical_height=0.2)[0].stability().verdict
-        'minimum'
-        """
-        place = f"revchain.{type(self).__name__}.stability"
-        is_driven(place, frame)
-        raise ValueError(f"{place}: is for chains; cut the cord into links: cord.chain(10)")
-
     @property
     def _reach(self) -> float:
         return float(np.abs(self.offset).max())
@@ -367,6 +343,38 @@ class HeldCordShape(_HeldShape):
         lambda s: s._found().error_bound,
         part=True,
     )
+    moment_of_inertia: Field[float] = Field(
+        "About the axis, kg m^2; of a cord given by weight, weight times length squared.", part=True
+    )
+
+    def stability(self, *, frame: str = "free") -> Stability:
+        """Say what becomes of a small disturbance, both ends staying where they are.
+
+        Parameters
+        ----------
+        frame : {"free", "driven"}, optional
+            ``free``: no torque about the axis, so that angular momentum is kept. ``driven``: it moves in a plane that is
+            made to turn at constant speed.
+
+        Returns
+        -------
+        Stability
+            As of a cord that hangs: see `CordShape.stability`.
+
+        Raises
+        ------
+        ValueError
+            If `frame` is neither.
+
+        Examples
+        --------
+        >>> import revchain as rc
+        >>> rope = rc.Held(rc.Cord(1.0), span=0.5)
+        >>> [shape.stability().verdict for shape in rc.steady_shapes(rope, conical_height=0.01, max_half_waves=2)]
+        ['minimum', 'spectrally stable']
+        """
+        driven = is_driven("revchain.HeldCordShape.stability", frame)
+        return judged(_core.held_stability(self.system.system._compiled, self._found(), driven), frame, self)
 
     def at(self, arc_length: ArrayLike) -> Place:
         """Return what there is at distances along the cord.

@@ -70,8 +70,9 @@ def _modes(table: AskModes, system: System | None, numbers: Numbers) -> Given:
         )
         if given[name][0] >= given[name][1]:
             numbers.refuse(name, f"its low end must lie below its high end, got {written([low, high])}")
-    if isinstance(system, Chain) or (isinstance(system, Held) and system.size):
-        _check_numbers(table, system.mode_count, numbers)
+    most = system.mode_count if isinstance(system, Chain | Held) else None
+    if most is not None:
+        _check_numbers(table, most, numbers)
     if table.rtol is not UNSET:
         given["rtol"] = numbers.value("rtol", table.rtol, "rtol", "not negative")
     given |= {name: getattr(table, name) for name in ("certify",) if getattr(table, name)}

@@ -38,7 +38,7 @@ class Held(System):
     Notes
     -----
     A span is the question of `steady_shapes`: the chain is bent at every speed. Under a tension that exceeds its weight
-    it can also hang straight, with the speeds of `modes`.
+    it can also hang straight, with the speeds of `modes`; without gravity under any tension.
 
     Examples
     --------
@@ -92,14 +92,19 @@ class Held(System):
         return self.system.size if isinstance(self.system, Chain) else 0
 
     @property
-    def mode_count(self) -> int:
-        """Number of modes of the straight chain: N - 1 of N links, less one for each free pin without mass."""
-        return max(self.system.mode_count - 1, 0) if isinstance(self.system, Chain) else 0
+    def mode_count(self) -> int | None:
+        """Number of modes of the straight chain: N - 1 of N links, less one for each free pin without mass; None of a cord."""
+        return max(self.system.mode_count - 1, 0) if isinstance(self.system, Chain) else None
 
     @property
     def by_mass(self) -> bool:  # type: ignore[override]
         """Whether masses were given, not weights."""
         return self.system.by_mass
+
+    @property
+    def _total(self) -> float:
+        """All that weighs, as it was given."""
+        return self.system._compiled.weight if isinstance(self.system, Cord) else self.system._compiled.total_weight
 
     def _force(self, gravity: float) -> float:
         return 1.0 if self.weightless else self.system._force(gravity)
@@ -108,9 +113,10 @@ class Held(System):
         """The tension for the compiled system."""
         return None if self.tension is None else self.tension / self._force(gravity)
 
-    def _under(self, gravity: float) -> _core.Held:
-        assert isinstance(self.system, Chain)
-        return _core.Held(self.system._compiled, self.span, self._pull(gravity), self.weightless)
+    def _under(self, gravity: float) -> _core.Held | _core.HeldCord:
+        made: Any = _core.Held if isinstance(self.system, Chain) else _core.HeldCord
+        held: _core.Held | _core.HeldCord = made(self.system._compiled, self.span, self._pull(gravity), self.weightless)
+        return held
 
     def _words(self) -> list[str]:
         how = f"{self.span:.6g} m apart" if self.span is not None else f"under a tension of {self.tension:.6g} N"

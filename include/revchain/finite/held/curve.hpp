@@ -92,17 +92,17 @@ class HeldCurve {
     void along_heights(const HeldState& from, double max_step, Visit&& visit) {
         step_along<false>(from, true, visit, max_step);
     }
-    /// Sees those of them at which `off`, a number of a state, is 0.
-    template <class Off, class Visit>
-    void where(const HeldState& from, const Off& off, Visit&& visit) {
+    /// The first of them at which `off`, a number of a state, is 0.
+    template <class Off>
+    std::optional<HeldState> first_where(const HeldState& from, const Off& off) {
         HeldState before = from;
         double was = off(from);
+        std::optional<HeldState> met;
         along_heights(from, 0.05, [&](const HeldState& state) {
             const auto there = shooter_->kept();
             const double here = off(state);
             if (here * was < 0) {
                 HeldState low = before, high = state;
-                std::optional<HeldState> met;
                 for (int round = 0; round < 60; ++round) {
                     HeldState guess = mixed(low, high, 0.5);
                     guess.forces.height = low.forces.height + (high.forces.height - low.forces.height) / 2;
@@ -110,12 +110,13 @@ class HeldCurve {
                     if (!met) break;
                     (off(*met) * was > 0 ? low : high) = *met;
                 }
-                if (met) visit(*met);
+                if (met) return false;
                 shooter_->keep(there);
             }
             before = state, was = here;
             return state.forces.height > 0;
         });
+        return met;
     }
 
    private:
@@ -296,11 +297,13 @@ void each_under(System& held, int half_waves, double height, double wanted, cons
             return held.curve().under(*state, wanted, visit);
 }
 
+/// Error bounds beyond which a shape is none: it hangs folded along the axis.
+inline constexpr double folded = 1e-3;
+
 /// Collects shapes of 1 ... `most` half waves. `find(k, add)` looks for those of k half waves and calls `add` with a
 /// shape or none.
 template <class Shapes, class Find>
 Shapes each_half_wave(int most, const Find& find) {
-    constexpr double folded = 1e-3;  // error bounds beyond which a shape is none: it hangs folded along the axis
     Shapes result;
     for (int k = 1; k <= most; ++k) {
         const std::size_t before = result.shapes.size();

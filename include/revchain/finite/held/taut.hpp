@@ -90,9 +90,12 @@ class TautChain {
    public:
     using S = Wide<double>;
 
-    /// `lower_tension`: at the lower end, in the unit of the weights.
-    TautChain(const Chain<double>& chain, const S& lower_tension)
-        : chain_(links_of(chain)), tension_(ldexp(lower_tension, -chain_.units.weight_exponent)) {}
+    /// `lower_tension`: at the lower end, in the unit of the weights. Weightless: as at the upper end.
+    TautChain(const Chain<double>& chain, const S& lower_tension, bool weightless = false)
+        : chain_(links_of(chain)), tension_(ldexp(lower_tension, -chain_.units.weight_exponent)) {
+        if (weightless)
+            for (Link<S>& link : chain_.links) link.pull = S(0);
+    }
 
     /// How many conical heights exceed `height`.
     Index above(double height) const { return count(scaled(height)); }
